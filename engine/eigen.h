@@ -8,7 +8,7 @@
 
 namespace seamflow {
 
-/// Smooths `flowing` and then gives its positions to `vertices`, after an exception as well.
+/// Smooths `flowing` and then copies its positions to `vertices`, also after an exception.
 template <class Vertices>
 FlowReport flow_into(Eigen::MatrixBase<Vertices>& vertices, PolygonMesh flowing, const FlowOptions& options,
                      const StepObserver& on_step, const FlowControl& control)
@@ -23,13 +23,13 @@ FlowReport flow_into(Eigen::MatrixBase<Vertices>& vertices, PolygonMesh flowing,
     }
 }
 
-/// Smooths a mesh in matrices of Eigen, as libigl has them: see mean_curvature_flow for a PolygonMesh. Positions are
-/// computed in double precision, whatever the matrix's own scalar is, and rounded once at the end.
-/// @param vertices #V by 3, in any storage order: a matrix, a map or a block; its rows are moved, after an exception
+/// Smooths a mesh in matrices of Eigen, as in libigl: see mean_curvature_flow for a PolygonMesh. Positions are computed
+/// in double precision, whatever the matrix's scalar type, and rounded once at the end.
+/// @param vertices #V by 3, in any storage order: a matrix, a map or a block; its rows are moved; after an exception
 ///        they are those of the last complete step.
 /// @param faces #F by 3 for triangles, #F by 4 for quads, #F by n: the vertices of a face in order, from 0; of any
 ///        integer type.
-/// @throws InputError also for matrices of another shape, and naming row and column for a vertex that there is not.
+/// @throws InputError also for matrices of another shape, and for a vertex that does not exist, naming row and column.
 template <class Vertices, class Faces>
 requires std::integral<typename Faces::Scalar> FlowReport mean_curvature_flow(Eigen::MatrixBase<Vertices>& vertices,
                                                                               const Eigen::MatrixBase<Faces>& faces,
@@ -40,7 +40,7 @@ requires std::integral<typename Faces::Scalar> FlowReport mean_curvature_flow(Ei
     return flow_into(vertices, to_polygon_mesh(vertices, faces), options, on_step, control);
 }
 
-/// The same for faces of any numbers of sides.
+/// The same for faces of any number of sides.
 /// @param face_offsets #F + 1; the vertices of face f are face_vertices[face_offsets[f]] to
 ///        face_vertices[face_offsets[f + 1] - 1].
 /// @param face_vertices one entry per corner of every face, in order around the face.

@@ -23,7 +23,7 @@ namespace seamflow {
 
 namespace {
 
-/// Failures of `body` come out with a name before them.
+/// Prefixes failures of `body` with a name.
 template <class Body>
 void named(const std::string& name, Body&& body)
 {
@@ -34,7 +34,7 @@ void named(const std::string& name, Body&& body)
     }
 }
 
-/// About that of all faces: good enough for an estimate.
+/// Approximately that of all faces: good enough for an estimate.
 double sampled_mean_edge(const PolygonMesh& mesh, const Points& positions)
 {
     constexpr Index sample_size = 50'000;
@@ -50,7 +50,7 @@ double sampled_mean_edge(const PolygonMesh& mesh, const Points& positions)
     return length / static_cast<double>(n_edges);
 }
 
-/// @param estimate in units of length; empty where the edges have no length to measure by.
+/// @param estimate in units of length; emptied if the edges have no length to measure by.
 void in_mean_edges(std::optional<double>& estimate, const PolygonMesh& mesh, const Points& positions)
 {
     if (!estimate || *estimate == 0.0)
@@ -60,7 +60,7 @@ void in_mean_edges(std::optional<double>& estimate, const PolygonMesh& mesh, con
         estimate.reset();
 }
 
-/// Adds what was spent in tasks.
+/// Adds the time spent in tasks.
 void add_task_seconds(PhaseSeconds& seconds, const PhaseSeconds& further)
 {
     seconds.assemble += further.assemble;
@@ -70,30 +70,30 @@ void add_task_seconds(PhaseSeconds& seconds, const PhaseSeconds& further)
     seconds.interface += further.interface;
 }
 
-/// Whether a step begins with the rescaled result of the one before, not with that itself. The weights of the
-/// conformalized flow do not know the size of the surface: so it comes to a sphere instead of vanishing.
+/// Whether a step begins with the rescaled result of the previous one, not with that itself. The weights of the
+/// conformalized flow do not depend on the size of the surface: it becomes a sphere instead of vanishing.
 bool goes_on_scaled(const FlowOptions& options)
 {
     return options.motion.rescale != Rescale::None && options.flow == FlowEquation::Conformalized;
 }
 
-/// @throws InputError where a state does not fit the mesh.
+/// @throws InputError if a state does not fit the mesh.
 void require_positions(const StepMemory& memory, const PolygonMesh& mesh)
 {
     if (memory.positions.rows() != mesh.vertices.rows())
-        throw InputError("the state to resume from has not the vertices of this mesh");
+        throw InputError("the state to resume from does not have the vertices of this mesh");
     if (!memory.positions.allFinite())
         throw InputError("the state to resume from has positions that are not finite: it has been changed");
 }
 
 }  // namespace
 
-/// Where in a whole flow the parts of its steps begin and end. All steps are as long as each other; what happens in one
-/// is divided as the time of the step before was.
+/// Where the parts of the steps begin and end within a whole flow. All steps take equally long; a step is divided as
+/// the time of the previous one was.
 class FlowRun::StepFractions {
   public:
     /// @param begin the fraction of the whole that is done before the first step.
-    /// @param steps how many there are.
+    /// @param steps the number of steps.
     StepFractions(double begin, int steps, bool with_reference)
         : begin_(begin)
         , length_((1.0 - begin) / steps)
@@ -109,7 +109,7 @@ class FlowRun::StepFractions {
     [[nodiscard]] double begin_of_reference() const { return end() - reference_ * length_; }
     [[nodiscard]] double end() const { return begin_ + (n_done_ + 1) * length_; }
 
-    /// Goes on to the next step.
+    /// Continues with the next step.
     void end_step(double task_seconds, double measuring_seconds, double reference_seconds)
     {
         ++n_done_;
@@ -128,7 +128,7 @@ class FlowRun::StepFractions {
     int n_done_ = 0;
 };
 
-/// What steps are taken and checked with, and what results are made of their positions.
+/// The tools that take and check steps, and make results from their positions.
 struct FlowRun::StepTools {
     StepTools(const PolygonMesh& mesh, const Topology& topology, const FlowOptions& options)
         : is_scaled(goes_on_scaled(options))
@@ -143,7 +143,7 @@ struct FlowRun::StepTools {
             bound.emplace(mesh, topology, *options.motion.within);
     }
 
-    /// Whether results are other positions than those that the flow continues from.
+    /// Whether results differ from the positions that the flow continues from.
     [[nodiscard]] bool has_results_apart() const { return is_scaled_apart || bound || limited; }
 
     /// Makes a result of positions of the flow.
@@ -167,7 +167,7 @@ struct FlowRun::StepTools {
         stepper.continue_from(rescaled, similarity);
     }
 
-    /// Limits have a remark of their own on components that lose too much.
+    /// Limits have their own remark on components that lose too much.
     [[nodiscard]] std::string remark() const { return limited ? limited->remark() : vanishing.remark(); }
 
     bool is_scaled;
@@ -208,7 +208,7 @@ FlowRun::FlowRun(FlowingMesh& mesh, std::unique_ptr<PreparedFlow> prepared, Prog
     prepared_->curvature = std::vector<double>();
 }
 
-/// Brings everything to where it was after a step.
+/// Restores everything to its state after a step.
 void FlowRun::restore(const FlowState& state, StepTools& tools)
 {
     if (state.cut != checksum_of(report_.cut.labels))
@@ -218,7 +218,7 @@ void FlowRun::restore(const FlowState& state, StepTools& tools)
     if (state.reference)
         require_positions(*state.reference, mesh_.mesh());
     if (state.reference.has_value() != (reference_ != nullptr))
-        throw InputError("the state to resume from has not the undecomposed flow");
+        throw InputError("the state to resume from does not have the undecomposed flow");
     stepper_->restore(state.flow);
     if (reference_)
         reference_->restore(*state.reference);
@@ -311,7 +311,7 @@ void FlowRun::take_steps(const StepObserver& on_step, const FlowState* resume)
     if (!report_.steps.empty())
         curvature_before_ = report_.steps.back().max_mean_curvature_after;
     StepFractions fractions(setup_, std::max(options().steps - first + 1, 1), reference_ != nullptr);
-    // The flow continues from its own positions, whatever is made of them.
+    // The flow continues from its own positions, not from results.
     const bool is_apart = tools.has_results_apart();
     Points of_flow = is_apart ? stepper_->positions() : Points();
     const Points& before = is_apart ? of_flow : mesh.vertices;
@@ -326,7 +326,7 @@ void FlowRun::take_steps(const StepObserver& on_step, const FlowState* resume)
         of_step.seconds = watch.lap();
         stepper_->describe(of_step);
         in_mean_edges(of_step.estimated_v_max, mesh, stepper_->positions());
-        // Scaling could hide that vertices have been thrown away, or make too little of what is left.
+        // Scaling could hide that vertices have been thrown away, or shrink what is left too much.
         named(name, [&] {
             tools.limit.require(before, stepper_->positions(), report_.cut.labels);
             tools.rescale(*stepper_);
@@ -345,7 +345,7 @@ void FlowRun::take_steps(const StepObserver& on_step, const FlowState* resume)
         }
         fractions.end_step(of_step.seconds, measuring, of_step.reference_seconds.value_or(0.0));
 
-        // What takes memory comes first: the mesh moves when nothing but the observer can fail any more.
+        // Memory is allocated first: the mesh moves only when nothing but the observer can still fail.
         report_.steps.push_back(of_step);
         report_.seconds.step += of_step.seconds;
         report_.seconds.total += of_step.seconds + measuring;
@@ -358,7 +358,7 @@ void FlowRun::take_steps(const StepObserver& on_step, const FlowState* resume)
     finish(extent, resume);
 }
 
-/// Fills in what the report says of the flow as a whole.
+/// Completes the report on the flow as a whole.
 void FlowRun::finish(double extent_before, const FlowState* resume)
 {
     remark_on_drift(options(), report_);

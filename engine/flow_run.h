@@ -14,14 +14,14 @@ namespace seamflow {
 /// Takes the steps of a prepared flow, measures each, and reports it.
 class FlowRun {
   public:
-    /// Makes what takes the steps, and what takes those of the undecomposed flow where it is asked for.
+    /// Makes the stepper, and that of the undecomposed flow if it is asked for.
     /// @param mesh, progress, report must outlive the run; the mesh moves with each step.
-    /// @param setup the part of the whole call that setting up takes.
+    /// @param setup the fraction of the whole call that setup takes.
     /// @throws as make_stepper.
     FlowRun(FlowingMesh& mesh, std::unique_ptr<PreparedFlow> prepared, Progress& progress, double setup,
             FlowReport& report);
 
-    /// Takes all steps. The mesh moves when a step is complete, with that of the undecomposed flow.
+    /// Takes all steps. The mesh moves after each complete step, including the undecomposed one.
     /// @param resume the state to resume from; nullptr: from the beginning.
     /// @throws ComputationError naming the step; InputError for a state that does not fit; Cancelled.
     void take_steps(const StepObserver& on_step, const FlowState* resume);
@@ -43,7 +43,7 @@ class FlowRun {
     std::unique_ptr<PreparedFlow> prepared_;
     Progress& progress_;
     FlowReport& report_;
-    /// The part of the whole call that is done before the first step.
+    /// The fraction of the whole call before the first step.
     double setup_;
     double curvature_before_;
     std::unique_ptr<Stepper> stepper_;

@@ -19,7 +19,7 @@ namespace seamflow {
 
 namespace {
 
-/// Setup takes as long as so many steps, about.
+/// Setup takes about as long as so many steps.
 double fraction_of_setup(const FlowOptions& options, const FlowState* resume)
 {
     const bool is_simple = options.scheme == Scheme::ExplicitEuler || options.keep_edges;
@@ -28,14 +28,13 @@ double fraction_of_setup(const FlowOptions& options, const FlowState* resume)
     return as_steps / (as_steps + to_do);
 }
 
-/// @throws OptionError if it is beyond the last step that is wanted.
+/// @throws OptionError if the state is beyond the last step that is wanted.
 void require_ahead(const FlowOptions& options, const FlowState& state)
 {
     if (state.n_steps() > options.steps)
-        throw OptionError(
-            fmt::format("steps is {}, but the state to resume from is after step {} already: ask for as many "
-                        "at least, or begin anew",
-                        options.steps, state.n_steps()));
+        throw OptionError(fmt::format("steps is {}, but the state to resume from is already after step {}: ask for at "
+                                      "least as many, or start over",
+                                      options.steps, state.n_steps()));
 }
 
 }  // namespace

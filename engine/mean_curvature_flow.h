@@ -11,13 +11,13 @@ namespace seamflow {
 ///
 /// \f[ (I + dt\, \Delta(V^n))\, V^{n+1} = V^n , \f]
 ///
-/// decomposed into sub-meshes, or explicit ones (see Scheme). Boundary vertices stay where they are, bit for bit,
-/// unless MotionOptions::boundary is free; vertices without faces too.
-/// @param mesh its positions are moved; after an exception they are those of the last complete step. While the flow
-///        runs it belongs to that.
+/// decomposed into sub-meshes, or explicit ones (see Scheme). Vertices without faces and, unless
+/// MotionOptions::boundary is free, boundary vertices stay where they are, bit for bit.
+/// @param mesh its positions are moved; after an exception they are those of the last complete step. The running flow
+///        owns the mesh.
 /// @param on_step called after each step.
-/// @param control says how far the flow is, stops it, or lets it resume from a step before: `mesh` is then as it was
-///        before the first step, and the report is of all steps.
+/// @param control reports progress, stops the flow, or resumes it from an earlier step: `mesh` is then as it was before
+///        the first step, and the report covers all steps.
 /// @throws InputError for a mesh or labels that cannot be used, OptionError for options outside their limits, both for
 ///         a state to resume from that belongs to another flow; ComputationError, naming step and sub-mesh, for a
 ///         system that is singular, a result that is not finite or beyond AccuracyOptions::largest_update, and for a

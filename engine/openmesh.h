@@ -5,10 +5,10 @@
 
 namespace seamflow {
 
-/// Smooths a mesh of OpenMesh: see mean_curvature_flow for a PolygonMesh. Points are computed in double precision,
-/// whatever the mesh's own scalar is, and rounded once at the end. The mesh's other properties (normals, too) stay as
-/// they are. Vertices that are locked stay; so do, where any vertex is selected, all that are not (see held_by_status);
-/// MotionOptions::fixed_vertices stay besides.
+/// Smooths an OpenMesh mesh: see mean_curvature_flow for a PolygonMesh. Points are computed in double precision,
+/// whatever the mesh's scalar type, and rounded once at the end. The mesh's other properties (also normals) stay as
+/// they are. Locked vertices and MotionOptions::fixed_vertices stay; so do, if any vertex is selected, all unselected
+/// ones (see held_by_status).
 template <OpenMeshMesh Mesh>
 FlowReport mean_curvature_flow(Mesh& mesh, const FlowOptions& options, const StepObserver& on_step = {},
                                const FlowControl& control = {})

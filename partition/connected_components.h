@@ -9,8 +9,8 @@
 namespace seamflow {
 
 /// Appends `start` and all nodes of a graph that can be reached from it to `nodes`, breadth first.
-/// @param expand called with each of them in this order, and with a function that it calls with those neighbours of the
-///        node that have not been reached before, which it has to keep track of; `start` counts as reached.
+/// @param expand called with each node in this order, and with a function to call for each neighbour of the node not
+///        reached before; it must itself track those reached; `start` counts as reached.
 template <class Expand>
 void append_reachable(Index start, std::vector<Index>& nodes, Expand&& expand)
 {
@@ -31,8 +31,8 @@ struct Components {
 };
 
 /// Finds the connected components of a graph.
-/// @param for_each_neighbour called with a node and a function that it calls with each neighbour of the node; who is a
-///        neighbour has the node as a neighbour, too.
+/// @param for_each_neighbour called with a node and a function that it calls for each neighbour of the node; the
+///        neighbour relation must be symmetric.
 template <class ForEachNeighbour>
 Components connected_components(Index n_nodes, ForEachNeighbour&& for_each_neighbour)
 {

@@ -23,7 +23,7 @@ void require_vertex_shape(Eigen::Index rows, Eigen::Index columns)
         throw InputError(fmt::format("the matrix of vertices is {}: it must have 3 columns, and a row per vertex",
                                      shape(rows, columns)));
     if (rows > most)
-        throw InputError(fmt::format("the matrix of vertices has {} rows: {} are the most", rows, most));
+        throw InputError(fmt::format("the matrix of vertices has {} rows: at most {} are allowed", rows, most));
 }
 
 void require_face_shape(Eigen::Index rows, Eigen::Index columns)
@@ -34,7 +34,8 @@ void require_face_shape(Eigen::Index rows, Eigen::Index columns)
         throw InputError(fmt::format("the matrix of faces is {}: it must have 3 columns or more, and a row per face",
                                      shape(rows, columns)));
     if (rows > most / columns)
-        throw InputError(fmt::format("the matrix of faces is {}: {} corners are the most", shape(rows, columns), most));
+        throw InputError(
+            fmt::format("the matrix of faces is {}: at most {} corners are allowed", shape(rows, columns), most));
 }
 
 }  // namespace seamflow

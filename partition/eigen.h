@@ -12,17 +12,16 @@
 
 namespace seamflow {
 
-/// Throws an InputError unless `vertices` has three columns and no more rows than an Index counts.
+/// Throws an InputError unless `vertices` has three columns and no more rows than fit an Index.
 void require_vertex_shape(Eigen::Index rows, Eigen::Index columns);
 
-/// Throws an InputError unless `faces` has at least three columns, or no rows, and no more corners than an Index
-/// counts.
+/// Throws an InputError unless `faces` has at least three columns, or no rows, and no more corners than fit an Index.
 void require_face_shape(Eigen::Index rows, Eigen::Index columns);
 
 /// The mesh of a matrix of positions and flat arrays of faces.
 /// @param vertices #V by 3, in any storage order, of any scalar.
 /// @param face_offsets, face_vertices as in PolygonMesh.
-/// @throws InputError for a matrix of another shape. What the arrays hold is checked later (see require_valid).
+/// @throws InputError for a matrix of another shape. Array content is checked later (see require_valid).
 template <class Vertices>
 PolygonMesh to_polygon_mesh(const Eigen::MatrixBase<Vertices>& vertices, std::span<const Index> face_offsets,
                             std::span<const Index> face_vertices)
@@ -39,7 +38,7 @@ PolygonMesh to_polygon_mesh(const Eigen::MatrixBase<Vertices>& vertices, std::sp
 /// @param vertices #V by 3, in any storage order, of any scalar.
 /// @param faces #F by 3 for triangles, #F by 4 for quads, #F by n: the vertices of a face in order, from 0; of any
 ///        integer type.
-/// @throws InputError for a matrix of another shape, and naming row and column for a vertex that there is not.
+/// @throws InputError for a matrix of another shape, or naming row and column of a vertex out of range.
 template <class Vertices, class Faces>
 requires std::integral<typename Faces::Scalar> PolygonMesh to_polygon_mesh(const Eigen::MatrixBase<Vertices>& vertices,
                                                                            const Eigen::MatrixBase<Faces>& faces)

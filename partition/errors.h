@@ -25,7 +25,7 @@ class ComputationError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// The work was asked to stop and did so before its end; no failure.
+/// The work was stopped on request before its end; not a failure.
 class Cancelled : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;

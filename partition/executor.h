@@ -13,12 +13,12 @@ namespace seamflow {
 /// The part of a loop over the indices begin to end - 1.
 using RangeBody = std::function<void(Index begin, Index end)>;
 
-/// How loops over 0 … n - 1 are run: a caller who has threads passes one that uses them. It runs the body for ranges
-/// that together have every index once, in any order and perhaps several at a time, and returns when all are done. What
-/// a loop computes never depends on how it is divided.
+/// How loops over 0 … n - 1 are run: a caller with threads passes one that uses them. It runs the body for ranges that
+/// together cover every index once, in any order and perhaps several at a time, and returns when all are done. The
+/// result of a loop never depends on how it is divided.
 using Executor = std::function<void(Index n, const RangeBody& body)>;
 
-/// The whole loop as one range in the thread of the caller.
+/// Runs the loop as one range in the thread of the caller.
 inline void run_serially(Index n, const RangeBody& body)
 {
     if (n > 0)
@@ -35,7 +35,7 @@ void for_each(const Executor& exec, Index n, Body&& body)
     });
 }
 
-/// How many indices the functions below take together.
+/// Number of indices per block in the functions below.
 inline constexpr Index block_size = 4096;
 
 /// Cuts 0 … n - 1 into blocks that depend on n alone and runs body(block, begin, end) for each.
@@ -49,8 +49,8 @@ void for_each_block(const Executor& exec, Index n, Body&& body)
     });
 }
 
-/// What add(total, i) makes of an empty total for each i from 0 to n - 1, block by block; join(total, part) puts the
-/// blocks together. Always in the same order.
+/// Calls add(total, i) for each i from 0 to n - 1, from an empty total per block, and join(total, part) to combine the
+/// blocks, always in the same order.
 template <class Total, class Add, class Join>
 Total reduce(const Executor& exec, Index n, const Total& empty, Add&& add, Join&& join)
 {
@@ -67,7 +67,7 @@ Total reduce(const Executor& exec, Index n, const Total& empty, Add&& add, Join&
     return total;
 }
 
-/// Those of 0 … n - 1 for which `holds`, in ascending order.
+/// All i from 0 to n - 1 with holds(i), in ascending order.
 template <class Predicate>
 std::vector<Index> select(const Executor& exec, Index n, Predicate&& holds)
 {
@@ -81,7 +81,7 @@ std::vector<Index> select(const Executor& exec, Index n, Predicate&& holds)
 }
 
 /// The sum of value(i) over 0 … n - 1. Always added up in the same order.
-/// @param zero where the sum begins.
+/// @param zero the initial value.
 template <class Value, class Sum = double>
 Sum sum(const Executor& exec, Index n, Value&& value, const Sum& zero = 0.0)
 {
@@ -90,20 +90,20 @@ Sum sum(const Executor& exec, Index n, Value&& value, const Sum& zero = 0.0)
         [](Sum& total, const Sum& part) { total += part; });
 }
 
-/// The middle of the i-th of k equal parts of the numbers from 0 to n - 1: so k of them are spread evenly, for any n.
+/// The middle of the i-th of k equal parts of the numbers from 0 to n - 1: these k are spread evenly, for any n.
 inline Index middle_of_part(Index i, Index k, Index n)
 {
     return static_cast<Index>((2 * std::int64_t{i} + 1) * n / (2 * std::int64_t{k}));
 }
 
-/// A part of the indices below some number.
+/// The indices begin to end - 1.
 struct IndexRange {
     Index begin = 0;
     Index end = 0;
 };
 
-/// 0 … n - 1 in a few long ranges that depend on n and n_values alone, for what makes a table of so many values in
-/// each: all tables together are no larger than a fraction of n.
+/// 0 … n - 1 in a few long ranges that depend only on n and n_values, for loops that make a table of n_values per
+/// range: all tables together are no larger than a fraction of n.
 inline std::vector<IndexRange> long_ranges(Index n, Index n_values)
 {
     constexpr Index most = 16;
@@ -117,7 +117,7 @@ inline std::vector<IndexRange> long_ranges(Index n, Index n_values)
     return ranges;
 }
 
-/// For each of the values 0 … n_values - 1 the sum of weight(i) over the indices i below n that have it.
+/// For each value 0 … n_values - 1, the sum of weight(i) over the indices i below n with this value.
 template <class ValueOf, class Weight>
 std::vector<std::int64_t> sums_by_value(const Executor& exec, Index n, Index n_values, ValueOf&& value_of,
                                         Weight&& weight)

@@ -29,7 +29,7 @@ struct Lists {
     /// Appends a list that has been pushed onto `values` entry by entry.
     void close() { offsets.push_back(static_cast<Index>(values.size())); }
 
-    /// Gives back the memory for lists that do not come.
+    /// Releases the memory reserved for further lists.
     void shrink_to_fit()
     {
         offsets.shrink_to_fit();
@@ -39,7 +39,7 @@ struct Lists {
 
 using IndexLists = Lists<Index>;
 
-/// Lists whose arrays somebody else keeps.
+/// Lists whose arrays are owned elsewhere.
 struct IndexListsView {
     std::span<const Index> offsets = {};
     std::span<const Index> values = {};
@@ -62,7 +62,7 @@ struct IndexListsView {
     }
 };
 
-/// Puts entries into lists, each behind those that came before it: a counting sort.
+/// Sorts entries into lists, in the order in which they come: a counting sort.
 /// @param for_each_entry called twice with a function that it calls with the list and the value of every entry, in the
 ///        same order both times.
 template <class Value = Index, class ForEachEntry>
@@ -70,7 +70,7 @@ Lists<Value> make_lists(Index n_lists, ForEachEntry&& for_each_entry)
 {
     Lists<Value> lists;
     auto& offsets = lists.offsets;
-    // Where each list begins stands one further, and moves on to where it ends: that is where the next one begins.
+    // The begin of each list is stored one place later and advances to its end, which is the begin of the next.
     offsets.assign(at(n_lists) + 2, 0);
     for_each_entry([&](Index list, const Value&) { ++offsets[list + 2]; });
     std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
@@ -80,7 +80,7 @@ Lists<Value> make_lists(Index n_lists, ForEachEntry&& for_each_entry)
     return lists;
 }
 
-/// Sorts and leaves one of each.
+/// Sorts and removes duplicates.
 template <class Value>
 void sort_unique(std::vector<Value>& values)
 {
@@ -88,14 +88,14 @@ void sort_unique(std::vector<Value>& values)
     values.erase(std::unique(values.begin(), values.end()), values.end());
 }
 
-/// Where a value stands among ascending ones, or where it would have to be put in.
+/// The position of a value among ascending ones, or where to insert it.
 template <class Ascending, class Value>
 Index place_in(const Ascending& ascending, const Value& value)
 {
     return static_cast<Index>(std::ranges::lower_bound(ascending, value) - std::ranges::begin(ascending));
 }
 
-/// Where a value stands among ascending ones, or -1.
+/// Position of a value among ascending ones, or -1.
 template <class Ascending, class Value>
 Index position_in(const Ascending& ascending, const Value& value)
 {

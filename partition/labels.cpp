@@ -8,7 +8,7 @@ namespace seamflow {
 
 namespace {
 
-/// Labels so large that a table of them would waste memory.
+/// For labels so large that a table of them would waste memory.
 Index compact_sparse(std::vector<Index>& labels)
 {
     std::vector<Index> distinct = labels;

@@ -9,7 +9,7 @@
 namespace seamflow {
 
 /// A mesh of OpenMesh: OpenMesh::PolyMesh_ArrayKernelT or TriMesh_ArrayKernelT with any traits. This header includes
-/// nothing of OpenMesh; whoever has such a mesh has included it already.
+/// nothing of OpenMesh; code with such a mesh has included it already.
 template <class Mesh>
 concept OpenMeshMesh = requires(Mesh& mesh, const Mesh& constant, typename Mesh::VertexHandle v,
                                 typename Mesh::FaceHandle f, typename Mesh::Point point)
@@ -52,9 +52,9 @@ PolygonMesh to_polygon_mesh(const Mesh& source)
     return mesh;
 }
 
-/// The vertices of an OpenMesh mesh that its status bits keep where they are, as OpenMesh's own smoothers read them:
-/// locked ones, and, where any vertex is selected, all that are not. Numbered like the rows of to_polygon_mesh. None
-/// where the mesh has no status of vertices.
+/// The vertices of an OpenMesh mesh that its status bits hold fixed, as OpenMesh's own smoothers interpret them: locked
+/// ones and, if any vertex is selected, all that are not. Numbered like the rows of to_polygon_mesh. Empty if the mesh
+/// has no vertex status.
 template <OpenMeshMesh Mesh>
 std::vector<Index> held_by_status(const Mesh& mesh)
 {

@@ -8,8 +8,8 @@
 
 namespace seamflow {
 
-/// Gives points numbers, equal ones the same, in the order in which they first come. Positive and negative zero are
-/// equal; the point keeps the sign that came first. What is no number is equal to nothing.
+/// Numbers points in order of first appearance; equal points get the same number. Positive and negative zero are equal;
+/// the point keeps the sign that came first. NaN is equal to nothing.
 class PointNumbers {
   public:
     using Place = std::array<double, 3>;

@@ -23,7 +23,7 @@ void require_valid_offsets(const PolygonMesh& mesh)
                         mesh.n_corners()));
 }
 
-/// Whether a face names no vertex twice.
+/// Whether a face has no vertex twice.
 bool are_different(std::span<const Index> corners)
 {
     constexpr std::size_t many = 16;

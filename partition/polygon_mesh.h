@@ -47,7 +47,7 @@ struct PolygonMesh {
 /// @throws InputError naming the first offending face or vertex (numbered from 0).
 void require_valid(const PolygonMesh& mesh, const Executor& exec = run_serially);
 
-/// Makes `to` what `from` is.
+/// Copies `from` to `to`.
 /// @param from, to #V by 3.
 void copy(const Executor& exec, const Points& from, Points& to);
 

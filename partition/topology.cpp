@@ -17,7 +17,7 @@ namespace seamflow {
 
 namespace {
 
-/// Stands in `twin` for "an edge of three or more faces" until the vertices are classified.
+/// Marks an edge of three or more faces in `twin` until the vertices are classified.
 constexpr Index non_manifold_edge = -2;
 
 void list_corners(const PolygonMesh& mesh, Topology& topology)
@@ -103,7 +103,7 @@ Index walk(const PolygonMesh& mesh, const Topology& topology, Index v, Index sta
     }
 }
 
-/// Whether a walk around a vertex comes by all of its faces and back to the first.
+/// Whether a walk around a vertex visits all of its faces and returns to the first.
 bool is_closed_fan(const PolygonMesh& mesh, const Topology& topology, Index v)
 {
     const auto corners = topology.corners_at(v);
@@ -127,7 +127,7 @@ VertexKind classify(const PolygonMesh& mesh, const Topology& topology, Index v)
     return lowest == -1 ? VertexKind::Boundary : VertexKind::NonManifold;
 }
 
-/// The number of corners of all faces; 0 where they differ, or where there are none.
+/// The common number of corners of all faces; 0 if they differ, or if there are none.
 Index common_degree(const PolygonMesh& mesh)
 {
     if (mesh.n_faces() == 0)
@@ -145,8 +145,8 @@ FaceOfHalfedge::FaceOfHalfedge(const PolygonMesh& mesh, const Executor& exec)
     : degree_(common_degree(mesh))
 {
     if (degree_ > 0) {
-        // The multiplier exceeds 2^shift / degree by 1 at most: of half-edges, which are less than 2^31, that adds less
-        // than 1 / degree to the quotient. The product stays below 2^64.
+        // The multiplier exceeds 2^shift / degree by 1 at most: for half-edges, which are less than 2^31, this adds
+        // less than 1 / degree to the quotient. The product stays below 2^64.
         shift_ = 31 + static_cast<int>(std::bit_width(static_cast<std::uint32_t>(degree_ - 1)));
         multiplier_ = (std::uint64_t{1} << shift_) / static_cast<std::uint64_t>(degree_) + 1;
         return;
@@ -254,7 +254,7 @@ std::vector<Fan> fans_at(const PolygonMesh& mesh, const Topology& topology, Inde
         if (!fan.closed) {
             const auto n_forwards = std::ssize(fan.corners);
             first = walk(mesh, topology, v, corners[i], spokes[1], belongs, append);
-            // The other way round, before those of the first walk.
+            // Those of the second walk, reversed, precede those of the first.
             std::reverse(fan.corners.begin() + n_forwards, fan.corners.end());
             std::rotate(fan.corners.begin(), fan.corners.begin() + n_forwards, fan.corners.end());
         }

@@ -16,13 +16,13 @@ enum class VertexKind : std::uint8_t {
     Interior,
     /// On an edge of one face.
     Boundary,
-    /// On an edge of three or more faces, or its faces form several fans of which none is open.
+    /// On an edge of three or more faces, or its faces form several fans, none of them open.
     NonManifold,
     /// No faces.
     Isolated,
 };
 
-/// The face of every half-edge. Where all faces have the same number of corners, none of them is stored.
+/// The face of every half-edge. If all faces have equally many corners, it is computed, not stored.
 class FaceOfHalfedge {
   public:
     FaceOfHalfedge() = default;
@@ -52,12 +52,12 @@ class FaceOfHalfedge {
     }
 
   private:
-    /// The number of corners of all faces; 0 where they differ.
+    /// The number of corners of every face; 0 if they differ.
     Index degree_ = 0;
-    /// The quotient of a half-edge and the degree is that of its product with the one and a power of two.
+    /// A half-edge divided by the degree is its product with `multiplier_`, shifted right by `shift_`.
     std::uint64_t multiplier_ = 0;
     int shift_ = 0;
-    /// One entry per half-edge where the numbers of corners differ.
+    /// One entry per half-edge if the numbers of corners differ.
     std::vector<Index> faces_;
 };
 
@@ -74,8 +74,8 @@ struct Topology {
     std::vector<Index> vertex_corners;
     /// #V.
     std::vector<VertexKind> kind;
-    /// #V: 1 where a flow leaves the vertex where it is. At first everywhere but at interior vertices; see
-    /// free_boundary and hold.
+    /// #V: 1 where a flow does not move the vertex. Initially 1 except at interior vertices; see free_boundary and
+    /// hold.
     std::vector<std::uint8_t> fixed;
     /// Whether the half-edges of every pair run in opposite directions.
     bool oriented = true;
@@ -101,7 +101,7 @@ struct Topology {
 /// mesh.
 Topology make_topology(const PolygonMesh& mesh, const Executor& exec = run_serially);
 
-/// The length of the edge of half-edge h, the same bits for its twin.
+/// The length of the edge of half-edge h, bitwise equal for its twin.
 inline double edge_length(const PolygonMesh& mesh, const Topology& topology, Index h)
 {
     const auto& v = mesh.face_vertices;
@@ -116,7 +116,7 @@ std::vector<Index> neighbours_of(const PolygonMesh& mesh, const Topology& topolo
 
 /// Holds these vertices where they are, whatever their kind.
 /// @param vertices in any order, repetitions are allowed.
-/// @throws InputError naming the first number that is none of a vertex.
+/// @throws InputError naming the first number out of range.
 void hold(Topology& topology, std::span<const Index> vertices);
 
 /// A run of faces around a vertex, each sharing an edge at the vertex with the next.
@@ -129,13 +129,13 @@ struct Fan {
     bool closed = false;
 };
 
-/// The neighbours of v along the first and last edge of the fan that its corner `start` lies in, made of faces whose
-/// label is that of its own: Fan::first and Fan::last without the list.
+/// Fan::first and Fan::last, without the list, of the fan at v that its corner `start` lies in, made of faces with the
+/// same label as that corner's face.
 /// @param start the lowest corner of the fan. @param labels #F.
 std::pair<Index, Index> ends_of_fan(const PolygonMesh& mesh, const Topology& topology, Index start,
                                     std::span<const Index> labels);
 
-/// The fans that those faces at vertex v form whose label is `label`, in order of their lowest corner.
+/// The fans formed by the faces at vertex v with label `label`, in order of their lowest corner.
 /// @param labels #F; empty: all faces have the label 0.
 std::vector<Fan> fans_at(const PolygonMesh& mesh, const Topology& topology, Index v, std::span<const Index> labels,
                          Index label);

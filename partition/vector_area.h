@@ -14,7 +14,7 @@ namespace seamflow {
 /// One position or vector, a row of Points.
 using Point = Eigen::RowVector3d;
 
-/// Where the corners of a triangle are, in units of length.
+/// The corners of a triangle, in units of length.
 using TriangleCorners = std::array<Point, 3>;
 
 /// Vector area ½ Σ vᵢ × vᵢ₊₁ of a polygon, planar or not, in length² (paper, section Discrete Laplacians). Taken

@@ -17,7 +17,7 @@ namespace seamflow {
 
 namespace {
 
-/// What has become one: the lowest of each lot stands for it.
+/// Groups of joined elements, each represented by its lowest.
 class Lots {
   public:
     explicit Lots(Index n)
@@ -39,7 +39,7 @@ class Lots {
         above_[high] = low;
     }
 
-    /// The lowest of the lot that each is in.
+    /// The lowest of the group of each element.
     std::vector<Index> all_lowest()
     {
         for (std::size_t i = 0; i < above_.size(); ++i)
@@ -48,11 +48,11 @@ class Lots {
     }
 
   private:
-    /// Never above its own number, so that one pass in ascending order flattens all.
+    /// Never greater than the index, so that one pass in ascending order flattens all.
     std::vector<Index> above_;
 };
 
-/// Calls `visit` for the cells around one, of each pair of neighbours for one of both.
+/// Calls `visit` for half of the cells around one: for each pair of neighbours, from one of both.
 template <class Visit>
 void for_half_of_neighbours(const PointNumbers::Place& cell, Visit&& visit)
 {
@@ -61,11 +61,11 @@ void for_half_of_neighbours(const PointNumbers::Place& cell, Visit&& visit)
         visit(PointNumbers::Place{cell[0] + i / 9 - 1, cell[1] + i / 3 % 3 - 1, cell[2] + i % 3 - 1});
 }
 
-/// Joins points that are near to each other, or near by way of others.
+/// Joins points that are near each other, directly or through others.
 /// @returns for each the lowest of those that it is joined with.
 std::vector<Index> join_near(const std::vector<PointNumbers::Place>& points, double distance)
 {
-    // So many within a cell are no copies of each other.
+    // More than this within a cell are not copies of each other.
     constexpr Index most_copies = 64;
     PointNumbers cells;
     const IndexLists in_cell = [&] {
@@ -104,7 +104,7 @@ std::vector<Index> join_near(const std::vector<PointNumbers::Place>& points, dou
     return lots.all_lowest();
 }
 
-/// The edges of one face.
+/// The edges that have one face.
 class Rims {
   public:
     Rims(const PolygonMesh& mesh, const Topology& topology, double distance, const Executor& exec)
@@ -120,7 +120,7 @@ class Rims {
         number_places();
     }
 
-    /// Two half-edges each, ascending.
+    /// Pairs of half-edges, ascending.
     [[nodiscard]] std::vector<std::array<Index, 2>> pairs() const;
 
     [[nodiscard]] Index start(Index h) const { return mesh_.face_vertices[h]; }
@@ -153,8 +153,8 @@ class Rims {
         }
     }
 
-    /// Whether the faces of two half-edges that run against each other lie on each other, as far as their next edges
-    /// tell: the sheets of a leaf that has two.
+    /// Whether the faces of two half-edges of opposite directions lie on each other, judging by their adjacent edges:
+    /// the sheets of a leaf that has two.
     [[nodiscard]] bool lie_on_each_other(Index h, Index other) const
     {
         const auto after = [&](Index one) { return end(topology_.next(mesh_, one)); };
@@ -218,8 +218,8 @@ class Welding {
         join();
     }
 
-    /// Gives up what would make the mesh worse. What is given up makes nothing else worse: it opens fans of faces, and
-    /// brings no edges together.
+    /// Gives up pairs that would make the mesh worse. Giving up a pair makes nothing else worse: it opens fans of
+    /// faces, and brings no edges together.
     void mend()
     {
         give_up(twice_in_faces());
@@ -253,7 +253,7 @@ class Welding {
         welded_.face_offsets = mesh_.face_offsets;
         welded_.face_vertices.resize(mesh_.face_vertices.size());
         for_each(exec_, mesh_.n_corners(), [&](Index h) { welded_.face_vertices[h] = first_[mesh_.face_vertices[h]]; });
-        // Topology knows no places.
+        // Topology ignores positions.
         welded_.vertices.resize(mesh_.n_vertices(), 3);
     }
 
@@ -275,8 +275,8 @@ class Welding {
         return is_twice;
     }
 
-    /// Leaves the pairs that end at bad vertices apart.
-    /// @param is_bad #V, by the first of what has become one. @returns whether there were any.
+    /// Gives up the pairs that end at bad vertices.
+    /// @param is_bad #V, by the first of the joined vertices. @returns whether there were any.
     bool give_up(const std::vector<std::uint8_t>& is_bad)
     {
         const auto ends_badly = [&](const std::array<Index, 2>& pair) {
@@ -297,8 +297,8 @@ class Welding {
     Topology topology_;
 };
 
-/// Moves what has become one into the middle of what it was.
-/// @returns how many vertices that were.
+/// Moves joined vertices to the middle of their positions.
+/// @returns the number of vertices joined.
 Index place_in_middle(const std::vector<Index>& first, Points& positions)
 {
     const auto n = static_cast<Index>(first.size());
@@ -310,7 +310,7 @@ Index place_in_middle(const std::vector<Index>& first, Points& positions)
             has_copies.push_back(first[v]);
         }
     sort_unique(has_copies);
-    // Of equal places the middle is just the same.
+    // The middle of equal positions is exactly the same.
     Points offsets = Points::Zero(std::ssize(has_copies), 3);
     std::vector<int> counts(has_copies.size(), 1);
     for (const Index v : copies) {
@@ -351,10 +351,9 @@ std::optional<Weld> weld(const PolygonMesh& mesh, const Topology& topology, doub
 
 std::string remark_on_seams(Index n_vertices, Index n_edges)
 {
-    return fmt::format(
-        "{} vertices along seams, where {} of edges of one face each lie on each other, moved as one; they are still "
-        "separate vertices.",
-        n_vertices, n_edges == 1 ? "1 pair" : fmt::format("{} pairs", n_edges));
+    return fmt::format("{} vertices along seams, where {} of boundary edges lie on each other, moved as one; they are "
+                       "still separate vertices.",
+                       n_vertices, n_edges == 1 ? "1 pair" : fmt::format("{} pairs", n_edges));
 }
 
 }  // namespace seamflow

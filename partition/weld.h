@@ -10,33 +10,33 @@
 
 namespace seamflow {
 
-/// A mesh whose surface goes on across the seams at which its vertices are doubled, as they are in many files along the
-/// seams of a texture. A vertex has the number that it had; those that have become one with another have no faces.
+/// A mesh whose surface continues across the seams at which its vertices are duplicated, as in many files along the
+/// seams of a texture. Vertices keep their numbers; those merged into another have no faces.
 struct Weld {
-    /// The same faces, of the first vertices alone. What became one lies in the middle of what it was.
+    /// The same faces, of the `first` vertices only. A merged vertex lies at the mean of its copies.
     PolygonMesh mesh;
     /// Of that mesh.
     Topology topology;
-    /// #V: the lowest of the vertices that each has become one with; its own number if it is none with another.
+    /// #V: the lowest of the vertices that each was merged with; its own number if it was not merged.
     std::vector<Index> first;
-    /// How many vertices have become one with others.
+    /// How many vertices were merged with others.
     Index n_vertices = 0;
-    /// How many pairs of boundary edges have become one edge each.
+    /// How many pairs of boundary edges became one edge each.
     Index n_edges = 0;
 };
 
-/// Joins boundary edges in pairs: two whose ends are at equal places, that run in opposite directions, and that have no
-/// third one at their place. So what touches in points, edges of three faces, and sheets that lie on each other stay as
-/// they are. Pairs are given up where joining them would leave a face with a vertex twice, an edge with three faces or
-/// a vertex that is not manifold. Linear in the size of the mesh; where it has no boundary, next to nothing.
-/// @param mesh valid, but that coordinates need not be finite. @param topology of it.
-/// @param distance within which places count as equal, in units of length; at least 0, and small against edges: places
-///        that are so near to more than a few others are joined to none. 0: coordinates have to be equal.
+/// Joins boundary edges in pairs: two whose ends are at equal places, that run in opposite directions, with no third
+/// one at their place. So surfaces touching in points, edges of three faces, and sheets that lie on each other stay as
+/// they are. Pairs are not joined where this would leave a face with a vertex twice, an edge with three faces or a
+/// non-manifold vertex. Linear in the size of the mesh; almost free if it has no boundary.
+/// @param mesh valid, but coordinates need not be finite. @param topology of `mesh`.
+/// @param distance within which places count as equal, in units of length; at least 0, and small compared with edges:
+///        places this near to more than a few others are not joined. 0: coordinates must be equal.
 /// @returns nothing if nothing is joined.
 std::optional<Weld> weld(const PolygonMesh& mesh, const Topology& topology, double distance,
                          const Executor& exec = run_serially);
 
-/// What became of seams, a sentence for the user.
+/// A sentence for the user about joined seams.
 /// @param n_vertices, n_edges see Weld.
 std::string remark_on_seams(Index n_vertices, Index n_edges);
 

@@ -1,4 +1,4 @@
-// Compares one implicit step of ours with what a user would run instead.
+// Compares one implicit step of ours with the alternatives of a user.
 //
 //     mesh ──► temporary file ──► a process for each method ──► positions, times, memory ──► table, JSON
 //                                 (ours, CHOLMOD, UMFPACK,

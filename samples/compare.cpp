@@ -1,4 +1,4 @@
-// Tells how far one mesh is from another: vertex from vertex, and vertex from surface.
+// Reports how far one mesh is from another: vertex to vertex, and vertex to surface.
 
 #include <iostream>
 

@@ -1,4 +1,4 @@
-// Repeats every experiment of the paper, and tells which of its claims hold here.
+// Repeats every experiment of the paper, and reports which of its claims hold here.
 //
 //     mesh ──► cut in two by rows ──► flows, decomposed and not ──► table ──► claims
 //     (the authors' own file,                                        │         │
@@ -37,7 +37,7 @@ FigureResult run_figure(const Experiment& experiment, const FiguresCommand& comm
     return result;
 }
 
-/// Writes one table of all experiments with more and more sub-meshes, without meshes to look at.
+/// Writes one table of all experiments with increasingly many sub-meshes, without meshes to look at.
 std::vector<Claim> run_many(const FiguresCommand& command)
 {
     std::vector<Table> tables;
@@ -50,7 +50,7 @@ std::vector<Claim> run_many(const FiguresCommand& command)
     return claims_of_many(tables);
 }
 
-/// The names of what is wanted from one on, in the order in which it is made; empty where that is none.
+/// The names of the wanted figures from one on, in order; empty if that one is not wanted.
 std::string to_come(const FiguresCommand& command, std::string_view from)
 {
     std::string names;
@@ -73,7 +73,7 @@ ExitStatus figures(int argc, char** argv)
     std::vector<FigureResult> results;
     std::vector<Claim> claims;
     std::vector<Claim> many;
-    // What there is can be looked at while the rest is made.
+    // Finished figures can be viewed while the rest are made.
     const auto write_index = [&](std::string_view begun) {
         write_claims(command.out / "claims.csv", claims);
         write_text(command.out / "index.html", index_html(results, many, command.html, to_come(command, begun)));

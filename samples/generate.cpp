@@ -1,4 +1,4 @@
-// Makes a mesh to try things on.
+// Generates a mesh for experiments.
 
 #include <iostream>
 #include <limits>
@@ -38,7 +38,7 @@ ExitStatus generate(int argc, char** argv)
     int seed = 1;
     app.add_option("KIND", kind, listed_kinds())->required()->type_name("");
     app.add_option("OUTPUT", output,
-                   "the mesh: " + extensions_of() + ", .gz behind it or not; - for OBJ on standard output")
+                   "the mesh: " + extensions_of() + ", optionally followed by .gz; - for OBJ on standard output")
         ->required()
         ->type_name("");
     add_integer(app, "--vertices", vertices, 100, "about so many vertices [10000]");

@@ -1,4 +1,4 @@
-// Tells what a mesh is made of and what is wrong with it, element by element.
+// Reports the elements of a mesh and its defects, element by element.
 
 #include <iostream>
 
@@ -14,14 +14,14 @@ using namespace seamflow;
 
 namespace {
 
-/// @returns UnusableInput for a file that `smooth` would not take as it is.
+/// @returns UnusableInput if `smooth` would not accept the file as it is.
 ExitStatus inspect_file(int argc, char** argv)
 {
     CLI::App app("Tells what a mesh is made of and what is wrong with it. All numbers count from 0.", "inspect");
     std::filesystem::path input;
     bool as_json = false;
     int most_listed = 10;
-    app.add_option("INPUT", input, "mesh: " + extensions_of() + ", .gz behind it or not; - for standard input")
+    app.add_option("INPUT", input, "mesh: " + extensions_of() + ", optionally followed by .gz; - for standard input")
         ->required()
         ->type_name("");
     app.add_flag("--json", as_json, "write everything as JSON, with all elements");

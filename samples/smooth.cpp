@@ -45,7 +45,7 @@ using namespace seamflow;
 
 namespace {
 
-/// What the command line leaves to be taken from the input.
+/// Completes options that the command line leaves to the input.
 /// @param left_out ascending: the faces of the file that are not in the mesh.
 void complete_options(SmoothCommand& command, const PolygonMesh& mesh, const std::vector<Index>& left_out,
                       const Executor& exec, RunRecord& run)
@@ -67,7 +67,7 @@ void complete_options(SmoothCommand& command, const PolygonMesh& mesh, const std
     }
 }
 
-/// What --html shows, so far the input; empty without --html.
+/// The page of --html, so far the input; empty without --html.
 /// @param left_out ascending: the faces of the file that are not in the mesh.
 std::optional<PageFlow> make_page(const SmoothCommand& command, const PolygonMesh& mesh,
                                   const std::vector<Index>& left_out)
@@ -115,7 +115,7 @@ std::vector<std::string> write_results(const SmoothCommand& command, const MeshF
     return remarks;
 }
 
-/// What is written about the run: report, trace and page.
+/// Writes the reports on the run: report, trace and page.
 void write_reports(const SmoothCommand& command, const RunRecord& run, FlowReport& report,
                    std::optional<PageFlow>& page)
 {
@@ -135,7 +135,7 @@ void write_reports(const SmoothCommand& command, const RunRecord& run, FlowRepor
     }
 }
 
-/// Runs the flow; what is wrong with the mesh comes out with the name of its file.
+/// Runs the flow; errors in the mesh are reported with the name of its file.
 FlowReport run_flow(const SmoothCommand& command, PolygonMesh& mesh, const StepObserver& on_step,
                     const FlowControl& control)
 {
@@ -146,7 +146,7 @@ FlowReport run_flow(const SmoothCommand& command, PolygonMesh& mesh, const StepO
     }
 }
 
-/// Where steps have missed their tolerance, the results are not what was asked for.
+/// If steps have missed their tolerance, the results are not what was asked for.
 ExitStatus require_converged(const SmoothCommand& command, const FlowReport& report)
 {
     const std::string missed = missed_tolerance(command, report.convergence);
@@ -157,7 +157,7 @@ ExitStatus require_converged(const SmoothCommand& command, const FlowReport& rep
 }
 
 /// Reads, flows and writes.
-/// @param run has what the command line says.
+/// @param run holds the command line.
 ExitStatus run(SmoothCommand& command, RunRecord& run)
 {
     Interruption interruption("smooth");
@@ -200,7 +200,7 @@ ExitStatus run(SmoothCommand& command, RunRecord& run)
         const FlowControl control = long_run.control();
         report = run_flow(command, file.mesh, on_step, control);
         if (control.resume != nullptr && command.every_step)
-            report.remarks.push_back("--every-step has no files of the steps up to " +
+            report.remarks.push_back("--every-step wrote no files for the steps up to " +
                                      std::to_string(control.resume->n_steps()) + ", which an earlier run took.");
     } catch (const Cancelled&) {
         return long_run.end_early();
@@ -213,7 +213,7 @@ ExitStatus run(SmoothCommand& command, RunRecord& run)
     }
     long_run.end();
     report.remarks.insert(report.remarks.begin(), run.remarks.begin(), run.remarks.end());
-    // Where no step is taken it does not matter how.
+    // Without steps, the choices do not matter.
     if (command.options.steps == 0)
         report.choices.clear();
     // A run that continues from its last step has nothing to observe.
@@ -248,7 +248,7 @@ ExitStatus smooth(int argc, char** argv)
     try {
         return run(command, record);
     } catch (...) {
-        // The report says what standard error says, if it can be written.
+        // The report has the message of standard error, if it can be written.
         try {
             if (!command.report.empty())
                 write_text(command.report, smooth_failure_json(record, current_failure()));

@@ -44,7 +44,7 @@ using namespace seamflow;
 
 namespace {
 
-/// What is wrong with a mesh comes out with the name of its file.
+/// Errors in a mesh are reported with the name of its file.
 template <class Action>
 void about_file(const std::filesystem::path& path, Action&& action)
 {
@@ -55,7 +55,7 @@ void about_file(const std::filesystem::path& path, Action&& action)
     }
 }
 
-/// The cores of a machine are shared by the ranks on it.
+/// The ranks on a machine share its cores.
 int threads_of_rank(Communicator& comm, const std::string& host, const SmoothCommand& command)
 {
     int n_here = 0;
@@ -70,7 +70,7 @@ int threads_of_rank(Communicator& comm, const std::string& host, const SmoothCom
 /// One rank's share of a run.
 class RankRun {
   public:
-    /// @param out where rank 0 prints, and others do not.
+    /// @param out where rank 0 prints, unlike the others.
     RankRun(Transport& ranks, DistributedCommand& command, DistributedRecord& record, std::ostream& out)
         : ranks_(ranks)
         , command_(command.flow)
@@ -98,7 +98,7 @@ class RankRun {
     }
 
   private:
-    /// Whether anybody sees what is measured.
+    /// Whether the measures are reported anywhere.
     [[nodiscard]] bool tells_measures() const
     {
         return !command_.quiet || !command_.report.empty() || !command_.csv.empty();
@@ -144,7 +144,7 @@ class RankRun {
         record_.setup_seconds = setting_up.seconds();
     }
 
-    /// Makes numbers of what is measured in sizes of the mesh.
+    /// Converts amounts given in sizes of the mesh to numbers.
     void settle_amount()
     {
         record_.run.scale = {record_.size.mean_edge, record_.size.diagonal};
@@ -167,7 +167,7 @@ class RankRun {
         record_.time_step = command_.options.time_step;
     }
 
-    /// Where an earlier run was, if there was one.
+    /// Finds an earlier run, if there was one.
     /// @param mesh checksum of the input. @param slice with the labels of the cut. @param weights at rank 0.
     void find_checkpoint(Communicator& comm, std::uint64_t mesh, const RankSlice& slice, const SliceBounds& bounds,
                          const std::vector<std::int64_t>& fixed, const std::vector<double>& weights)
@@ -175,7 +175,7 @@ class RankRun {
         FlowOptions options = command_.options;
         options.motion.fixed_vertices.assign(fixed.begin(), fixed.end());
         options.motion.attachment_weights = weights;
-        // They do not change the result.
+        // These do not change the result.
         options.report = {};
         FlowIdentity identity = identify(PolygonMesh{}, options);
         for (FlowIdentity::Entry& entry : identity.entries)
@@ -190,7 +190,7 @@ class RankRun {
         out_ << "resumed    after step " << resume_->step << ", from " << checkpoint_->file().string() << std::endl;
         if (command_.every_step)
             record_.remarks.push_back(fmt::format(
-                "--every-step has no files of the steps up to {}, which an earlier run took.", resume_->step));
+                "--every-step wrote no files for the steps up to {}, which an earlier run took.", resume_->step));
     }
 
     /// Keeps the state after a step where the period or the end of the run asks for it.
@@ -205,7 +205,7 @@ class RankRun {
         since_kept_.lap();
     }
 
-    /// Whether results can hold the mesh, and what they will not have of the input. On rank 0.
+    /// Whether results can hold the mesh, and what of the input they will lack. On rank 0.
     void look_at_results()
     {
         std::error_code ignored;
@@ -240,7 +240,7 @@ class RankRun {
         seams_ = std::move(found.seams);
     }
 
-    /// Vertices along seams are held where one of them is that they move as one with.
+    /// Vertices along seams are held if one that they move with is held.
     void move_with_seams(std::vector<std::int64_t>& fixed) const
     {
         std::vector<std::int64_t> firsts;
@@ -270,7 +270,7 @@ class RankRun {
         };
     }
 
-    /// Where the vertices of this rank's range are after steps.
+    /// Positions of the vertices of this rank's range after steps.
     Points vertices_of_range(Communicator& comm, const MeshPart& part) const
     {
         RankSlice slice;
@@ -280,7 +280,7 @@ class RankRun {
         return std::move(slice.vertices);
     }
 
-    /// What was measured, and the remarks: of cut, flow and files, each once.
+    /// Notes the measures and the remarks: of cut, flow and files, each once.
     void note_flow()
     {
         std::vector<std::string> all = of_cut_;
@@ -300,7 +300,7 @@ class RankRun {
         note(*record_.report.after, record_.run.surface.after);
     }
 
-    /// Where steps have missed their tolerance, the results are not what was asked for.
+    /// If steps have missed their tolerance, the results are not what was asked for.
     ExitStatus require_converged() const
     {
         const std::string missed = missed_tolerance(command_, record_.report.convergence);
@@ -312,7 +312,7 @@ class RankRun {
         return ExitStatus::ComputationFailed;
     }
 
-    /// Writes, and tells what was done.
+    /// Writes, and reports what was done.
     void end(Communicator& comm, const Stopwatch& whole)
     {
         const Stopwatch writing;
@@ -357,7 +357,7 @@ class RankRun {
     std::unique_ptr<SharedMeshFile> file_;
     MeshPart part_;
     std::optional<RankRoughness> roughness_;
-    /// Where the vertices of this rank's range are in the file, and with --parts the labels of its faces.
+    /// Positions of this rank's range of vertices in the file, and with --parts the labels of its faces.
     Points slice_vertices_ = Points(0, 3);
     std::vector<Index> labels_;
     JoinedSeams seams_;
@@ -367,7 +367,7 @@ class RankRun {
     Stopwatch since_kept_;
 };
 
-/// Rank 0 speaks for all.
+/// Rank 0 parses for all.
 std::optional<ExitStatus> parse_together(Transport& ranks, int argc, char** argv, DistributedCommand& command)
 {
     std::optional<ExitStatus> end;
@@ -395,7 +395,7 @@ ExitStatus smooth_distributed(Transport& ranks, int argc, char** argv)
     try {
         return RankRun(ranks, command, record, out).run();
     } catch (...) {
-        // The report says what standard error says, if it can be written.
+        // The report has the message of standard error, if it can be written.
         try {
             if (ranks.rank() == 0 && !command.flow.report.empty())
                 write_text(command.flow.report, smooth_failure_json(record.run, current_failure()));
@@ -409,7 +409,7 @@ ExitStatus smooth_distributed(Transport& ranks, int argc, char** argv)
 
 int main(int argc, char** argv)
 {
-    // MPI ends all ranks as soon as one has ended with a failure: until rank 0 has told of it, none does.
+    // MPI ends all ranks as soon as one has ended with a failure: none does until rank 0 has reported it.
     std::unique_ptr<Transport> ranks;
     return run_program("smooth-distributed", [&] {
         ranks = make_mpi_transport();

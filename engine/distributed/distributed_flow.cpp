@@ -42,30 +42,29 @@ bool is_converged(const FlowOptions& options)
     return options.accuracy.approach == Approach::Converged;
 }
 
-/// @throws OptionError for what a distributed flow does not know.
+/// @throws OptionError for unsupported options.
 void require_for_ranks(const FlowOptions& options)
 {
     const InterfaceOptions& interface = options.interface;
     std::string_view unknown;
     if (is_converged(options) && !is_symmetric(options.laplacian))
-        throw OptionError(fmt::format("ranks cannot take converged steps of {}, which are by GMRES: take sweeps "
-                                      "(approach sweep, without a tolerance), or let one process do it",
+        throw OptionError(fmt::format("ranks cannot take converged steps of {}, which need GMRES: use sweeps (approach "
+                                      "sweep, without a tolerance), or a single process",
                                       name_of(options.laplacian)));
     if (!is_converged(options) && (options.accuracy.approach != Approach::Sweep || options.accuracy.tolerance))
-        unknown = "approaches but sweeps and converged steps (approach has to be sweep, without a tolerance, or "
+        unknown = "approaches except sweeps and converged steps (approach has to be sweep, without a tolerance, or "
                   "converged)";
     else if (!is_converged(options) && interface.conditions != Conditions::AdaptedRobin &&
              interface.conditions != Conditions::AdaptedVentcell)
-        unknown = "conditions but the adapted ones";
+        unknown = "conditions except the adapted ones";
     else
         unknown = first_set(options, concern::one_process | concern::part);
     if (unknown.empty() && options.laplacian == Laplacian::Uniform && options.uniform_edge == 0.0)
-        throw OptionError(
-            "uniform_edge is 0, but ranks do not know the mean edge length of the whole mesh: say what it "
-            "is (measure in engine/distributed/parts/slice_measures.h finds it)");
+        throw OptionError("uniform_edge is 0, but ranks do not know the mean edge length of the whole mesh: set it to "
+                          "that length (measure in engine/distributed/parts/slice_measures.h finds it)");
     if (!unknown.empty())
         throw OptionError(
-            fmt::format("distributed flows do not know {}: leave that out, or let one process do it", unknown));
+            fmt::format("distributed flows do not support {}: leave that out, or use a single process", unknown));
 }
 
 /// The options with the tolerance of converged steps, if steps are converged, and the weights of the part.
@@ -78,7 +77,7 @@ FlowOptions completed(const FlowOptions& options, const MeshPart& part)
     return complete;
 }
 
-/// The vertices of own faces, which alone have moved.
+/// Only vertices of own faces have moved.
 void require_within_limit(const UpdateLimit& limit, const RankMesh& mesh, const Points& after)
 {
     const auto excess = limit.find(mesh.part.mesh.vertices, after);
@@ -169,7 +168,7 @@ class RankFlow {
     }
 
   private:
-    /// Brings the vertices that this rank knows to where they were after a step.
+    /// Moves the vertices that this rank knows to where they were after a step.
     void go_on(RankMesh& mesh, Stepper& stepper)
     {
         restore_memory(comm_, mesh, *resume_, stepper);
@@ -177,7 +176,7 @@ class RankFlow {
         make_result(mesh);
     }
 
-    /// Shows the part as it is now. What it was before the first step comes back, whatever the observer throws.
+    /// Shows the part as it is now. Its initial positions are restored even if the observer throws.
     void show(int step, const RankStepReport& report, const RankMesh& mesh, const Point& offset, const Stepper& stepper)
     {
         Points positions = positions_of_part(mesh, result_, offset);
@@ -225,7 +224,7 @@ class RankFlow {
         make_result(mesh);
         if (meter_) {
             report.measures = meter_->measure(before, result_);
-            // In those of the flow.
+            // In mean edges of the flow.
             const Points& flowing = mesh.part.mesh.vertices;
             const double edge = bound_ ? meter_->measure(flowing, flowing).mean_edge : report.measures->mean_edge;
             if (of_step.estimated_v_max && edge > 0.0)
@@ -234,7 +233,7 @@ class RankFlow {
         return report;
     }
 
-    /// Makes of the positions of the flow, which continues from these, those that are its result.
+    /// Derives the result from the positions from which the flow continues.
     void make_result(const RankMesh& mesh)
     {
         result_ = mesh.part.mesh.vertices;
@@ -285,7 +284,7 @@ class RankFlow {
         report.remarks = mesh.remarks;
     }
 
-    /// How well converged steps have kept to their tolerance, and what the estimate says, which all ranks know alike.
+    /// How well converged steps have met their tolerance, and the estimate, which is the same on all ranks.
     void describe_convergence(const Stepper& stepper, RankReport& report) const
     {
         report.convergence.approach = options_.accuracy.approach;
@@ -326,7 +325,7 @@ class RankFlow {
         }
         if (mesh.n_repeated > 0)
             ask_for(mesh, known, elsewhere, positions);
-        // Not by nothing, which would make 0 of -0.
+        // A zero offset would turn -0 into 0.
         if (!offset.isZero(0.0))
             for (Index v = 0; v < part_.mesh.n_vertices(); ++v)
                 if (has_face[v] != 0)
@@ -334,7 +333,7 @@ class RankFlow {
         return positions;
     }
 
-    /// Vertices all of whose faces here repeat others: whoever has those knows where they are.
+    /// Vertices all of whose faces here repeat others: the ranks with those know their positions.
     void ask_for(const RankMesh& mesh, const Points& known, std::vector<Index> vertices, Points& positions)
     {
         sort_unique(vertices);
@@ -356,7 +355,7 @@ class RankFlow {
     std::optional<RankMeter> meter_;
     std::optional<DisplacementBound> bound_;
     std::optional<VanishingComponents> vanishing_;
-    /// Of the vertices that this rank knows, after the last step.
+    /// For the vertices that this rank knows, after the last step.
     Points result_;
 };
 

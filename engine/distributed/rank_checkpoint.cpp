@@ -50,7 +50,7 @@ auto fields(Is<RankList> auto& of)
     return std::tie(step, n_arrays, numbers, ranges, identity);
 }
 
-/// Sums do not depend on who adds what.
+/// The sum does not depend on who adds what.
 std::uint64_t sum_of_all(Communicator& comm, std::uint64_t own)
 {
     std::uint64_t sum = 0;
@@ -59,13 +59,13 @@ std::uint64_t sum_of_all(Communicator& comm, std::uint64_t own)
     return sum;
 }
 
-/// Of values that stand at a place.
+/// The hash of values at a place.
 std::uint64_t hash_at(std::int64_t place, std::span<const std::byte> values)
 {
     return XXH3_64bits_withSeed(values.data(), values.size(), static_cast<std::uint64_t>(place));
 }
 
-/// Entries of other steps, which no list names any more.
+/// Removes files of other steps, which no list names any more.
 void remove_others(const std::filesystem::path& folder, const std::string& kept)
 {
     std::error_code ignored;
@@ -78,7 +78,7 @@ void remove_others(const std::filesystem::path& folder, const std::string& kept)
         std::filesystem::remove(path, ignored);
 }
 
-/// The positions first. @param state a RankFlowState, const or not.
+/// Positions come first. @param state a RankFlowState, const or not.
 auto arrays_of(auto& state)
 {
     std::vector arrays{&state.vertices};
@@ -156,7 +156,7 @@ std::optional<RankFlowState> RankCheckpoint::find(Communicator& comm, std::span<
         for (const KeptRange& one : list.ranges)
             n += one.begin == n ? one.n_vertices : 0;
         if (n != bounds.back())
-            refuse_archive(file(), "does not list positions of all vertices");
+            refuse_archive(file(), "does not list the positions of all vertices");
     });
     list.ranges = comm.broadcast(list.ranges);
     if (list.ranges.empty())
@@ -188,7 +188,7 @@ void RankCheckpoint::keep(Communicator& comm, const RankFlowState& state) const
     const std::uint64_t checksum =
         write_archive(file_of(state.step, static_cast<std::size_t>(comm.rank())), line_of_ranges, state);
     const KeptRange own{.begin = 0, .n_vertices = state.vertices.rows(), .checksum = checksum};
-    // When rank 0 has them all files are on the disk.
+    // Once rank 0 has them, all files are on disk.
     RankList list{.step = state.step,
                   .n_arrays = std::ssize(state.arrays),
                   .numbers = state.numbers,

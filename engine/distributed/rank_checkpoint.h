@@ -25,20 +25,20 @@ std::uint64_t checksum_of_labels(Communicator& comm, const RankSlice& slice);
 /// that of a complete step. All ranks call its functions together, any number of them.
 class RankCheckpoint {
   public:
-    /// @param identity what determines the result. Of rank 0; what others give is passed over.
+    /// @param identity what determines the result. Of rank 0; what others give is ignored.
     RankCheckpoint(std::filesystem::path folder, FlowIdentity identity);
 
     /// The list.
     [[nodiscard]] std::filesystem::path file() const;
 
-    /// Makes the folder if it is not there, and finds where the flow was.
+    /// Creates the folder if necessary, and finds where the flow was.
     /// @param bounds of the ranges of vertices: #ranks + 1. @param steps of the flow.
-    /// @returns this rank's share; nothing where there is no list.
-    /// @throws OutputError if there can be no folder; InputError and OptionError naming the file, if it is damaged or
+    /// @returns this rank's share; empty if there is no list.
+    /// @throws OutputError if it cannot be created; InputError and OptionError naming the file, if it is damaged or
     ///         belongs to another mesh or other options.
     std::optional<RankFlowState> find(Communicator& comm, std::span<const std::int64_t> bounds, int steps) const;
 
-    /// Keeps the state after a step, in the place of that before it.
+    /// Saves the state after a step, replacing the previous one.
     /// @throws OutputError
     void keep(Communicator& comm, const RankFlowState& state) const;
 

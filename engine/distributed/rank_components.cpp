@@ -11,19 +11,19 @@ namespace seamflow {
 
 namespace {
 
-/// A vertex of a component, in numbers that all ranks agree on.
+/// A vertex of a component, in numbers common to all ranks.
 struct Member {
     std::int64_t vertex;
     std::int64_t component;
 };
 
-/// What is known of a vertex, and its row of a table.
+/// Values of a vertex, and its row in a table.
 struct TableRow {
     std::int64_t row;
     std::array<double, 3> values;
 };
 
-/// The components of a rank's own faces, and of them those that may be small and free as far as it sees.
+/// The components of a rank's own faces, and which of them may be small and free as far as it knows.
 struct OwnComponents {
     Components of_vertices;
     /// Per component: 1 if it may.
@@ -53,7 +53,7 @@ OwnComponents find_own(const RankMesh& mesh, const Points& positions, double ext
 }
 
 /// The vertices of some of a rank's components.
-/// @param first the number that all ranks know the first of its components by.
+/// @param first the number of its first component among those of all ranks.
 template <class IsWanted>
 std::vector<Member> members(const RankMesh& mesh, const OwnComponents& own, std::int64_t first, IsWanted&& is_wanted)
 {
@@ -64,7 +64,7 @@ std::vector<Member> members(const RankMesh& mesh, const OwnComponents& own, std:
     return found;
 }
 
-/// Joins the components of all ranks at the vertices that these share.
+/// Joins the components of all ranks at shared vertices.
 Components join(std::vector<Member> shared, Index n_components)
 {
     std::ranges::stable_sort(shared, {}, &Member::vertex);
@@ -84,7 +84,7 @@ Components join(std::vector<Member> shared, Index n_components)
     });
 }
 
-/// Lists in the order of their lowest vertices, as one machine has them.
+/// Lists components by their lowest vertices, as a single machine does.
 void list(std::vector<Member> all, const RankMesh& mesh, SmallComponents& small)
 {
     std::ranges::sort(all, [](const Member& a, const Member& b) {
@@ -117,7 +117,7 @@ Points gather_table(Communicator& comm, const RankMesh& mesh, const std::vector<
     return table;
 }
 
-/// Leaves out what is small on each rank alone.
+/// Leaves out components that are small on each rank alone.
 void keep_small(const Points& table, double extent, IndexLists& rows)
 {
     IndexLists kept;

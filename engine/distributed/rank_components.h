@@ -6,7 +6,7 @@
 
 namespace seamflow {
 
-/// Finds small components among the faces of all ranks, also those that several ranks have faces of.
+/// Finds small components among the faces of all ranks, also those with faces on several ranks.
 /// @param comm, mesh must outlive it.
 FindSmallComponents find_small_components(Communicator& comm, const RankMesh& mesh);
 

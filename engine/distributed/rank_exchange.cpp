@@ -16,10 +16,10 @@ namespace seamflow {
 
 namespace {
 
-/// How soon a receiver sees that its run has failed.
+/// How soon a receiver notices that its run has failed.
 constexpr std::chrono::milliseconds patience_of_receiver{20};
 
-/// What stands before the rows of a message.
+/// The header before the rows of a message.
 struct Header {
     std::uint64_t run;
     Index sub_mesh;
@@ -49,7 +49,7 @@ Index RankExchange::known_index(Index number) const
     return static_cast<Index>(std::ranges::lower_bound(known_, number, {}, &KnownSubMesh::number) - known_.begin());
 }
 
-/// What the transfers to this rank's sub-meshes read of foreign ones, and further rows.
+/// Rows that the transfers to this rank's sub-meshes read of foreign ones, and further rows.
 void RankExchange::find_own_interest(const Decomposition& decomposition, std::span<const SweepPlan> sweeps,
                                      std::span<const std::vector<Index>> further)
 {
@@ -150,7 +150,7 @@ void RankExchange::send(News news, std::size_t sweep, Index s, const Points& row
     }
 }
 
-/// Keeps what is for a later run; lets the task begin that waits for it.
+/// Keeps a message for a later run; else starts the task that waits for it.
 void RankExchange::deliver(Message message, StepGraph& graph, std::vector<Arrival>& arrivals)
 {
     const Header header = header_of(message);
@@ -169,7 +169,7 @@ void RankExchange::deliver(Message message, StepGraph& graph, std::vector<Arriva
     arrival->has_come = true;
 }
 
-/// Where the run fails, here or at another rank, tasks that still wait begin, too: they are left out then.
+/// If the run fails, here or at another rank, waiting tasks are started, too: they are then skipped.
 void RankExchange::receive_all(StepGraph& graph, std::vector<Arrival>& arrivals)
 {
     try {

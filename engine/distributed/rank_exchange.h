@@ -19,15 +19,15 @@ namespace seamflow {
 struct KnownSubMesh {
     /// Its number in the whole mesh.
     Index number = 0;
-    /// Whose it is.
+    /// Its owner.
     int rank = 0;
     Index n_vertices = 0;
     /// One of its faces, as numbered in the whole mesh.
     std::array<std::int64_t, 1> faces{};
 };
 
-/// Exchanges data of sub-meshes between ranks while a sweep runs: one message for each sub-mesh, kind of
-/// news and rank that waits for it. A thread of its own receives them, and lets the tasks begin that waited.
+/// Exchanges data of sub-meshes between ranks while a sweep runs: one message for each sub-mesh, kind of news and rank
+/// that waits for it. A separate thread receives them, and starts the tasks that waited.
 class RankExchange final : public ForeignSubMeshes {
   public:
     /// @param comm, part what the rank knows of the mesh; both must outlive this.
@@ -49,8 +49,8 @@ class RankExchange final : public ForeignSubMeshes {
     static constexpr std::size_t n_kinds = 3;
     static std::size_t kind(News news) { return static_cast<std::size_t>(news); }
 
-    /// What somebody wants to know of a sub-mesh: the rows for each kind of news, local, and whether it makes
-    /// predictions for him in each sweep.
+    /// What a rank needs of a sub-mesh: the local rows for each kind of news, and whether the sub-mesh predicts for it
+    /// in each sweep.
     struct Interest {
         int rank = -1;
         std::array<std::vector<Index>, n_kinds> rows;
@@ -61,7 +61,7 @@ class RankExchange final : public ForeignSubMeshes {
             return !rows[kind(news)].empty() && (news != News::Prediction || predicts[sweep] != 0);
         }
     };
-    /// Something that is to arrive in a sweep.
+    /// Data that is to arrive in a sweep.
     struct Arrival {
         News news;
         Index sub_mesh;
@@ -78,14 +78,14 @@ class RankExchange final : public ForeignSubMeshes {
     Communicator* comm_;
     const MeshPart* part_;
     std::vector<KnownSubMesh> known_;
-    /// Per foreign sub-mesh, what this rank wants to know; per own one, what others want.
+    /// Per foreign sub-mesh, what this rank needs; per own one, what others need.
     std::vector<Interest> own_interest_;
     std::vector<std::vector<Interest>> listeners_;
     /// Per sweep.
     std::vector<std::vector<Arrival>> arrivals_;
     /// Per kind of news and foreign sub-mesh: what has arrived in this run.
     std::array<std::vector<Bytes>, n_kinds> mail_;
-    /// Which run it is; and what has arrived for later ones.
+    /// The number of this run; and messages for later ones.
     std::uint64_t run_ = 0;
     std::vector<Message> early_;
 };

@@ -22,7 +22,7 @@ void require_fitting(const RankFlowState& state, std::span<const std::int64_t> n
     const auto has_rows = [&](const Points& array) { return array.rows() == state.vertices.rows(); };
     if (state.arrays.size() != saved.arrays.size() || state.numbers.size() != saved.numbers.size() ||
         !std::ranges::all_of(state.arrays, has_rows))
-        throw InputError("the state to resume from is that of steps of another kind");
+        throw InputError("the state to resume from belongs to steps of another kind");
 }
 
 }  // namespace

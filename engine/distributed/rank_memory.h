@@ -6,7 +6,7 @@
 #include "engine/state/flow_state.h"
 #include "engine/steppers/stepper.h"
 
-/// What one step of ranks hands to the next, in the ranges of all ranks. All ranks call these together.
+/// Data passed from step to step, in the ranges of all ranks. All ranks call these together.
 namespace seamflow {
 
 /// Adds to a state what the next step needs beside positions.
@@ -14,7 +14,7 @@ namespace seamflow {
 void collect_memory(Communicator& comm, const RankMesh& mesh, const Stepper& stepper, RankFlowState& state);
 
 /// Gives all of it to a stepper that has not taken a step.
-/// @throws on all ranks the same InputError if it does not fit.
+/// @throws the same InputError on all ranks if it does not fit.
 void restore_memory(Communicator& comm, const RankMesh& mesh, const RankFlowState& state, Stepper& stepper);
 
 }  // namespace seamflow

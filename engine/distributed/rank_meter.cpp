@@ -17,7 +17,7 @@ namespace seamflow {
 
 namespace {
 
-/// What is added up.
+/// The sums.
 enum Sum : std::uint8_t { Area, Cones, EdgeLength, Edges, Vertices, Distance, SquaredDistance };
 constexpr std::size_t n_sums = SquaredDistance + 1;
 using Sums = std::array<double, n_sums>;

@@ -11,7 +11,7 @@
 
 namespace seamflow {
 
-/// What is measured of a mesh that ranks share in one state: the same on all ranks, and for any number of them.
+/// Measures of one state of a mesh that ranks share: the same on all ranks, and for any number of them.
 struct RankMeasures {
     /// Of all faces, length².
     double area = 0.0;
@@ -19,7 +19,7 @@ struct RankMeasures {
     std::optional<double> volume = {};
     /// Length of the edges, those between two faces counting twice.
     double mean_edge = 0.0;
-    /// How far the last step has moved the vertices of faces, units of length.
+    /// How far the last step moved the vertices of faces, in units of length.
     LengthStatistics displacement = {};
 };
 
@@ -30,7 +30,7 @@ struct RankStepReport {
     /// What the rank has sent to others.
     std::uint64_t messages = 0;
     std::uint64_t bytes = 0;
-    /// Of a converged step, of all ranks: its iterations, and the residual that they left.
+    /// Of a converged step, of all ranks: its iterations, and the remaining residual.
     std::optional<int> iterations = {};
     std::optional<double> residual = {};
     /// With `measures`: as StepReport::estimated_v_max, by the mean edge of the whole mesh.
@@ -56,7 +56,7 @@ struct RankReport {
     double setup_seconds = 0.0;
     /// With ReportOptions::measures: the mesh before the first step.
     std::optional<RankMeasures> before = {};
-    /// Those that this flow took: not those before the state that it resumed from.
+    /// The steps of this flow: not those before the state that it resumed from.
     std::vector<RankStepReport> steps;
     /// With ReportOptions::measures: the mesh after all steps.
     std::optional<RankMeasures> after = {};
@@ -66,13 +66,13 @@ struct RankReport {
     std::vector<std::string> remarks;
 };
 
-/// What ranks need to go on after a complete step as if they had never ended: see RankStepState::capture. It
-/// belongs to the mesh as it was before the first step, and to the options.
+/// What ranks need to resume after a complete step as if they had not ended: see RankStepState::capture. It belongs to
+/// the mesh as it was before the first step, and to the options.
 struct RankFlowState {
     /// Number of the step; those after it are taken.
     int step = 0;
-    /// This rank's share: ranges of all ranks, in their order, make up the mesh. #V of the range by 3, near the
-    /// origin, where the flow goes on; for vertices without faces anything.
+    /// This rank's share: ranges of all ranks, in their order, make up the mesh. #V of the range by 3, near the origin,
+    /// where the flow runs; arbitrary for vertices without faces.
     Points vertices = Points(0, 3);
     /// What else the next step needs: #V of the range by 3 each, 0 for vertices of which it needs nothing; and
     /// numbers, the same on all ranks.

@@ -32,14 +32,14 @@ namespace {
 /// Each label once, ascending.
 std::vector<Index> distinct(const std::vector<Index>& labels)
 {
-    // Neighbouring faces mostly have the same.
+    // Neighbouring faces mostly have the same label.
     std::vector<Index> numbers;
     std::ranges::unique_copy(labels, std::back_inserter(numbers));
     sort_unique(numbers);
     return numbers;
 }
 
-/// Finds the sub-meshes that a rank knows, whole or in part, and lets the labels be places among them.
+/// Finds the sub-meshes that a rank knows, whole or in part, and makes the labels places among them.
 /// @param all sub-meshes of all ranks, ascending.
 std::vector<KnownSubMesh> localise_labels(const std::vector<OwnedSubMesh>& all, MeshPart& part)
 {
@@ -57,7 +57,7 @@ std::vector<KnownSubMesh> localise_labels(const std::vector<OwnedSubMesh>& all, 
 }
 
 /// All sub-meshes of all ranks, in ascending order of their numbers.
-/// @throws InputError for one that several ranks have.
+/// @throws InputError for a sub-mesh that several ranks have.
 std::vector<OwnedSubMesh> gather_sub_meshes(Communicator& comm, const MeshPart& part)
 {
     std::vector<OwnedSubMesh> own;
@@ -72,8 +72,8 @@ std::vector<OwnedSubMesh> gather_sub_meshes(Communicator& comm, const MeshPart& 
     return all;
 }
 
-/// The faces of this rank that do not repeat others, as indices into its part. Like one machine, only those are seen
-/// that lie where the mesh is not manifold.
+/// The faces of this rank that do not repeat others, as indices into its part. As on a single machine, only repeated
+/// faces at non-manifold vertices are found.
 std::vector<Index> faces_left(const MeshPart& own, const MeshPart& known, const Topology& topology)
 {
     const auto is_suspicious = [&](Index v) { return topology.kind[v] == VertexKind::NonManifold; };
@@ -87,7 +87,7 @@ std::vector<Index> faces_left(const MeshPart& own, const MeshPart& known, const 
                   [&](Index f) { return !std::ranges::binary_search(repeated, own.face_numbers[f]); });
 }
 
-/// What a number is over all ranks.
+/// The sum of a number over all ranks.
 std::int64_t sum_of_all(Communicator& comm, std::int64_t own)
 {
     const auto numbers = comm.gather_all(std::vector<std::int64_t>{own});
@@ -95,7 +95,7 @@ std::int64_t sum_of_all(Communicator& comm, std::int64_t own)
 }
 
 /// Leaves out faces that repeat others, once more is known of the part.
-/// @param mesh receives part and topology, without what makes them those of a flow.
+/// @param mesh receives part and topology, before they are prepared for a flow.
 void grow(Communicator& comm, const MeshPart& own, RankMesh& mesh)
 {
     // With two layers, all that have the vertices around those of its sub-meshes are known.
@@ -117,7 +117,7 @@ void grow(Communicator& comm, const MeshPart& own, RankMesh& mesh)
     mesh.remarks.push_back(remark_on_repeated_faces(mesh.n_repeated));
 }
 
-/// @throws InputError where some ranks say how vertices are attached and others do not.
+/// @throws InputError if some ranks have attachment weights and others do not.
 void require_alike_attached(Communicator& comm, const MeshPart& own)
 {
     if (own.mesh.n_vertices() == 0)
@@ -130,7 +130,7 @@ void require_alike_attached(Communicator& comm, const MeshPart& own)
 
 [[noreturn]] void refuse_cut(const std::string& what)
 {
-    throw InputError(what + ": take the labels that a flow of the same mesh reports, which are mended");
+    throw InputError(what + ": use the mended labels that a flow of the same mesh reports");
 }
 
 /// @throws InputError for a sub-mesh of this rank whose faces would have to be moved (see repair).
@@ -197,7 +197,7 @@ CountedVertices count_vertices(Communicator& comm, const RankMesh& mesh, Holds&&
 }
 
 /// Holds the vertices at which the Laplacian is not defined.
-/// @throws InputError if none of the whole mesh is left to move, for that is why.
+/// @throws InputError if this leaves no vertex of the whole mesh to move.
 void hold_undefined(Communicator& comm, const FlowOptions& options, RankMesh& mesh)
 {
     const Laplacian laplacian = options.laplacian;
@@ -257,7 +257,7 @@ std::vector<double> gather_curvatures(Communicator& comm, const RankMesh& mesh, 
     return of_all;
 }
 
-/// Which of all sub-meshes the known ones are.
+/// The places of the known sub-meshes among all.
 std::vector<Index> places_among(const std::vector<OwnedSubMesh>& all, const std::vector<KnownSubMesh>& known)
 {
     std::vector<Index> places;
@@ -267,9 +267,9 @@ std::vector<Index> places_among(const std::vector<OwnedSubMesh>& all, const std:
     return places;
 }
 
-/// A window that is large enough for both directions, whatever crosses Γ: as if every sub-mesh needed what all around
-/// it find. Ranks whose sub-meshes stand in this order, each with a window of at least this size, do not wait for each
-/// other in a circle: who is solved waits for factorisations of lower places than those that wait for it.
+/// A window that is large enough for both directions, whatever crosses Γ: as if every sub-mesh needed the results of
+/// all around it. Ranks whose sub-meshes are in this order, each with a window of at least this size, do not wait for
+/// each other in a circle: a solution waits for factorisations at lower places than those that wait for it.
 Index sufficient_window(const std::vector<std::vector<Index>>& adjacency, const std::vector<Index>& stage,
                         const std::vector<Index>& order)
 {

@@ -36,7 +36,7 @@ struct RankMesh {
     /// By local label.
     std::vector<KnownSubMesh> known;
     std::vector<std::uint8_t> is_own;
-    /// Of all ranks: faces that were left out, and vertices that are held for they are not manifold.
+    /// Of all ranks: faces that were left out, and vertices held because they are not manifold.
     std::int64_t n_repeated = 0;
     std::int64_t n_non_manifold = 0;
     /// A sentence on each of those.
@@ -46,7 +46,7 @@ struct RankMesh {
     [[nodiscard]] bool has_own_faces(Index v) const;
 };
 
-/// Grows the part of a rank by what it has to know of others, and settles which vertices move.
+/// Grows the part of a rank by what it must know of others, and decides which vertices move.
 /// @param offset to be subtracted from all positions.
 /// @throws InputError for sub-meshes and faces that cannot be used.
 RankMesh make_rank_mesh(Communicator& comm, const MeshPart& own, const Point& offset, const FlowOptions& options);
@@ -62,11 +62,11 @@ RankSubMeshes make_rank_sub_meshes(Communicator& comm, const RankMesh& mesh, Dec
                                    const FlowOptions& options, ForeignSubMeshes& foreign,
                                    std::vector<Index>& stage_of_all);
 
-/// The ranks as those that work on all sub-meshes together.
+/// The ranks as peers that work on all sub-meshes together.
 /// @param comm must outlive the result.
 std::unique_ptr<InterfacePeers> make_rank_peers(Communicator& comm, const RankMesh& mesh);
 
-/// What converged steps need, which ranks take together.
+/// What ranks need to take converged steps together.
 /// @param comm must outlive the result.
 PeerSubMeshes make_peer_sub_meshes(Communicator& comm, const RankMesh& mesh, Decomposition decomposition);
 

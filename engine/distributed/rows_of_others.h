@@ -8,12 +8,12 @@
 
 namespace seamflow {
 
-/// Brings a rank what others know of vertices none of whose faces it has.
+/// Fetches rows of vertices without faces on this rank from other ranks.
 class RowsOfOthers {
   public:
     /// All ranks call this together.
-    /// @param comm, mesh must outlive this. @param wanted numbers of vertices in the whole mesh, ascending, of each of
-    ///        which a rank has faces.
+    /// @param comm, mesh must outlive this. @param wanted numbers of vertices in the whole mesh, ascending, each with
+    ///        faces on some rank.
     RowsOfOthers(Communicator& comm, const RankMesh& mesh, const std::vector<std::int64_t>& wanted);
 
     /// All ranks call this together.

@@ -13,9 +13,9 @@ namespace seamflow {
 
 namespace {
 
-/// Less than that of a displacement is nothing.
+/// Smaller factors of a displacement count as zero.
 constexpr double smallest_factor = 0.1;
-/// How exactly factors are found.
+/// Bisections to find a factor.
 constexpr int bisections = 20;
 
 }  // namespace
@@ -44,7 +44,7 @@ LimitedComponents::LimitedComponents(const PolygonMesh& mesh, const Topology& to
     }
 }
 
-/// With that part of the displacements, from the component's first vertex.
+/// The volume with that fraction of the displacements, from the component's first vertex.
 double LimitedComponents::volume_of(Index component, const Points& positions, double factor) const
 {
     const auto where = [&](Index v) -> Point { return first_.row(v) + factor * (positions.row(v) - first_.row(v)); };
@@ -108,7 +108,7 @@ double LimitedComponents::factor_of(Index component, const Points& positions) co
     return factor >= smallest_factor ? factor : 0.0;
 }
 
-/// Shortens what displacements have across the normals of the result.
+/// Shortens the parts of displacements across the normals of the result.
 void LimitedComponents::limit_slides(Points& positions) const
 {
     Points limited = positions;

@@ -11,9 +11,9 @@
 
 namespace seamflow {
 
-/// Keeps the components of a surface within what they may lose (see ComponentLimits): the displacements of one that
-/// would lose more are multiplied by the largest factor with which it does not. A blend of the surface as it was and as
-/// it would be is that of a filter that takes less of everything.
+/// Limits what the components of a surface lose (see ComponentLimits): the displacements of one that would lose more
+/// are multiplied by the largest factor at which it does not. A blend of the surfaces before and after is that of a
+/// filter that removes less of everything.
 class LimitedComponents {
   public:
     /// Measures the surface as it is. The mesh and topology must outlive the object.

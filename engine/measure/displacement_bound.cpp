@@ -12,9 +12,9 @@ namespace {
 
 /// t: corrections are smooth over some √t edges.
 constexpr double smoothness = 25.0;
-/// Of D + t K over D, whose eigenvalues begin with 1.
+/// Largest eigenvalue of D + t K over D; the smallest is 1.
 constexpr double largest_eigenvalue = 1.0 + 2.0 * smoothness;
-/// Of what there is to correct.
+/// Relative to the correction.
 constexpr double accuracy = 1e-4;
 
 }  // namespace

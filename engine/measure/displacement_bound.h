@@ -10,7 +10,7 @@
 
 namespace seamflow {
 
-/// What a mesh that is known in part needs of those who know the rest. All of them call both together.
+/// Access to the rest of a mesh known in part. All who know a part call both functions together.
 struct KnownElsewhere {
     /// #V: whether a vertex and all its neighbours are known.
     std::vector<std::uint8_t> is_own = {};
@@ -20,8 +20,8 @@ struct KnownElsewhere {
     std::function<bool(bool holds)> any = {};
 };
 
-/// Keeps every vertex within a distance r of where it was: the nearest surface that does so takes the place of the one
-/// that does not, so that vertices are held on the boundaries of their spheres and all others follow smoothly.
+/// Keeps every vertex within a distance r of where it was: the surface is replaced by the nearest one that satisfies
+/// this, so that vertices are held on the boundaries of their spheres and all others follow smoothly.
 ///
 /// Nearest is meant in the metric of a diffusion step with uniform weights: the correction U minimises
 /// tr Uᵀ (D + t K) U under |V - V⁰ + U| ≤ r at each vertex, K the Laplacian of the graph with weights of one, D its
@@ -30,7 +30,7 @@ struct KnownElsewhere {
 /// vertex onto its sphere, so that the bound holds whatever is left.
 class DisplacementBound {
   public:
-    /// Takes the positions of the mesh as those to stay near to.
+    /// Takes the positions of the mesh as those to stay near.
     /// @param bound r, above 0, in units of length. @param elsewhere empty where the mesh is known as a whole.
     DisplacementBound(const PolygonMesh& mesh, const Topology& topology, double bound, KnownElsewhere elsewhere = {});
 

@@ -8,7 +8,7 @@
 namespace seamflow {
 
 /// Sums over the steps so far (see TotalDisplacement): of the tangential parts, #V by 3, and of the lengths of both
-/// parts, #V, not a number where they are not defined.
+/// parts, #V, NaN where they are not defined.
 struct DisplacementSums {
     Points drift = Points(0, 3);
     std::vector<double> tangential;
@@ -22,14 +22,14 @@ class DisplacementMeter {
     /// @param mesh it and its topology must outlive the meter.
     DisplacementMeter(const PolygonMesh& mesh, const Topology& topology);
 
-    /// Takes account of one step.
+    /// Adds one step.
     /// @param before, after #V by 3; `before` is `after` of the last step, if there was one.
     DisplacementStatistics add_step(const Points& before, const Points& after);
 
     /// Of all steps so far.
     [[nodiscard]] TotalDisplacement total() const;
 
-    /// The sums that the next step adds to, empty before the first; and continues from where there were some.
+    /// The sums that the next step adds to, empty before the first; `restore` continues from them.
     /// @param now #V by 3, the positions then.
     /// @throws InputError if they do not fit.
     [[nodiscard]] DisplacementSums sums() const;

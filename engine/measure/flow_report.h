@@ -35,7 +35,7 @@ struct PhaseSeconds {
 /// How far a flow carried the vertices along the surface and out of it, in units of length. Only the former deforms a
 /// texture on the mesh.
 struct TotalDisplacement {
-    /// Per vertex, the sum over all steps of the lengths of both parts: all that it was moved, there and back.
+    /// Per vertex, the sum over all steps of the lengths of both parts: all its movement, there and back.
     DisplacementStatistics path;
     /// Per vertex, the length of the sum of the tangential parts as vectors: how far the vertex, and the texture with
     /// it, was dragged along the surface in the end.
@@ -52,15 +52,15 @@ struct StepReport {
     double max_mean_curvature_after = 0.0;
     /// How far the vertices moved in this step, in units of length (see split_displacement).
     DisplacementStatistics displacement;
-    /// With the classical conditions, how far the copies of Γ are apart after this step: over the vertices of Γ, the
+    /// With the classical conditions, how far apart the copies of Γ are after this step: over the vertices of Γ, the
     /// largest distance between two copies, in units of length.
     std::optional<LengthStatistics> gap;
-    /// Of a converged step: its iterations, and the residual that they left.
+    /// Of a converged step: its iterations, and the remaining residual.
     std::optional<int> iterations;
     std::optional<double> residual;
     /// An estimate of the largest distance to the undecomposed flow after this step, VertexDistance::max. For sweeps it
     /// follows from the residual of the whole mesh's rows (see ErrorEstimate), for converged steps from their residual.
-    /// Not with Conditions::Schwarz, whose sub-meshes overlap, and with backward Euler steps alone.
+    /// Only for backward Euler steps, and not with Conditions::Schwarz, whose sub-meshes overlap.
     std::optional<double> estimated_v_max;  ///< in mean edge lengths
     /// Distance to the undecomposed flow after this step, with ReportOptions::reference.
     std::optional<VertexDistance> distance;
@@ -79,8 +79,8 @@ struct MeshReport {
     Index fixed_vertices = 0;
     /// Those held fixed because they lie on an edge of three or more faces, or where two fans of faces touch.
     Index non_manifold_vertices = 0;
-    /// #V: the lowest of the vertices that each moved as one with along seams (see MotionOptions::weld), its own number
-    /// where there are no others. Empty where no vertices did.
+    /// #V: the lowest of the vertices joined with each along seams (see MotionOptions::weld), its own number if there
+    /// are no others. Empty if none were joined.
     std::vector<Index> moved_with;
 };
 
@@ -116,18 +116,18 @@ struct CutReport {
     }
 };
 
-/// Whether steps were converged, and how many were not as far as asked.
+/// Whether steps were converged, and how many missed the tolerance.
 struct ConvergenceReport {
     /// How steps were taken: one of Sweep, Converged, ConjugateGradients and Undecomposed.
     Approach approach = Approach::Sweep;
-    /// What steps were converged to, asked for or chosen; empty: they were sweeps.
+    /// The tolerance of the steps, asked for or chosen; empty if they were sweeps.
     std::optional<double> tolerance;
     /// Converged steps that did not reach the tolerance, and those of them where more iterations would not have helped.
     int steps_short_of_tolerance = 0;
     int steps_stagnated = 0;
 };
 
-/// What the flow used of the machine.
+/// Resources that the flow used.
 struct ResourceReport {
     int threads = 0;
     /// How many factorisations of sub-meshes may live at once, and the bytes that were set aside for the

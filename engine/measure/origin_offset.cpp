@@ -8,7 +8,7 @@ namespace seamflow {
 
 namespace {
 
-/// From this distance on, in extents, a mesh lies far away.
+/// From this distance on, in extents, a mesh is far away.
 constexpr double far = 16.0;
 
 bool has_sound_corners(const PolygonMesh& mesh)
@@ -16,8 +16,8 @@ bool has_sound_corners(const PolygonMesh& mesh)
     return std::ranges::all_of(mesh.face_vertices, [&](Index v) { return v >= 0 && v < mesh.n_vertices(); });
 }
 
-/// False where a few corners already show that the surface does not lie far away, which is nearly always. Every vertex
-/// of one that does is further than `far` - ½ extents from the origin in some coordinate, and extents of a few are
+/// False if a few corners already show that the surface is not far away, as is nearly always so. Every vertex of a
+/// surface far away is further than `far` - ½ extents from the origin in some coordinate, and extents of a few are
 /// smaller.
 bool may_lie_far(const PolygonMesh& mesh)
 {
@@ -53,7 +53,7 @@ Point origin_offset(const BoundingBox& box)
     const double extent = (high - low).maxCoeff();
     if (!std::isnormal(extent))
         return Point::Zero();
-    // Multiples of the grid have few bits: what is left of a coordinate beside one has no more than it had itself.
+    // Multiples of the grid have few bits: a coordinate minus one of them has no more bits than itself.
     const double grid = std::exp2(std::ilogb(extent) + 1);
     Point offset = Point::Zero();
     for (int c = 0; c < 3; ++c) {

@@ -12,8 +12,9 @@ namespace seamflow {
 
 std::string remark_on_repeated_faces(std::int64_t n)
 {
-    return fmt::format("{} {} the same vertices as one before and took no part in the flow; they are still there.", n,
-                       n == 1 ? "face has" : "faces have");
+    return fmt::format(
+        "{} {} the same vertices as an earlier one and took no part in the flow, but stayed in the mesh.", n,
+        n == 1 ? "face has" : "faces have");
 }
 
 std::string remark_on_non_manifold_vertices(std::int64_t n)
@@ -34,7 +35,7 @@ std::string remark_on_undefined_vertices(std::int64_t n, std::int64_t first, Lap
 std::string remark_on_unmoving_mesh(Boundary boundary)
 {
     const std::string why = "No vertex can move: each is fixed, on the boundary, or where the mesh is not manifold.";
-    return boundary == Boundary::Free ? why : why + " A boundary that is free would move.";
+    return boundary == Boundary::Free ? why : why + " A free boundary would move.";
 }
 
 void remark_on_drift(const FlowOptions& options, FlowReport& report)

@@ -28,10 +28,10 @@ std::string remark_on_unmoving_mesh(Boundary boundary);
 void remark_on_drift(const FlowOptions& options, FlowReport& report);
 
 /// Adds a remark where equations were nearly singular.
-/// @param n_nearly_singular for every sub-mesh, how many of its factorisations.
+/// @param n_nearly_singular per sub-mesh, the number of such factorisations.
 void remark_on_near_singularity(std::span<const Index> n_nearly_singular, FlowReport& report);
 
-/// Adds a remark where sub-meshes could not have the factorisation that was asked for.
+/// Adds a remark if sub-meshes could not use the factorisation that was asked for.
 /// @param used for every sub-mesh that has one (see DirectSolver::kind).
 void remark_on_factorisation(Factorisation asked, std::span<const Factorisation> used, FlowReport& report);
 
@@ -40,7 +40,7 @@ void remark_on_factorisation(Factorisation asked, std::span<const Factorisation>
 /// @param remedy what to do about it, after a colon; empty: nothing.
 void remark_on_missed_tolerance(int iterations, const std::string& remedy, FlowReport& report);
 
-/// Adds a remark where the flow has drawn the surface together to next to nothing, which is hardly what was wanted.
+/// Adds a remark if the flow has shrunk the surface to almost nothing, which is hardly what was wanted.
 /// @param extent_before see extent_of. @param after #V by 3.
 void remark_on_collapse(double extent_before, const Points& after, FlowReport& report);
 

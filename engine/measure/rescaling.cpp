@@ -22,7 +22,7 @@ void require_movable(const Topology& topology, Index n_vertices)
     if (!held.empty())
         throw InputError(fmt::format(
             "rescaling moves every vertex, but {} {} held fixed, vertex {} (numbered from 0) among them, {}; or leave "
-            "rescaling out and take the low-pass filter (--filter low-pass), with which what is large hardly shrinks",
+            "rescaling out and use the low-pass filter (--filter low-pass), which hardly shrinks large features",
             held.size(), held.size() == 1 ? "is" : "are", held.front(),
             topology.kind[held.front()] == VertexKind::Boundary
                 ? "which is on the boundary: let the boundary move (--boundary free)"
@@ -42,15 +42,13 @@ void require_closed(const PolygonMesh& mesh, const Topology& topology)
     const std::string edge = fmt::format("the edge from vertex {} to {} of face {}", starts_at(h),
                                          starts_at(topology.next(mesh, h)), topology.face_of[h]);
     if (topology.twin[h] < 0)
-        throw InputError(
-            fmt::format("only a closed surface has a volume to keep, but {} lies on the boundary: close the "
-                        "mesh, keep its area instead (--rescale area), or take the low-pass filter (--filter "
-                        "low-pass), with which what is large hardly shrinks",
-                        edge));
-    throw InputError(
-        fmt::format("the volume is that of faces oriented alike, but those at {} are not: orient the mesh, "
-                    "or keep its area instead",
-                    edge));
+        throw InputError(fmt::format("only a closed surface has a volume to keep, but {} lies on the boundary: close "
+                                     "the mesh, keep its area instead (--rescale area), or use the low-pass filter "
+                                     "(--filter low-pass), which hardly shrinks large features",
+                                     edge));
+    throw InputError(fmt::format("the volume needs consistently oriented faces, but those at {} are not: orient the "
+                                 "mesh, or keep its area instead",
+                                 edge));
 }
 
 Point mean_of(std::span<const Index> corners, const Points& positions, const Point& origin)
@@ -74,13 +72,12 @@ Rescaling::Rescaling(const PolygonMesh& mesh, const Topology& topology, Rescale 
         require_closed(mesh, topology);
     require_movable(topology, mesh.n_vertices());
     first_ = measure(mesh.vertices);
-    // A volume this small against the area is what rounding leaves of parts that cancel each other.
+    // A volume this small relative to the area is the rounding error of parts that cancel each other.
     const double least = kind_ == Rescale::Volume ? 1e-12 * first_.area * std::sqrt(first_.area) : 0.0;
     const bool sound = std::isnormal(first_.size) && std::abs(first_.size) > least && first_.centroid.allFinite();
     if (mesh.n_faces() > 0 && !sound)
-        throw InputError(
-            fmt::format("the surface has no {} above rounding: scale the mesh, or leave the size as it comes",
-                        kind_ == Rescale::Area ? "area" : "volume"));
+        throw InputError(fmt::format("the surface has no {} above rounding: scale the mesh, or leave rescaling out",
+                                     kind_ == Rescale::Area ? "area" : "volume"));
 }
 
 Rescaling::Extent Rescaling::measure(const Points& positions) const
@@ -108,14 +105,14 @@ Similarity Rescaling::apply(Points& positions) const
         return {};
     const Extent now = measure(positions);
     const double ratio = first_.size / now.size;
-    // A surface that has fewer digits left would come out as what rounding has made of it.
+    // A surface that has fewer digits left would be dominated by rounding errors.
     constexpr double digits_wanted = 1e4;
     const double farthest = now.centroid.cwiseAbs().maxCoeff() + std::sqrt(now.area);
     const double rounding = std::numeric_limits<double>::epsilon() * farthest;
     const bool sound = std::isnormal(ratio) && ratio > 0.0 && now.centroid.allFinite();
     if (!sound || !(std::sqrt(now.area) > digits_wanted * rounding))
-        throw ComputationError("there is too little left of the surface to scale it back to its size: use a smaller "
-                               "time step or fewer steps");
+        throw ComputationError(
+            "too little is left of the surface to scale it back to its size: use a smaller time step or fewer steps");
     const Similarity similarity{now.centroid, kind_ == Rescale::Area ? std::sqrt(ratio) : std::cbrt(ratio),
                                 first_.centroid};
     for_each(run_in_parallel, mesh_->n_vertices(), [&](Index v) {

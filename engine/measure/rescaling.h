@@ -31,9 +31,9 @@ class Rescaling {
     ///         not oriented alike (naming an edge), or no volume.
     Rescaling(const PolygonMesh& mesh, const Topology& topology, Rescale kind);
 
-    /// Positions as the flow has them, #V by 3, scaled; vertices without faces stay. Without Rescale the same.
-    /// @returns what was done to those that do not stay.
-    /// @throws ComputationError if there is too little left of the surface.
+    /// Scales positions of the flow, #V by 3; vertices without faces stay. Does nothing without Rescale.
+    /// @returns the map applied to the other vertices.
+    /// @throws ComputationError if too little of the surface is left.
     Similarity apply(Points& positions) const;
 
   private:

@@ -12,7 +12,7 @@ namespace seamflow {
 
 namespace {
 
-/// Around position(0) … position(n - 1).
+/// The box around position(0) … position(n - 1).
 template <class Position>
 BoundingBox box_of(Index n, Position&& position)
 {

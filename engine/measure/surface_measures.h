@@ -7,7 +7,7 @@
 #include "partition/vector_area.h"
 #include "solvers/laplacian/laplacian.h"
 
-/// What is measured of a surface: its size and its mean curvature.
+/// Measures of a surface: its size and its mean curvature.
 namespace seamflow {
 
 /// The sizes by which sub-meshes and time steps are measured.
@@ -26,7 +26,7 @@ struct BoundingBox {
 };
 
 /// The box around the vertices that have faces; others are ignored. A point where there are no faces.
-/// @pre no face names a vertex that is not there.
+/// @pre every vertex named by a face exists.
 BoundingBox box_of_faces(const PolygonMesh& mesh);
 
 /// Of all faces (length²), whichever way they are oriented.
@@ -43,7 +43,7 @@ double extent_of(const Points& positions);
 std::vector<double> measure_curvature(const PolygonMesh& mesh, const Topology& topology, const Points& positions,
                                       const ScaledLaplacian& laplacian);
 
-/// The largest finite one of them.
+/// The largest finite value.
 double largest_curvature(const std::vector<double>& curvature);
 
 /// The same without a list of them.

@@ -33,7 +33,7 @@ Index farthest_mover(const Points& before, const Points& after, double unit)
     };
     const auto n = static_cast<Index>(after.rows());
     const double scale = std::isnormal(1.0 / unit) ? 1.0 / unit : 1.0;
-    // What overflows is far, but less far than what is not finite.
+    // An overflow is far, but less far than a non-finite position.
     const auto square_of = [scale](const auto& to, const auto& from) {
         return to.allFinite() ? std::min(((to - from) * scale).squaredNorm(), std::numeric_limits<double>::max())
                               : std::numeric_limits<double>::infinity();
@@ -93,7 +93,7 @@ void UpdateLimit::require(const Points& before, const Points& after, std::span<c
 
 std::string too_far(const std::string& where, const std::string& what)
 {
-    return fmt::format("{} {}: use a smaller time step, another Laplacian, or repair the mesh there", where, what);
+    return fmt::format("{} {}: use a smaller time step or another Laplacian, or repair the mesh there", where, what);
 }
 
 }  // namespace seamflow

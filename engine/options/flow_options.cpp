@@ -23,7 +23,7 @@ ScaledLaplacian laplacian_of(const FlowOptions& options)
 
 StepFilter filter_of(const FlowOptions& options)
 {
-    // Tolerances that were not asked for are not smaller.
+    // Tolerances that were not asked for are never smaller.
     constexpr double smallest_by_choice = 1e-4;
     StepFilter filter{.kind = options.filter, .order = options.order.value_or(orders_of(options.filter).first)};
     constexpr double of_undecomposed = 1e-6;

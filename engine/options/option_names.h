@@ -6,8 +6,8 @@
 #include "engine/options/flow_options.h"
 #include "partition/errors.h"
 
-/// The words by which command lines and checkpoints know the values of FlowOptions. There is no other list of them: a
-/// further value has one line here.
+/// The names of the values of FlowOptions in command lines and checkpoints. There is no other list of them: a new value
+/// needs one line here.
 namespace seamflow {
 
 template <class Option>
@@ -110,7 +110,7 @@ struct OptionNames<Precision> {
         {"auto", Precision::Automatic}, {"single", Precision::Single}, {"double", Precision::Double}};
 };
 
-/// @throws OptionError for what is no value of the option.
+/// @throws OptionError for an invalid value.
 template <class Option>
 std::string_view option_name(Option value)
 {

@@ -40,7 +40,7 @@ void require_within(const OptionTraits& row, const std::optional<Value>& value)
         require_within(row, *value);
 }
 
-/// All numbers.
+/// Checks all numbers.
 void require_limits(const FlowOptions& options)
 {
     if (options.radius && options.time_step != 0.0)
@@ -83,7 +83,7 @@ void require_valid_tolerance(const FlowOptions& options)
     if (asks_for_convergence &&
         (options.interface.conditions != Conditions::AdaptedRobin || options.scheme == Scheme::ExplicitEuler))
         throw OptionError(std::string(options.accuracy.tolerance ? "tolerance is given" : "approach is converged") +
-                          ", which leaves no room for other conditions or an explicit scheme");
+                          ", which rules out other conditions and an explicit scheme");
 }
 
 /// Without a tolerance converged steps are not chosen (see choose_tolerance).
@@ -91,10 +91,9 @@ void require_valid_factorisation(const FlowOptions& options)
 {
     if (is_foreign(options.resources.factorisation) && is_symmetric(options.laplacian) &&
         (options.accuracy.tolerance || options.accuracy.approach == Approach::Converged))
-        throw OptionError(
-            "factorisation is that of another library, but converged steps of symmetric Laplacians need the "
-            "Schur complements that the library's own gives: take sweeps (Approach::Sweep), or leave the factorisation "
-            "automatic");
+        throw OptionError("factorisation is by another library, but converged steps of symmetric Laplacians need the "
+                          "Schur complements that this library's own provides: use sweeps (Approach::Sweep), or leave "
+                          "the factorisation automatic");
 }
 
 void require_valid_approach(const FlowOptions& options)
@@ -103,7 +102,7 @@ void require_valid_approach(const FlowOptions& options)
         return;
     const std::string approach = fmt::format("approach is {}", option_name(options.accuracy.approach));
     if (const std::string_view other = first_set(options, concern::sweeps | concern::method); !other.empty())
-        throw OptionError(fmt::format("{}, which leaves no room for {}: leave one of them out", approach, other));
+        throw OptionError(fmt::format("{}, which rules out {}: leave one of them out", approach, other));
     if (options.cut.subdomains > 1 || !options.cut.labels.empty())
         throw OptionError(approach + ", which takes the whole mesh: leave out the sub-meshes");
     if (options.accuracy.approach == Approach::Undecomposed)
@@ -129,13 +128,13 @@ void require_valid_constraints(const FlowOptions& options)
             "separate");
     if (!options.motion.feature_edges.empty()) {
         if (!options.keep_edges)
-            throw OptionError("feature_edges are kept where keep_edges says so: give its angle as well");
+            throw OptionError("feature_edges are kept only with keep_edges: give its angle as well");
         if (options.motion.rescale != Rescale::None || options.motion.within)
             throw OptionError("rescale and within move vertices off feature_edges: leave them out");
     }
     if (options.motion.rescale != Rescale::None && !options.motion.fixed_vertices.empty())
-        throw OptionError("rescale moves every vertex, but fixed_vertices are to stay: leave rescale "
-                          "out; Filter::LowPass, with which what is large hardly shrinks, lets them stay");
+        throw OptionError("rescale moves every vertex, but fixed_vertices are to stay: leave rescale out; "
+                          "Filter::LowPass, which hardly shrinks large features, lets them stay");
 }
 
 bool is_weight(double weight)
@@ -155,7 +154,7 @@ void require_valid_attachment(const MotionOptions& motion)
             "attachment and attachment_weights both say how vertices are attached: leave one of them out");
 }
 
-/// What the options ask for beside plain mean curvature flow.
+/// The option that asks for more than plain mean curvature flow.
 std::string further_flow(const FlowOptions& options)
 {
     if (options.flow != FlowEquation::MeanCurvature)
@@ -187,12 +186,11 @@ void require_valid_flow(const FlowOptions& options)
     if (options.scheme == Scheme::ExplicitEuler)
         throw OptionError(asked + ", which is for backward Euler steps: leave out the explicit scheme");
     if (options.accuracy.approach == Approach::ConjugateGradients && options.flow != FlowEquation::MeanCurvature)
-        throw OptionError(asked +
-                          ", but approach is by conjugate gradients, which take mean curvature flow alone: leave "
-                          "the approach automatic");
+        throw OptionError(asked + ", but approach is by conjugate gradients, which support only mean curvature flow: "
+                                  "leave the approach automatic");
     if (!filter_of(options).is_plain() && !predicts(options))
-        throw OptionError(asked + ", which sweeps take with adapted Robin conditions and predicted transmission alone: "
-                                  "leave out other conditions, the derivatives, and p");
+        throw OptionError(asked + ", which sweeps support only with adapted Robin conditions and predicted "
+                                  "transmission: leave out other conditions, the derivatives, and p");
 }
 
 /// Steps that keep edges take the whole mesh.
@@ -206,9 +204,9 @@ void require_valid_edges(const FlowOptions& options)
     else if (!is_plain_flow(options))
         other = "another flow, a filter or an attachment";
     if (!other.empty())
-        throw OptionError(fmt::format("keep_edges is given, which smooths normals on the whole mesh and leaves no room "
-                                      "for {}: leave one of them out",
-                                      other));
+        throw OptionError(fmt::format(
+            "keep_edges is given, which smooths normals on the whole mesh and rules out {}: leave one of them out",
+            other));
 }
 
 }  // namespace
@@ -222,7 +220,7 @@ void require_valid(const FlowOptions& options)
 {
     require_limits(options);
     if (options.interface.q.has_value() != has_tangential_derivative(options.interface.conditions))
-        throw OptionError(options.interface.q ? "q is given, but belongs to the Ventcell conditions alone"
+        throw OptionError(options.interface.q ? "q is given, but belongs only to the Ventcell conditions"
                                               : "q must be given with the Ventcell conditions");
     if (options.interface.conditions == Conditions::Schwarz)
         require_valid_schwarz(options);

@@ -44,7 +44,7 @@ namespace {
 /// Leaves a few hundredths of a mean edge length on most meshes, and took one to four iterations with Δ_F on regular
 /// ones, up to 19 on a scan with slivers (measured: see engine/accuracy.md).
 constexpr double loose_tolerance = 1e-2;
-/// In squared mean edge lengths: with longer steps, what a sweep leaves comes near a mean edge length.
+/// In squared mean edge lengths: with longer steps, the error of a sweep approaches a mean edge length.
 constexpr double longest_step_of_sweeps = 16.0;
 /// For conjugate gradients, whose residual is that of all vertices. They leave no more than sweeps do, and with long
 /// steps than loosely converged sub-meshes, by the largest distance and by the mean one (measured: see
@@ -52,7 +52,7 @@ constexpr double longest_step_of_sweeps = 16.0;
 constexpr double tolerance_of_gradients = 3e-3;
 constexpr double tolerance_of_gradients_if_long = 1e-4;
 
-/// How often the predicted number of iterations may come to be needed.
+/// The multiple of the predicted number of iterations that may be needed.
 constexpr double safety_of_prediction = 2.0;
 
 bool is_long(const FlowOptions& options, const MeshSize& size)
@@ -74,7 +74,7 @@ bool speaks_of_sweeps(const FlowOptions& options)
            is_foreign(options.resources.factorisation);
 }
 
-/// Whether sweeps would take two sub-meshes at most.
+/// Whether sweeps would have at most two sub-meshes.
 bool has_few_sub_meshes(const MeshSize& size, const FlowOptions& options)
 {
     if (!options.cut.labels.empty())
@@ -119,12 +119,12 @@ ToleranceChoice choose_tolerance(const PolygonMesh& mesh, const MeshSize& size, 
     if (!is_symmetric(options.laplacian) || has_few_sub_meshes(size, options))
         return {};
     if (options.accuracy.approach == Approach::Automatic && !is_plain_flow(options) && !speaks_of_sub_meshes(options))
-        return {loose_tolerance, "single sweeps would leave more"};
+        return {loose_tolerance, "single sweeps would be less accurate"};
     if (is_long(options, size))
-        return {loose_tolerance, "steps as long as these would stray in single sweeps"};
+        return {loose_tolerance, "steps as long as these would drift in single sweeps"};
     if (options.cut.subdomains > 0 &&
         width_in_diffusion_lengths(size.area, options.cut.subdomains, options.time_step) < needs_of_sweeps.width)
-        return {loose_tolerance, "in sub-meshes as narrow as these single sweeps would stray"};
+        return {loose_tolerance, "in sub-meshes as narrow as these, single sweeps would drift"};
     if (traits_of(options.laplacian).reach == Reach::Faces && has_polygons(mesh))
         return {loose_tolerance, "on polygons it costs no more than single sweeps"};
     return {};

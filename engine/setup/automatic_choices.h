@@ -10,10 +10,10 @@
 #include "partition/polygon_mesh.h"
 #include "partition/topology.h"
 
-/// What a flow chooses where its options leave it open.
+/// Choices that a flow makes where its options do not.
 namespace seamflow {
 
-/// What sub-meshes have to be like for a kind of step.
+/// Requirements on sub-meshes for a kind of step.
 struct SubdomainNeeds {
     /// Setup and steps cost little per vertex in sub-meshes of about this size, and a million vertices make enough of
     /// them to keep 64 threads busy.
@@ -24,14 +24,14 @@ struct SubdomainNeeds {
 };
 
 inline constexpr SubdomainNeeds needs_of_sweeps{2'500, 10.0};
-/// Those of Laplacians without symmetry, whose factors grow faster with sub-meshes.
+/// For unsymmetric Laplacians, whose factors grow faster with sub-mesh size.
 inline constexpr SubdomainNeeds needs_of_unsymmetric_sweeps{1'000, 10.0};
 inline constexpr SubdomainNeeds needs_of_converged_steps{2'000, 2.0};
-/// Converged steps of Laplacians without symmetry, whose sub-meshes overlap.
+/// For converged steps of unsymmetric Laplacians, whose sub-meshes overlap.
 inline constexpr SubdomainNeeds needs_of_krylov_steps{1'000, 2.0};
 
-/// What sub-meshes of a flow have to be like.
-/// @param converged whether its steps are.
+/// Sub-mesh requirements of a flow.
+/// @param converged whether steps are converged.
 const SubdomainNeeds& needs_of(Laplacian laplacian, bool converged);
 
 /// A number of sub-meshes and the reason for it.
@@ -40,7 +40,7 @@ struct SubdomainChoice {
     std::string reason;
 };
 
-/// Sub-meshes of the size that costs little, but on average no narrower than they need to be.
+/// Sub-meshes of a size that costs little, but on average no narrower than required.
 SubdomainChoice choose_subdomains(const MeshSize& size, double time_step, const SubdomainNeeds& needs);
 
 /// Average width of k sub-meshes of a mesh of this area, the square root of their average area, in √dt.
@@ -56,8 +56,8 @@ struct ToleranceChoice {
 
 /// The tolerance of the options, if they have one. Where they leave open how sub-meshes are used, and unless another
 /// option asks for sweeps, steps are also converged, loosely, where a sweep would drift from the undecomposed step or
-/// cost more. So they are where the boundary moves, which sub-meshes can share only in converged steps.
-/// @param boundary_moves whether any boundary vertex does.
+/// cost more. They also are if the boundary moves, which sub-meshes can share only in converged steps.
+/// @param boundary_moves whether any boundary vertex moves.
 ToleranceChoice choose_tolerance(const PolygonMesh& mesh, const MeshSize& size, const FlowOptions& options,
                                  bool boundary_moves = false);
 
@@ -68,15 +68,14 @@ struct ApproachChoice {
     std::optional<double> tolerance = {};
     /// A sentence; empty where the options decide.
     std::string reason = {};
-    /// All ways that would do, the cheapest first; where there was no choice, none.
+    /// All ways that would do, cheapest first; empty if there was no choice.
     std::vector<PredictedCost> costs = {};
 };
 
-/// What the options ask for. With Approach::Automatic, unless they are about sub-meshes or sweeps, the way that costs
-/// least (see predict_cost), of those that come as near to the undecomposed flow as sub-meshes would by their own
-/// choice.
+/// The approach of the options. With Approach::Automatic, unless they concern sub-meshes or sweeps, the cheapest way
+/// (see predict_cost) of those that come as near to the undecomposed flow as automatically chosen sub-meshes would.
 /// @param topology with the vertices that move.
-/// @param earlier what was chosen for the steps that the flow continues from, maybe for fewer of them: it stays.
+/// @param earlier the choice for the steps that the flow continues from, maybe for fewer of them: it is kept.
 ApproachChoice choose_approach(const PolygonMesh& mesh, const Topology& topology, const MeshSize& size,
                                const FlowOptions& options, std::optional<Approach> earlier = {});
 

@@ -21,11 +21,10 @@ void require_manifold(const Topology& topology)
 {
     const auto found = std::find(topology.kind.begin(), topology.kind.end(), VertexKind::NonManifold);
     if (found != topology.kind.end())
-        throw InputError(
-            fmt::format("the mesh is not manifold at vertex {} (numbered from 0): three faces or more share an "
-                        "edge there, or several fans of faces meet; mend it, or do without strict to hold "
-                        "such vertices fixed",
-                        found - topology.kind.begin()));
+        throw InputError(fmt::format(
+            "the mesh is not manifold at vertex {} (numbered from 0): three faces or more share an edge there, or "
+            "several fans of faces meet; mend it, or leave strict out to hold such vertices fixed",
+            found - topology.kind.begin()));
 }
 
 std::size_t count_moving(const Topology& topology)

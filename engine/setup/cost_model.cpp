@@ -7,7 +7,7 @@ namespace seamflow {
 
 namespace {
 
-/// Seconds for each vertex: a constant part, and one for each coefficient of its row beside that of the diagonal.
+/// Seconds for each vertex: a constant part, and one for each off-diagonal coefficient of its row.
 struct PerVertex {
     double constant;
     double per_coefficient;
@@ -19,7 +19,7 @@ struct PerVertex {
 };
 
 constexpr PerVertex iteration{3.5, 1.1};
-/// Of an iteration of however few vertices: its three loops begin and end.
+/// Overhead of an iteration, however few its vertices: three loops begin and end.
 constexpr double seconds_per_iteration = 3e-5;
 constexpr PerVertex setup_of_conjugate_gradients{150.0, 30.0};
 constexpr PerVertex step_of_conjugate_gradients{40.0, 4.0};
@@ -33,19 +33,19 @@ constexpr Index large_mesh = 250'000;
 constexpr double part_of_setup_if_large = 0.6;
 
 constexpr PerVertex setup_of_undecomposed{400.0, 55.0};
-/// Of a mesh of so many vertices; factors grow faster than meshes.
+/// For `reference_vertices`; factors grow faster than meshes.
 constexpr PerVertex step_of_undecomposed{0.0, 55.0};
 constexpr double reference_vertices = 10'000.0;
 constexpr double growth_of_factors = 0.35;
 
-/// What a further solution with the same factor costs, in parts of a step.
+/// The cost of a further solution with the same factor, as a fraction of a step.
 constexpr double part_of_solution = 0.3;
 
-/// Iterations have been seen to grow a little more slowly than with the root of the condition number, which bounds them
-/// where the diagonal preconditions.
+/// Iterations have been observed to grow slightly more slowly than the root of the condition number, which bounds them
+/// with the diagonal as preconditioner.
 constexpr double iterations_of_one = 0.315;
 constexpr double growth_of_iterations = 0.4;
-/// Iterations on Γ, for each factor of e of the residual.
+/// Iterations on Γ, for each factor of e in the residual.
 constexpr double interface_iterations = 0.6;
 
 }  // namespace

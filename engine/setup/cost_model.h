@@ -7,12 +7,11 @@
 #include "engine/options/flow_options.h"
 #include "solvers/laplacian/row_averages.h"
 
-/// What a flow costs, by each way of taking its steps: fitted once to measurements of two cores (see
-/// samples/benchmark/speed.md), and used only to compare the ways with each other, so that results do not depend on
-/// the machine.
+/// The cost of a flow by each way of taking its steps: fitted once to measurements on two cores (see
+/// samples/benchmark/speed.md), and used only to compare these ways, so that results do not depend on the machine.
 namespace seamflow {
 
-/// What the costs depend on.
+/// Input of the cost model.
 struct FlowSize {
     Index vertices = 0;
     RowAverages rows;
@@ -23,12 +22,12 @@ struct FlowSize {
     int solutions = 1;
 };
 
-/// What to expect of a way of taking steps.
+/// Predicted cost of a way of taking steps.
 struct PredictedCost {
     Approach approach = Approach::Automatic;
     /// Where steps are converged.
     std::optional<double> tolerance = {};
-    /// What there is to do before the first step, and for each one, in seconds.
+    /// Work before the first step, and for each step, in seconds.
     double setup = 0.0;
     double step = 0.0;
 
@@ -36,21 +35,21 @@ struct PredictedCost {
 };
 
 /// How many iterations a step by conjugate gradients takes: a power of the condition number times the digits wanted, as
-/// in the bound of Saad (Iterative Methods for Sparse Linear Systems, 2003, eq. 6.128), fitted to what was measured.
+/// in the bound of Saad (Iterative Methods for Sparse Linear Systems, 2003, eq. 6.128), fitted to measurements.
 double predicted_iterations(const FlowSize& size, double tolerance);
 
 /// @param approach Sweep, Converged, ConjugateGradients or Undecomposed.
 /// @param tolerance of the steps, where they are converged.
 PredictedCost predict_cost(Approach approach, const FlowSize& size, std::optional<double> tolerance = {});
 
-/// One of the constants, to be looked at: nanoseconds for each vertex, and for each coefficient of its row.
+/// One of the constants, for inspection: nanoseconds per vertex, and per coefficient of its row.
 struct CostConstant {
     std::string_view name;
     double per_vertex = 0.0;
     double per_coefficient = 0.0;
 };
 
-/// All of them that are costs.
+/// All cost constants.
 std::vector<CostConstant> cost_constants();
 
 }  // namespace seamflow

@@ -24,7 +24,7 @@ std::vector<Index> vertices_without_faces(const PolygonMesh& mesh)
     return select(run_serially, mesh.n_vertices(), [&](Index v) { return has_face[v] == 0; });
 }
 
-/// Zeros of both signs differ.
+/// Zeros of different sign differ.
 bool have_same_bits(const Point& a, const Point& b)
 {
     return std::memcmp(a.data(), b.data(), 3 * sizeof(double)) == 0;
@@ -145,7 +145,7 @@ void FlowingMesh::bring_back(Points& positions) const
         shift_back(positions);
 }
 
-/// Its first vertices are those of mesh(): their faces get back those that they have in the given mesh.
+/// The first vertices are those of mesh(): their faces get back their vertices in the given mesh.
 void FlowingMesh::bring_back(PolygonMesh& separated) const
 {
     if (!copies_.empty())
@@ -155,7 +155,7 @@ void FlowingMesh::bring_back(PolygonMesh& separated) const
     bring_back(separated.vertices);
 }
 
-/// Positions near the origin to where they belong. The difference may not be exact for vertices without faces.
+/// Moves positions near the origin back. The difference may not be exact for vertices without faces.
 void FlowingMesh::shift_back(Points& positions) const
 {
     positions.rowwise() += offset_;

@@ -16,7 +16,7 @@ namespace seamflow {
 /// move together.
 class FlowingMesh {
   public:
-    /// @param given must outlive this, which alone moves it.
+    /// @param given must outlive this; only this moves it.
     explicit FlowingMesh(PolygonMesh& given);
 
     /// The mesh that flows. Its address does not change.
@@ -24,11 +24,11 @@ class FlowingMesh {
 
     /// Lets vertices along seams move as one. To be called at most once, before anything refers to mesh().
     /// @param topology of mesh(); becomes that of the mesh with vertices joined.
-    /// @param motion what it says of one of the vertices that are joined, it then says of their first: that this is
-    ///        held, or attached by the largest of their weights.
+    /// @param motion its settings for joined vertices then apply to the first of them: it is held, or attached by the
+    ///        largest of their weights.
     void weld_seams(Topology& topology, MotionOptions& motion, const Executor& exec);
 
-    /// How many vertices of mesh() have become one with others before them, and have no faces any more.
+    /// How many vertices of mesh() were joined to others before them, and no longer have faces.
     [[nodiscard]] Index n_copies() const { return static_cast<Index>(copies_.size()); }
 
     /// The vertex of mesh() that a vertex of the given mesh moves with.
@@ -40,7 +40,7 @@ class FlowingMesh {
     /// @returns whether there were any.
     bool leave_out_repeated_faces(const Topology& topology);
 
-    /// The labels of the faces that are left. Labels of a wrong number stay as they are.
+    /// The labels of the faces that are left. A list of wrong length stays as it is.
     [[nodiscard]] std::vector<Index> of_faces_left(const std::vector<Index>& labels) const;
 
     /// Moves the vertices.
@@ -53,26 +53,26 @@ class FlowingMesh {
     /// Whether positions of mesh() differ from those of the given mesh: they lie elsewhere, or vertices are joined.
     [[nodiscard]] bool is_elsewhere() const { return is_shifted() || !copies_.empty(); }
 
-    /// Positions of mesh() to those of the given mesh. Vertices without faces, which nothing moves, are where they were
-    /// at first, bit for bit.
+    /// Converts positions of mesh() to those of the given mesh. Vertices without faces, which never move, are as at
+    /// first, bit for bit.
     /// @param positions #V by 3, and any number of further rows.
     void bring_back(Points& positions) const;
 
-    /// The same for sub-meshes that are separate (see FlowReport::separated).
+    /// The same for separated sub-meshes (see FlowReport::separated).
     void bring_back(PolygonMesh& separated) const;
 
-    /// Puts vertices that have become one with others to these.
+    /// Moves joined vertices to the first of them.
     /// @param positions #V by 3, of mesh().
     void take_along(Points& positions) const;
 
-    /// Makes the report one of the given mesh: faces that were left out have the sub-mesh of the face that they repeat.
+    /// Converts the report to the given mesh: faces that were left out get the sub-mesh of the face that they repeat.
     void complete(FlowReport& report) const;
 
   private:
-    /// A vertex that is joined with others from which it is apart.
+    /// A vertex that is joined with others at some distance.
     struct Apart {
         Index vertex;
-        /// Where it is itself, and where those that are joined are, both in mesh() and before the first step.
+        /// Its own position, and that of the joined vertices, both in mesh() and before the first step.
         Point own;
         Point joined;
     };
@@ -84,7 +84,7 @@ class FlowingMesh {
     PolygonMesh* given_;
     Point offset_;
     std::optional<PolygonMesh> copy_;
-    /// Where the given mesh lies far away: the vertices without faces, and where they are.
+    /// If the given mesh is far away: the vertices without faces, and their positions.
     std::vector<Index> isolated_;
     Points of_isolated_ = Points(0, 3);
     /// See Weld::first; empty where nothing is joined. Those that are not their own first.
@@ -92,8 +92,8 @@ class FlowingMesh {
     std::vector<Index> copies_;
     std::vector<Apart> apart_;
     std::string remark_on_seams_;
-    /// Per face of the given mesh: the number that it, or the one that it repeats, has among those that are left. Empty
-    /// where none is repeated.
+    /// Per face of the given mesh: its number, or that of the face that it repeats, among those that are left. Empty if
+    /// none is repeated.
     std::vector<Index> number_;
 };
 

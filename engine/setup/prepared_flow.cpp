@@ -16,7 +16,7 @@ namespace seamflow {
 
 namespace {
 
-/// Checks the mesh, and says what tells the flow from others where that is needed.
+/// Checks the mesh, and identifies the flow where that is needed.
 FlowIdentity require_sound(const PolygonMesh& mesh, const FlowOptions& options, bool is_observed,
                            const FlowState* resume, Progress& progress)
 {
@@ -47,7 +47,7 @@ Cut make_cut(const PolygonMesh& mesh, const MeshSize& size, const Topology& topo
     return cut_into(mesh, topology, choice.count, exec, alongside);
 }
 
-/// Joins the faces and settles which vertices move.
+/// Joins the faces and determines which vertices move.
 void examine(PreparedFlow& prepared, FlowingMesh& mesh, Progress& progress)
 {
     FlowOptions& options = prepared.options;
@@ -73,14 +73,14 @@ void examine(PreparedFlow& prepared, FlowingMesh& mesh, Progress& progress)
     constrain_it();
 }
 
-/// METIS has one thread: the others measure in the meantime; where it has nothing to do measuring comes afterwards.
+/// METIS has one thread: the others measure in the meantime; if it has nothing to do, measuring comes afterwards.
 void cut_and_measure(PreparedFlow& prepared, const PolygonMesh& mesh, Progress& progress)
 {
     bool is_measured = false;
     const auto measure = [&] {
         is_measured = true;
         const FlowOptions& options = prepared.options;
-        // Colours are ordered by it.
+        // Curvature orders the colours.
         const bool is_ordering = options.accuracy.approach == Approach::Sweep;
         const bool is_beside_cut = options.report.measures && !takes_whole_mesh(options.accuracy.approach);
         if (is_ordering || is_beside_cut)
@@ -115,7 +115,7 @@ std::unique_ptr<PreparedFlow> prepare(FlowingMesh& mesh, const FlowOptions& opti
     cut_and_measure(*prepared, mesh.mesh(), progress);
     std::vector<std::string>& remarks = prepared->remarks;
     remarks.insert(remarks.begin(), prepared->cut.remarks.begin(), prepared->cut.remarks.end());
-    // One sub-mesh is solved exactly either way.
+    // A single sub-mesh is solved exactly either way.
     if (prepared->cut.n_parts == 1 && accuracy.approach == Approach::Converged && !choice.reason.empty()) {
         accuracy.approach = Approach::Undecomposed;
         accuracy.tolerance.reset();
@@ -148,10 +148,10 @@ void describe(const PreparedFlow& prepared, const FlowingMesh& mesh, FlowReport&
     if (prepared.cut.n_parts > 1 && options.steps > 0 && !options.accuracy.tolerance) {
         const double width = width_in_diffusion_lengths(prepared.size.area, prepared.cut.n_parts, options.time_step);
         if (width < needs_of_sweeps.width)
-            report.remarks.push_back(fmt::format(
-                "The sub-meshes are narrow against √dt ({:.2f} √dt on average, 10 are good): the result may "
-                "drift from the undecomposed flow; use fewer sub-meshes.",
-                width));
+            report.remarks.push_back(
+                fmt::format("The sub-meshes are narrow compared with √dt ({:.2f} √dt on average, 10 is good): the "
+                            "result may drift from the undecomposed flow; use fewer sub-meshes.",
+                            width));
     }
 }
 

@@ -18,17 +18,17 @@ namespace seamflow {
 
 /// A flow before its first step: all decisions about it, and the measurements behind them.
 struct PreparedFlow {
-    /// What was asked for, with what was chosen where that left it open: the approach, the tolerance. Labels are those
-    /// of the faces that flow.
+    /// The given options, with what was chosen where they left it open: the approach, the tolerance. Labels are those
+    /// of faces that flow.
     FlowOptions options;
-    /// Of the mesh and what was asked for. Empty where nobody needs it.
+    /// Of the mesh and the given options. Empty if it is not needed.
     FlowIdentity identity;
     MeshSize size;
     /// Which vertices move, too.
     Topology topology;
     /// The sub-mesh of every face.
     Cut cut;
-    /// #V: ‖ΔV⁰‖, in 1/length; empty where nobody needs that of each vertex.
+    /// #V: ‖ΔV⁰‖, in 1/length; empty if it is not needed per vertex.
     std::vector<double> curvature;
     /// Refers to the topology; empty without ReportOptions::measures.
     std::optional<DisplacementMeter> meter;
@@ -41,14 +41,14 @@ struct PreparedFlow {
 /// Checks a mesh and decides how it is to flow: which faces and vertices take part, whether steps are converged, which
 /// sub-meshes there are.
 /// @param mesh must outlive the result; vertices along seams are joined, faces that repeat others are left out.
-/// @param is_observed whether somebody may ask for the state of the flow.
+/// @param is_observed whether an observer may ask for the flow's state.
 /// @param resume the state that the flow is to resume from; nullptr: it begins.
 /// @throws InputError for a mesh, labels or a state that cannot be used; OptionError; ComputationError for a failure of
 ///         METIS; Cancelled.
 std::unique_ptr<PreparedFlow> prepare(FlowingMesh& mesh, const FlowOptions& options, bool is_observed,
                                       const FlowState* resume, Progress& progress);
 
-/// What the report says of that.
+/// Adds this to the report.
 void describe(const PreparedFlow& prepared, const FlowingMesh& mesh, FlowReport& report);
 
 }  // namespace seamflow

@@ -19,7 +19,7 @@ namespace seamflow {
 
 namespace {
 
-/// That of the filter that noise is measured for (see denoising_amount).
+/// Order of the filter that noise is measured for (see denoising_amount).
 constexpr int denoising_order = 3;
 
 constexpr std::array table{
@@ -47,17 +47,17 @@ constexpr std::array table{
                  .radius = LengthOnMesh{0.03, true}},
 };
 
-/// What each component of the mesh keeps of its volume at least, in parts of it.
+/// The largest change in volume of each component of the mesh, as a fraction of it.
 constexpr double most_volume_change = 0.02;
-/// How far vertices move along the surface at most, in standard deviations of the noise, which moved them there, too.
+/// How far vertices move along the surface at most, in standard deviations of the noise, which also moved them there.
 constexpr double most_slide = 4.0;
-/// Steps that are told in mean edges reach no further than that part of the diagonal: what coarse parts have of shape
-/// is not much larger.
+/// Steps given in mean edges reach no further than this fraction of the diagonal: the shape of coarse parts is not much
+/// larger.
 constexpr double largest_reach = 0.2;
-/// Bumps are not noise beyond that part of the diagonal.
+/// Larger bumps, as a fraction of the diagonal, are not noise.
 constexpr double largest_radius = 0.1;
 
-/// Three digits: what is printed of an amount is to be all of it.
+/// Three digits, so that an amount is printed in full.
 double rounded(double value)
 {
     return std::stod(fmt::format("{:.3g}", value));
@@ -77,7 +77,7 @@ void smooth_nothing(PresetChoice& choice, double mean_edge, std::string remark)
     choice.remark = std::move(remark);
 }
 
-/// Chooses by the noise of the mesh as it flows.
+/// Chooses by the noise of the mesh that flows.
 void choose_by_noise(const PolygonMesh& mesh, const std::optional<LengthOnMesh>& known, PresetChoice& choice,
                      const Executor& exec)
 {
@@ -91,17 +91,16 @@ void choose_by_noise(const PolygonMesh& mesh, const std::optional<LengthOnMesh>&
     choice.noise = known ? length_of(*known, diagonal) : estimate_noise(flowing, joined, exec);
     if (*choice.noise == 0.0)
         return smooth_nothing(choice, mean_edge,
-                              "No noise can be told from the shape of the mesh: nothing is smoothed. --radius says how "
-                              "much to smooth all the same, and --preset cad keeps edges.");
+                              "No noise can be told from the shape of the mesh: nothing is smoothed. Use --radius to "
+                              "smooth anyway, or --preset cad to keep edges.");
     const double t = denoising_amount(flowing, joined, *choice.noise, exec).amount;
     // Of Δ_U, dt h²/4 of whose rows of the mean of differences are t.
     const double radius = smoothed_radius(0.25 * t * mean_edge * mean_edge, 1, {.order = denoising_order});
     if (!(radius > 0.0) || !(radius <= largest_radius * diagonal))
         return smooth_nothing(
             choice, mean_edge,
-            "The noise of the mesh cannot be told from its shape well enough for smoothing to bring "
-            "it nearer to the true surface: nothing is smoothed. --radius says how much to smooth all "
-            "the same, and --preset cad keeps edges.");
+            "The noise of the mesh cannot be told from its shape well enough for smoothing to bring it nearer to the "
+            "true surface: nothing is smoothed. Use --radius to smooth anyway, or --preset cad to keep edges.");
     const double edges = time_step_for_radius(radius, std::max(choice.options.steps, 1), filter_of(choice.options)) /
                          (mean_edge * mean_edge);
     choice.options.time_step = require_step(rounded(edges) * mean_edge * mean_edge);

@@ -11,13 +11,13 @@
 /// What the options of a flow mean for its sub-meshes.
 namespace seamflow {
 
-/// What the equations of the flow have beside Vᵏ.
+/// Terms of the flow's equations besides Vᵏ.
 /// @param first #V by 3: V⁰. It and the options must outlive the result.
 FlowTerms terms_of(const FlowOptions& options, const Points& first);
 
 /// The equations of a sub-mesh.
 /// @param sub_mesh must outlive them.
-/// @param twin of the sub-mesh, for those equations to keep that need it.
+/// @param twin of the sub-mesh, kept by equations that need it.
 /// @throws ComputationError if their analysis fails.
 std::unique_ptr<SubMeshSystem> make_equations(const SubMesh& sub_mesh, std::vector<Index> twin,
                                               const FlowOptions& options, const FlowTerms& terms,

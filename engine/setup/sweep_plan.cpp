@@ -8,7 +8,7 @@ namespace seamflow {
 
 namespace {
 
-/// What sub-mesh s takes over at the vertices of its Γ at which another one solves before it.
+/// Transfers to sub-mesh s at the vertices of its Γ at which another one solves before it.
 std::vector<Transfer> list_traces(const Decomposition& decomposition, Index s, const std::vector<Index>& stage)
 {
     const auto& interface = decomposition.sub_meshes[s].interface;
@@ -37,8 +37,8 @@ std::vector<InterfaceRole> list_roles(const SubMeshInterface& interface, Index s
     return roles;
 }
 
-/// The sub-mesh, other than s itself, that speaks for a vertex beyond Γ: the lowest of those at a vertex of Γ, of which
-/// one has all faces of both.
+/// The sub-mesh, other than s itself, that sends a vertex beyond Γ: the lowest of those at a vertex of Γ, one of which
+/// has all faces of both.
 TransferRow sender_of(const Decomposition& decomposition, std::span<const Index> sharing, Index s, Index halo_vertex)
 {
     const Index vertex = decomposition.sub_meshes[s].local_to_global[halo_vertex];
@@ -56,8 +56,8 @@ Index lowest_but(Index s, std::span<const Index> sharing)
     return sharing[0] == s ? sharing[1] : sharing[0];
 }
 
-/// Faces beyond Γ with many corners, each of which would look at all others. Those at which the same sub-meshes meet
-/// see the same.
+/// Faces beyond Γ with many corners, each of which would visit all others. Corners where the same sub-meshes meet visit
+/// the same.
 class LargeFaces {
   public:
     explicit LargeFaces(const SubMeshInterface& interface)
@@ -65,7 +65,7 @@ class LargeFaces {
     {
     }
 
-    /// Whether a vertex of Γ at which the same sub-meshes meet has asked for the face; never of a small one.
+    /// Whether a vertex of Γ where the same sub-meshes meet has asked for the face; false for small ones.
     bool has_been_seen_from_like(Index face, Index vertex)
     {
         constexpr std::size_t many = 32;
@@ -106,7 +106,7 @@ void plan_predictions(const Decomposition& decomposition, Index s, SweepPlan& pl
             for (const Index v : interface.halo_faces[f]) {
                 if (v < sub_mesh.n_vertices)
                     continue;
-                // The lowest of all, so that the choice does not depend on how vertices are numbered.
+                // The lowest of all, so that the choice does not depend on the numbering of vertices.
                 TransferRow& sender = senders[v - sub_mesh.n_vertices];
                 if (sender.from >= 0 && sender.from <= lowest_but(s, interface.sharing[i]))
                     continue;

@@ -8,14 +8,14 @@ namespace seamflow {
 
 namespace {
 
-/// To be raised whenever `fields` or the checksum changes.
+/// Must be increased whenever `fields` or the checksum changes.
 constexpr std::uint32_t format = 0x5ea30005;
 
 }  // namespace
 
 void refuse_archive(const std::filesystem::path& file, const std::string& reason)
 {
-    throw InputError(file.string() + ": " + reason + "; remove it to begin anew");
+    throw InputError(file.string() + ": " + reason + "; remove it to start over");
 }
 
 ArchiveWriter::ArchiveWriter(const std::filesystem::path& path, std::string_view line)
@@ -39,11 +39,11 @@ ArchiveReader::ArchiveReader(const std::filesystem::path& path, std::string_view
     if (n_left_ >= n_before + sizeof(std::uint64_t))
         numbers(std::span(line_there));
     if (line_there != line)
-        refuse_archive(path, "is no checkpoint, or only the beginning of one");
+        refuse_archive(path, "is not a checkpoint, or only the beginning of one");
     std::uint32_t format_there = 0;
     number(format_there);
     if (format_there != format)
-        refuse_archive(path, "was written by another version of this program, or on a machine of another kind");
+        refuse_archive(path, "was written by another version of this program, or on another kind of machine");
     Checksum checksum;
     checksum.add(std::as_bytes(std::span(line)));
     checksum.add_numbers(std::span<const std::uint32_t>(&format_there, 1));
@@ -60,7 +60,7 @@ ArchiveReader::ArchiveReader(const std::filesystem::path& path, std::string_view
     if (checksum_there != checksum.value())
         refuse_archive(path, "is damaged: it is not as it was written");
     if (expected.value_or(checksum_there) != checksum_there)
-        refuse_archive(path, "is not the one that belongs to the others");
+        refuse_archive(path, "does not belong to the others");
     file_.seekg(static_cast<std::streamoff>(n_before));
     n_left_ = n_bytes;
 }

@@ -17,7 +17,7 @@
 #include "engine/state/flow_state.h"
 #include "partition/io/output_file.h"
 
-/// Files that keep structs, bit for bit. A file is: a line that says what it is; the format, which reads differently on
+/// Files that hold structs, bit for bit. A file is: a line that names its kind; the format, which reads differently on
 /// machines of another byte order; the fields of the struct in the order of `fields`, arrays after their sizes; the
 /// checksum of all that.
 namespace seamflow {
@@ -25,7 +25,7 @@ namespace seamflow {
 /// @throws InputError naming the file, the reason and what to do.
 [[noreturn]] void refuse_archive(const std::filesystem::path& file, const std::string& reason);
 
-/// Puts parts into a file.
+/// Writes parts to a file.
 class ArchiveWriter {
   public:
     /// @param line what the file is.
@@ -71,8 +71,8 @@ class ArchiveWriter {
     Checksum checksum_;
 };
 
-/// Takes parts out of a file. An array takes no more memory than the length of the file allows, whatever size is
-/// written there.
+/// Reads parts from a file. An array takes no more memory than the length of the file allows, whatever size the file
+/// gives.
 class ArchiveReader {
   public:
     /// Checks the whole file first. @param expected its checksum, where that is known.
@@ -166,7 +166,7 @@ template <class Value>
 concept HasNumbers =
     Is<Value, Points> || Is<Value, std::string> || Is<Value, std::vector<double>> || Is<Value, std::vector<Index>>;
 
-/// Puts the parts of a value into a file or takes them out: values are const where they are written.
+/// Writes the parts of a value to a file or reads them: values are const when they are written.
 template <class Archive, class Value>
 void transfer(Archive& archive, Value& value)
 {
@@ -200,8 +200,8 @@ std::uint64_t write_archive(const std::filesystem::path& path, std::string_view 
 
 /// Reads it back.
 /// @param expected its checksum, where that is known.
-/// @throws InputError naming the file if it cannot be opened, is none of these files, comes from a version or a machine
-///         that writes others, is cut off, or has changed since it was written.
+/// @throws InputError naming the file if it cannot be opened, is not such a file, comes from a version or a machine
+///         with another format, is cut off, or has changed since it was written.
 template <class Struct>
 Struct read_archive(const std::filesystem::path& path, std::string_view line,
                     std::optional<std::uint64_t> expected = {})

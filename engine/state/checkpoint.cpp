@@ -83,17 +83,17 @@ void make_checkpoint_folder(const std::filesystem::path& folder)
     std::error_code error;
     std::filesystem::create_directories(folder, error);
     if (!std::filesystem::is_directory(folder))
-        throw OutputError(fmt::format("{}: there can be no such folder for checkpoints, {}; name another",
-                                      folder.string(), error ? error.message() : "for that is a file"));
+        throw OutputError(fmt::format("{}: cannot create this folder for checkpoints: {}; name another",
+                                      folder.string(), error ? error.message() : "it is a file"));
 }
 
 void require_belongs(const std::filesystem::path& file, const FlowIdentity& of_state, const FlowIdentity& of_flow,
                      std::int64_t step, int steps)
 {
     const auto message = [&](const std::exception& error) {
-        return fmt::format("{}: {}; go on with the same input and options, name another folder, or remove it to begin "
-                           "anew",
-                           file.string(), error.what());
+        return fmt::format(
+            "{}: {}; continue with the same input and options, name another folder, or remove it to start over",
+            file.string(), error.what());
     };
     try {
         require_same(of_state, of_flow);

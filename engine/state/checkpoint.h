@@ -12,12 +12,12 @@ namespace seamflow {
 void write_checkpoint(const std::filesystem::path& file, const FlowState& state);
 
 /// Reads it back, bit for bit.
-/// @throws InputError naming the file if it cannot be opened, is none of these files, comes from a version or a machine
-///         that writes others, is cut off, or has changed since it was written.
+/// @throws InputError naming the file if it cannot be opened, is not such a file, comes from a version or a machine
+///         with another format, is cut off, or has changed since it was written.
 FlowState read_checkpoint(const std::filesystem::path& file);
 
-/// Makes the folder of a checkpoint if it is not there.
-/// @throws OutputError if there can be no such folder.
+/// Creates a checkpoint's folder if it does not exist.
+/// @throws OutputError if it cannot be created.
 void make_checkpoint_folder(const std::filesystem::path& folder);
 
 /// Checks that a checkpoint belongs to a flow, and is not beyond its end.

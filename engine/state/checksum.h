@@ -9,8 +9,8 @@ struct XXH3_state_s;
 
 namespace seamflow {
 
-/// A checksum of a sequence of bytes (XXH3 of xxHash, 64 bits). Sequences that differ have the same one once in 2⁶⁴.
-/// The portions in which bytes are added do not matter. It does not protect against intent.
+/// A checksum of a sequence of bytes (XXH3 of xxHash, 64 bits). Different sequences agree once in 2⁶⁴. The portions in
+/// which bytes are added do not matter. It does not protect against tampering.
 class Checksum {
   public:
     /// @throws std::bad_alloc

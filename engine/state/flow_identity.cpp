@@ -26,7 +26,7 @@ std::string text_of(std::integral auto value)
     return fmt::format("{}", value);
 }
 
-/// The fewest digits that tell it from all others.
+/// The fewest digits that are unique to it.
 std::string text_of(double value)
 {
     std::array<char, 32> text;
@@ -87,7 +87,7 @@ std::string text_of(const std::vector<double>& numbers)
     return fmt::format("those with checksum {:x}", checksum.value());
 }
 
-/// Of the mesh near the origin, where it flows: the same whether it has been brought there or not.
+/// Checksum of the mesh near the origin, where it flows: the same whether it has been moved there or not.
 std::string text_of(const PolygonMesh& mesh)
 {
     Checksum checksum;
@@ -109,7 +109,7 @@ FlowIdentity identify(const PolygonMesh& mesh, const FlowOptions& options)
     for_each_option(options, [&](const auto& row) {
         if ((row.concerns & concern::no_result) == 0)
             identity.entries.push_back({std::string(row.field), text_of(*row.value)});
-        // That of the filter where it is left open.
+        // The order of the filter if it is left open.
         if (row.field == "order")
             identity.entries.back().value = text_of(filter_of(options).order);
     });

@@ -12,7 +12,7 @@
 
 namespace seamflow {
 
-/// What one step hands to the next. Positions always; the rest depends on the stepper.
+/// Data passed from step to step: always positions; the rest depends on the stepper.
 struct StepMemory {
     /// #V by 3, after the last complete step.
     Points positions = Points(0, 3);
@@ -20,7 +20,7 @@ struct StepMemory {
     std::vector<double> numbers;
 };
 
-/// Takes out of a StepMemory what was put in, in the same order.
+/// Reads a StepMemory in the order in which it was written.
 class StepMemoryReader {
   public:
     explicit StepMemoryReader(const StepMemory& memory)
@@ -28,10 +28,10 @@ class StepMemoryReader {
     {
     }
 
-    /// @throws InputError if there is no further array, or it has not that many rows, or numbers that are not finite.
+    /// @throws InputError if there is no further array, or it has another number of rows, or non-finite numbers.
     const Points& array(Eigen::Index rows);
 
-    /// The same for an array whose numbers may be any.
+    /// The same for an array of any numbers.
     const Points& array_of_any(Eigen::Index rows);
 
     /// @throws InputError if there is no further number.
@@ -49,7 +49,7 @@ class StepMemoryReader {
     std::size_t next_number_ = 0;
 };
 
-/// Everything that a flow needs to go on after a complete step as if it had never ended: see StepState::capture and
+/// Everything a flow needs to resume after a complete step as if it had never ended: see StepState::capture and
 /// FlowControl::resume. It belongs to the mesh as it was before the first step, and to the options.
 struct FlowState {
     FlowIdentity identity;
@@ -66,7 +66,7 @@ struct FlowState {
     std::optional<StepMemory> reference = {};
 
     [[nodiscard]] int n_steps() const { return static_cast<int>(steps.size()); }
-    /// #V by 3, as the flow itself goes on with them: unscaled where MotionOptions::rescale scales results alone.
+    /// #V by 3, as the flow itself continues with them: unscaled if MotionOptions::rescale scales only results.
     [[nodiscard]] const Points& positions() const { return flow.positions; }
 };
 

@@ -23,7 +23,7 @@ void CondensedSubMesh::use_memory(FactorMemory& memory, bool is_kept)
     is_kept_ = is_kept;
 }
 
-/// From increments of 0 on.
+/// Starts with increments of 0.
 void CondensedSubMesh::begin_increments(const CondensedStep& step, SolverWorkspace& workspace) const
 {
     for (const Index v : interior())
@@ -32,7 +32,7 @@ void CondensedSubMesh::begin_increments(const CondensedStep& step, SolverWorkspa
     workspace.increments.setZero();
 }
 
-/// Vᵏ⁺¹ - Vᵏ, as far as the step has come.
+/// Vᵏ⁺¹ - Vᵏ as reached so far in the step.
 void CondensedSubMesh::fetch_increments(const CondensedStep& step, SolverWorkspace& workspace) const
 {
     Points& increments = workspace.increments;
@@ -55,7 +55,7 @@ NeumannSystem::Assembled CondensedSubMesh::assemble(const CondensedStep& step, S
     return system_->assemble(positions, workspace.increments, data, step.time_step, workspace);
 }
 
-/// Condenses with the factor that it makes.
+/// Factorises, and condenses with that factor.
 NeumannSystem::Factor CondensedSubMesh::factorise(const CondensedStep& step, SolverWorkspace& workspace)
 {
     Stopwatch watch;
@@ -105,7 +105,7 @@ void CondensedSubMesh::condense_again(const CondensedStep& step, SolverWorkspace
     seconds_->solve += watch.lap();
 }
 
-/// The factor as the last condensation has left it.
+/// The factor left by the last condensation.
 NeumannSystem::Factor CondensedSubMesh::take_factor(const CondensedStep& step, SolverWorkspace& workspace)
 {
     if (factor_)
@@ -115,7 +115,7 @@ NeumannSystem::Factor CondensedSubMesh::take_factor(const CondensedStep& step, S
 }
 
 /// Continues to an update of Γ.
-/// @param factor as condensation has left it. @param workspace receives the increments.
+/// @param factor as left by condensation. @param workspace receives the increments.
 void CondensedSubMesh::substitute(const CondensedStep& step, NeumannSystem::Factor& factor, const Points& update,
                                   SolverWorkspace& workspace) const
 {

@@ -14,17 +14,17 @@
 
 namespace seamflow {
 
-/// A step that is condensed to Γ, as all sub-meshes share it.
+/// A step condensed to Γ, as shared by all sub-meshes.
 struct CondensedStep {
     /// #V by 3: Vᵏ.
     const Points& before;
     /// #V by 3: Vᵏ⁺¹ in the end; until then interiors have Vᵏ⁺¹ - Vᵏ there, as far as the step has come.
     Points& positions;
-    /// #V by 3: while the step is applied to something else than Vᵏ, that; else null.
+    /// #V by 3: data other than Vᵏ that the step is applied to; else null.
     const Points* data;
     /// dt, in length².
     double time_step;
-    /// #vertices of Γ by 3: the update of Γ at which the interiors are.
+    /// #vertices of Γ by 3: the update of Γ that interiors belong to.
     const Points& reached;
     /// #copies by 3: the right-hand sides on Γ of all sub-meshes, and later what is left of them.
     Points& condensed;
@@ -33,7 +33,7 @@ struct CondensedStep {
 /// A sub-mesh whose equations are condensed to Γ and solved by back substitution. One thread at a time.
 class CondensedSubMesh {
   public:
-    /// What steps need of a SubMesh.
+    /// SubMesh data that steps need.
     struct Vertices {
         std::vector<Index> faces = {};
         Index n_vertices = 0;
@@ -49,7 +49,7 @@ class CondensedSubMesh {
     [[nodiscard]] const Vertices& vertices() const { return vertices_; }
     [[nodiscard]] const NeumannSystem& system() const { return *system_; }
 
-    /// @param is_kept whether the factor lives from condensation to back substitution; otherwise it is made again
+    /// @param is_kept whether the factor lives from condensation to back substitution; otherwise it is recomputed
     ///        whenever it is needed, with the same bits.
     void use_memory(FactorMemory& memory, bool is_kept);
     [[nodiscard]] bool is_kept() const { return is_kept_; }
@@ -57,7 +57,7 @@ class CondensedSubMesh {
     /// Whether the factor of this step is in single precision.
     [[nodiscard]] bool is_single() const { return precision_ == Precision::Single; }
 
-    /// The largest residual of the interior in each column, when it was condensed last.
+    /// The largest residual of the interior in each column, when last condensed.
     [[nodiscard]] const Point& residual() const { return residual_; }
 
     /// Factorises and condenses, from Vᵏ⁺¹ = Vᵏ on.
@@ -70,8 +70,8 @@ class CondensedSubMesh {
     /// Solves for the interior at an update of Γ, and condenses what is left of the equations.
     void refine(const CondensedStep& step, const Points& update, SolverWorkspace& workspace);
 
-    /// Completes Vᵏ⁺¹, or what the step makes of other data, at the vertices that it owns.
-    /// @param keeps_factor whether there is another solution to come.
+    /// Completes Vᵏ⁺¹, or the step's result for other data, at the vertices that it owns.
+    /// @param keeps_factor whether another solution follows.
     void back_substitute(const CondensedStep& step, const Points& update, bool keeps_factor,
                          SolverWorkspace& workspace);
 

@@ -36,7 +36,7 @@ void ConvergedStepper::step(const Points& before)
     note();
 }
 
-/// The same graph again for each further solution, with the same factors.
+/// Runs the same graph again for each further solution, with the same factors.
 void ConvergedStepper::complete_filter()
 {
     InterfaceResult sum = reached_.last;
@@ -64,7 +64,7 @@ void ConvergedStepper::complete_filter()
     reached_.last = sum;
 }
 
-/// How well the step has kept to the tolerance.
+/// Notes how well the step has met the tolerance.
 void ConvergedStepper::note()
 {
     reached_.n_short_of_tolerance += reached_.last.residual <= stop_.tolerance ? 0 : 1;

@@ -14,9 +14,8 @@
 
 namespace seamflow {
 
-/// What steps that take the undecomposed step itself have in common: an iteration solves an equation to a tolerance. It
-/// is that for what sub-meshes share, with tasks of the sub-meshes before it and maybe after it, or that of the whole
-/// mesh.
+/// Common base of steppers that take the undecomposed step itself: an iteration solves an equation to a tolerance, for
+/// what sub-meshes share, with tasks of the sub-meshes before it and maybe after it, or for the whole mesh.
 class ConvergedStepper : public Stepper {
   public:
     void step(const Points& before) final;
@@ -38,12 +37,12 @@ class ConvergedStepper : public Stepper {
     /// Solves it.
     virtual InterfaceResult solve_equation(const IterationStop& stop, const Executor& exec) = 0;
 
-    /// Takes back what `save` has added.
+    /// Restores what `save` has added.
     virtual void restore_further(StepMemoryReader&) {}
 
     /// Fills in what all such steps report.
     /// @param parts all sub-meshes.
-    /// @param advice what to do where steps missed the tolerance for want of iterations; may be empty.
+    /// @param advice what to do where steps missed the tolerance for lack of iterations; may be empty.
     template <class Parts>
     void describe_parts(const Parts& parts, const std::string& advice, FlowReport& report) const
     {
@@ -60,9 +59,9 @@ class ConvergedStepper : public Stepper {
     StepFilter filter_;
     /// #V by 3: Vᵏ, during a step.
     const Points* before_ = nullptr;
-    /// #V by 3: while the step is applied to something else with the same factor, that; 0 at what does not move.
+    /// #V by 3: other data, if any, that the step is applied to with the same factor; 0 where nothing moves.
     const Points* data_ = nullptr;
-    /// #V by 3: Vᵏ⁺¹, complete at the end of a step; or what the step makes of data.
+    /// #V by 3: Vᵏ⁺¹, complete at the end of a step; or the step's result for data.
     Points positions_;
     /// Per sub-mesh, and of the equation.
     std::vector<PhaseSeconds> seconds_;

@@ -12,13 +12,13 @@ namespace seamflow {
 
 namespace {
 
-/// Normals are smoothed and vertices moved so often, each time by a part of the step (measured: see
+/// How often normals are smoothed and vertices moved, each time by a part of the step (measured: see
 /// engine/accuracy.md).
 constexpr int passes = 3;
-/// Steps of so many face areas move vertices half as far as they would.
+/// Steps of this many face areas move vertices half of the way.
 constexpr double short_step = 0.01;
 
-/// Normals diffuse on each side of the lines alone.
+/// Normals diffuse only on each side of the lines.
 NormalDiffusion diffusion_between(const PolygonMesh& mesh, const Topology& topology, const FeatureLines& lines,
                                   const Executor& exec)
 {
@@ -52,7 +52,7 @@ void EdgeKeepingStepper::step(const Points& before)
         const Points normals = diffusion_.smoothed(from, time_step_ / passes, angle_, exec);
         fit_vertices(*mesh_, *topology_, lines_, {normals, diffusion_.noise()}, from, exec);
     }
-    // Vertices fit at once, however short the step: they go all the way where it is long against faces.
+    // Vertices fit at once, however short the step: they go all the way if it is long relative to faces.
     for_each(exec, mesh_->n_vertices(), [&](Index v) {
         const auto corners = topology_->corners_at(v);
         double size = 0.0;
@@ -64,7 +64,7 @@ void EdgeKeepingStepper::step(const Points& before)
     });
     loops_.end();
     if (!positions_.allFinite())
-        throw ComputationError("the result is not finite: bring the mesh to a size nearer to 1");
+        throw ComputationError("the result is not finite: scale the mesh to a size nearer to 1");
 }
 
 void EdgeKeepingStepper::save(StepMemory& memory) const
@@ -84,7 +84,7 @@ void EdgeKeepingStepper::describe(FlowReport& report) const
         return;
     report.cut.sub_meshes = {{mesh_->n_faces(), mesh_->n_vertices()}};
     report.remarks.push_back(fmt::format("Edges sharper than {:g}° were kept: face normals were smoothed between them, "
-                                         "and vertices moved to fit; no sub-meshes were needed, and no Laplacian.",
+                                         "and vertices moved to fit; no sub-meshes and no Laplacian were needed.",
                                          angle_));
 }
 

@@ -13,7 +13,7 @@ namespace seamflow {
 
 namespace {
 
-/// What the next step leaves of a difference between two flows.
+/// The remainder of a difference between two flows after the next step.
 struct Carried {
     /// Of what a correction did to single vertices, tangentially. Δ_A and Δ_P do not see how vertices lie in a surface;
     /// Δ_F does, and half of it to all of it is left, the less the rougher. Normally nothing is left but what spreads.
@@ -98,7 +98,7 @@ std::vector<Index> ErrorEstimate::vertices() const
     return global;
 }
 
-/// Vᵏ⁺¹ as the sub-mesh has solved it, on Γ the mean of all copies.
+/// Vᵏ⁺¹ as solved by the sub-mesh; on Γ, the mean of all copies.
 const Points& ErrorEstimate::joined(const std::vector<SubMeshState>& states, Index s, Points& mean) const
 {
     const SubMeshState& state = states[s];
@@ -112,7 +112,7 @@ const Points& ErrorEstimate::joined(const std::vector<SubMeshState>& states, Ind
     return mean;
 }
 
-/// The positions whose K the step has, #local by 3.
+/// The positions whose K the step uses, #local by 3.
 const Points& ErrorEstimate::stiffness_at(const SubMeshState& state, Points& first) const
 {
     if (first_.rows() == 0)
@@ -149,7 +149,7 @@ void ErrorEstimate::note_correction(const std::vector<SubMeshState>& states, Ind
     }
 }
 
-/// The errors of earlier steps, as this step finds them: what it smooths away at single vertices spreads.
+/// The errors of earlier steps at the beginning of this one: what it smooths away at single vertices spreads.
 void ErrorEstimate::carry_over()
 {
     const Carried carried = carried_by(laplacian_);
@@ -198,12 +198,12 @@ void ErrorEstimate::save(StepMemory& memory) const
 
 void ErrorEstimate::restore(StepMemoryReader& memory)
 {
-    // An estimate that has overflowed neither stops a flow nor keeps it from going on.
+    // An estimate that has overflowed neither stops a flow nor keeps it from continuing.
     corrected_ = memory.array_of_any(corrected_.rows());
     swept_ = memory.array_of_any(swept_.rows());
 }
 
-/// Of all peers.
+/// Over all peers.
 std::optional<double> ErrorEstimate::find_largest() const
 {
     double squared = 0.0;

@@ -15,23 +15,23 @@ namespace seamflow {
 
 /// How far a flow in sub-meshes is from the undecomposed one, estimated without it.
 ///
-/// Given Γ, the interiors obey the undecomposed step exactly (except for Δ_P, see ErrorEquation). What the sweep
-/// leaves of its rows on Γ, the residual, gives the error e of the sweep by an equation on Γ alone; the correction of Γ
-/// adds its own displacement, which is known. Steps add up as vectors on Γ: the flow carries tangential differences
-/// along and smooths normal ones. Away from Γ the error of a step dies away, so that Γ has the largest.
+/// Given Γ, the interiors obey the undecomposed step exactly (except for Δ_P, see ErrorEquation). The residual of that
+/// step's rows on Γ gives the error e of the sweep by an equation on Γ alone; the correction of Γ adds its own
+/// displacement, which is known. Steps add up as vectors on Γ: the flow carries tangential differences along and
+/// smooths normal ones. Away from Γ the error of a step decays, so that it is largest on Γ.
 ///
-/// With a low-pass filter it is that of the first solution, and of the correction.
+/// With a low-pass filter this is the error of the first solution, and of the correction.
 ///
 /// Belongs to the arena in which it is used. Peers estimate together, each for its own sub-meshes. The bits depend
-/// neither on the number of threads nor on who has what.
+/// neither on the number of threads nor on which peer has what.
 class ErrorEstimate {
   public:
     /// @param decomposition, mesh, topology, peers must outlive this; see ErrorEquation.
     ErrorEstimate(const Decomposition& decomposition, const PolygonMesh& mesh, const Topology& topology,
                   const FlowOptions& options, InterfacePeers& peers);
 
-    /// Per sub-mesh that another peer has, the local indices of those of its vertices that have to be in its state,
-    /// too, with Vᵏ and Vᵏ⁺¹ as solved; empty where there are none.
+    /// Per sub-mesh of another peer, the local indices of further vertices that its state must hold, with Vᵏ and Vᵏ⁺¹
+    /// as solved; empty if there are none.
     [[nodiscard]] const std::vector<std::vector<Index>>& foreign_rows() const { return foreign_rows_; }
 
     /// Takes over the rows of a sub-mesh's own part of Γ, before it accepts Vᵏ⁺¹. Different sub-meshes may do so at the
@@ -51,7 +51,7 @@ class ErrorEstimate {
     /// where that is not finite.
     [[nodiscard]] std::optional<double> largest() const { return largest_; }
 
-    /// Adds what the next step needs, arrays with a row for each of these vertices of the mesh, and takes it back.
+    /// Saves and restores what the next step needs: arrays with a row for each of these vertices of the mesh.
     /// @throws InputError if it does not fit.
     [[nodiscard]] std::vector<Index> vertices() const;
     void save(StepMemory& memory) const;
@@ -76,12 +76,12 @@ class ErrorEstimate {
     /// With an attachment, #Γ: dt w; and #Γ by 3: V⁰.
     std::vector<double> attached_;
     Points attached_to_;
-    /// Whether every sub-mesh has a copy of Γ of its own.
+    /// Whether every sub-mesh has its own copy of Γ.
     bool has_copies_;
     InterfacePeers* peers_;
     ErrorEquation equation_;
-    /// Each #Γ by 3. What the correction did in this step, and what is there after all steps: displacements by
-    /// corrections, and errors of sweeps.
+    /// Each #Γ by 3: the correction of this step, and what remains after all steps: displacements by corrections, and
+    /// errors of sweeps.
     Points correction_;
     Points corrected_;
     Points swept_;

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// dt beyond this part of the squared shortest edge is unstable on regular grids.
+/// dt beyond this fraction of the squared shortest edge is unstable on regular grids.
 constexpr double safe_part = 0.25;
 
 std::string text_of(double value)
@@ -28,7 +28,7 @@ std::string text_of(double value)
     return text.str();
 }
 
-/// The squared length of the shortest edge at a vertex, edges without length left out.
+/// The squared length of the shortest edge at a vertex, ignoring edges without length.
 double shortest_edge_squared(const PolygonMesh& mesh, const Topology& topology, const Points& positions, Index v)
 {
     double shortest = infinity;

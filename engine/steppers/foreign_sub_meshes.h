@@ -17,15 +17,14 @@ namespace seamflow {
 enum class News : std::uint8_t {
     /// Vᵏ.
     Position,
-    /// What the sub-mesh would do with Γ held.
+    /// The sub-mesh's result with Γ held.
     Prediction,
     /// Vᵏ⁺¹ as solved.
     Solution,
 };
 
-/// The sub-meshes around a sweep's own that another rank looks after. Their tasks are events here: what they find
-/// arrives while the sweep runs. For all of this they have a state of their own, with the vertices that this rank knows
-/// of them.
+/// The sub-meshes around a sweep's own that belong to other ranks. Their tasks are events here: their results arrive
+/// while the sweep runs. For this they have their own states, with those of their vertices that this rank knows.
 class ForeignSubMeshes {
   public:
     ForeignSubMeshes() = default;
@@ -35,24 +34,24 @@ class ForeignSubMeshes {
 
     [[nodiscard]] virtual bool is_foreign(Index s) const = 0;
 
-    /// Agrees with the other ranks on what is told; all do so together, once.
-    /// @param sweeps their plans. @param further per sub-mesh, local indices of those whose positions and solutions are
-    ///        wanted beside those that the sweeps read; or empty.
+    /// Agrees with the other ranks on what to send; all do so together, once.
+    /// @param sweeps their plans. @param further per sub-mesh, local indices of vertices whose positions and solutions
+    ///        are needed besides those that sweeps read; or empty.
     virtual void connect(const Decomposition& decomposition, std::span<const SweepPlan> sweeps,
                          std::span<const std::vector<Index>> further) = 0;
 
-    /// Whether anything of this kind is to arrive of a foreign sub-mesh.
+    /// Whether data of this kind will arrive from a foreign sub-mesh.
     /// @param sweep the number of the plan: 0 forward, 1 backward.
     [[nodiscard]] virtual bool awaits(News news, std::size_t sweep, Index s) const = 0;
 
-    /// Takes note of the event for which it arrives.
+    /// Sets the event that waits for the arrival.
     virtual void set_event(News news, std::size_t sweep, Index s, StepGraph::Node event) = 0;
 
     /// Copies what has arrived; called by the event.
     /// @param rows #local by 3, of the foreign sub-mesh.
     virtual void receive(News news, Index s, Points& rows) = 0;
 
-    /// Sends the rows of an own sub-mesh that other ranks want to know. Any thread may call it, during a run.
+    /// Sends the rows of an own sub-mesh that other ranks need. Any thread may call it, during a run.
     virtual void send(News news, std::size_t sweep, Index s, const Points& rows) = 0;
 
     /// Runs one sweep.
@@ -60,7 +59,7 @@ class ForeignSubMeshes {
     virtual void run(StepGraph& graph, std::size_t sweep, const std::function<void()>& begin,
                      const std::function<void()>& join) = 0;
 
-    /// Runs what is done for an own sub-mesh; failures come out with its name in the whole mesh.
+    /// Runs work for an own sub-mesh; failures name it as in the whole mesh.
     virtual void run_for(Index s, const std::function<void()>& body) const = 0;
 };
 

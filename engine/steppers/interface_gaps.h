@@ -9,9 +9,8 @@
 
 namespace seamflow {
 
-/// The copies that sub-meshes have of Γ where each has one of its own: how far they are apart, what stands for all of
-/// them, and the sub-meshes, each with its own. Runs in parallel, sums in order: the bits do not depend on the number
-/// of threads.
+/// The sub-meshes' copies of Γ where each has its own: how far apart they are, the mean that represents them, and the
+/// sub-meshes, each with its own. Runs in parallel, sums in order: the bits do not depend on the number of threads.
 class InterfaceGaps {
   public:
     /// @param decomposition must outlive this.
@@ -33,7 +32,7 @@ class InterfaceGaps {
 
     const Decomposition* decomposition_;
     std::optional<SeparatedSubMeshes> separated_;
-    /// For each sub-mesh, where its first entry in `gaps_` is: it has one for each vertex of Γ where it is the lowest.
+    /// For each sub-mesh, the index of its first entry in `gaps_`: it has one per vertex of Γ where it is the lowest.
     std::vector<std::size_t> first_gap_;
     std::vector<double> gaps_;
 };

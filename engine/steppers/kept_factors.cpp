@@ -11,7 +11,7 @@ namespace seamflow {
 
 namespace {
 
-/// The sub-meshes by what their factors take, the largest first.
+/// The sub-meshes by the size of their factors, the largest first.
 std::vector<Index> largest_first(std::span<const std::size_t> factors)
 {
     std::vector<Index> order(factors.size());
@@ -20,7 +20,7 @@ std::vector<Index> largest_first(std::span<const std::size_t> factors)
     return order;
 }
 
-/// Keeps these first sub-meshes in the order and no others.
+/// Keeps the first sub-meshes in the order and no others.
 KeptFactors keep_first(std::span<const std::size_t> factors, std::span<const Index> order, Index n_whole,
                        Index n_places)
 {
@@ -38,7 +38,7 @@ KeptFactors keep_first(std::span<const std::size_t> factors, std::span<const Ind
     return kept;
 }
 
-/// The most that fit with so many places; -1 where not even none do.
+/// The most that fit with this number of places; -1 if not even zero do.
 Index most_kept_within(std::span<const std::size_t> factors, std::span<const Index> order, Index n_places,
                        std::size_t limit)
 {
@@ -65,7 +65,7 @@ KeptFactors choose_kept_factors(std::span<const std::size_t> factors, std::optio
     Index n_whole = -1;
     Index n_places = 0;
     Index least_rounds = std::numeric_limits<Index>::max();
-    // More places for those made again leave less room to keep others: doubling them finds all that matters.
+    // More places for factors made again leave less room to keep others: doubling them finds all relevant cases.
     for (Index places = 1;; places = std::min(2 * places, n_threads)) {
         const Index most = most_kept_within(factors, order, places, *limit);
         if (most < 0)
@@ -80,7 +80,7 @@ KeptFactors choose_kept_factors(std::span<const std::size_t> factors, std::optio
     }
     if (n_whole < 0)
         throw OptionError("memory_limit is " + std::to_string(*limit) + " bytes, but one factorisation can take " +
-                          std::to_string(factors[order.front()]) + ": raise it, or take sweeps (Approach::Sweep)");
+                          std::to_string(factors[order.front()]) + ": raise it, or use sweeps (Approach::Sweep)");
     return keep_first(factors, order, n_whole, n_places);
 }
 

@@ -10,31 +10,31 @@
 
 namespace seamflow {
 
-/// Which factors a converged step keeps from condensation until back substitution. The others are made again whenever
+/// Which factors a converged step keeps from condensation until back substitution. The others are recomputed whenever
 /// they are needed.
 struct KeptFactors {
     /// Per sub-mesh: 1 where the whole factor is kept.
     std::vector<std::uint8_t> whole;
     Index n_whole = 0;
-    /// How many of the others may be there at once, and what the largest of these takes.
+    /// How many of the others may exist at once, and the size of the largest of these.
     Index n_places = 0;
     std::size_t bytes_per_place = 0;
-    /// What the former take.
+    /// Bytes of the former.
     std::size_t bytes = 0;
 
-    /// How many factors are there at once at most.
+    /// The most factors that exist at once.
     [[nodiscard]] Index n_live() const { return n_whole + n_places; }
 
-    /// What all that takes at once at most.
+    /// The most bytes taken at once.
     [[nodiscard]] std::size_t most_bytes() const { return bytes + at(n_places) * bytes_per_place; }
 };
 
 /// Keeps the largest factors, as many as the limit allows, and leaves as many places for the others as lets them be
 /// made in the fewest rounds.
-/// @param factors what those of all sub-meshes take, in bytes.
+/// @param factors their sizes for all sub-meshes, in bytes.
 /// @param limit in bytes. Empty: all are kept.
 /// @param n_threads at least 1: there are no more places than that.
-/// @throws OptionError if there is no room for any factor; its message has the necessary number of bytes.
+/// @throws OptionError if there is no room for any factor; its message gives the necessary number of bytes.
 KeptFactors choose_kept_factors(std::span<const std::size_t> factors, std::optional<std::size_t> limit,
                                 Index n_threads);
 

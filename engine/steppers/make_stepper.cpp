@@ -31,7 +31,7 @@ std::unique_ptr<Stepper> make_undecomposed_stepper(const PolygonMesh& mesh, cons
                                                    const FlowOptions& options, const std::vector<double>& curvature,
                                                    Progress& progress)
 {
-    // The whole mesh is one factor, which no limit for the sub-meshes fits.
+    // The whole mesh is one factor, which no limit for sub-meshes suits.
     FlowOptions undecomposed = options;
     undecomposed.resources.memory_limit.reset();
     return std::make_unique<SweepStepper>(mesh, topology, cut_into(mesh, topology, 1), undecomposed, curvature,

@@ -12,8 +12,8 @@
 namespace seamflow {
 
 /// The way of taking steps that the options ask for: steps that keep edges, explicit Euler steps, backward Euler steps
-/// of the whole mesh by conjugate gradients, converged ones by the Schur complement or, of Laplacians without symmetry,
-/// by GMRES, or sweeps.
+/// of the whole mesh by conjugate gradients, converged ones by the Schur complement or, for unsymmetric Laplacians, by
+/// GMRES, or sweeps.
 /// @param mesh, topology, progress must outlive the stepper.
 /// @param options with the tolerance that was chosen, if any.
 /// @param curvature #V: ‖ΔV⁰‖; empty: as if it were 0.
@@ -23,7 +23,7 @@ std::unique_ptr<Stepper> make_stepper(const PolygonMesh& mesh, const Topology& t
                                       const FlowOptions& options, const std::vector<double>& curvature,
                                       Progress& progress);
 
-/// Backward Euler steps of the whole mesh as one, whatever the options say of sub-meshes and memory.
+/// Backward Euler steps of the whole mesh as one, regardless of options on sub-meshes and memory.
 std::unique_ptr<Stepper> make_undecomposed_stepper(const PolygonMesh& mesh, const Topology& topology,
                                                    const FlowOptions& options, const std::vector<double>& curvature,
                                                    Progress& progress);

@@ -19,7 +19,7 @@ namespace {
 /// Wider sub-meshes, in √dt, do without a coarse space: it would save an iteration in nine, and cost more.
 constexpr double width_without_coarse_space = 8.0;
 
-/// What back substitution in single precision leaves of a residual, at most.
+/// The most that back substitution in single precision leaves of a residual.
 constexpr double left_by_single = 1e-4;
 
 /// The area of all sub-meshes of all peers.
@@ -43,7 +43,7 @@ Balancing balancing_for(const Decomposition& decomposition, const PolygonMesh& m
                : Balancing::None;
 }
 
-/// Those of one that has all.
+/// The sub-meshes of a single peer.
 PeerSubMeshes alone(Decomposition decomposition)
 {
     auto peers = std::make_unique<OnePeer>(static_cast<Index>(decomposition.sub_meshes.size()));
@@ -86,7 +86,7 @@ void SchurStepper::run_for(Index s, const std::function<void()>& body) const
         run_for_sub_mesh(sub_meshes_[s]->vertices(), s, body);
 }
 
-/// What is needed of sub-meshes later moves to where it is needed; the rest is freed when all are analysed.
+/// Data of sub-meshes that is needed later is moved there; the rest is freed when all are analysed.
 void SchurStepper::make_sub_meshes(Decomposition& decomposition, const PolygonMesh& mesh, const FlowOptions& options,
                                    Progress& progress)
 {
@@ -117,7 +117,7 @@ void SchurStepper::make_sub_meshes(Decomposition& decomposition, const PolygonMe
     });
 }
 
-/// Of factors that may be in either precision, those in double precision count.
+/// Factors that may be in either precision count as double.
 void SchurStepper::limit_factors(const FlowOptions& options)
 {
     std::vector<std::size_t> bytes;
@@ -163,14 +163,14 @@ void SchurStepper::make_graph()
     take_turns(passing_substituted);
 }
 
-/// Each waits until one before it has given back the place of its factor.
+/// Each waits until an earlier one has given back the place of its factor.
 void SchurStepper::take_turns(const std::vector<StepGraph::Node>& tasks)
 {
     for (std::size_t i = at(factors_.plan.n_places); i < tasks.size(); ++i)
         graph_.add_dependency(tasks[i - at(factors_.plan.n_places)], tasks[i]);
 }
 
-/// Those whose factors are made again take turns.
+/// Sub-meshes whose factors are made again take turns.
 template <class Action>
 void SchurStepper::for_each_sub_mesh(const Executor& exec, Action&& action)
 {
@@ -209,7 +209,7 @@ void SchurStepper::condense(Index s)
                              interface_.complements[s]);
 }
 
-/// @returns what is left on Γ.
+/// @returns the residual on Γ.
 Points& SchurStepper::refine_all(const Points& update, const Executor& exec)
 {
     for_each_sub_mesh(exec, [&](Index s) { sub_meshes_[s]->refine(shared_step(), update, workspaces_.local()); });
@@ -224,7 +224,7 @@ bool SchurStepper::has_single() const
     return peers_->largest({here ? 1.0 : 0.0}).front() > 0.0;
 }
 
-/// The largest in each column, of all peers.
+/// The largest in each column, over all peers.
 Point SchurStepper::interior_residual() const
 {
     Point largest = Point::Zero();
@@ -235,10 +235,10 @@ Point SchurStepper::interior_residual() const
     return {of_all[0], of_all[1], of_all[2]};
 }
 
-/// Refines the interiors until the back substitution that is still to come leaves no more than the tolerance. Mostly
-/// they are so by then.
-/// @param first what there was to begin with.
-/// @returns whether they have come so far.
+/// Refines the interiors until the remaining back substitution leaves no more than the tolerance. Mostly, this is the
+/// case already.
+/// @param first the initial residual.
+/// @returns whether this was reached.
 bool SchurStepper::refine_interiors(double tolerance, const Point& first, const Executor& exec)
 {
     const auto is_small = [&](const Point& residual) {
@@ -254,8 +254,8 @@ bool SchurStepper::refine_interiors(double tolerance, const Point& first, const 
     return true;
 }
 
-/// Of each coordinate, whether Γ moves no more along it than rounding of positions would: what is left of such
-/// residuals says nothing.
+/// For each coordinate, whether Γ moves no more along it than by rounding of positions: the residuals left there have
+/// no meaning.
 std::array<bool, 3> SchurStepper::at_rest(const Executor& exec) const
 {
     constexpr double rounding = 4.0 * std::numeric_limits<double>::epsilon();
@@ -280,7 +280,7 @@ std::array<bool, 3> SchurStepper::at_rest(const Executor& exec) const
     return rests;
 }
 
-/// @returns stagnation also where refinement of the interiors stagnates.
+/// @returns stagnation also if refinement of the interiors stagnates.
 InterfaceResult SchurStepper::solve_on_interface(const IterationStop& stop, const Executor& exec)
 {
     interface_.reached.setZero(equation_.copies().n_vertices(), 3);
@@ -331,7 +331,7 @@ void SchurStepper::save(StepMemory& memory) const
     memory.arrays = {interface_.update};
 }
 
-/// Those of Γ.
+/// The vertices of Γ.
 std::vector<Index> SchurStepper::saved_vertices() const
 {
     const InterfaceCopies& copies = equation_.copies();

@@ -17,26 +17,26 @@
 
 namespace seamflow {
 
-/// The sub-meshes of one of those that take steps together.
+/// The sub-meshes of one of several peers.
 struct PeerSubMeshes {
-    /// Its own ones as a whole, and what it knows of the others around them (see decompose_part).
+    /// Its own sub-meshes in full, and the known part of those around them (see decompose_part).
     Decomposition decomposition;
     std::unique_ptr<InterfacePeers> peers;
-    /// Runs something for a sub-mesh; failures come out with its name. Empty: with its number here.
+    /// Runs work for a sub-mesh; failures name it as in the whole mesh. Empty: by its number here.
     std::function<void(Index s, const std::function<void()>& body)> run_for;
 };
 
 /// Takes the undecomposed backward Euler step itself, sub-mesh by sub-mesh, for symmetric Laplacians: every sub-mesh
-/// condenses its equations to Γ, what remains is the equation of the Schur complement there, and then back substitution
-/// gives the interiors. One task graph, run once per step:
+/// condenses its equations to Γ, the equation of the Schur complement is solved there, and back substitution then gives
+/// the interiors. One task graph, run once per step:
 ///
 ///     condense (each sub-mesh) ──► solve on Γ (see InterfaceEquation) ──► back-substitute (each sub-mesh)
 ///
-/// Factors are in single precision where that loses few digits. The solution on Γ needs now and then what the whole
-/// step leaves there: then every sub-mesh solves for its interior and condenses what is left of its equations, measured
-/// in double precision. So a step is refined to any tolerance.
+/// Factors are in single precision where that loses few digits. The solution on Γ occasionally needs the residual of
+/// the whole step there: every sub-mesh then solves for its interior and condenses its residual, computed in double
+/// precision. So a step is refined to any tolerance.
 ///
-/// Where the memory limit does not let a sub-mesh's factor live until its back substitution, it is made again whenever
+/// Where the memory limit does not let a sub-mesh's factor live until its back substitution, it is recomputed whenever
 /// it is needed, by the same arithmetic: the bits are the same. Such sub-meshes take turns, as many at a time as there
 /// are places.
 class SchurStepper final : public ConvergedStepper {
@@ -48,7 +48,7 @@ class SchurStepper final : public ConvergedStepper {
                  Progress& progress);
 
     /// The same for the sub-meshes of one of several peers, which construct their steppers, and take steps, together.
-    /// @param mesh the part of the mesh that this peer knows; positions() are Vᵏ⁺¹ in its own sub-meshes alone.
+    /// @param mesh the part of the mesh that this peer knows; positions() are Vᵏ⁺¹ only in its own sub-meshes.
     SchurStepper(const PolygonMesh& mesh, PeerSubMeshes sub_meshes, const FlowOptions& options, Progress& progress);
 
     void save(StepMemory& memory) const override;
@@ -61,24 +61,24 @@ class SchurStepper final : public ConvergedStepper {
     struct FactorStore {
         Precision precision = Precision::Automatic;
         KeptFactors plan;
-        /// Of those kept: the pool, or the heap where there is a limit, as a factor may take another size in each step.
+        /// Of those kept: the pool, or the heap if there is a limit, as a factor's size may differ in each step.
         FactorMemory* memory = nullptr;
         SharedFactorPool pool;
-        /// Of the factors that are made again.
+        /// Of factors that are recomputed.
         std::optional<SharedFactorPool> passing;
     };
     /// On Γ.
     struct Interface {
         Index n_vertices = 0;
         std::vector<DenseFactor> complements;
-        /// What each sub-mesh has of the right-hand side, and later of what is left of it.
+        /// Each sub-mesh's share of the right-hand side, and later of what is left of it.
         Points condensed;
         /// Vᵏ⁺¹ - Vᵏ, if a step has been taken, and that of the step before, if there was one.
         Points update;
         Points guess;
         bool has_update = false;
         bool has_guess = false;
-        /// The update at which the interiors are, and `condensed`.
+        /// The update that interiors and `condensed` belong to.
         Points reached;
     };
 

@@ -36,7 +36,7 @@ SchwarzGmresStepper::SchwarzGmresStepper(const PolygonMesh& mesh, const Topology
 void SchwarzGmresStepper::cut_out(const PolygonMesh& mesh, const Topology& topology, const Cut& cut,
                                   const Executor& exec)
 {
-    // Everyone grows into everyone.
+    // All sub-meshes grow into each other.
     const std::vector<Index> rank(cut.n_parts, 0);
     const Overlap overlap{cut.labels, rank, overlap_layers};
     auto faces = faces_by_label(cut.labels, cut.n_parts, run_in_parallel);
@@ -72,7 +72,7 @@ void SchwarzGmresStepper::limit_factors(const FlowOptions& options)
     if (options.resources.memory_limit && *options.resources.memory_limit < all)
         throw OptionError("memory_limit is " + std::to_string(*options.resources.memory_limit) +
                           " bytes, but a converged step keeps all factorisations at once, which take " +
-                          std::to_string(all) + ": raise it, or take sweeps (Approach::Sweep)");
+                          std::to_string(all) + ": raise it, or use sweeps (Approach::Sweep)");
     memory_.emplace(largest);
 }
 

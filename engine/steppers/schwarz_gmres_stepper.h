@@ -12,9 +12,9 @@
 
 namespace seamflow {
 
-/// Takes the undecomposed backward Euler step itself, sub-mesh by sub-mesh, for Laplacians without symmetry, whose rows
-/// may reach two rings far: Δ_P. Sub-meshes overlap; what they have to agree about are the positions where each ends
-/// within the others. One task graph, run once per step:
+/// Takes the undecomposed backward Euler step itself, sub-mesh by sub-mesh, for unsymmetric Laplacians, whose rows may
+/// reach over two rings: Δ_P. Sub-meshes overlap; they must agree on the positions where each ends within the others.
+/// One task graph, run once per step:
 ///
 ///     assemble and factorise (each sub-mesh) ──► solve for these traces (see TraceEquation)
 class SchwarzGmresStepper final : public ConvergedStepper {
@@ -45,7 +45,7 @@ class SchwarzGmresStepper final : public ConvergedStepper {
 
     std::vector<GrownPart> parts_;
     Index n_interface_vertices_ = 0;
-    /// Where factors live; made when it is known what they take.
+    /// Where factors live; made when their size is known.
     std::optional<SharedFactorPool> memory_;
     Blocks blocks_;
     std::optional<TraceEquation> equation_;

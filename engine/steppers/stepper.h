@@ -14,8 +14,8 @@
 
 namespace seamflow {
 
-/// Takes the steps of a flow, one after the other: each from Vᵏ to Vᵏ⁺¹. How it does so is its own affair (see
-/// make_stepper below for the ways there are). Belongs to the arena in which it is constructed.
+/// Takes the steps of a flow, one after the other: each from Vᵏ to Vᵏ⁺¹. How it does so is up to the subclass (see
+/// make_stepper below for the ways). Belongs to the arena in which it is constructed.
 class Stepper {
   public:
     Stepper() = default;
@@ -23,8 +23,8 @@ class Stepper {
     Stepper& operator=(const Stepper&) = delete;
     virtual ~Stepper() = default;
 
-    /// One step. After an exception there are no positions, and the stepper is at its end.
-    /// @param before #V by 3: Vᵏ, which is what positions() is or was, in memory of its own.
+    /// Takes a step. After an exception there are no positions, and the stepper is unusable.
+    /// @param before #V by 3: Vᵏ, which is what positions() is or was, in separate memory.
     /// @throws ComputationError naming the sub-mesh; Cancelled.
     virtual void step(const Points& before) = 0;
 
@@ -35,25 +35,25 @@ class Stepper {
     /// Γ, and without ReportOptions::keep_gaps.
     [[nodiscard]] virtual const PolygonMesh* separated() const { return nullptr; }
 
-    /// Goes on from an image of positions(), which is that of all positions that the next step needs. positions() are
-    /// then the image, to rounding. What is known of updates and errors stays: a step makes earlier errors smaller by
-    /// about as much as its result is scaled back.
-    /// @param image #V by 3: what the similarity makes of positions(); vertices without faces stay.
+    /// Continues from an image of positions(), and of all positions that the next step needs. positions() are then the
+    /// image, up to rounding. What is known of updates and errors stays: a step makes earlier errors smaller by about
+    /// as much as its result is scaled back.
+    /// @param image #V by 3: positions() mapped by the similarity; vertices without faces stay.
     virtual void continue_from(const Points& image, const Similarity& similarity) = 0;
 
     /// Moves some vertices, with all copies of them, to where the next step is to find them. What is known of updates
     /// and errors stays.
-    /// @param vertices those below 0 are passed over. @param to #vertices by 3.
+    /// @param vertices those below 0 are ignored. @param to #vertices by 3.
     virtual void move(std::span<const Index> vertices, const Points& to) = 0;
 
-    /// Gives what the next step needs.
+    /// Saves what the next step needs.
     virtual void save(StepMemory& memory) const = 0;
 
     /// Per row of each array that `save` gives, the vertex of the mesh to which the row belongs; for steppers that
-    /// ranks take steps by.
+    /// ranks use.
     [[nodiscard]] virtual std::vector<Index> saved_vertices() const { return {}; }
 
-    /// Takes back what `save` has given, before any step: the next one continues from there.
+    /// Restores what `save` has given, before any step: the next one continues from there.
     /// @throws InputError if it does not fit.
     virtual void restore(const StepMemory& memory) = 0;
 
@@ -67,14 +67,14 @@ class Stepper {
     virtual void describe(FlowReport& report) const = 0;
 };
 
-/// Stepper::move of positions of which there are no copies.
+/// Stepper::move for positions that have no copies.
 void move_rows(std::span<const Index> vertices, const Points& to, Points& positions);
 
 /// Adds the seconds of tasks to `sum`.
 void add_up(std::span<const PhaseSeconds> tasks, PhaseSeconds& sum);
 
 /// Adds one sub-mesh to the report.
-/// @param sub_mesh a SubMesh, or what else has `faces` and `n_vertices`.
+/// @param sub_mesh a SubMesh, or anything with `faces` and `n_vertices`.
 /// @param p Robin parameter, in 1/length.
 template <class Part>
 void describe_sub_mesh(const Part& sub_mesh, Index colour, double p, FlowReport& report)

@@ -13,7 +13,7 @@ void copy(const Points& source, Points& target)
     target = source;
 }
 
-/// Carries rows of one array of the senders into the receiver's.
+/// Copies rows of one array of the senders to the receiver's.
 void receive(const std::vector<SubMeshState>& states, std::span<const Transfer> transfers, Points SubMeshState::*array,
              Points& target)
 {
@@ -51,13 +51,13 @@ void fill_and_factorise(SubMeshState& state, const Points& other_side, std::span
     const auto equations =
         state.system->assemble(state.position, other_side, time_step, state.p, roles, resources.workspace);
     state.seconds.assemble += watch.lap();
-    // After a step that has failed there is one.
+    // If a step has failed, a factor is left.
     state.factor.reset();
     state.factor = state.system->factorise(equations, resources.memory, resources.workspace);
     state.seconds.factorise += watch.lap();
 }
 
-/// Solves for Vᵏ⁺¹, what is known of it being in `solved`.
+/// Solves for Vᵏ⁺¹; `solved` holds what is known of it.
 void solve_and_free(SubMeshState& state, SolverWorkspace& workspace)
 {
     state.system->solve(*state.factor, state.given(), state.solved, workspace);

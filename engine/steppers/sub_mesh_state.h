@@ -12,8 +12,8 @@
 
 namespace seamflow {
 
-/// One sub-mesh on its way through time. It sees nothing of the others but what transfers bring: the tasks below read
-/// the states of the senders that a Transfer names, and write to their own alone.
+/// The state of one sub-mesh. Of the others it sees only what transfers bring: the tasks below read the states of the
+/// senders that a Transfer names, and write only to their own.
 struct SubMeshState {
     SubMeshState(const SubMesh& sub_mesh, std::unique_ptr<SubMeshSystem> system, const Points& positions);
 
@@ -25,19 +25,19 @@ struct SubMeshState {
     double p = 0.0;
     /// #local by 3, own vertices, then halo: Vᵏ at the beginning of a step, Vᵏ⁺¹ at its end.
     Points position;
-    /// #local by 3: Vᵏ⁺¹ as solved, before the correction. Until then, at own vertices, the prediction: what the
-    /// sub-mesh would do with Γ held at Vᵏ. Sub-meshes that read the prediction lead somewhere on this sub-mesh's Γ, so
-    /// that it waits for them before it solves.
+    /// #local by 3: Vᵏ⁺¹ as solved, before the correction. Until then, at own vertices, the prediction: the sub-mesh's
+    /// result with Γ held at Vᵏ. Sub-meshes that read the prediction lead somewhere on this sub-mesh's Γ, so that it
+    /// waits for them before it solves.
     Points solved;
-    /// Which solution of the step is in the making: with a filter that has several, the first, or what the step makes
-    /// of `data`.
+    /// Which solution of the step is being computed: with a filter that has several, the first, or the result for
+    /// `data`.
     enum class Solution { Only, First, OfData } solution = Solution::Only;
-    /// #local by 3: what the step is applied to beside Vᵏ.
+    /// #local by 3: input of the step besides Vᵏ.
     Points data = Points(0, 3);
     /// Of its tasks in all steps.
     PhaseSeconds seconds;
 
-    /// What the right-hand side is made of.
+    /// The input of the right-hand side.
     [[nodiscard]] const Points& given() const { return solution == Solution::OfData ? data : position; }
 };
 
@@ -69,7 +69,7 @@ void use_predictions(std::vector<SubMeshState>& states, Index s, const std::vect
                      SolverWorkspace& workspace);
 
 /// Fetches Vᵏ⁺¹ where the sub-mesh follows another on its interface, keeps Vᵏ where it follows none, and solves. The
-/// factor is no more, where the step has one solution.
+/// factor is freed if the step has one solution.
 void solve(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& traces, SolverWorkspace& workspace);
 
 /// Solves in a mutual sweep: fetches the others' copies of Γ and the halo, Vᵏ⁺¹ from the sub-meshes of an earlier stage
@@ -77,16 +77,16 @@ void solve(std::vector<SubMeshState>& states, Index s, const std::vector<Transfe
 void solve_mutual(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& halo, const SweepPlan& plan,
                   SolverWorkspace& workspace);
 
-/// Fetches Vᵏ⁺¹ as it was solved for the halo.
+/// Fetches Vᵏ⁺¹, as solved, for the halo.
 void receive_solution(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& halo);
 
-/// Begins with `data`, the factor being that of the first solution.
+/// Begins with `data`, using the factor of the first solution.
 void begin_with_data(SubMeshState& state);
 
 /// Accepts Vᵏ⁺¹ as it was solved.
 void accept(std::vector<SubMeshState>& states, Index s);
 
-/// Fetches Vᵏ⁺¹ for the halo, but where all solutions have been there, and accepts Vᵏ⁺¹, the vertices of Γ moved to the
+/// Fetches Vᵏ⁺¹ for the halo, unless it already has all solutions, and accepts Vᵏ⁺¹, with vertices of Γ moved to the
 /// centroids of their edge neighbours (paper, eq. 28). Every sub-mesh at a vertex finds the same bits.
 void accept_corrected(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& halo);
 

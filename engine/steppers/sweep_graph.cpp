@@ -11,13 +11,13 @@ namespace {
 
 using Node = StepGraph::Node;
 
-/// Whether a sub-mesh takes over something that another has solved.
+/// Whether a sub-mesh takes over values that another has solved.
 [[maybe_unused]] bool follows(const SweepPlan& plan, Index s, Index leader)
 {
     return std::ranges::any_of(plan.traces[s], [&](const Transfer& trace) { return trace.from == leader; });
 }
 
-/// Adds the tasks of one kind after the other, each with what it waits for.
+/// Adds the tasks of one kind after the other, each with its dependencies.
 class SweepBuilder {
   public:
     SweepBuilder(StepGraph& graph, std::size_t sweep, const SweepPlan& plan,
@@ -54,7 +54,7 @@ class SweepBuilder {
         return tasks_->foreign != nullptr && tasks_->foreign->is_foreign(s);
     }
 
-    /// The arrival of something that a foreign sub-mesh finds; -1 if nobody waits for it.
+    /// The arrival of values that a foreign sub-mesh finds; -1 if nothing waits for them.
     Node add_arrival(News news, TaskKind kind, Index s)
     {
         if (!tasks_->foreign->awaits(news, sweep_, s))
@@ -84,7 +84,7 @@ class SweepBuilder {
         }
     }
 
-    /// A sub-mesh is assembled when its halo has come.
+    /// A sub-mesh is assembled once its halo has arrived.
     void wait_for_positions()
     {
         for (Index s = 0; s < n_sub_meshes(); ++s)
@@ -93,7 +93,7 @@ class SweepBuilder {
                     graph_.add_dependency(factorised_[neighbour], factorised_[s]);
     }
 
-    /// Factorisation waits until a factor before it is gone.
+    /// Factorisation waits until an earlier factor is freed.
     void wait_for_room(const FactorWindow& window)
     {
         for (std::size_t i = 0; i + at(window.size) < window.order.size(); ++i)

@@ -15,14 +15,14 @@ namespace seamflow {
 struct SweepTasks {
     using Task = std::function<void(Index s)>;
     Task assemble_and_factorise;
-    /// None where sub-meshes do not predict.
+    /// Empty if sub-meshes do not predict.
     Task predict;
     Task use_predictions;
     Task solve;
     Task accept;
-    /// None where the sweep has all sub-meshes of the mesh.
+    /// Null if the sweep has all sub-meshes of the mesh.
     ForeignSubMeshes* foreign = nullptr;
-    /// With foreign sub-meshes: takes over what has arrived of one.
+    /// With foreign sub-meshes: takes over what one has sent.
     std::function<void(News, Index s)> receive = {};
 };
 
@@ -35,15 +35,15 @@ struct SweepTasks {
 ///        sub-meshes that lead                      adjacent sub-meshes
 ///        it on Γ
 ///
-/// With predictions there are two more: predict stands between the first two of each sub-mesh that follows another, and
-/// use predictions before the solve of each sub-mesh that leads. With the classical conditions nobody leads,
-/// and solve waits for the adjacent sub-meshes of lower colour. So that few factors live at once, assemble and
-/// factorise also waits for a solve some places before it (see FactorWindow). No barrier stands between colours.
+/// With predictions there are two more: predict comes between the first two of each sub-mesh that follows another, and
+/// use predictions before the solve of each sub-mesh that leads. With the classical conditions none leads, and solve
+/// waits for the adjacent sub-meshes of lower colour. So that few factors live at once, assemble and factorise also
+/// waits for a solve some places before it (see FactorWindow). No barrier separates colours.
 ///
-/// Of foreign sub-meshes, the arrival of what they predict and solve stands in the place of these tasks. Assemble and
+/// For foreign sub-meshes, the arrival of predictions and solutions takes the place of these tasks. Assemble and
 /// factorise waits for the positions of those around.
 /// @param sweep the number of the plan, from 0.
-/// @param plan is not looked at after the call.
+/// @param plan is not used after the call.
 /// @param adjacency per sub-mesh: those with which it shares vertices.
 void add_sweep(StepGraph& graph, std::size_t sweep, const SweepPlan& plan,
                const std::vector<std::vector<Index>>& adjacency, const FactorWindow& window, SweepTasks tasks);

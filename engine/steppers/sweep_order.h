@@ -18,7 +18,7 @@ std::vector<Index> assign_stages(const Decomposition& decomposition, Colouring c
 /// Σ‖ΔV‖ of each sub-mesh, as above; #sub-meshes.
 std::vector<double> total_curvatures(const Decomposition& decomposition, const std::vector<double>& curvature);
 
-/// The same stages from what is left of the sub-meshes then.
+/// The same stages from these properties of sub-meshes.
 /// @param adjacency #sub-meshes: with which others they share a vertex of Γ. @param totals #sub-meshes: their Σ‖ΔV‖.
 std::vector<Index> assign_stages(const std::vector<std::vector<Index>>& adjacency, Colouring colouring,
                                  const std::vector<double>& totals);

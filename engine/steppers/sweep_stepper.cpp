@@ -120,7 +120,7 @@ void SweepStepper::order_factors(const FlowOptions& options)
     limit_factors(least, options);
 }
 
-/// Without a limit, each thread has work enough within the window.
+/// Without a limit, each thread has enough work within the window.
 /// @param least the smallest window with which sweeps cannot deadlock.
 void SweepStepper::limit_factors(Index least, const FlowOptions& options)
 {
@@ -132,7 +132,7 @@ void SweepStepper::limit_factors(Index least, const FlowOptions& options)
     factors_.emplace(largest);
 
     const auto n = static_cast<Index>(window_.order.size());
-    // A further solution begins when the one before is complete.
+    // A further solution begins when the previous one is complete.
     least = filter_.is_plain() ? std::min(least, n) : n;
     window_.size = std::min(n, least + places_per_thread * workspaces_.size());
     if (!options.resources.memory_limit)
@@ -169,7 +169,7 @@ void SweepStepper::make_states(const PolygonMesh& mesh, const FlowOptions& optio
         states_.push_back(std::move(*state));
 }
 
-/// Failures come out with the name of the sub-mesh.
+/// Failures are reported with the name of the sub-mesh.
 void SweepStepper::run_for(Index s, const std::function<void()>& body) const
 {
     if (foreign_ != nullptr)
@@ -227,7 +227,7 @@ Points SubMeshState::*SweepStepper::array_of(News news) const
     return news == News::Position ? &SubMeshState::position : &SubMeshState::solved;
 }
 
-/// Other ranks are told what they wait for as soon as it is found.
+/// Other ranks get what they wait for as soon as it is found.
 void SweepStepper::add_exchange(std::size_t sweep, SweepTasks& tasks)
 {
     const auto telling = [&](SweepTasks::Task task, News news) {
@@ -278,7 +278,7 @@ void SweepStepper::step(const Points& before)
         error_->add_step(states_, before);
 }
 
-/// The filter's arithmetic is that of each sub-mesh with its halo, so that all at a vertex find the same bits.
+/// Each sub-mesh filters with its halo, so that all sub-meshes at a vertex find the same bits.
 void SweepStepper::take_filtered(std::size_t root, const std::function<void()>& end)
 {
     const auto for_each_own = [&](auto&& action) {
@@ -328,14 +328,14 @@ void SweepStepper::join()
         copies_->join(states_, positions_);
 }
 
-/// Takes the positions of the whole mesh for those of a sub-mesh.
+/// Copies the positions of the whole mesh to a sub-mesh.
 void SweepStepper::fetch_positions(SubMeshState& state)
 {
     for (Index v = 0; v < state.sub_mesh->n_vertices; ++v)
         state.position.row(v) = positions_.row(state.sub_mesh->local_to_global[v]);
 }
 
-/// Copies that differ are mapped each; their means are then those of the image to rounding.
+/// Copies that differ are each mapped; their means are then those of the image up to rounding.
 void SweepStepper::continue_from(const Points& image, const Similarity& similarity)
 {
     copy(run_in_parallel, image, positions_);
@@ -365,7 +365,7 @@ void SweepStepper::move(std::span<const Index> vertices, const Points& to)
     });
 }
 
-/// Sub-meshes that do not differ have no more than the whole mesh has.
+/// Sub-meshes that do not differ hold no more than the whole mesh.
 void SweepStepper::save(StepMemory& memory) const
 {
     memory.positions = positions_;

@@ -25,27 +25,27 @@
 
 namespace seamflow {
 
-/// The sub-meshes of a rank, and where they stand in a sweep over those of all ranks.
+/// The sub-meshes of a rank, and their places in a sweep over those of all ranks.
 struct RankSubMeshes {
-    /// Those of this rank, and of the others around them what is known of them (see decompose_part).
+    /// Those of this rank, and the known part of those around them (see decompose_part).
     Decomposition decomposition;
     /// How many all ranks have together.
     std::size_t n_of_all_ranks = 0;
     /// #sub-meshes: the sweep's order.
     std::vector<Index> stage;
-    /// Those of this rank, as they stand in one order of those of all ranks.
+    /// Those of this rank, in an order common to all ranks.
     std::vector<Index> factor_order;
     /// The smallest window with which sweeps along that order cannot deadlock.
     Index least_window = 0;
-    /// Must outlive the stepper, both.
+    /// Both must outlive the stepper.
     ForeignSubMeshes* foreign = nullptr;
     const Topology* topology = nullptr;
-    /// The ranks as those that estimate the error together.
+    /// The ranks as peers that estimate the error together.
     std::unique_ptr<InterfacePeers> peers;
 };
 
-/// Takes a step in one sweep over the colours of the sub-meshes (see add_sweep), with what InterfaceOptions::conditions
-/// says on Γ. The result is near the undecomposed step, not the same.
+/// Takes a step in one sweep over the colours of the sub-meshes (see add_sweep), with InterfaceOptions::conditions on
+/// Γ. The result is near the undecomposed step, but not the same.
 class SweepStepper final : public Stepper {
   public:
     /// Cuts out the sub-meshes, analyses their equations and builds the graph.
@@ -93,7 +93,7 @@ class SweepStepper final : public Stepper {
     /// Whether sub-meshes differ on what they share: with copies of Γ, and where they overlap.
     [[nodiscard]] bool has_copies() const { return copies_ || (!error_ && foreign_ == nullptr); }
 
-    /// Made when it is known what factors take.
+    /// Made when the size of factors is known.
     std::optional<SharedFactorPool> factors_;
     Workspaces workspaces_;
     Decomposition decomposition_;
@@ -105,7 +105,7 @@ class SweepStepper final : public Stepper {
     FactorWindow window_;
     /// With the classical conditions.
     std::optional<InterfaceGaps> copies_;
-    /// But for overlapping sub-meshes; and those who estimate together.
+    /// Not for overlapping sub-meshes: peers, and their estimate.
     std::unique_ptr<InterfacePeers> peers_;
     std::optional<ErrorEstimate> error_;
     /// A root for each plan.

@@ -20,9 +20,9 @@ namespace seamflow {
 namespace {
 
 /// dt over the squared diagonal of a component from which on it is small: masses have eleven digits left beside dt K,
-/// and what the scaling leaves out, the square of what is left of the shape, is the ten-billionth part of it.
+/// and the scaling neglects the square of what is left of the shape, the ten-billionth part of it.
 constexpr double small_by_steps = 1e5;
-/// A component whose diagonal has fewer digits than this leaves of its coordinates is a point.
+/// A component whose diagonal is a smaller fraction of its coordinates than this is a point.
 constexpr double point_in_coordinates = 1e6 * std::numeric_limits<double>::epsilon();
 
 using Box = Eigen::AlignedBox3d;
@@ -129,7 +129,7 @@ VanishingComponents::VanishingComponents(const FlowOptions& options, const Point
     : options_(options)
     , find_(std::move(find))
 {
-    // The Laplacian with uniform weights does not know the size of anything.
+    // The Laplacian with uniform weights does not depend on any size.
     if (options.scheme == Scheme::BackwardEuler && !options.keep_edges && options.laplacian != Laplacian::Uniform)
         extent_ = std::sqrt(options.time_step / small_by_steps);
     is_attached_ = options.motion.attachment > 0.0 || !options.motion.attachment_weights.empty();
@@ -172,8 +172,8 @@ void VanishingComponents::step(Stepper& stepper, const Points& before)
     stepper.move(small.vertices, after);
 }
 
-/// Brings a component to where the step is taken.
-/// @param first as it was at first, if that is kept.
+/// Brings a component to the pose for the step.
+/// @param first the initial positions, if they are kept.
 VanishingComponents::Pose VanishingComponents::pose(std::span<const Index> rows, const Points& first,
                                                     Points& table) const
 {
@@ -213,7 +213,7 @@ void VanishingComponents::bring_back(std::span<const Index> rows, const Pose& po
         if (total > 0.0)
             target += towards / total;
     }
-    // By how much masses move the centroid from the mean of the vertices: the step has found it, scaled.
+    // The offset of the centroid by mass from the mean of the vertices: the step has found it, scaled.
     const Point mean = mean_of(table, rows);
     Point off_centre = Point::Zero();
     if (pose.scale > 0.0)
@@ -228,8 +228,8 @@ std::string VanishingComponents::remark() const
 {
     if (most_ == 0)
         return {};
-    return fmt::format("{} so small beside the amount that a point is left of {}: less smoothing keeps {}, and the "
-                       "rest of the surface has gone on.",
+    return fmt::format("{} so small compared with the amount that a point is left of {}: less smoothing keeps {}, and "
+                       "the rest of the surface continued.",
                        most_ == 1 ? "1 component is" : fmt::format("{} components are", most_),
                        most_ == 1 ? "it" : "each", most_ == 1 ? "it" : "them");
 }

@@ -14,21 +14,21 @@
 
 namespace seamflow {
 
-/// Components of a mesh that are joined by shared vertices, that nothing holds, and that are small; all who know a part
-/// of the mesh have the same ones, in the same order.
+/// Small components of a mesh, connected by shared vertices, that nothing holds; all who know a part of the mesh have
+/// the same ones, in the same order.
 struct SmallComponents {
-    /// Per component, its rows of the table of their vertices: ascending by vertex.
+    /// Per component, its rows in the table of their vertices: ascending by vertex.
     IndexLists rows;
     /// Per row, the vertex; -1 where it is not known here.
     std::vector<Index> vertices;
-    /// Makes the table of what is known of vertices, #V by 3: #rows by 3. All who know a part call it together.
+    /// Makes the table of vertex data, given as #V by 3: #rows by 3. All who know a part call it together.
     std::function<Points(const Points& of_vertices)> table;
 };
 
 /// Finds those whose bounding boxes have diagonals of less than `extent`. All who know a part call it together.
 using FindSmallComponents = std::function<SmallComponents(const Points& positions, double extent)>;
 
-/// Whether any face is so small that a component of less than `extent` may have it.
+/// Whether any face is small enough for a component of less than `extent`.
 bool has_small_face(const PolygonMesh& mesh, const Points& positions, double extent);
 
 /// Whether the bounding box of some vertices has a diagonal of less than `extent`.
@@ -38,11 +38,11 @@ bool is_smaller(const Points& positions, std::span<const Index> vertices, double
 /// @param mesh, topology must outlive it.
 FindSmallComponents find_small_components(const PolygonMesh& mesh, const Topology& topology);
 
-/// Takes steps of surfaces whose components differ much in size. A backward Euler step makes of a component that is
-/// small against √dt about a point: its centroid, which stays. But beside dt K its masses are then lost to rounding,
-/// and with them where it is. Such a component is scaled up about its centroid before the step, and what the step makes
-/// of it is scaled back: of all but the centroid about 1 / (dt λ) is left, where λ are the eigenvalues of M⁻¹ K, which
-/// go with the square of lengths. A component that its coordinates do not resolve any more is a point, and stays.
+/// Takes steps of surfaces whose components differ much in size. A backward Euler step shrinks a component that is
+/// small compared to √dt to about a point: its centroid, which stays. But next to dt K its masses are then lost to
+/// rounding, and its place with them. Such a component is scaled up about its centroid before the step, and the result
+/// is scaled back: of everything except the centroid about 1 / (dt λ) is left, where λ are the eigenvalues of M⁻¹ K,
+/// which go with the square of lengths. A component that its coordinates no longer resolve is a point, and stays.
 class VanishingComponents {
   public:
     /// @param first #V by 3: what an attachment attaches to.
@@ -51,7 +51,7 @@ class VanishingComponents {
     /// One step. @throws as Stepper::step.
     void step(Stepper& stepper, const Points& before);
 
-    /// A sentence on components that have been so small; empty where there was none.
+    /// A sentence on components that were so small; empty if there were none.
     [[nodiscard]] std::string remark() const;
 
   private:
@@ -61,7 +61,7 @@ class VanishingComponents {
         Point centre;
         /// 0: the component is a point.
         double scale = 0.0;
-        /// What the shape that the step leaves there is to be multiplied by.
+        /// Factor for the shape that the step leaves there.
         double rest = 0.0;
     };
     [[nodiscard]] Pose pose(std::span<const Index> rows, const Points& first, Points& table) const;
@@ -70,7 +70,7 @@ class VanishingComponents {
 
     FlowOptions options_;
     bool is_attached_ = false;
-    /// Whether steps have a K that goes with the lengths of the first surface, not with present ones.
+    /// Whether steps have a K that depends on lengths of the first surface, not on present ones.
     bool has_kept_lengths_ = false;
     /// Empty where neither holds.
     Points first_;

@@ -6,10 +6,10 @@
 
 namespace seamflow {
 
-/// A loop of the lower layers on the threads of the arena that it is called in (see Executor).
+/// Runs a loop of the lower layers on the threads of the calling arena (see Executor).
 void run_in_parallel(Index n, const RangeBody& body);
 
-/// Two pieces of work, at the same time where there are threads for both.
+/// Runs two pieces of work, in parallel if there are threads for both.
 void run_both(const std::function<void()>& one, const std::function<void()>& other);
 
 }  // namespace seamflow

@@ -9,11 +9,11 @@ namespace seamflow {
 
 namespace {
 
-/// What is worth telling: so much of the whole, or anything after so many seconds.
+/// The least progress reported: a fraction of the whole, or any after so many seconds.
 constexpr double noticeable = 1.0 / 500.0;
 constexpr double seconds_between = 0.1;
 
-/// Clears a flag that was set, whatever happens.
+/// Clears a set flag at the end of its scope.
 class Cleared {
   public:
     explicit Cleared(std::atomic_flag& flag)
@@ -71,7 +71,7 @@ void Progress::finish()
     tell(1.0, true);
 }
 
-/// Of several threads at once one tells, and the others have better things to do.
+/// Of several threads at once, one reports, and the others continue their work.
 void Progress::tell(double fraction, bool at_once)
 {
     if (!control_->on_progress || telling_.test_and_set(std::memory_order_acquire))

@@ -8,9 +8,9 @@
 
 namespace seamflow {
 
-/// Tells an observer how far a flow is, and the flow whether it is to stop. Phases begin in one thread; what they
-/// consist of is counted from any thread. Costs an addition for each count, and with an observer a few hundred calls of
-/// it, and ten more per second.
+/// Reports to an observer how far a flow is, and to the flow whether to stop. Phases begin in one thread; their parts
+/// are counted from any thread. Costs an addition per count, and with an observer a few hundred calls of it, and ten
+/// more per second.
 class Progress {
   public:
     /// @param control must outlive this.
@@ -18,8 +18,8 @@ class Progress {
 
     [[nodiscard]] bool is_stopped() const { return control_->stop.stop_requested(); }
 
-    /// A place where the flow may stop.
-    /// @throws Cancelled if it is to.
+    /// Lets the flow stop here.
+    /// @throws Cancelled if it is to stop.
     void require_going_on() const;
 
     /// Sets `steps` of FlowProgress.
@@ -27,14 +27,14 @@ class Progress {
 
     /// Begins a phase.
     /// @param step its number; 0: before the first.
-    /// @param begin, end the fraction of the whole then, and when everything is counted.
+    /// @param begin, end the fraction of the whole now, and when everything is counted.
     /// @throws Cancelled if the flow is to stop.
     void enter(FlowPhase phase, int step, double begin, double end);
 
-    /// Says of how many parts the present phase consists.
+    /// Sets the number of parts of the present phase.
     void expect(double parts);
 
-    /// So many of them are done.
+    /// Counts parts as done.
     void count(double parts = 1.0);
 
     /// All is done.
@@ -61,7 +61,7 @@ class Progress {
     Stopwatch since_told_;
 };
 
-/// Counts a task that takes an unknown number of loops: it is expected to take as many as when it was last done.
+/// Counts a task that takes an unknown number of loops: it is expected to take as many as last time.
 class LoopCount {
   public:
     /// @param parts that the task counts for (see Progress::expect).

@@ -8,8 +8,8 @@
 
 namespace seamflow {
 
-/// Runs `body` for sub-mesh s, in one thread; failures come out with its name.
-/// @param sub_mesh a SubMesh, or what else has `faces` and `n_vertices`.
+/// Runs `body` for sub-mesh s, in one thread; failures name it.
+/// @param sub_mesh a SubMesh, or anything with `faces` and `n_vertices`.
 template <class SubMeshLike, class Body>
 void run_for_sub_mesh(const SubMeshLike& sub_mesh, Index s, Body&& body)
 {

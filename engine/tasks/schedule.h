@@ -28,7 +28,7 @@ enum class TaskPriority { Normal, High };
 /// A task of the graph. It runs at most once in a step.
 struct ScheduledTask {
     TaskKind kind = TaskKind::Solve;
-    /// -1: of no one.
+    /// -1: none.
     Index sub_mesh = 0;
     TaskPriority priority = TaskPriority::Normal;
 };
@@ -52,7 +52,7 @@ struct TaskRecord {
     double end = 0.0;
 };
 
-/// One step, from its first task to where all sub-meshes are joined.
+/// One step, from its first task to the joining of all sub-meshes.
 struct StepRecord {
     /// Seconds since the first step began.
     double start = 0.0;
@@ -61,7 +61,7 @@ struct StepRecord {
 
 /// What ran when in a flow, and what had to wait for what.
 struct Schedule {
-    /// Those of all sweeps; a step runs the tasks of its own sweep alone.
+    /// Those of all sweeps; a step runs only the tasks of its own sweep.
     std::vector<ScheduledTask> tasks;
     std::vector<Dependency> dependencies;
     /// In order of their steps; within a step in order of their tasks.

@@ -117,7 +117,7 @@ class ListSchedule {
     SmallestFirst<std::pair<double, Index>> running_;
 };
 
-/// With a worker for each task, one that waits starts when the last one that it waits for ends.
+/// With a worker for each task, a waiting task starts when the last one that it waits for ends.
 void find_critical_path(const TasksOfStep& graph, Simulation& simulation)
 {
     const ListSchedule unlimited(graph, graph.size());

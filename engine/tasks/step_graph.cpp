@@ -28,7 +28,7 @@ std::function<void()> StepGraph::recorded(const ScheduledTask& task, std::functi
     return [this, number, run = std::move(body)] { run_recorded(number, run); };
 }
 
-/// Notes at which node the latest task is.
+/// Notes the node of the latest task.
 void StepGraph::note(Node node)
 {
     if (!schedule_)
@@ -80,7 +80,7 @@ void StepGraph::end_record()
             schedule_->records.push_back(record);
 }
 
-/// Notes when the body ran; not if it throws. Different tasks may run at the same time.
+/// Notes when the body ran, unless it throws. Different tasks may run at the same time.
 void StepGraph::run_recorded(Index task, const std::function<void()>& body)
 {
     const double start = clock_.seconds();

@@ -13,7 +13,7 @@
 namespace seamflow {
 
 /// The task graph of a step, in which every task has a name: what it does, and for which sub-mesh. It is built once and
-/// run once for each step. Where asked to, it records what ran when; that allocates between steps alone.
+/// run once for each step. On request it records what ran when; that allocates only between steps.
 class StepGraph {
   public:
     using Node = TaskGraph::Node;
@@ -22,7 +22,7 @@ class StepGraph {
     /// @param progress counts the tasks and says whether to stop; must outlive the graph.
     StepGraph(bool is_recorded, Progress& progress);
 
-    /// A place to start from: the tasks that are added up to the next one belong to it.
+    /// A starting point: the tasks that are added before the next root belong to it.
     Node add_root();
 
     /// A task that starts as soon as all tasks and the root before it are done.

@@ -38,7 +38,7 @@ class TaskGraph::Nodes {
 
         [[nodiscard]] bool failed() const { return failed_.load(std::memory_order_acquire); }
 
-        /// Forgets the failure, if there is one, by throwing it.
+        /// Throws the failure, if there is one, and forgets it.
         void rethrow()
         {
             failed_.store(false, std::memory_order_release);
@@ -53,8 +53,8 @@ class TaskGraph::Nodes {
         TaskGraph::Node node_ = -1;
     };
 
-    /// What there is to do at a node. oneTBB copies what a node is given, and loses a copy where memory lacks for the
-    /// next one: so it is given no more than where this is.
+    /// The work at a node. oneTBB copies the body of a node, and loses a copy if there is no memory for the next one:
+    /// so it is given only a pointer to this.
     struct Task {
         Node node = -1;
         std::function<void()> body;
@@ -62,12 +62,12 @@ class TaskGraph::Nodes {
 
     ~Nodes() { graph.wait_for_all(); }
 
-    /// Runs a task, or leaves it out. Exceptions stay inside: a flow graph that one has left starts its next run with
-    /// wrong counts.
+    /// Runs a task, or skips it. Exceptions stay inside: a flow graph from which one has escaped starts its next run
+    /// with wrong counts.
     void perform(const Task& task);
 
-    /// Starts an event, or lets it begin when the tasks before it are done. A thread outside would wait for a place in
-    /// the arena if it did so itself.
+    /// Starts an event, or lets it begin when the tasks before it are done. An outside thread that did so itself would
+    /// wait for a place in the arena.
     void start(Node event)
     {
         arena.enqueue([this, event] {
@@ -77,23 +77,23 @@ class TaskGraph::Nodes {
     }
 
     std::deque<Task> tasks;
-    /// The one in which all is constructed: signals come from threads that are not in it.
+    /// The arena in which all is constructed: signals come from threads outside it.
     oneapi::tbb::task_arena arena{oneapi::tbb::task_arena::attach()};
     flow::graph graph;
     std::deque<flow::continue_node<flow::continue_msg>> nodes;
     TaskOrder order;
     Progress* progress = nullptr;
     FirstFailure failure;
-    /// Set where a task was not run because the flow is to stop. oneTBB's own cancellation would also make the loops
-    /// within running tasks leave out what they have not begun.
+    /// Set if a task was skipped because the flow was asked to stop. oneTBB's own cancellation would also make the
+    /// loops within running tasks skip what they have not begun.
     std::atomic<bool> skipped{false};
-    /// Of each root.
+    /// For each root.
     std::unordered_map<Node, Index> n_tasks;
     std::unordered_map<Node, Index> n_events;
-    /// Of what follows: signals come from any thread.
+    /// Guards what follows: signals come from any thread.
     std::mutex mutex;
     bool is_running = false;
-    /// What was signalled before the run.
+    /// The events signalled before the run.
     std::vector<Node> early;
     Node latest_root = -1;
 };
@@ -115,7 +115,7 @@ void TaskGraph::Nodes::perform(const Task& task)
     }
 }
 
-/// What oneTBB runs at a node of the graph.
+/// The body of a node of the oneTBB graph.
 struct TaskGraph::OrderedTask {
     flow::continue_msg operator()(const flow::continue_msg& message) const
     {

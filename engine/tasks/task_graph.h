@@ -14,9 +14,9 @@ class Progress;
 /// A graph of tasks with fixed dependencies, built once and run as often as wanted (a oneTBB flow graph of continue
 /// nodes). Belongs to the arena in which it is constructed.
 ///
-/// Tasks may throw: tasks that have not started by then are skipped, and `run` throws what the task with the lowest
-/// number among those that failed has thrown (with several failures, which ones happened depends on timing). The same
-/// tasks are skipped when the flow is to stop. The graph can be run again.
+/// Tasks may throw: tasks that have not started by then are skipped, and `run` rethrows what the lowest-numbered of the
+/// failed tasks has thrown (with several failures, which ones happened depends on timing). Tasks are skipped likewise
+/// when the flow is to stop. The graph can be run again.
 class TaskGraph {
   public:
     /// Number of a task or of a root.
@@ -28,7 +28,7 @@ class TaskGraph {
     TaskGraph(const TaskGraph&) = delete;
     TaskGraph& operator=(const TaskGraph&) = delete;
 
-    /// A place to start from. A run reaches the tasks behind one root, which are to be added before the next one.
+    /// A starting point. A run reaches the tasks behind one root, which must be added before the next root.
     Node add_root();
 
     /// A task that starts as soon as all tasks and the root before it are done.
@@ -37,14 +37,14 @@ class TaskGraph {
     /// A task that in every run also waits for something from outside: until `signal` is called for it.
     Node add_event(std::function<void()> body, TaskPriority priority);
 
-    /// What the event waits for has come: to be called once in each run for each event behind its root, before the run
-    /// or while it goes on, by any thread. Does not wait for the task.
+    /// Signals that what the event waits for has come: call once in each run for each event behind its root, before or
+    /// during the run, from any thread. Does not wait for the task.
     void signal(Node event);
 
-    /// Lets the present run fail as if a task had thrown this; by any thread. Events have to be signalled all the same.
+    /// Makes the present run fail as if a task had thrown this; from any thread. Events must still be signalled.
     void fail(std::exception_ptr failure);
 
-    /// Whether the present run leaves out the tasks that have not begun; by any thread.
+    /// Whether the present run skips the tasks that have not begun; from any thread.
     [[nodiscard]] bool is_ending() const;
 
     /// Makes `after` wait for `before`.

@@ -32,11 +32,11 @@ namespace tbb = oneapi::tbb;
 
 namespace {
 
-/// What oneTBB's threads allocate before they look for work, in bytes, is less than this.
+/// Upper bound in bytes on what oneTBB's threads allocate before they look for work.
 constexpr std::size_t memory_of_new_thread = 128 * 1024;
 
-/// Makes that many threads with stacks like oneTBB's and memory for what those begin with, and ends them.
-/// @returns whether the system has let it.
+/// Creates that many threads with stacks like oneTBB's and the memory that those begin with, and ends them.
+/// @returns whether the system allows it.
 bool can_make_threads(int n)
 {
     struct Trial {
@@ -77,14 +77,14 @@ bool can_make_threads(int n)
     return error == 0 && !trial.has_failed;
 }
 
-/// What an arena that is attached to the caller's reports may be more than the caller's limit.
+/// An arena that is attached to the caller's may report more threads than the caller's limit.
 int threads_of(const tbb::task_arena& arena)
 {
     const auto allowed = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
     return std::min(arena.max_concurrency(), static_cast<int>(allowed));
 }
 
-/// Lets the threads of an arena come, all that do so soon.
+/// Waits for those threads of an arena that start soon.
 void bring_up_threads(tbb::task_arena& arena)
 {
     const int n = threads_of(arena);
@@ -101,9 +101,9 @@ void bring_up_threads(tbb::task_arena& arena)
     });
 }
 
-/// oneTBB ends the program where the system refuses it a thread, or memory for what a thread begins with, which is so
-/// where the address space is limited and full. So that it does not come to that, threads are made here first, and then
-/// oneTBB's at once. The C library keeps the memory of the stacks for them, of the first nine or so (40 MiB).
+/// oneTBB ends the program if the system refuses it a thread, or memory for what a thread begins with, as it does if
+/// the address space is limited and full. To avoid that, threads are made here first, and then oneTBB's at once. The C
+/// library keeps the memory of the stacks for them, for about the first nine (40 MiB).
 /// @throws ComputationError if there is no room for them.
 void require_room_for_threads(tbb::task_arena& arena)
 {
@@ -135,11 +135,11 @@ class Workers::Arena {
     {
         require_threads(threads);
         if (threads > 0) {
-            // TBB starts no more threads than there are cores, whatever an arena asks for, unless it is told to.
+            // TBB starts no more threads than there are cores, whatever an arena asks for, unless told otherwise.
             const auto wanted = static_cast<std::size_t>(threads);
             if (wanted > tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism))
                 limit.emplace(tbb::global_control::max_allowed_parallelism, wanted);
-            // The lowest of all limits holds, the program's own included; TBB complains of arenas that ask for more.
+            // The lowest limit applies, the program's own included; TBB complains about arenas that ask for more.
             const auto allowed = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
             arena.initialize(static_cast<int>(std::min(wanted, allowed)));
         } else {

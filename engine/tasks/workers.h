@@ -12,8 +12,8 @@ namespace seamflow {
 class Workers {
   public:
     /// @param threads their number, the calling thread included: fewer where the program has set a lower limit. 0: the
-    /// arena of the caller with the limits it has. In that arena a thread that waits may take up other tasks of the
-    /// caller's meanwhile, as everywhere in oneTBB; with a number the flow has an arena of its own.
+    /// arena of the caller with the limits it has. In that arena a waiting thread may meanwhile run other tasks of the
+    /// caller, as everywhere in oneTBB; with a number the flow has its own arena.
     /// @throws OptionError as require_threads; ComputationError where there is no memory for them.
     explicit Workers(int threads);
     ~Workers();
@@ -23,7 +23,7 @@ class Workers {
     /// Runs `work` so that everything parallel in it uses these threads.
     void execute(const std::function<void()>& work);
 
-    /// Loops on these threads; they have to outlive it.
+    /// Loops on these threads, which must outlive it.
     [[nodiscard]] Executor exec();
 
     /// How many there are, within the limits that the program has set (oneTBB's global_control).

@@ -10,7 +10,7 @@ namespace arena = oneapi::tbb::this_task_arena;
 
 Workspaces::Workspaces()
     : n_threads_(static_cast<Index>(arena::max_concurrency()))
-    // An arena of one thread gets a second one for what is put into it from outside (see TaskGraph::signal).
+    // An arena of one thread gets a second one for tasks enqueued from outside (see TaskGraph::signal).
     , workspaces_(std::max(at(n_threads_), std::size_t{2}))
 {
 }

@@ -11,7 +11,7 @@ namespace seamflow {
 
 namespace {
 
-/// So many points tell where half of those of a box are.
+/// The number of sampled points per box that determine its median.
 constexpr Index sample_of_box = 256;
 
 using Box = Eigen::AlignedBox3d;

@@ -6,11 +6,11 @@
 
 namespace seamflow {
 
-/// Divides points among boxes with about as many points each: the leaves of a k-d tree (Bentley, Multidimensional
-/// Binary Search Trees, 1975) whose medians are those of a sample. The same boxes and orders however loops are run.
+/// Divides points into boxes of about equally many points: the leaves of a k-d tree (Bentley, Multidimensional Binary
+/// Search Trees, 1975) with the medians of a sample. Boxes and orders do not depend on how loops are run.
 /// @param positions #points by 3, all finite.
 /// @param n_boxes a power of two, at most 65,536.
-/// @returns the points in each box, along its longest side. Points at one place share a box; so boxes may be empty.
+/// @returns the points in each box, along its longest side. Coincident points share a box, so boxes may be empty.
 IndexLists divide_into_boxes(const Points& positions, Index n_boxes, const Executor& exec);
 
 }  // namespace seamflow

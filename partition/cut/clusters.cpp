@@ -14,18 +14,18 @@ namespace seamflow {
 namespace {
 
 /// Lighter meshes (see face_weight) are divided face by face, which takes a fraction of a second and gives the best
-/// boundaries; of others clusters are.
+/// boundaries; others are divided by clusters.
 constexpr double min_weight_for_clusters = 500'000;
-/// With parts as small as this, their boundaries matter less, and clusters are grown in lighter meshes too.
+/// The boundaries of parts as small as this matter less, and clusters are grown in lighter meshes, too.
 constexpr double small_part = 5'000;
 constexpr double min_weight_for_small_parts = 300'000;
-/// How many clusters METIS gets for a part, about: enough to shape it well and to balance parts within a few percent.
+/// About how many clusters METIS gets per part: enough to shape it well and to balance parts within a few percent.
 constexpr double clusters_per_part = 80;
-/// And in all, which takes a twentieth of a second.
+/// The least in total, which takes a twentieth of a second.
 constexpr double min_clusters = 20'000;
 /// Larger clusters save no time and leave longer boundaries between parts.
 constexpr double max_cluster_weight = 64;
-/// Smaller clusters save little against single faces.
+/// Smaller clusters save little compared with single faces.
 constexpr double min_cluster_weight = 8;
 /// Where a part would have fewer clusters than this, METIS gets every face.
 constexpr double min_clusters_per_part = 30;
@@ -38,7 +38,7 @@ struct Chunk {
     [[nodiscard]] bool has(Index f) const { return f >= begin && f < end; }
 };
 
-/// Clusters, the faces of one after those of the other in an array of all faces.
+/// Clusters whose faces are stored one cluster after the other in an array of all faces.
 struct Grown {
     /// Where the faces of the first cluster begin, and where those of each end.
     Index begin = 0;
@@ -54,18 +54,18 @@ struct Grown {
     }
 };
 
-/// Where clusters are put.
+/// Where clusters are stored.
 struct ClusterPlace {
     /// #F, negative where a face has no cluster yet.
     std::vector<Index>& cluster_of;
-    /// #F: receives those of one cluster after the other.
+    /// #F: receives the faces of one cluster after the other.
     std::vector<Index>& faces;
     /// The number of the first cluster, and where its faces begin in `faces`.
     Index first = 0;
     Index begin = 0;
 };
 
-/// Fills a chunk of the faces with clusters. Of other faces nothing is read or written.
+/// Fills a chunk of the faces with clusters. Does not read or write entries of other faces.
 class ClusterGrower {
   public:
     ClusterGrower(const PolygonMesh& mesh, const Topology& topology, Index weight, Chunk chunk,
@@ -82,10 +82,10 @@ class ClusterGrower {
     {
     }
 
-    /// What has been grown; nothing can be grown after this.
+    /// The grown clusters; nothing can be grown after this.
     Grown take() { return std::move(grown_); }
 
-    /// Takes all that hangs together with face f of the chunk, unless it has a cluster.
+    /// Grows clusters over all that is connected to face f of the chunk, unless it has one.
     void grow_around(Index f)
     {
         if (!is_free(f))
@@ -102,10 +102,10 @@ class ClusterGrower {
 
   private:
     [[nodiscard]] bool is_free(Index f) const { return chunk_.has(f) && cluster_of_[f] < 0; }
-    /// The cluster in the making.
+    /// The cluster being grown.
     [[nodiscard]] Index last() const { return first_ + grown_.size(); }
 
-    /// Until `visit` returns false.
+    /// Stops when `visit` returns false.
     template <class Visit>
     void for_each_free_neighbour(Index f, Visit&& visit)
     {
@@ -135,8 +135,8 @@ class ClusterGrower {
         Index next = begin;
         for (add(seed); left > 0 && next < end_; ++next)
             for_each_free_neighbour(faces_[next], add);
-        // With notches filled and what would remain alone taken in, outlines are shorter and clusters fewer. All faces
-        // that the growth has gone past but the last have no free neighbours any more.
+        // Filling notches and including faces that would be isolated makes outlines shorter and clusters fewer. All
+        // faces that the growth has passed, except the last, have no free neighbours left.
         for (next = std::max(next, begin + 1) - 1; next < end_; ++next) {
             for_each_free_neighbour(faces_[next], [&](Index g) {
                 if (belongs_to_last(g))
@@ -149,8 +149,8 @@ class ClusterGrower {
         grown_.touches_others.push_back(touches_others_ ? 1 : 0);
     }
 
-    /// Whether most edges of a free face lead to the cluster in the making, whose outline it would shorten, or none to
-    /// a free face.
+    /// Whether most edges of a free face lead to the cluster being grown, whose outline it would shorten, or none lead
+    /// to a free face.
     [[nodiscard]] bool belongs_to_last(Index f) const
     {
         Index inner = 0;
@@ -174,14 +174,14 @@ class ClusterGrower {
     std::vector<Index>& cluster_of_;
     std::vector<Index>& faces_;
     Grown grown_;
-    /// Of the cluster in the making: where its faces end, and whether one of its edges leads to another chunk.
+    /// The cluster being grown: where its faces end, and whether one of its edges leads to another chunk.
     Index end_;
     bool touches_others_ = false;
-    /// Of the faces in hand that hang together: those of clusters that may have free neighbours, in order.
+    /// Those faces of the current connected component's clusters that may have free neighbours, in order.
     std::vector<Index> outer_;
 };
 
-/// What part of the edges leads from one chunk of `size` faces to another, of a sample.
+/// The fraction of the edges of a sample that lead from one chunk of `size` faces to another.
 double part_across(const PolygonMesh& mesh, const Topology& topology, Index size)
 {
     constexpr Index sampled = 64;
@@ -199,7 +199,7 @@ double part_across(const PolygonMesh& mesh, const Topology& topology, Index size
 /// @param size that of the smallest chunks.
 std::vector<Chunk> chunks_of(const PolygonMesh& mesh, const Topology& topology, Index weight, Index size)
 {
-    // A cluster is about as wide as the square root of its weight. About a tenth of all is grown again at most.
+    // A cluster is about as wide as the square root of its weight. At most about a tenth of all is grown again.
     constexpr double most_edges_across = 0.025;
     const double width = std::sqrt(weight);
     while (size < mesh.n_faces() && width * part_across(mesh, topology, size) > most_edges_across)

@@ -26,18 +26,18 @@ inline Index face_weight(const PolygonMesh& mesh, Index f)
     return static_cast<Index>(mesh.face(f).size()) - 2;
 }
 
-/// How much clusters should weigh when a mesh is cut into k parts; 1 where its faces should not be put together.
+/// How much clusters should weigh when a mesh is cut into k parts; 1 if its faces should not be grouped.
 /// @param total the weight of all faces.
 Index cluster_weight(double total, Index k);
 
-/// So many faces are a chunk at least (see grow_clusters).
+/// Minimum number of faces in a chunk (see grow_clusters).
 inline constexpr Index faces_per_chunk = 1 << 18;
 
 /// Grows clusters breadth first, one beside the other, each until its faces weigh `weight` or nothing is left around
-/// it. Linear in the size of the mesh. Large meshes whose faces are for the most part near the ones that come before
-/// and after them are done in chunks of so many faces or more, several at a time; clusters at the ends of chunks are
-/// then dissolved and grown again across them.
-/// @param weight at least 1, which makes every face f the cluster f.
+/// it. Linear in the size of the mesh. Large meshes whose faces are mostly near the ones numbered before and after them
+/// are processed in chunks of at least `chunk` faces, several at a time; clusters at the ends of chunks are then
+/// dissolved and grown again across these.
+/// @param weight at least 1; 1 makes every face f the cluster f.
 FaceClusters grow_clusters(const PolygonMesh& mesh, const Topology& topology, Index weight,
                            const Executor& exec = run_serially, Index chunk = faces_per_chunk);
 

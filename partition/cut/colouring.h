@@ -10,8 +10,8 @@ namespace seamflow {
 /// The neighbours of each node, ascending, each in the other's list too.
 using Adjacency = std::vector<std::vector<Index>>;
 
-/// Colours the nodes so that neighbours differ: with two colours every connected component that allows it, the others
-/// with few (the node whose neighbours have most colours first). Deterministic.
+/// Colours the nodes so that neighbours differ: connected components with two colours where possible, the others with
+/// few (nodes whose neighbours have most colours first). Deterministic.
 /// @returns one colour per node, from 0.
 std::vector<Index> colour(const Adjacency& adjacency);
 

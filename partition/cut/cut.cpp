@@ -116,8 +116,7 @@ std::vector<std::string> remarks_on_labels(Index n_given, Index largest, std::in
         remarks.push_back(number_of(repaired_faces, "face") +
                           " had to change parts so that every part is connected and a manifold with boundary.");
     if (n_parts != n_given)
-        remarks.push_back(
-            fmt::format("The labels name {}; after this there are {}.", number_of(n_given, "part"), n_parts));
+        remarks.push_back(fmt::format("The labels name {}; now there are {}.", number_of(n_given, "part"), n_parts));
     return remarks;
 }
 

@@ -14,8 +14,8 @@ namespace seamflow {
 
 /// How the faces of a mesh are divided into sub-meshes.
 struct Cut {
-    /// #F: the part each face belongs to, from 0 to n_parts - 1; each label occurs. Unless there is but one part, each
-    /// part is a manifold with boundary (see repair).
+    /// #F: the part each face belongs to, from 0 to n_parts - 1; each label occurs. Unless n_parts is 1, each part is a
+    /// manifold with boundary (see repair).
     std::vector<Index> labels;
     /// 0 for a mesh without faces.
     Index n_parts = 0;
@@ -28,23 +28,23 @@ struct Cut {
 /// Parts are not made smaller on average than this many faces: a part should have vertices that no other one has.
 inline constexpr Index min_faces_per_part = 12;
 
-/// The largest sensible number of parts of a mesh of so many faces, k at most.
+/// The largest sensible number of parts of a mesh of n_faces faces, at most k.
 /// @param k at least 1.
 Index sensible_parts(std::int64_t n_faces, Index k);
 
 /// Why a mesh was not cut into k parts.
-/// @param n_components of its faces. @returns a sentence; empty where it was.
+/// @param n_components of its faces. @returns a sentence; empty if it was.
 std::string remark_on_number(std::int64_t n_faces, Index k, Index n_parts, Index n_components);
 
-/// What became of labels that were given, one sentence each.
-/// @param n_given different ones, the largest of which was this. @param repaired_faces, n_parts see Cut.
+/// Remarks on labels that were given, one sentence each.
+/// @param n_given different labels, the largest being `largest`. @param repaired_faces, n_parts see Cut.
 std::vector<std::string> remarks_on_labels(Index n_given, Index largest, std::int64_t repaired_faces, Index n_parts);
 
-/// Runs the serial part of a cut. A caller with further threads, and with work that does not need the cut, can do both
-/// at once.
+/// Runs the serial part of a cut. A caller with further threads and work that does not need the cut can do both at
+/// once.
 using Alongside = std::function<void(const std::function<void()>& serial)>;
 
-/// The serial part in the thread of the caller.
+/// Runs `serial` in the thread of the caller.
 inline void run_alone(const std::function<void()>& serial)
 {
     serial();
@@ -53,13 +53,13 @@ inline void run_alone(const std::function<void()>& serial)
 /// Cuts a mesh into k parts of about equal numbers of unknowns with short interfaces. k = 1: all faces have label 0,
 /// even where the mesh has several connected components. k > 1: every part lies within one component, so that there are
 /// at least as many parts as components; there may be fewer than k on a small mesh. A remark says when it is not k.
-/// @param alongside is given METIS's part of the work, once; not where there is none.
+/// @param alongside called once with METIS's part of the work, if there is any.
 /// @throws OptionError if k < 1, ComputationError if METIS fails.
 Cut cut_into(const PolygonMesh& mesh, const Topology& topology, Index k, const Executor& exec = run_serially,
              const Alongside& alongside = run_alone);
 
-/// Cuts a mesh as given. Gaps in the labels are closed, keeping their order, and parts that are no manifolds with
-/// boundary are repaired (see repair); remarks report both. If all labels are equal the mesh is not cut at all.
+/// Cuts a mesh by labels. Gaps in the labels are closed, keeping their order, and parts that are not manifolds with
+/// boundary are repaired (see repair); remarks report both. If all labels are equal, the mesh is not cut.
 /// @param labels #F, at least 0.
 /// @throws InputError if there are not as many labels as faces, or one is negative.
 Cut cut_by_labels(const PolygonMesh& mesh, const Topology& topology, std::span<const Index> labels,

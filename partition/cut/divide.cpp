@@ -33,7 +33,7 @@ std::mutex& metis_mutex()
     return mutex;
 }
 
-/// Random numbers of METIS's own, while this lives: the caller's rand() goes on after it as if nothing had been drawn.
+/// METIS's own random numbers while this lives: the caller's rand() then continues as if none had been drawn.
 class OwnRandomNumbers {
   public:
     OwnRandomNumbers()
@@ -45,13 +45,12 @@ class OwnRandomNumbers {
     OwnRandomNumbers& operator=(const OwnRandomNumbers&) = delete;
 
   private:
-    /// As long as the C library's own, so that the numbers are the same.
+    /// Of the same size as the C library's own, so that the numbers are the same.
     alignas(8) std::array<char, 128> state_{};
     char* callers_;
 };
 
-/// How much heavier than it should be, in thousandths, a group of parts may become; that of its parts (30) comes on
-/// top.
+/// By how many thousandths a group of parts may exceed its weight; the tolerance of its parts (30) is added to this.
 constexpr idx_t tolerance_of_groups = 10;
 
 std::array<idx_t, METIS_NOPTIONS> options(bool connected_parts)
@@ -70,7 +69,7 @@ std::vector<idx_t> copy(const std::vector<Index>& from)
     return {from.begin(), from.end()};
 }
 
-/// The part of the whole weight for each part; empty if all get the same.
+/// The fraction of the total weight for each part; empty if all are equal.
 std::vector<real_t> target_weights(std::span<const Index> shares)
 {
     if (std::all_of(shares.begin(), shares.end(), [&](Index share) { return share == shares.front(); }))
@@ -94,7 +93,7 @@ std::vector<Index> metis_k_way(const FaceGraph& graph, std::span<const Index> sh
         const bool k_way =
             graph.n_nodes() / n_parts >=
             (afterwards == Afterwards::Refined ? min_nodes_per_refined_part_k_way : min_nodes_per_part_k_way);
-        // METIS refuses to make connected parts of other graphs.
+        // METIS refuses to make connected parts from other graphs.
         auto settings = options(k_way && graph_components(graph).count() == 1);
         if (k_way && *std::max_element(shares.begin(), shares.end()) > 1)
             settings[METIS_OPTION_UFACTOR] = tolerance_of_groups;
@@ -122,13 +121,13 @@ std::vector<Index> metis_k_way(const FaceGraph& graph, std::span<const Index> sh
 
 namespace {
 
-/// METIS divides so many at once.
+/// The most parts that METIS makes at once.
 constexpr Index max_parts_at_once = 64;
-/// Where there are more, into so many groups.
+/// The number of groups if there are more.
 constexpr Index n_groups = 20;
 
-/// Divides k among the components in proportion to their weights, by largest remainders. Components that would go empty
-/// get one part on top, so that the others are cut as finely as k asks however many small components there are.
+/// Divides k among the components in proportion to their weights, by largest remainders. Components that would get none
+/// receive an extra part, so that the others are cut as finely as k asks however many small components there are.
 /// @param due the weight of every component.
 std::vector<Index> share_out(std::vector<double> due, Index k)
 {
@@ -153,7 +152,7 @@ std::vector<Index> share_out(std::vector<double> due, Index k)
 
 std::vector<Index> divide_connected(const FaceGraph& graph, Index k, Afterwards afterwards);
 
-/// Divides the part of the graph that each label names further, into the number of parts that it counts for.
+/// Divides the part of the graph with each label further, into as many parts as its share.
 /// @returns the new labels, those of the first part before those of the second.
 std::vector<Index> divide_further(const FaceGraph& graph, std::span<const Index> labels, std::span<const Index> shares,
                                   Afterwards afterwards)

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double mean_arc_weight = 64;
 
-/// Whole numbers in proportion to the lengths, each at least 1, that add up to no more than max_weight_sum.
+/// Integers proportional to the lengths, each at least 1, whose sum does not exceed max_weight_sum.
 std::vector<Index> arc_weights(const std::vector<double>& lengths)
 {
     double total = 0;
@@ -38,15 +38,15 @@ Index node_weight(const PolygonMesh& mesh, std::span<const Index> faces, Index u
     return weight;
 }
 
-/// An arc before its length is turned into a whole number.
+/// An arc before its length is converted to an integer.
 struct Arc {
     Index target;
     double length;
-    /// By length too, so that shared edges add up to the same bits from both sides.
+    /// Also orders by length, so that shared edges add up to the same bits from both sides.
     friend auto operator<=>(const Arc&, const Arc&) = default;
 };
 
-/// Makes one of the arcs with the same target, from `begin` on, their lengths added up, and sorts them.
+/// Sorts the arcs from `begin` on, and merges those with the same target, adding up their lengths.
 void add_up(std::ptrdiff_t begin, std::vector<Arc>& arcs)
 {
     std::sort(arcs.begin() + begin, arcs.end());
@@ -60,13 +60,13 @@ void add_up(std::ptrdiff_t begin, std::vector<Arc>& arcs)
         arcs.erase(last + 1, arcs.end());
 }
 
-/// The arcs of one block of nodes, and how many each node has.
+/// The arcs of one block of nodes, and the number of arcs of each node.
 struct BlockOfArcs {
     std::vector<Arc> arcs;
     std::vector<Index> counts;
 };
 
-/// Calls append(node, arcs), which appends the arcs of a node, ascending, each once, for all nodes.
+/// Calls append(node, arcs) for all nodes; it appends the arcs of the node, ascending, each once.
 template <class Append>
 std::vector<BlockOfArcs> list_arcs(Index n_nodes, const Executor& exec, Append&& append)
 {
@@ -104,8 +104,8 @@ struct ClusterPair {
     Index high;
 };
 
-/// The pairs at all edges between clusters, block by block of the faces. Whether there is one at a half-edge is hard to
-/// foresee: each is written down, and most are written over.
+/// The pairs at all edges between clusters, by blocks of faces. Whether there is one at a half-edge is hard to predict:
+/// each is written, and most are overwritten.
 std::vector<std::vector<ClusterPair>> list_cut_edges(const PolygonMesh& mesh, const Topology& topology,
                                                      const FaceClusters& clusters, const Executor& exec)
 {
@@ -138,7 +138,7 @@ std::vector<BlockOfArcs> list_arcs_by_count(const PolygonMesh& mesh, const Topol
                 add(pair.high, pair.low);
             }
     });
-    // As plain numbers: those of a cluster are five times as many as its arcs.
+    // Sorted as plain numbers: a cluster has five times as many of them as arcs.
     for_each(exec, clusters.size(), [&](Index cluster) {
         const auto begin = neighbours.values.begin();
         std::sort(begin + neighbours.offsets[cluster], begin + neighbours.offsets[cluster + 1]);

@@ -13,8 +13,8 @@
 namespace seamflow {
 
 /// The dual graph of a mesh, or a coarser one, in compressed rows: one node per cluster of faces, an arc each way
-/// between two clusters that share edges. Arcs of a node are in ascending order of their targets; no arc is double,
-/// none leads to its own node.
+/// between two clusters that share edges. Arcs of a node are in ascending order of their targets; there are no
+/// duplicate arcs and no loops.
 struct FaceGraph {
     /// #nodes + 1; the arcs of node i are those from offsets[i] to offsets[i + 1] - 1.
     std::vector<Index> offsets{0};
@@ -39,11 +39,11 @@ struct FaceGraph {
 /// Neither the arc weights nor the node weights of a graph add up to more than this.
 inline constexpr double max_weight_sum = 1e9;
 
-/// What makes it costly to cut an arc.
+/// The cost of cutting an arc.
 enum class ArcMeasure {
     /// The length of the shared edges.
     Length,
-    /// Their number, which is about that of the vertices that will lie on the interface.
+    /// Their number, about that of the vertices that will lie on the interface.
     Count,
 };
 
@@ -58,7 +58,7 @@ struct ClusterContact {
     Index n_edges;
 };
 
-/// The graph of clusters of which no more than this is known.
+/// The graph of clusters given by weights and contacts only.
 /// @param weights one entry per cluster, at least 1 (see face_weight). @param contacts in any order; those of the same
 /// clusters are added up.
 FaceGraph make_face_graph(std::span<const std::int64_t> weights, std::span<const ClusterContact> contacts);

@@ -64,7 +64,7 @@ class BoundaryShortener {
         return best != own;
     }
 
-    /// One entry per label: whether faces have left the part that may have held it together.
+    /// One entry per label: whether faces that may have connected the part have left it.
     [[nodiscard]] const std::vector<bool>& may_be_divided() const { return may_be_divided_; }
 
   private:
@@ -74,7 +74,7 @@ class BoundaryShortener {
         return weight_.relieves(weight, from, to) || weight_.stay_balanced(weight, from, to);
     }
 
-    /// Whether those vertices of f that no edge to a face of the part lies at have faces of f's own part alone, so that
+    /// Whether the vertices of f that are on no edge to a face of the part have only faces of f's own part, so that
     /// this is not divided or pinched when f leaves.
     [[nodiscard]] bool is_outermost(Index f, Index label) const
     {
@@ -89,7 +89,7 @@ class BoundaryShortener {
         return true;
     }
 
-    /// Than to stay with, or go to, `other`.
+    /// Whether f is better off in `label` than in `other`.
     [[nodiscard]] bool is_better(Index f, Index label, Index other) const
     {
         if (other == labels_[f] && shared_[label] + 1 == shared_[other] &&
@@ -107,7 +107,7 @@ class BoundaryShortener {
     /// #F, or empty.
     const std::vector<std::uint8_t>& held_;
     PartWeights weight_;
-    /// One entry per label, 0 between faces: how many edges the face in hand shares with the part.
+    /// One entry per label, 0 between faces: the number of edges that the current face shares with the part.
     std::vector<Index> shared_;
     std::vector<bool> may_be_divided_;
     std::vector<Index> candidates_;
@@ -134,7 +134,7 @@ SuspectedDefects shorten_boundaries(const PolygonMesh& piece, const Topology& to
                         [&](Index f) { return !shortener.is_held(f) && shortener.is_beside_boundary(f); });
     std::vector<Index> suspected = faces;
     for (int round = 0; round < max_shortening_rounds && !faces.empty(); ++round) {
-        // Only around faces that have moved may others follow.
+        // Other faces may follow only around faces that have moved.
         std::vector<Index> next;
         for (const Index f : faces)
             if (shortener.improve(f))

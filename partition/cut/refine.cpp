@@ -102,7 +102,7 @@ class Refiner {
     const FaceGraph& graph_;
     std::vector<Index>& labels_;
     PartWeights weight_;
-    /// One entry per label, 0 between nodes: the weight of the arcs from the node in hand to the part.
+    /// One entry per label, 0 between nodes: the weight of the arcs from the current node to the part.
     std::vector<std::int64_t> shared_;
     std::vector<Index> candidates_;
 };
@@ -138,7 +138,7 @@ bool join_loose_components(const FaceGraph& graph, Index n_labels, std::vector<I
     for (Index component = 0; component < components.count(); ++component)
         if (!settled[component])
             loose.push_back(component);
-    // A component with none but loose ones around it waits for them.
+    // A component with only loose ones around it waits for them.
     const auto join = [&](Index component) {
         std::map<Index, std::int64_t> shared;
         for (const Index node : components.nodes[component])
@@ -163,7 +163,7 @@ bool join_loose_components(const FaceGraph& graph, Index n_labels, std::vector<I
 void refine(const FaceGraph& graph, Index n_labels, std::vector<Index>& labels)
 {
     join_loose_components(graph, n_labels, labels);
-    // What moves may leave loose components behind, and joining those may spoil the balance.
+    // Nodes that move may leave loose components behind, and joining those may spoil the balance.
     for (int pass = 0; pass < max_passes; ++pass) {
         move_nodes(graph, n_labels, labels);
         if (!join_loose_components(graph, n_labels, labels))

@@ -10,7 +10,7 @@ namespace seamflow {
 /// How much heavier than the mean of all parts a part may become when nodes or faces move between parts.
 inline constexpr double balance_tolerance = 0.04;
 
-/// The weights of parts between which something moves, and how far apart they may come (see balance_tolerance).
+/// The weights of parts between which nodes or faces move, and how far they may differ (see balance_tolerance).
 class PartWeights {
   public:
     /// @param weights one entry per part.

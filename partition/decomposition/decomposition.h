@@ -10,7 +10,7 @@
 
 namespace seamflow {
 
-/// What one sub-mesh sends to another: the rows `source` of the sender's positions become the rows `target` of the
+/// Data from one sub-mesh to another: the rows `source` of the sender's positions become the rows `target` of the
 /// receiver's. Both are local indices; entries correspond.
 struct Transfer {
     Index from = -1;
@@ -30,12 +30,12 @@ struct TransferRow {
 /// keep their order.
 std::vector<Transfer> transfers_to(Index to, std::vector<TransferRow> rows);
 
-/// A mesh cut into sub-meshes, and everything that has to pass between them between two steps.
+/// A mesh cut into sub-meshes, and all data exchanged between them between two steps.
 struct Decomposition {
     std::vector<SubMesh> sub_meshes;
     /// For each sub-mesh, those with which it shares a vertex of Γ, in ascending order.
     std::vector<std::vector<Index>> adjacency;
-    /// For each receiving sub-mesh, what fills its halo: Vᵏ before step k + 1, and Vᵏ⁺¹ before the correction of Γ.
+    /// For each sub-mesh, the transfers into its halo: Vᵏ before step k + 1, and Vᵏ⁺¹ before the correction of Γ.
     /// Senders are adjacent to the receiver, in ascending order.
     std::vector<std::vector<Transfer>> halo;
     /// Number of vertices on Γ, each counted once.
@@ -47,10 +47,10 @@ struct Decomposition {
 std::vector<std::vector<Index>> faces_by_label(std::span<const Index> labels, Index n_parts,
                                                const Executor& exec = run_serially);
 
-/// The other way round: the sub-mesh of every face. @param n_faces of the mesh, each in one sub-mesh.
+/// The inverse: the sub-mesh of every face. @param n_faces of the mesh, each in one sub-mesh.
 std::vector<Index> labels_by_face(const Decomposition& decomposition, Index n_faces);
 
-/// Joins sub-meshes made by make_sub_mesh: who shares which vertex of Γ, and what fills the halos.
+/// Joins sub-meshes made by make_sub_mesh: sets the sharing of Γ and the halo transfers.
 Decomposition connect(std::vector<SubMesh> sub_meshes, const Topology& topology, std::span<const Index> labels,
                       const Executor& exec = run_serially);
 

@@ -9,23 +9,23 @@
 
 namespace seamflow {
 
-/// A set of indices in ascending order, and where each stands in it, found in constant time.
+/// A set of indices in ascending order, with constant-time lookup of their positions.
 class IndexSet {
   public:
     IndexSet() = default;
 
-    /// @param values at least 0, in any order; repetitions are welcome.
+    /// @param values at least 0, in any order; repetitions are allowed.
     explicit IndexSet(std::span<const Index> values);
 
     /// Each value once.
     [[nodiscard]] const std::vector<Index>& ascending() const { return ascending_; }
 
-    /// Where a value stands, or -1.
+    /// Position of a value, or -1.
     [[nodiscard]] Index operator[](Index value) const
     {
         if (!slots_.empty())
             return slots_[slot_of(value)].position;
-        // What is below the first one is far beyond the last, too.
+        // Values below the first wrap to far beyond the last.
         const std::uint32_t offset = static_cast<std::uint32_t>(value) - static_cast<std::uint32_t>(first_);
         if (offset / bits_per_word >= words_.size())
             return -1;
@@ -57,8 +57,8 @@ class IndexSet {
     void fill_window(std::span<const Index> values, std::size_t width);
     void fill_slots(std::span<const Index> values);
 
-    /// Where `value` is, or the free slot for it. The upper bits of the product are those that all bits of the value
-    /// have a say in: on a grid the indices of a part are a few runs that are a power of two apart.
+    /// The slot of `value`, or the free slot for it. The upper bits of the product depend on all bits of the value: on
+    /// a grid the indices of a part are a few runs that are a power of two apart.
     [[nodiscard]] std::size_t slot_of(Index value) const
     {
         std::size_t slot = static_cast<std::size_t>(static_cast<std::uint64_t>(value) * 0x9E3779B97F4A7C15U >> shift_);
@@ -68,10 +68,10 @@ class IndexSet {
     }
 
     std::vector<Index> ascending_;
-    /// Where the values lie together: a bit for each index from the first value to the last.
+    /// For values close together: a bit for each index from the first value to the last.
     Index first_ = 0;
     std::vector<Word> words_;
-    /// Where they are scattered: a table of a power of two slots, free ones with the value -1.
+    /// For scattered values: a table of a power of two slots; free ones have the value -1.
     std::vector<Slot> slots_;
     int shift_ = 0;
 };

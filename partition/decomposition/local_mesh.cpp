@@ -76,7 +76,7 @@ void edge_neighbours(const PolygonMesh& mesh, const Topology& topology, Index v,
 
 SubMeshDraft copy_faces(const PolygonMesh& mesh, const Topology& topology, std::vector<Index> faces)
 {
-    // Made before the aggregate: where memory lacks for a later member, GCC 12 destroys twice what it has made of {}.
+    // Made before the aggregate: if memory runs out for a later member, GCC 12 destroys members made from {} twice.
     IndexSet of_faces(faces);
     SubMeshDraft draft{.sub_mesh = {}, .vertices = {}, .halo = {}, .faces = std::move(of_faces)};
     draft.sub_mesh.faces = std::move(faces);

@@ -9,7 +9,7 @@
 #include "partition/polygon_mesh.h"
 #include "partition/topology.h"
 
-/// What all sub-meshes are made of, whether they overlap or not.
+/// The building blocks of all sub-meshes, overlapping or not.
 namespace seamflow {
 
 /// Whether vertex v may move and has faces of several labels: whether it lies on Γ.
@@ -18,10 +18,10 @@ bool is_on_interface(const Topology& topology, std::span<const Index> labels, In
 /// Lists the vertices at the other ends of the edges at v, in ascending order.
 void edge_neighbours(const PolygonMesh& mesh, const Topology& topology, Index v, std::vector<Index>& neighbours);
 
-/// A sub-mesh in the making, and where things are in it.
+/// A sub-mesh under construction, with lookup tables.
 struct SubMeshDraft {
     SubMesh sub_mesh;
-    /// The own vertices, those of the halo, and the faces, as in the whole mesh.
+    /// Own vertices, halo vertices and faces, numbered as in the whole mesh.
     IndexSet vertices;
     IndexSet halo;
     IndexSet faces;
@@ -35,12 +35,12 @@ struct SubMeshDraft {
     }
 };
 
-/// A sub-mesh of the given faces with its vertices, their fixedness, and its half-edges; nothing of other sub-meshes
-/// yet, and nothing owned.
+/// A sub-mesh of the given faces with its vertices, their fixedness, and its half-edges; no data of other sub-meshes
+/// yet, no owned vertices.
 /// @param faces in ascending order.
 SubMeshDraft copy_faces(const PolygonMesh& mesh, const Topology& topology, std::vector<Index> faces);
 
-/// Appends those of the given vertices that the sub-mesh does not have as its halo.
+/// Appends to the halo those of the given vertices that the sub-mesh does not have.
 void append_halo(std::span<const Index> vertices, SubMeshDraft& draft);
 
 /// Notes a vertex of Γ, to be corrected after a step, and its edge neighbours, all of them in the sub-mesh or its halo.

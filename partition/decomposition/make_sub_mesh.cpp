@@ -10,7 +10,7 @@ namespace seamflow {
 
 namespace {
 
-/// What one sub-mesh is cut out of.
+/// The mesh that one sub-mesh is cut out of.
 struct Whole {
     const PolygonMesh& mesh;
     const Topology& topology;
@@ -36,7 +36,7 @@ std::vector<Index> list_shared(const Topology& topology, const SubMesh& sub_mesh
     return shared;
 }
 
-/// The sub-mesh of the lowest label speaks for a vertex.
+/// The sub-mesh of the lowest label owns a vertex.
 void mark_owned(const Whole& whole, std::span<const Index> shared, SubMesh& sub_mesh)
 {
     sub_mesh.owned.resize(sub_mesh.n_vertices);

@@ -50,7 +50,7 @@ void list_artificial_boundary(const Topology& topology, SubMesh& sub_mesh)
     }
 }
 
-/// The vertices of these faces for which `holds`, as in the whole mesh, ascending.
+/// The vertices of these faces for which `holds` is true, as in the whole mesh, ascending.
 template <class Predicate>
 std::vector<Index> vertices_of(const PolygonMesh& mesh, std::span<const Index> faces, Predicate&& holds)
 {
@@ -61,7 +61,7 @@ std::vector<Index> vertices_of(const PolygonMesh& mesh, std::span<const Index> f
     return vertices;
 }
 
-/// Marks the vertices for which a sub-mesh speaks: those that may move and whose lowest label is its own.
+/// Marks the vertices that a sub-mesh owns: those that may move and whose lowest label is its own.
 void mark_owned(const Topology& topology, std::span<const Index> labels, Index own, SubMesh& sub_mesh)
 {
     sub_mesh.owned.resize(sub_mesh.n_vertices);

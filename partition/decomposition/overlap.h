@@ -7,9 +7,9 @@
 #include "partition/polygon_mesh.h"
 #include "partition/topology.h"
 
-/// Sub-meshes that overlap, for the alternating Schwarz method (paper, eqs. 18 and 19), in any number. Each one is its
-/// own part of the cut, grown into parts of the same or a later stage. Its result is used on its own part only; where
-/// own parts meet, on Γ, the result of the earliest stage is used.
+/// Any number of overlapping sub-meshes, for the alternating Schwarz method (paper, eqs. 18 and 19). Each is its own
+/// part of the cut, grown into parts of the same or a later stage. Its result is used on its own part only; where own
+/// parts meet, on Γ, the result of the earliest stage is used.
 namespace seamflow {
 
 /// How a cut is made to overlap.
@@ -29,20 +29,19 @@ std::vector<Index> grow(const PolygonMesh& mesh, const Topology& topology, const
 
 /// Cuts out the sub-mesh of part s, grown. Its interface is its artificial boundary: the vertices that may move and
 /// have faces outside; of the interface's lists only `vertices` is filled in (the others are -1 or empty), which need
-/// no fan. Its corrected vertices and those that it owns are those of the part itself. May be called for several
-/// sub-meshes at once.
+/// no fan. Its corrected and owned vertices are those of the part itself. May be called for several sub-meshes at once.
 /// @param faces those of the part itself, in ascending order.
 SubMesh make_overlapping_sub_mesh(const PolygonMesh& mesh, const Topology& topology, const Overlap& overlap, Index s,
                                   std::vector<Index> faces);
 
-/// Joins sub-meshes made by make_overlapping_sub_mesh. `interface.sharing` are the parts that have the vertex, the halo
-/// transfers fill all vertices that are not of the own part, and all that these join are adjacent.
+/// Joins sub-meshes made by make_overlapping_sub_mesh. `interface.sharing` lists the parts that have the vertex, the
+/// halo transfers fill all vertices outside the own part, and all parts they join are adjacent.
 Decomposition connect_overlapping(std::vector<SubMesh> sub_meshes, const Topology& topology, const Overlap& overlap);
 
-/// A part of a cut, grown, for equations at its vertices that are those of the whole mesh.
+/// A grown part of a cut, whose equations at its vertices are those of the whole mesh.
 struct GrownPart {
-    /// The part grown by its own layers and further by those that the equations reach into. Of its lists `interface`
-    /// and `corrected` are empty, and it has no halo; it owns vertices of the part itself alone.
+    /// The part grown by its own layers and then by those that the equations reach into. Its lists `interface` and
+    /// `corrected` are empty, and it has no halo; it owns only vertices of the part itself.
     SubMesh sub_mesh;
     /// The vertices (local, ascending) that may move, of the part grown by its own layers.
     std::vector<Index> unknowns;
@@ -51,7 +50,7 @@ struct GrownPart {
 /// Cuts out part s. May be called for several parts at once.
 /// @param overlap `layers` by which its equations overlap those of other parts. Parts of an earlier stage are not
 /// entered.
-/// @param reach layers of faces beyond on which these equations depend. With 2 they have all faces around each of their
+/// @param reach further layers of faces that these equations depend on. With 2 they have all faces around each of their
 ///        vertices, and the faces across the edges of these.
 /// @param faces those of the part itself, in ascending order.
 GrownPart make_grown_part(const PolygonMesh& mesh, const Topology& topology, const Overlap& overlap, int reach, Index s,

@@ -21,7 +21,7 @@ SubMesh make_fragment(const PolygonMesh& mesh, const Topology& topology, std::ve
     return fragment;
 }
 
-/// Makes a whole sub-mesh own what fragments would, if it is the lowest whole one there.
+/// Makes a whole sub-mesh own vertices that fragments would, if it is the lowest whole one there.
 void speak_for_fragments(const Topology& topology, std::span<const Index> labels,
                          std::span<const std::uint8_t> is_whole, Index s, SubMesh& sub_mesh)
 {

@@ -7,9 +7,9 @@
 
 namespace seamflow {
 
-/// Cuts a part of a mesh into those of its sub-meshes that it has as a whole. Of the others, the fragments, there are
-/// the faces that the part has, and their vertices; fragments have no Γ, own nothing and receive nothing. Everything
-/// else is as in the decomposition of the whole mesh, numbers apart, if those of the part are in the same order. Only,
+/// Cuts a part of a mesh into the sub-meshes that it contains as a whole. The others, the fragments, have only the
+/// faces that the part has, and their vertices; they have no Γ, own nothing and receive nothing. Everything else is as
+/// in the decomposition of the whole mesh, except for numbers, if those of the part are in the same order. However,
 /// where a fragment would own a vertex, the lowest of the whole sub-meshes that have it does.
 /// @param labels #F, each in 0 to #sub-meshes - 1, every value used.
 /// @param is_whole #sub-meshes: 1 where the part has all faces, all faces around their vertices, and all faces around

@@ -8,10 +8,10 @@ namespace seamflow {
 
 std::vector<Index> reverse_cuthill_mckee(const std::vector<std::vector<Index>>& adjacency)
 {
-    // The number of the last walk that came by each vertex; 0: none.
+    // The number of the last walk that reached each vertex; 0: none.
     std::vector<int> reached_in(adjacency.size(), 0);
     int n_walks = 0;
-    // All vertices of a component, breadth first, those that a vertex leads to by ascending degree.
+    // All vertices of a component, breadth first, those reached from a vertex by ascending degree.
     const auto walk = [&](Index start) {
         ++n_walks;
         std::vector<Index> order;

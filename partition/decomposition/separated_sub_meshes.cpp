@@ -7,7 +7,7 @@ namespace seamflow {
 
 namespace {
 
-/// Numbers the copies; what is `taken` already gets a new vertex, noted in `originals`.
+/// Numbers the copies; one that is `taken` already gets a new vertex, recorded in `originals`.
 std::vector<Index> number_vertices(const SubMesh& sub_mesh, std::vector<std::uint8_t>& taken,
                                    std::vector<Index>& originals)
 {

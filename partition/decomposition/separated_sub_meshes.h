@@ -7,12 +7,12 @@
 
 namespace seamflow {
 
-/// The faces of a whole mesh, with copies of vertices such that no two sub-meshes share one.
+/// The faces of a whole mesh, with vertices copied so that no two sub-meshes share one.
 struct SeparatedSubMeshes {
-    /// The faces in the order of the mesh. Its vertices come first, in their order, each of them the copy of the lowest
-    /// sub-mesh there; the copies of the others follow.
+    /// The faces in the order of the mesh. The mesh's vertices come first, in order, each as the copy of its lowest
+    /// sub-mesh; the copies of the others follow.
     PolygonMesh mesh;
-    /// For each sub-mesh, the vertex of `mesh` that each of its own vertices is.
+    /// For each sub-mesh, the vertex of `mesh` for each of its own vertices.
     std::vector<std::vector<Index>> vertex_of;
 };
 

@@ -10,9 +10,9 @@
 
 namespace seamflow {
 
-/// The part Γ of a sub-mesh's vertices that it shares with other sub-meshes and that may move, with all that the
-/// equations there need: the fan of its own faces on one side, the complement fan of all others on the other side.
-/// Every array has one entry or one list per vertex of Γ. Vertices are local (see SubMesh).
+/// The vertices Γ of a sub-mesh that it shares with other sub-meshes and that may move, with all data for the equations
+/// there: the fan of its own faces on one side, the complement fan of all others on the other side. Every array has one
+/// entry or one list per vertex of Γ. Vertices are local (see SubMesh).
 struct SubMeshInterface {
     /// In ascending order.
     std::vector<Index> vertices;
@@ -23,7 +23,7 @@ struct SubMeshInterface {
     IndexLists own_faces;
     /// The other faces around the vertex, as indices into `halo_faces`.
     IndexLists complement_faces;
-    /// All sub-meshes at the vertex, in ascending order, this one among them, and its index in each.
+    /// All sub-meshes at the vertex, ascending, this one included, and the vertex's index in each.
     IndexLists sharing;
     IndexLists index_in_sharing;
     /// The faces of other sub-meshes that touch Γ, one list of vertices each.
@@ -41,8 +41,8 @@ struct CorrectedVertices {
 };
 
 /// One part of a cut mesh with its own copy of the vertices of its faces. Local vertices 0 to n_vertices - 1 are those
-/// vertices; the n_halo next ones, the halo, are the vertices of faces of other sub-meshes that touch Γ.
-/// Equations may take `face_vertices` and `twin` over.
+/// vertices; the n_halo next ones, the halo, are the vertices of faces of other sub-meshes that touch Γ. Equations may
+/// take over `face_vertices` and `twin`.
 struct SubMesh {
     /// The faces, as indices into the whole mesh, in ascending order.
     std::vector<Index> faces;

@@ -17,7 +17,7 @@ namespace seamflow {
 
 namespace {
 
-/// Collects edges, and refuses those that cannot be any of the mesh.
+/// Collects edges, and rejects those that cannot be edges of the mesh.
 class EdgeList {
   public:
     explicit EdgeList(Index n_vertices)
@@ -25,7 +25,7 @@ class EdgeList {
     {
     }
 
-    /// @param v, w counted from 0. @param position of the edge, for messages. @param first what the file counts from.
+    /// @param v, w counted from 0. @param position of the edge, for messages. @param first the file's first index.
     void add(std::int64_t v, std::int64_t w, const InputPosition& position, int first)
     {
         for (const std::int64_t end : {v, w})
@@ -96,7 +96,7 @@ void read_edges_of_ply(TextScanner scanner, const std::filesystem::path& path, s
     for (const char* name : {"vertex1", "vertex2"}) {
         const auto found = std::ranges::find(element->properties, name, &PlyProperty::name);
         if (found == element->properties.end() || found->length_type || !is_integer(found->type))
-            throw InputError(fmt::format("{}: the edges have no whole number {}; declare vertex1 and vertex2",
+            throw InputError(fmt::format("{}: the edges have no integer property {}; declare vertex1 and vertex2",
                                          scanner.position_of(element->line), name));
     }
     with_source(scanner, path, content, header, [&](auto source) { read_ply_edges(std::move(source), header, list); });
@@ -105,11 +105,11 @@ void read_edges_of_ply(TextScanner scanner, const std::filesystem::path& path, s
 void read_pairs(TextScanner scanner, EdgeList& list)
 {
     while (scanner.next_line()) {
-        const char* const what = "two numbers of vertices on each line";
+        const char* const what = "two vertex numbers on each line";
         const std::int64_t v = scanner.integer(what);
         const std::int64_t w = scanner.integer(what);
         if (scanner.has_token())
-            scanner.fail("the line goes on after two numbers of vertices; write one edge a line");
+            scanner.fail("the line continues after two vertex numbers; write one edge per line");
         list.add(v, w, scanner, 0);
     }
 }
@@ -120,8 +120,8 @@ std::vector<Edge> read_edges(const std::filesystem::path& path, Index n_vertices
 {
     const std::optional<FileFormat> format = format_of(path);
     if (format == FileFormat::Off || format == FileFormat::Stl)
-        throw InputError(path.string() + ": the format has no edges of its own; OBJ (lines l) and PLY (element edge) "
-                                         "have, and a text file may have two numbers of vertices a line");
+        throw InputError(path.string() + ": the format has no edges of its own; use OBJ (lines l), PLY (element edge), "
+                                         "or a text file with two vertex numbers per line");
     const InputFile file{OpenFile(path)};
     EdgeList list(n_vertices);
     if (format == FileFormat::Obj)

@@ -21,13 +21,13 @@ namespace seamflow {
 
 namespace {
 
-/// What the whole numbers in a text file are called in messages.
+/// The wording of messages about the integers in a text file.
 struct IndexWords {
     /// "a label".
     const char* name;
-    /// What to do where something else stands there.
+    /// What to do if there is something else.
     const char* remedy;
-    /// What to do about a negative one.
+    /// What to do about a negative number.
     const char* negative;
 };
 
@@ -41,7 +41,7 @@ std::string_view trimmed(std::string_view line)
     return line.substr(first, line.find_last_not_of(" \t\r") - first + 1);
 }
 
-/// "path:line: ", with which messages about a line begin.
+/// "path:line: ", the beginning of messages about a line.
 std::string place_of_line(const std::filesystem::path& path, std::size_t line)
 {
     return fmt::format("{}:{}: ", path.string(), line);
@@ -77,11 +77,11 @@ double parse_weight(std::string_view text, const std::filesystem::path& path, st
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc() || end != text.data() + text.size() || !is_weight(value))
         refuse_line(path, line, text,
-                    "is no weight: write a number of at least 0 for each vertex, each on a line of its own");
+                    "is not a weight: write a number of at least 0 for each vertex, each on a line of its own");
     return value;
 }
 
-/// Reads a text file with one number a line.
+/// Reads a text file with one number per line.
 /// @param take called with each line that is not blank, and its number, counted from 1, in order.
 /// @returns the number of lines.
 template <class Take>
@@ -98,7 +98,8 @@ std::size_t read_lines(const std::filesystem::path& path, Take&& take)
             take(number, line);
     }
     if (file.bad())
-        throw InputError(place_of_line(path, line) + "the file could not be read to its end: copy it to a sound disk");
+        throw InputError(place_of_line(path, line) +
+                         "the file could not be read to its end: copy it to a working disk");
     return line;
 }
 
@@ -106,7 +107,7 @@ std::vector<Index> from_lines(const std::filesystem::path& path, Index n_vertice
 {
     constexpr IndexWords words{
         .name = "the number of a vertex",
-        .remedy = "write one whole number for each vertex that is meant, each on a line of its own",
+        .remedy = "write one whole number for each selected vertex, each on a line of its own",
         .negative = "vertices are numbered from 0",
     };
     std::vector<Index> vertices;
@@ -122,7 +123,7 @@ std::vector<Index> from_lines(const std::filesystem::path& path, Index n_vertice
     return vertices;
 }
 
-/// The file has to have a property of vertices of that name, and as many vertices as the mesh.
+/// The file must have a vertex property of that name, and as many vertices as the mesh.
 void require_property(const TextScanner& scanner, const PlyHeader& header, Index n_vertices, std::string_view property)
 {
     const PlyElement* const element = header.element("vertex");
@@ -141,7 +142,7 @@ void require_property(const TextScanner& scanner, const PlyHeader& header, Index
             names += (names.empty() ? "" : ", ") + p.name;
         throw InputError(scanner.position_of(found == element->properties.end() ? element->line : found->line) +
                          ": the vertices have no number " + in_quotes(property) + ", but " + names +
-                         "; name the property that says which are meant");
+                         "; name the property to use");
     }
 }
 
@@ -229,7 +230,7 @@ std::vector<double> read_vertex_weights(const std::filesystem::path& path, Index
         read_ply_property(path, n_vertices, property, [&](Index, double value, auto& source) {
             if (!is_weight(value))
                 source.position().fail(in_quotes(property) +
-                                       " is no weight; write a number of at least 0 for each vertex");
+                                       " is not a weight; write a number of at least 0 for each vertex");
             weights.push_back(value);
         });
         return weights;

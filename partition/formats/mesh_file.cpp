@@ -22,7 +22,7 @@ FileFormat require_format_or(const std::filesystem::path& path)
         return *format;
     if (std::error_code ignored; std::filesystem::is_directory(path, ignored))
         throw Error(fmt::format("{}: is a directory; name a file in it", path.string()));
-    throw Error(fmt::format("{}: the extension '{}' is none of {}; give the file the extension of its format",
+    throw Error(fmt::format("{}: the extension '{}' is not one of {}; give the file the extension of its format",
                             path.string(), path.extension().string(), extensions_of(FormatGroup::All)));
 }
 

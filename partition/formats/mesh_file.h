@@ -10,14 +10,14 @@
 
 #include "partition/polygon_mesh.h"
 
-/// What a mesh file is.
+/// Kinds of mesh files.
 namespace seamflow {
 
-/// The file formats that can be read and written. All hold faces of any number of sides but STL, which holds triangles.
+/// The file formats for reading and writing. All hold faces of any number of sides except STL, which holds triangles.
 enum class FileFormat { Obj, Off, Ply, Stl };
 
-/// How the numbers of a file are stored. OBJ is always Ascii; so is OFF, of whose binary files only write_mesh_like
-/// makes others; STL is Ascii or BinaryLittleEndian.
+/// How the numbers of a file are stored. OBJ is always Ascii; so is OFF, except that write_mesh_like keeps binary OFF
+/// binary; STL is Ascii or BinaryLittleEndian.
 enum class Encoding { Ascii, BinaryLittleEndian, BinaryBigEndian };
 
 /// Format and encoding of one file.
@@ -28,7 +28,7 @@ struct FileKind {
     friend bool operator==(const FileKind&, const FileKind&) = default;
 };
 
-/// What there is to know of a format.
+/// The properties of a format.
 struct FormatTraits {
     FileFormat format;
     /// In messages.
@@ -63,8 +63,8 @@ enum class FormatGroup {
 /// The extensions of the formats, for help and messages: ".obj, .off, .ply or .stl".
 std::string extensions_of(FormatGroup group = FormatGroup::All);
 
-/// The format that the extension of a path names, in upper or lower case and perhaps with `.gz` behind it; nothing if
-/// it names none.
+/// The format that the extension of a path names, in upper or lower case, perhaps followed by `.gz`; nothing if it
+/// names none.
 std::optional<FileFormat> format_of(const std::filesystem::path& path);
 
 /// ".obj" and so on.
@@ -85,7 +85,7 @@ FileFormat require_format(const std::filesystem::path& path);
 /// "a, b or c".
 std::string choice_of(const std::vector<std::string_view>& words);
 
-/// A mesh file that has been read, as the form for others; see write_mesh_like.
+/// A mesh file that was read, as the template for others; see write_mesh_like.
 class MeshSource;
 
 /// A mesh together with the file it came from.
@@ -96,7 +96,7 @@ struct MeshFile {
     std::shared_ptr<const MeshSource> source = {};
 };
 
-/// A number for each vertex of a mesh, with a name.
+/// A named number for each vertex of a mesh.
 struct VertexValues {
     /// Letters, digits and underscores.
     std::string name;

@@ -31,7 +31,7 @@ std::uint64_t checksum(std::string_view bytes)
     return XXH3_64bits(bytes.data(), bytes.size());
 }
 
-/// The checksums of slices are made several at a time; that of all of them tells files apart.
+/// The checksums of slices are computed several at a time; the checksum of these distinguishes files.
 std::uint64_t checksum(std::string_view content, const Executor& exec)
 {
     constexpr std::size_t slice = std::size_t{1} << 20;
@@ -51,8 +51,8 @@ std::uint64_t checksum_of_faces(const PolygonMesh& mesh, const Executor& exec)
 
 }  // namespace
 
-/// A mesh file that has been read, kept open and not in memory, so that it can serve as the form for a file with other
-/// positions. Renaming, replacing or removing it does no harm; a change within it is noticed.
+/// A mesh file that has been read, kept open and not in memory, so that it can serve as the template for a file with
+/// other positions. Renaming, replacing or removing it does no harm; a change within it is detected.
 class MeshSource {
   public:
     /// @param content of the file. @param mesh, kind what was read from it.
@@ -73,11 +73,11 @@ class MeshSource {
     [[nodiscard]] const FileKind& kind() const { return kind_; }
 
     /// Reads the file again.
-    /// @throws InputError if it does not hold the same bytes any more.
+    /// @throws InputError if it no longer holds the same bytes.
     [[nodiscard]] InputFile read_again(const Executor& exec) const;
 
     /// Checks that the mesh has as many vertices as the file, and the same faces.
-    /// @param path where the mesh is to be written, for the message.
+    /// @param path where the mesh will be written, for the message.
     /// @throws OutputError
     void require_same_faces(const std::filesystem::path& path, const PolygonMesh& mesh, const Executor& exec) const;
 
@@ -115,12 +115,12 @@ void MeshSource::require_same_faces(const std::filesystem::path& path, const Pol
 
 namespace {
 
-/// What reads and writes a format.
+/// The functions that read and write a format.
 struct Format {
     MeshFile (*read)(const std::filesystem::path& path, std::string_view content, const Slicing& slicing,
                      FaultLog* faults);
-    /// Throws OutputError for a mesh that the format cannot hold, and says what a user should know; null: it holds all
-    /// of them.
+    /// Throws OutputError for a mesh that the format cannot hold, and returns remarks for the user; null: the format
+    /// holds all.
     std::vector<std::string> (*require_fits)(const std::filesystem::path& path, const PolygonMesh& mesh,
                                              Encoding encoding);
     void (*write)(OutputFile& file, const PolygonMesh& mesh, Encoding encoding, const Slicing& slicing);
@@ -167,7 +167,7 @@ constexpr std::array<Format, 4> all_formats = {{
      .extras = extras_of_stl},
 }};
 
-/// The format of what has no name. OBJ has no mark of its own.
+/// The format of content without a file name. OBJ has no signature.
 FileFormat recognised_format(std::string_view content)
 {
     constexpr std::size_t head = 4096;
@@ -186,7 +186,7 @@ const Format& functions_of(FileFormat format)
 }
 
 /// @param format nothing: it is recognised from the content.
-/// @param faults null: they are thrown. With faults that are not of faces alone the file is no source for others.
+/// @param faults null: they are thrown. With faults other than those of faces, the file is not a source for others.
 MeshFile read_open(OpenFile open, std::optional<FileFormat> format, const Executor& exec, FaultLog* faults)
 {
     const InputFile input(open);
@@ -198,7 +198,7 @@ MeshFile read_open(OpenFile open, std::optional<FileFormat> format, const Execut
     return file;
 }
 
-/// Finds the format and reads; a lack of memory comes out with the name of the file.
+/// Finds the format and reads; a lack of memory is reported with the name of the file.
 MeshFile read(const std::filesystem::path& path, const Executor& exec, FaultLog* faults)
 {
     const auto format = is_input_stream(path) ? std::nullopt : std::optional(require_format(path));
@@ -221,7 +221,7 @@ void require_encoding(const FileKind& kind)
     throw OptionError(fmt::format("encoding must be {} for {} files", choice_of(names), format.name));
 }
 
-/// Whatever is written can be read again.
+/// Ensures that what is written can be read again.
 void require_readable(const std::filesystem::path& path, const PolygonMesh& mesh, const Executor& exec)
 {
     if (mesh.n_vertices() == 0)

@@ -17,69 +17,68 @@ namespace seamflow {
 
 /// Reads OBJ, OFF, PLY or STL; the format follows from the extension (upper or lower case), the encoding from the file
 /// itself. Coordinates are read in double precision, correctly rounded. Corners of STL facets with equal coordinates
-/// become one vertex, numbered in order of appearance. What a file holds besides a surface (texture coordinates,
-/// normals, colours, materials, groups, points and lines) is passed over here, but write_mesh_like copies it. A file
-/// with vertices but without faces is read. The file stays open (see MeshFile::source), but its content is not kept in
-/// memory. A file that gzip has compressed is unpacked, whatever its name is; `.gz` may follow the extension. `-` is
-/// standard input, whose format is recognised from its content. Only these two are kept, unpacked, in memory.
-/// @param exec runs what is done slice by slice; seamflow::run_in_parallel uses all threads. Here and in the functions
-///        below, the result never depends on it.
-/// @throws InputError naming file, line or byte or element, reason and remedy; nothing of the surface is skipped in
-///         silence. Among the reasons: an unknown extension, a file that cannot be opened, no vertices, a coordinate
+/// become one vertex, numbered in order of appearance. Content besides the surface (texture coordinates, normals,
+/// colours, materials, groups, points and lines) is skipped here, but write_mesh_like copies it. A file with vertices
+/// but without faces is read. The file stays open (see MeshFile::source), but its content is not kept in memory. A file
+/// compressed by gzip is unpacked, whatever its name; `.gz` may follow the extension. `-` is standard input, whose
+/// format is recognised from its content. Only these two are kept, unpacked, in memory.
+/// @param exec runs the work on slices; seamflow::run_in_parallel uses all threads. Here and in the functions below,
+///        the result never depends on it.
+/// @throws InputError naming file, line or byte or element, reason and remedy; no part of the surface is skipped
+///         silently. Among the reasons: an unknown extension, a file that cannot be opened, no vertices, a coordinate
 ///         that is not finite, a face of less than three corners or one that names a vertex twice.
 /// @throws ComputationError naming the file, or std::bad_alloc, if there is not enough memory.
 MeshFile read_mesh(const std::filesystem::path& path, const Executor& exec = run_serially);
 
-/// Reads a mesh as far as possible, for looking at what is wrong with it: vertices whose coordinates are not finite
-/// stay among the others, faces that cannot be used are left out, and `faults` says so with line, byte or element.
-/// With FaultLog::of_faces_alone only faces of less than three corners, or that name a vertex twice, are left out, and
-/// numbers passed over that rows have too many; all else is thrown as by read_mesh, and the result has a source: there
-/// such faces and numbers stay.
-/// @throws InputError where reading cannot go on: what read_mesh says of files that are no mesh, or cut off.
+/// Reads a mesh as far as possible, to find what is wrong with it: vertices whose coordinates are not finite are kept,
+/// faces that cannot be used are left out, and `faults` reports both with line, byte or element. With
+/// FaultLog::of_faces_alone, only faces of fewer than three corners or with a repeated vertex are left out, and excess
+/// numbers in rows are skipped; all else is thrown as by read_mesh, and the result has a source, in which such faces
+/// and numbers stay.
+/// @throws InputError where reading cannot go on: as read_mesh for files that are no mesh or are cut off.
 MeshFile read_faulty_mesh(const std::filesystem::path& path, FaultLog& faults, const Executor& exec = run_serially);
 
 /// Writes a mesh. Text formats use the fewest digits (at most 17) that read back to the same double; binary PLY stores
 /// doubles; binary STL stores floats, as its format demands. The file appears whole or not at all: it is written under
 /// a temporary name beside `path` and renamed. It is compressed where `.gz` follows the extension. `-` is standard
 /// output.
-/// @param mesh valid (see require_valid) and not without vertices.
+/// @param mesh valid (see require_valid), with vertices.
 /// @throws OutputError naming the file; also for a mesh that is not valid or that the format cannot hold (STL: faces of
 ///         more than three sides, vertices without faces, and in binary files coordinates beyond single precision).
 /// @throws OptionError for an encoding that the format does not have.
-/// @returns what else a user should know, in sentences: facets of STL that have become lines.
+/// @returns remarks for the user, in sentences: facets of STL that have become lines.
 std::vector<std::string> write_mesh(const std::filesystem::path& path, const PolygonMesh& mesh, const FileKind& kind,
                                     const Executor& exec = run_serially);
 
 /// Writes the file that was read with the positions of `mesh` in place of its own: texture coordinates, materials,
 /// groups, colours, comments, further elements and properties, their order, and the line ends stay byte for byte, as do
-/// the digits of every coordinate that is the same, bit for bit. Normals become those of the surface as it is now where
-/// they can: normals of the vertices of PLY and OFF files, and those of an OBJ file that belong to one vertex or to one
-/// face. Kind and types are those of the file: floats in a binary file mean rounding; whole numbers become doubles.
-/// Facets of STL files that become lines by that stay. The file may be written over itself.
+/// the digits of every coordinate that is bitwise equal. Normals are updated to the new surface where possible: normals
+/// of the vertices of PLY and OFF files, and those of an OBJ file that belong to one vertex or to one face. Kind and
+/// types are those of the file: floats in a binary file mean rounding; whole numbers become doubles. Facets of STL
+/// files that thereby become lines stay. The file may be written over itself.
 /// @param mesh with as many vertices as the file and the same faces.
-/// @returns what else a user should know, in sentences: normals that could not be made new, rounding.
+/// @returns remarks for the user, in sentences: normals that could not be updated, rounding.
 /// @throws OutputError naming the file; also if the mesh does not fit the file that was read.
-/// @throws InputError if that file has been changed in place since. That it has been replaced or removed does not
-/// matter.
+/// @throws InputError if that file has been changed in place since. Replacing or removing it does not matter.
 std::vector<std::string> write_mesh_like(const MeshSource& source, const std::filesystem::path& path,
                                          const PolygonMesh& mesh, const Executor& exec = run_serially);
 
-/// What the file holds besides a surface, which write_mesh does not write, in a few words each: "normals", "groups".
+/// File content besides the surface, which write_mesh does not write, in a few words each: "normals", "groups".
 /// Comments do not count.
 /// @throws InputError if the file has been changed since it was read.
 std::vector<std::string> extras_of(const MeshSource& source, const Executor& exec = run_serially);
 
-/// As write_mesh, with one colour and one label per face, for looking at a cut. Each face gets the properties red,
-/// green, blue (uchar) and label (int). The colours of labels 0, 1, 2, … go round the circle of hues in steps of the
-/// golden section, so that they differ clearly; negative labels are grey. The file is binary little-endian.
+/// As write_mesh, with one colour and one label per face, for viewing a cut. Each face gets the properties red, green,
+/// blue (uchar) and label (int). The colours of labels 0, 1, 2, … go round the circle of hues in steps of the golden
+/// section, so that they differ clearly; negative labels are grey. The file is binary little-endian.
 /// @param labels #F; the label of every face.
 /// @throws OutputError naming the file.
 void write_labelled_ply(const std::filesystem::path& path, const PolygonMesh& mesh, std::span<const Index> labels,
                         const Executor& exec = run_serially);
 
-/// As write_mesh, with one colour and any numbers per vertex, for looking at what was measured there. Each vertex gets
-/// the properties red, green, blue (uchar) and one property (double) for each of `values`, under its name. The file is
-/// binary little-endian.
+/// As write_mesh, with one colour and any numbers per vertex, for viewing measurements. Each vertex gets the properties
+/// red, green, blue (uchar) and one property (double) for each of `values`, under its name. The file is binary
+/// little-endian.
 /// @param colours #V.
 /// @throws OutputError naming the file; also if there are not as many colours or values as vertices.
 void write_valued_ply(const std::filesystem::path& path, const PolygonMesh& mesh, std::span<const Colour> colours,

@@ -48,7 +48,7 @@ class ObjReader {
     void read()
     {
         while (scanner_.next_line()) {
-            // Texture coordinates, normals, groups, materials, points, lines, … are of no use here.
+            // Texture coordinates, normals, groups, materials, points, lines, … are ignored here.
             if (const std::string_view keyword = scanner_.token(); keyword.size() == 1 && keyword[0] == 'v')
                 read_vertex();
             else if (is_obj_face(keyword))
@@ -75,7 +75,7 @@ class ObjReader {
     TextScanner scanner_;
     MeshBuilder builder_;
     std::vector<Index> corners_;
-    /// Ascending in both vertex and line, so that the first one left open is the first in the file.
+    /// Ascending in both vertex and line, so that the first unresolved one is the first in the file.
     std::vector<ForwardReference> forward_references_;
 };
 
@@ -84,8 +84,8 @@ void ObjReader::read_vertex()
     const auto position = scanner_.coordinates();
     constexpr std::size_t most_further_numbers = 5;
     if (scanner_.pass_over_rest() > most_further_numbers)
-        scanner_.fail("a vertex has 3 coordinates, perhaps a weight and a colour after them, but this line goes on; "
-                      "put each vertex on a line of its own");
+        scanner_.fail("a vertex has 3 coordinates, optionally with a weight and a colour, but this line continues; put "
+                      "each vertex on a line of its own");
     builder_.add_vertex(position);
 }
 

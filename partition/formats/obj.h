@@ -25,7 +25,7 @@ inline bool is_obj_face(std::string_view keyword)
     return keyword.starts_with('f') && (keyword.size() == 1 || keyword == "fo");
 }
 
-/// The counts before each slice of a file and, at the end, those of all of it.
+/// The counts before each slice of a file and, at the end, of the whole file.
 /// @throws InputError if there are more than 2^31 - 1 of a kind.
 std::vector<TextCounts> count_obj(const TextScanner& whole, std::span<const std::string_view> slices,
                                   const Executor& exec);
@@ -33,7 +33,7 @@ std::vector<TextCounts> count_obj(const TextScanner& whole, std::span<const std:
 /// Reads Wavefront OBJ: the lines `v` (further numbers, a weight or a colour, are passed over) and `f` (texture
 /// coordinates and normals of the corners are passed over). All other lines, among them points and polylines, are
 /// passed over: they describe no polygon.
-/// @param path for messages only. @param faults where to note them instead of throwing, if not null.
+/// @param path for messages only. @param faults if not null, collects faults instead of throwing.
 /// @throws InputError naming the line.
 PolygonMesh read_obj(const std::filesystem::path& path, std::string_view text, const Slicing& slicing,
                      FaultLog* faults = nullptr);
@@ -42,27 +42,27 @@ PolygonMesh read_obj(const std::filesystem::path& path, std::string_view text, c
 /// @throws OutputError
 void write_obj(OutputFile& file, const PolygonMesh& mesh, const Slicing& slicing);
 
-/// Writes a file again that `read_obj` has read, with the positions of `mesh` in the lines `v`: coordinates that are
-/// the same, bit for bit, and everything else keep their characters. Normals (`vn`) that one vertex or one face has for
-/// itself become those of its faces that name them; others stay.
+/// Rewrites a file read by `read_obj`, with the positions of `mesh` in the lines `v`: coordinates that are bitwise
+/// equal and everything else keep their characters. Normals (`vn`) that only one vertex or one face uses become those
+/// of its faces that name them; others stay.
 /// @param path of the text, for messages only. @param mesh with the faces of the file.
-/// @returns what a user should know about it, in sentences.
+/// @returns remarks for the user, in sentences.
 /// @throws OutputError
 std::vector<std::string> rewrite_obj(OutputFile& file, const std::filesystem::path& path, std::string_view text,
                                      const PolygonMesh& mesh, const Slicing& slicing);
 
-/// Writes one of some slices of a file again as rewrite_obj does, but with all normals as they were.
+/// Rewrites one of some slices of a file as rewrite_obj does, but keeps all normals.
 /// @param positions of the vertices of all of the slices.
 void rewrite_obj_slice(ByteWriter& file, const TextScanner& whole, const TextSlices& slices, Index slice,
                        const Points& positions);
 
-/// The corners of faces, numbered as in PolygonMesh::face_vertices, that name each normal (`vn`) of a file that
-/// `read_obj` has read, in ascending order. Numbers of normals that there are not do not count.
+/// For each normal (`vn`) of a file read by `read_obj`, the corners that name it, numbered as in
+/// PolygonMesh::face_vertices, in ascending order. Numbers of missing normals do not count.
 /// @param path for messages only.
 IndexLists corners_of_obj_normals(const std::filesystem::path& path, std::string_view text,
                                   const Slicing& slicing = {});
 
-/// What such a file holds besides a surface, in a few words each; comments do not count.
+/// Content besides the surface, in a few words each; comments do not count.
 /// @param path for messages only.
 std::vector<std::string> extras_of_obj(const std::filesystem::path& path, std::string_view text,
                                        const Slicing& slicing = {});

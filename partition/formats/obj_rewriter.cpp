@@ -30,7 +30,7 @@ Index index_at_start(std::string_view text, Index n)
     return number > 0 ? number - 1 : number < 0 ? number + n : none;
 }
 
-/// The normal that a corner such as 7//2 or 7/1/-2 names, counted from 0; it need not be there.
+/// The normal that a corner such as 7//2 or 7/1/-2 refers to, counted from 0; it need not exist.
 /// @param n number of normals before this line.
 Index normal_of(std::string_view corner, Index n)
 {
@@ -47,7 +47,7 @@ struct StayingNormals {
     Index n_unused = 0;
 };
 
-/// The normals of a file on the surface as it is now.
+/// The normals of a file for the current surface.
 class NormalUpdate {
   public:
     /// @param normals see corners_of_obj_normals. @param before #V by 3, where the vertices were.
@@ -58,7 +58,7 @@ class NormalUpdate {
     {
     }
 
-    /// A normal; nothing if it stays.
+    /// The new normal; nothing if it stays.
     std::optional<Point> operator()(Index normal, const Point& given, StayingNormals& staying) const;
 
     /// A sentence about those that would have to change, but cannot.
@@ -105,13 +105,13 @@ std::vector<std::string> NormalUpdate::remarks(const std::filesystem::path& path
         reasons = fmt::format("{} belong to several vertices of several faces", all.n_shared);
     if (all.n_unused > 0)
         reasons += fmt::format("{}{} to no face", all.n_shared > 0 ? ", " : "", all.n_unused);
-    return {fmt::format("of the {} (vn) of {}, {} could not be made new and stay as they were: {}",
+    return {fmt::format("of the {} (vn) of {}, {} could not be recomputed and stay as they were: {}",
                         counted(at(normals_.size()), "normal", "normals"), path.string(), all.n_shared + all.n_unused,
                         reasons)};
 }
 
-/// The normal that each corner of a slice names, or `none`; without the faces that are left out of the mesh.
-/// @param counts what stands before the slice.
+/// The normal that each corner of a slice refers to, or `none`; without the faces that are left out of the mesh.
+/// @param counts of what precedes the slice.
 std::vector<Index> normals_of_corners(TextScanner scanner, TextCounts counts)
 {
     std::vector<Index> normals;
@@ -132,7 +132,7 @@ std::vector<Index> normals_of_corners(TextScanner scanner, TextCounts counts)
         }
         if (are_corners_of_face(vertices, sorted))
             continue;
-        // As MeshBuilder::add_face has it.
+        // As in MeshBuilder::add_face.
         find_distinct_corners(vertices, distinct);
         const std::size_t first = normals.size() - vertices.size();
         std::size_t n_left = 0;
@@ -146,8 +146,8 @@ std::vector<Index> normals_of_corners(TextScanner scanner, TextCounts counts)
     return normals;
 }
 
-/// Writes a slice again.
-/// @param counts what stands before it. @param end what stands before the next.
+/// Rewrites a slice.
+/// @param counts of what precedes it. @param end of what precedes the next one.
 StayingNormals rewrite_slice(TextScanner scanner, Splicer splicer, TextCounts counts, const TextCounts& end,
                              const NewVertices<NormalUpdate>& now)
 {

@@ -88,7 +88,7 @@ void OffReader::read(std::int64_t begin, std::int64_t end)
 void OffReader::require_end()
 {
     if (scanner_.next_line())
-        scanner_.fail(fmt::format("the file goes on after the {} vertices and {} faces that its header announces; "
+        scanner_.fail(fmt::format("the file continues after the {} vertices and {} faces that its header announces; "
                                   "correct the counts in the header",
                                   header_.n_vertices, header_.n_faces));
 }
@@ -148,7 +148,7 @@ PolygonMesh read_slices(const TextScanner& after_header, const OffHeader& header
 }
 
 /// Writes the lines of a slice that are vertices.
-/// @param v, end the first of them and the one behind the last.
+/// @param v, end the first of them and the one past the last.
 void rewrite_slice(Splicer splicer, TextScanner scanner, Index v, Index end, const NewVertices<MovedNormals>& now,
                    const OffHeader& header)
 {
@@ -258,8 +258,8 @@ PolygonMesh read_by_lines(const std::filesystem::path& path, std::string_view te
     return read_in_slices_if_faultless(in_slices, in_one_go);
 }
 
-/// The header of a file that can have lines as blanks, which is then read up to its end; nothing if there is none.
-/// Only where all vertices have as many numbers, and faces nothing but corners, is it clear what is what.
+/// The header, read to its end, of a file in which line breaks can be blanks; nothing if there is none. This is
+/// unambiguous only if all vertices have equally many numbers, and faces nothing but corners.
 std::optional<OffHeader> read_header_across_lines(TextScanner& scanner)
 {
     scanner.cross_lines();
@@ -271,8 +271,8 @@ std::optional<OffHeader> read_header_across_lines(TextScanner& scanner)
     }
 }
 
-/// Whether a file has not one line for each vertex and face, or a header that only makes sense with lines as blanks.
-/// A file that has these lines is read by them and in no other way, so that it is written by them, too.
+/// Whether a file lacks one line per vertex and face, or its header only makes sense with line breaks as blanks. A file
+/// with these lines is only ever read line by line, so that it is written line by line, too.
 bool breaks_lines_freely(const std::filesystem::path& path, std::string_view text, const Slicing& slicing)
 {
     TextScanner scanner(path, text);
@@ -285,7 +285,7 @@ bool breaks_lines_freely(const std::filesystem::path& path, std::string_view tex
     }
 }
 
-/// Reads a file with lines as blanks; nothing if it cannot be read so.
+/// Reads a file with line breaks as blanks; nothing if that fails.
 std::optional<PolygonMesh> read_across_lines(const std::filesystem::path& path, std::string_view text,
                                              const Slicing& slicing)
 {

@@ -15,11 +15,11 @@
 
 namespace seamflow {
 
-/// Reads text OFF, a vertex or a face a line: `OFF` and its variants with normals, colours or texture coordinates
-/// (NOFF, COFF, STOFF, STCNOFF, …), which are passed over as are the colours of faces; also a file that begins with the
+/// Reads text OFF, one vertex or face per line: `OFF` and its variants with normals, colours or texture coordinates
+/// (NOFF, COFF, STOFF, STCNOFF, …), which are skipped, as are the colours of faces; also a file that begins with the
 /// three counts instead of `OFF`. A file that begins with `OFF BINARY` is read as binary (see read_binary_off).
-/// @param path for messages only. @param faults where to note them instead of throwing, if not null.
-/// @throws InputError naming the line or byte; also for coordinates that are not three to a vertex.
+/// @param path for messages only. @param faults if not null, collects faults instead of throwing.
+/// @throws InputError naming the line or byte; also for vertices without three coordinates.
 PolygonMesh read_off(const std::filesystem::path& path, std::string_view text, const Slicing& slicing,
                      FaultLog* faults = nullptr);
 
@@ -27,15 +27,15 @@ PolygonMesh read_off(const std::filesystem::path& path, std::string_view text, c
 /// @throws OutputError
 void write_off(OutputFile& file, const PolygonMesh& mesh, const Slicing& slicing);
 
-/// Writes a file again that `read_off` has read, with the positions of `mesh`: in a text, coordinates that are the
-/// same, bit for bit, and everything else but normals keep their characters; binary files hold floats.
+/// Rewrites a file read by `read_off`, with the positions of `mesh`: in text, coordinates that are bitwise equal and
+/// everything else except normals keep their characters; binary files hold floats.
 /// @param path of the content, for messages only. @param mesh with the faces of the file.
-/// @returns what a user should know about it, in sentences.
+/// @returns remarks for the user, in sentences.
 /// @throws OutputError; also for coordinates beyond single precision in a binary file.
 std::vector<std::string> rewrite_off(OutputFile& file, const std::filesystem::path& path, std::string_view content,
                                      const PolygonMesh& mesh, const Slicing& slicing);
 
-/// What such a file holds besides a surface, in a few words each; comments do not count.
+/// Content besides the surface, in a few words each; comments do not count.
 /// @param path for messages only.
 std::vector<std::string> extras_of_off(const std::filesystem::path& path, std::string_view content);
 
@@ -44,7 +44,7 @@ std::optional<std::size_t> start_of_binary_off(std::string_view content);
 
 /// Reads what follows the line `OFF BINARY`: 32-bit integers and floats. Geomview writes them most significant byte
 /// first and a number of colour components after each face, others the other way round or without: whichever of the
-/// four fits the length of the file is taken.
+/// four fits the length of the file is used.
 /// @param path for messages only. @param faults see read_off.
 /// @param file the whole file.
 /// @param offset where the binary data begin.
@@ -52,14 +52,14 @@ std::optional<std::size_t> start_of_binary_off(std::string_view content);
 PolygonMesh read_binary_off(const std::filesystem::path& path, std::string_view file, std::size_t offset,
                             const Slicing& slicing, FaultLog* faults);
 
-/// How many bytes of counts precede the vertices of such a file.
+/// Bytes of the counts before the vertices of such a file.
 inline constexpr std::size_t binary_off_counts_bytes = 12;
 
-/// The four layouts in their order, each as the header of a binary PLY file whose elements are the same bytes, from
-/// behind the counts on; none for a file that is too short for counts.
+/// The four layouts in order, each as the header of a binary PLY file whose elements are the bytes after the counts;
+/// empty if the file is too short for counts.
 std::vector<PlyHeader> layouts_of_binary_off(std::string_view file, std::size_t offset);
 
-/// Says that none of them fits.
+/// Reports that no layout fits.
 /// @throws InputError naming the byte.
 [[noreturn]] void refuse_binary_off(const std::filesystem::path& path, std::string_view file, std::size_t offset);
 
@@ -68,7 +68,7 @@ std::vector<PlyHeader> layouts_of_binary_off(std::string_view file, std::size_t 
 void require_fits_binary_off(const std::filesystem::path& path, const Points& vertices, Index first,
                              const Executor& exec);
 
-/// Writes such a file again, with the positions of `mesh`, rounded to floats; every other byte stays.
+/// Rewrites such a file with the positions of `mesh`, rounded to floats; every other byte stays.
 /// @param mesh with the faces of the file.
 /// @returns whether rounding changed any coordinate.
 /// @throws OutputError; also for coordinates beyond single precision.

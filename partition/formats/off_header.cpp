@@ -18,8 +18,9 @@ bool is_digit(char c)
 void require_known_variant(const TextScanner& scanner, std::string_view prefix)
 {
     if (prefix.find_first_of("4n") != std::string_view::npos)
-        scanner.fail(in_quotes(std::string(prefix) + "OFF") +
-                     " files, whose vertices have not just three coordinates, cannot be read; convert the mesh to OFF");
+        scanner.fail(
+            in_quotes(std::string(prefix) + "OFF") +
+            " files, whose vertices do not have just three coordinates, cannot be read; convert the mesh to OFF");
     constexpr std::array<std::string_view, 3> parts = {"ST", "C", "N"};
     std::array<int, 3> n_found{};
     std::string_view left = prefix;
@@ -36,7 +37,7 @@ void require_known_variant(const TextScanner& scanner, std::string_view prefix)
                      " is unknown; convert the mesh to OFF, COFF or NOFF");
 }
 
-/// @returns what stands before OFF.
+/// @returns the prefix before OFF.
 std::string_view read_keyword(TextScanner& scanner)
 {
     if (!scanner.next_line())

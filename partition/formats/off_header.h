@@ -10,8 +10,8 @@ namespace seamflow {
 
 /// The beginning of a text OFF file.
 struct OffHeader {
-    /// What stands before OFF: ST, C, N, each perhaps, in any order, mean texture coordinates, colours and normals of
-    /// the vertices; their numbers follow the coordinates in the order normals, colours, texture coordinates.
+    /// The prefix of OFF: ST, C, N, each optional, in any order, mean texture coordinates, colours and normals of the
+    /// vertices; their numbers follow the coordinates in the order normals, colours, texture coordinates.
     std::string_view prefix;
     std::int64_t n_vertices = 0;
     std::int64_t n_faces = 0;
@@ -21,13 +21,13 @@ struct OffHeader {
     [[nodiscard]] bool has_texture() const { return prefix.find("ST") != std::string_view::npos; }
     [[nodiscard]] bool has_colours() const { return prefix.find('C') != std::string_view::npos; }
 
-    /// How many numbers a vertex has after its coordinates, where it has no colours, whose number differs.
+    /// How many numbers a vertex has after its coordinates, if it has no colours, whose number varies.
     [[nodiscard]] Index n_further_numbers() const { return (has_normals() ? 3 : 0) + (has_texture() ? 2 : 0); }
 };
 
 /// Reads from the beginning of the file to the end of the counts.
-/// @throws InputError naming the line; also for vertices that have not three coordinates, and for counts that the file
-///         is too short for.
+/// @throws InputError naming the line; also for vertices without three coordinates, and for counts that the file is too
+///         short for.
 OffHeader read_off_header(TextScanner& scanner);
 
 }  // namespace seamflow

@@ -25,7 +25,7 @@ constexpr Colour green{0, 255, 0};
 constexpr Colour yellow{255, 255, 0};
 constexpr Colour red{255, 0, 0};
 
-/// @param stops at least two, the first at 0 and the last at 1, at equal distances.
+/// @param stops at least two, the first at 0 and the last at 1, equally spaced.
 Colour between(std::span<const Colour> stops, double value)
 {
     if (std::isnan(value))

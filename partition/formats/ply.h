@@ -16,22 +16,22 @@
 
 namespace seamflow {
 
-/// Reads PLY in any of its three encodings: x, y and z of the element `vertex`, of whatever types and in whatever
-/// order, and the list `vertex_indices` or `vertex_index` of the element `face`. Other properties and other elements,
-/// edges among them, are passed over. In a text file each element stands on a line of its own; after the last element
-/// of a binary file only padding (zeros, blanks, line ends) is accepted.
-/// @param path for messages only. @param faults where to note them instead of throwing, if not null.
+/// Reads PLY in any of its three encodings: x, y and z of the element `vertex`, of any types and in any order, and the
+/// list `vertex_indices` or `vertex_index` of the element `face`. Other properties and other elements, edges among
+/// them, are passed over. In a text file each element stands on a line of its own; after the last element of a binary
+/// file only padding (zeros, blanks, line ends) is accepted.
+/// @param path for messages only. @param faults if not null, collects faults instead of throwing.
 /// @throws InputError naming the line, or the element and its byte; also for a surface made of triangle strips.
 MeshFile read_ply(const std::filesystem::path& path, std::string_view file, const Slicing& slicing,
                   FaultLog* faults = nullptr);
 
-/// Reads the elements of a binary file, which may be of another format that is laid out like one.
+/// Reads the elements of a binary file, which may be of another format with the same layout.
 /// @param begin of the first element in the file. @param header with vertices whose coordinates are single numbers.
 /// @throws InputError naming the element and its byte.
 PolygonMesh read_ply_elements(const std::filesystem::path& path, std::string_view file, std::size_t begin,
                               const PlyHeader& header, const Slicing& slicing, FaultLog* faults = nullptr);
 
-/// What a PLY file can hold beside the mesh; empty: nothing.
+/// Content of a PLY file besides the mesh; omitted if empty.
 struct PlyExtras {
     /// #F; each face has the properties red, green, blue (uchar) and label (int) too.
     std::span<const Index> face_labels = {};
@@ -46,12 +46,12 @@ struct PlyExtras {
 void write_ply(OutputFile& file, const PolygonMesh& mesh, Encoding encoding, const Slicing& slicing,
                const PlyExtras& extras = {});
 
-/// Writes a file again that `read_ply` has read, with the positions of `mesh`. The properties nx, ny, nz of the
-/// vertices, if they are float or double, become the normals of the surface; everything else stays byte for byte, as do
-/// coordinates in a text that are the same bit for bit. Coordinates keep their type, which may mean rounding to float;
-/// where it cannot hold the results at all (whole numbers, or beyond single precision) it becomes double.
+/// Rewrites a file read by `read_ply`, with the positions of `mesh`. The properties nx, ny, nz of the vertices, if they
+/// are float or double, become the normals of the surface; everything else stays byte for byte, as do bitwise equal
+/// coordinates in text. Coordinates keep their type, which may mean rounding to float; where it cannot hold the results
+/// (whole numbers, or beyond single precision) it becomes double.
 /// @param path of the content, for messages only. @param mesh with the faces of the file.
-/// @returns what a user should know about it, in sentences.
+/// @returns remarks for the user, in sentences.
 /// @throws OutputError
 std::vector<std::string> rewrite_ply(OutputFile& file, const std::filesystem::path& path, std::string_view content,
                                      const PolygonMesh& mesh, const Slicing& slicing);

@@ -110,8 +110,8 @@ void ElementReader<Source>::read_corners(const PlyProperty& property)
             corners_.push_back(builder_.vertex(v, n_vertices_));
 }
 
-/// Every vertex of a strip but the first two makes a triangle with the two before it; every other one is turned. Those
-/// that name a vertex twice bring strips together, and are none.
+/// Every vertex of a strip except the first two forms a triangle with the two before it, every other one reversed.
+/// Those that name a vertex twice join strips, and are skipped.
 template <class Source>
 void ElementReader<Source>::add_strips()
 {

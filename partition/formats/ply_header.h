@@ -17,7 +17,7 @@ namespace seamflow {
 inline constexpr TextSyntax ply_syntax = {.comment = '\0', .first_line_end_decides = true};
 
 /// The types of numbers in a PLY file: char, uchar, short, ushort, int, uint, float and double, or int8 to float64, and
-/// the whole numbers of 64 bits, which some programs add.
+/// 64-bit whole numbers, which some programs add.
 enum class PlyType : std::uint8_t { Int8, UInt8, Int16, UInt16, Int32, UInt32, Int64, UInt64, Float32, Float64 };
 
 /// Calls `act` with a zero of that type.
@@ -96,7 +96,7 @@ struct PlyHeader {
 /// @throws InputError naming the line; also for counts that the rest of the file is too short for.
 PlyHeader read_ply_header(TextScanner& scanner);
 
-/// What such a file holds besides a surface, in a few words each; comments do not count.
+/// Content besides the surface, in a few words each; comments do not count.
 /// @param path for messages only.
 std::vector<std::string> extras_of_ply(const std::filesystem::path& path, std::string_view content);
 

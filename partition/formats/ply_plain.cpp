@@ -14,7 +14,7 @@ namespace seamflow {
 namespace {
 
 /// One coordinate of each vertex.
-/// @param first the bytes of that of the first vertex. @param stride how many bytes further that of the next one is.
+/// @param first the bytes of the first vertex's coordinate. @param stride the number of bytes from one to the next.
 void read_coordinates(PlyType type, const char* first, std::size_t stride, std::endian order, auto&& coordinates)
 {
     with_type(type, [&](auto zero) {
@@ -40,7 +40,7 @@ void read_vertices(const PlyElement& element, const PlySlice& slice, std::endian
     }
 }
 
-/// What stands in a face before its list of corners and behind it, in bytes.
+/// What precedes and follows the list of corners of a face, in bytes.
 struct Surroundings {
     std::size_t before = 0;
     std::size_t behind = 0;

@@ -9,21 +9,21 @@
 
 namespace seamflow {
 
-/// What a property means to the mesh; the numbers of the first three are those of the coordinates.
+/// The role of a property in the mesh; the first three have the numbers of the coordinates.
 enum class PlyRole : std::size_t {
     X,
     Y,
     Z,
     Corners,
-    /// Nothing that this reader has a use for.
+    /// Not used by this reader.
     Other
 };
 
-/// What the properties of an element mean.
+/// The roles of an element's properties.
 std::vector<PlyRole> roles_of(const PlyElement& element);
 
-/// Reads a slice of a binary file, all of whose elements are of one kind, if they are vertices without lists or faces
-/// without further ones.
+/// Reads a slice of a binary file whose elements are all of one kind, if they are vertices without lists or faces
+/// without further lists.
 /// @returns whether they are.
 /// @throws InputError if there is any fault, not necessarily naming it.
 bool read_plain_slice(const PlyHeader& header, const PlySlice& slice, const MeshSlice& place);

@@ -47,10 +47,9 @@ void require_few(const std::filesystem::path& path, const PlyElement* element)
 
 [[noreturn]] void refuse(const std::filesystem::path& path, const char* what)
 {
-    throw InputError(
-        fmt::format("{}: {}, so that ranks cannot read it in slices; export it as a text PLY file, or as a "
-                    "binary one whose vertices come first and have no lists",
-                    path.string(), what));
+    throw InputError(fmt::format("{}: {}, so ranks cannot read it in slices; export it as a text PLY file, or as a "
+                                 "binary one whose vertices come first and have no lists",
+                                 path.string(), what));
 }
 
 }  // namespace
@@ -72,7 +71,7 @@ PlyRanges::PlyRanges(std::filesystem::path path, std::string_view content)
     try {
         find_elements();
     } catch (const InputError&) {
-        // Whoever reads the elements one by one finds out where they are not as the header says.
+        // Reading the elements one by one reports where they are not as the header declares.
         PlyBinarySource source(path_, content, elements_begin_, header_.encoding);
         for (const PlyElement& element : header_.elements)
             for (std::uint64_t i = 0; i < element.count; ++i)

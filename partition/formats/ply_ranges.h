@@ -16,21 +16,21 @@
 #include "partition/io/text_scanner.h"
 #include "partition/polygon_mesh.h"
 
-/// PLY files of which a reader takes, and a writer makes, some of the vertices and faces alone.
+/// PLY files of which only some of the vertices and faces are read, or written.
 namespace seamflow {
 
-/// A binary file, and where its elements stand.
+/// A binary file and where its elements begin.
 class PlyRanges {
   public:
-    /// @param content the whole file, which is not text (see slice_ply_text) and of which only what is asked for is
-    /// looked at. It has to outlive this.
-    /// @throws InputError as read_ply; also for files whose vertices have no fixed place: with lists in vertices, and
+    /// @param content the whole file, which is not text (see slice_ply_text) and of which only the parts asked for are
+    /// read. Must outlive this object.
+    /// @throws InputError as read_ply; also for files whose vertices have no fixed place: with lists in vertices, or
     ///         with faces before them.
     PlyRanges(std::filesystem::path path, std::string_view content);
 
     /// A file of another format with such elements.
     /// @param begin of the elements in the file.
-    /// @throws InputError, of no use to a reader, if the vertices are not all there.
+    /// @throws InputError, with no useful message, if some vertices are missing.
     PlyRanges(std::filesystem::path path, std::string_view content, PlyHeader header, std::size_t begin);
     PlyRanges(const PlyRanges&) = delete;
     PlyRanges& operator=(const PlyRanges&) = delete;
@@ -43,13 +43,13 @@ class PlyRanges {
     [[nodiscard]] Index n_vertices() const { return static_cast<Index>(vertex_element().count); }
     [[nodiscard]] Index n_faces() const { return faces_ != nullptr ? static_cast<Index>(faces_->count) : 0; }
 
-    /// All that precedes the first element, and all from there on that precedes the vertices.
+    /// The bytes before the first element, and those from there to the vertices.
     [[nodiscard]] std::string_view header_bytes() const { return content_.substr(0, elements_begin_); }
     [[nodiscard]] std::string_view bytes_before_vertices() const
     {
         return content_.substr(elements_begin_, vertices_begin_ - elements_begin_);
     }
-    /// Where the vertices begin, from `begin` to `end` - 1.
+    /// The bytes of the vertices from `begin` to `end` - 1.
     [[nodiscard]] std::string_view bytes_of_vertices(Index begin, Index end) const
     {
         return content_.substr(vertices_begin_ + at(begin) * vertex_bytes_, at(end - begin) * vertex_bytes_);
@@ -63,11 +63,11 @@ class PlyRanges {
     [[nodiscard]] std::size_t likely_begin(Index face) const { return faces_begin_ + at(face) * triangle_bytes_; }
 
     /// Where the faces from `begin` to `end` - 1 end, if the first of them begins at that byte.
-    /// @throws InputError, of no use to a reader, if they are not all there.
+    /// @throws InputError, with no useful message, if some are missing.
     [[nodiscard]] std::size_t end_of_faces(std::size_t byte, Index begin, Index end) const;
 
     /// The faces themselves, with corners numbered in the whole file.
-    /// @param faults where to note those that are left out, numbered from 0 for `begin`.
+    /// @param faults collects the faces left out, numbered from 0 for `begin`.
     /// @throws InputError naming element and byte.
     [[nodiscard]] PolygonMesh faces(std::size_t byte, Index begin, Index end, FaultLog& faults) const;
 
@@ -90,7 +90,7 @@ class PlyRanges {
     std::size_t triangle_bytes_ = 0;
 };
 
-/// What becomes of one property of the vertices when a file is written again.
+/// How one property of the vertices changes when a file is rewritten.
 struct PlyChange {
     /// 0 to 2: it is a coordinate; 3 to 5: one of the normal; -1: it stays.
     Index column = -1;
@@ -101,12 +101,12 @@ struct PlyChange {
 /// Whether the properties x, y and z can hold the coordinates, floats after rounding.
 std::array<bool, 3> coordinates_fit(const PlyElement& vertices, const Points& positions);
 
-/// One change for each property: positions are exchanged, normals are not.
-/// @param fits of all positions: where that is not so the property becomes double.
+/// One change for each property: positions are replaced, normals are not.
+/// @param fits of all positions: where false, the property becomes double.
 std::vector<PlyChange> changes_of_positions(const PlyElement& vertices, const std::array<bool, 3>& fits);
 
 /// Writes the header with the types that have changed.
-/// @returns what a user should know about it, in sentences.
+/// @returns remarks for the user, in sentences.
 std::vector<std::string> rewrite_ply_header(ByteWriter& file, const std::filesystem::path& path,
                                             std::string_view header, const PlyElement& vertices,
                                             const std::vector<PlyChange>& changes);
@@ -122,10 +122,10 @@ bool rewrite_ply_vertices(ByteWriter& file, const PlyRanges& ply, Index begin, c
 void rewrite_ply_text(ByteWriter& file, const TextScanner& after_header, const PlyHeader& header, const PlySlice& slice,
                       const Points& positions, Index first);
 
-/// Whether a face has more than 255 sides: then all lists of corners say their lengths in four bytes, else in one.
+/// Whether a face has more than 255 sides: then all corner lists store their lengths in four bytes, else in one.
 bool has_long_face(const PolygonMesh& mesh);
 
-/// How much there is in a file.
+/// Element counts of a file.
 struct PlyCounts {
     Index vertices = 0;
     Index faces = 0;

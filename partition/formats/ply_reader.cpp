@@ -22,7 +22,7 @@ namespace seamflow {
 
 namespace {
 
-/// A complaint about a line of the header.
+/// Reports an error in a line of the header.
 [[noreturn]] void refuse(const TextScanner& scanner, std::size_t line, const std::string& complaint)
 {
     throw InputError(scanner.position_of(line) + ": " + complaint);
@@ -75,7 +75,7 @@ PolygonMesh read_elements(Source source, const PlyHeader& header, FaultLog* faul
     return reader.finish();
 }
 
-/// Reads a text file that has no line for each element; nothing if it has, or cannot be read so either.
+/// Reads a text file without one line per element; nothing if it has these, or cannot be read this way either.
 std::optional<PolygonMesh> read_across_lines(TextScanner after_header, const PlyHeader& header, FaultLog* faults)
 {
     if (!breaks_lines_freely(after_header, header))

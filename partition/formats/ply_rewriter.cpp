@@ -21,13 +21,13 @@ namespace seamflow {
 
 namespace {
 
-/// The numbers of a vertex that are written anew.
+/// The numbers of a vertex that are rewritten.
 constexpr std::array<std::string_view, 6> columns = {"x", "y", "z", "nx", "ny", "nz"};
 using Row = Eigen::Matrix<double, 1, columns.size()>;
 
 using Change = PlyChange;
 
-/// Whether numbers of that type can be those of the list, floats after rounding.
+/// Whether that type can represent the numbers, floats after rounding.
 bool can_hold(PlyType type, const auto& numbers)
 {
     return with_type(type, [&numbers](auto zero) {
@@ -40,12 +40,12 @@ bool can_hold(PlyType type, const auto& numbers)
     });
 }
 
-/// What the properties nx, ny and nz of the vertices are.
+/// The kind of the vertex properties nx, ny and nz.
 enum class Normals {
     None,
     /// Floating-point numbers.
     Usable,
-    /// Not all three, or whole numbers, whose scale nobody knows, or lists.
+    /// Not all three, or integers, whose scale is unknown, or lists.
     Other
 };
 
@@ -104,7 +104,7 @@ class VertexRewriter {
     Source& source_;
     Splicer& splicer_;
     Encoding encoding_;
-    /// Of one vertex, one per property: the bytes of those that may change.
+    /// For one vertex, one entry per property: its bytes if it may change.
     std::vector<std::string_view> parts_;
     bool rounded_ = false;
 };
@@ -174,7 +174,7 @@ std::vector<std::string> rewrite_header(Splicer& splicer, const std::filesystem:
             continue;
         splicer.exchange(property.type_word).text("double");
         remarks.push_back("the type of " + property.name + " is double instead of " + std::string(property.type_word) +
-                          ", as in " + path.string() + ", which cannot hold the result");
+                          ": the type in " + path.string() + " cannot hold the result");
     }
     return remarks;
 }
@@ -206,7 +206,7 @@ struct ReadPly {
     const std::filesystem::path& path;
     std::string_view content;
     const PlyHeader& header;
-    /// Stands at the last line of the header.
+    /// At the last line of the header.
     const TextScanner& after_header;
 };
 
@@ -224,7 +224,7 @@ bool rewrite_elements(OutputFile& file, const ReadPly& read, const std::vector<C
         slices = {{0, header.n_elements(), read.after_header.rest()}};
     std::vector<std::uint8_t> rounded(slices.size());
     file.slices(static_cast<Index>(slices.size()), slicing.exec, [&](Index i, OutputBuffer& slice) {
-        // Those that the reader has let pass.
+        // Those that the reader has accepted.
         FaultLog known_faults{.of_faces_alone = true};
         const auto rewrite = [&](auto source) {
             source.note_faults_in(&known_faults);

@@ -12,7 +12,7 @@ namespace seamflow {
 
 namespace {
 
-/// A complaint that nobody gets to read (see read_in_slices_if_faultless).
+/// Throws an error that is never reported (see read_in_slices_if_faultless).
 [[noreturn]] void refuse()
 {
     throw InputError("not as the header says");
@@ -28,7 +28,7 @@ std::vector<PlySlice> slice_text(const TextScanner& after_header, const Slicing&
     return slices;
 }
 
-/// What stands in an element of a binary file: bytes, and then the numbers of a list.
+/// A field of an element of a binary file: bytes, and then the numbers of a list.
 struct Field {
     std::size_t n_bytes = 0;
     PlyType length_type = PlyType::UInt8;
@@ -63,10 +63,10 @@ class BinarySlicer {
     {
     }
 
-    /// Goes past the elements of one kind.
+    /// Passes over the elements of one kind.
     void add(const PlyElement& element, const Slicing& slicing);
 
-    /// Goes past n elements whose fields are known.
+    /// Passes over n elements whose fields are known.
     void pass_over(const std::vector<Field>& fields, std::uint64_t n);
 
     [[nodiscard]] std::size_t offset() const { return offset_; }
@@ -90,7 +90,7 @@ class BinarySlicer {
     std::vector<PlySlice> slices_;
 };
 
-/// The bytes before a list, and the list.
+/// Passes over the bytes before a list, and the list.
 void BinarySlicer::pass_over(const Field& list)
 {
     pass_over(list.n_bytes);
@@ -136,7 +136,7 @@ void BinarySlicer::add(const PlyElement& element, const Slicing& slicing)
 
 }  // namespace
 
-/// How many elements of that name the first `end` elements of a file have.
+/// The number of elements of that name among the first `end` elements of a file.
 std::uint64_t count_before(std::uint64_t end, const PlyHeader& header, std::string_view name)
 {
     std::uint64_t n = 0;

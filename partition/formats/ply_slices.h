@@ -14,41 +14,41 @@
 
 namespace seamflow {
 
-/// Some elements of a PLY file that stand one behind the other. All elements are counted together, from 0.
+/// Consecutive elements of a PLY file. Elements of all kinds are counted together, from 0.
 struct PlySlice {
     std::uint64_t begin = 0;
     std::uint64_t end = 0;
     std::string_view bytes = {};
 };
 
-/// Cuts what follows the header into slices.
+/// Slices the data after the header.
 /// @param file the whole file. @param after_header stands at the last line of the header.
 /// @param elements the first ones of the header; in a text file the slices go on to its end.
-/// @throws InputError if those of a binary file are not all there.
+/// @throws InputError if a binary file lacks some of them.
 std::vector<PlySlice> slice_ply(std::string_view file, const TextScanner& after_header, Encoding encoding,
                                 std::span<const PlyElement> elements, const Slicing& slicing);
 
 /// Cuts the elements of a binary file into slices.
 /// @param begin the byte at which the first of them begins. @param elements see slice_ply.
-/// @throws InputError if they are not all there.
+/// @throws InputError if some are missing.
 std::vector<PlySlice> slice_elements(std::string_view file, std::size_t begin, Encoding encoding,
                                      std::span<const PlyElement> elements, const Slicing& slicing);
 
-/// Whether a binary file has all elements from `begin` on, and nothing but padding behind them.
+/// Whether a binary file has all elements from `begin` on, and only padding after them.
 bool are_all_elements(std::string_view file, std::size_t begin, const PlyHeader& header);
 
-/// Goes past n elements of one kind in a binary file.
+/// Skips n elements of one kind in a binary file.
 /// @param offset the byte at which the first of them begins.
 /// @returns where the last one ends.
-/// @throws InputError, of no use to a reader, if they are not all there.
+/// @throws InputError, with no useful message, if some are missing.
 std::size_t pass_over_elements(std::string_view file, std::size_t offset, std::endian order, const PlyElement& element,
                                std::uint64_t n);
 
-/// How many elements of that name the first `end` elements of a file have.
+/// How many of the first `end` elements of a file have that name.
 std::uint64_t count_before(std::uint64_t end, const PlyHeader& header, std::string_view name);
 
-/// Calls `act` with every kind of elements in a slice and the numbers of the first element and the one behind the last
-/// among those of its kind.
+/// Calls `act` with every kind of elements in a slice and the numbers, within the kind, of the first element and the
+/// one after the last.
 void for_each_kind(std::span<const PlyElement> elements, const PlySlice& slice, const auto& act)
 {
     std::uint64_t first = 0;

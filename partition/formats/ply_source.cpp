@@ -28,7 +28,7 @@ void PlyTextSource::end_element()
 {
     if (scanner_.crosses_lines() || !scanner_.has_token())
         return;
-    scanner_.harmless_fault("the line goes on with " + in_quotes(scanner_.peek()) +
+    scanner_.harmless_fault("the line continues with " + in_quotes(scanner_.peek()) +
                             " after all the properties that the header declares; correct the header or the line");
     scanner_.pass_over_rest();
 }
@@ -44,8 +44,8 @@ void PlyTextSource::pass_over(PlyType, std::int64_t n)
 void PlyTextSource::finish()
 {
     if (scanner_.next_line())
-        scanner_.fail("the file goes on after all the elements that its header announces; correct the counts in the "
-                      "header");
+        scanner_.fail(
+            "the file continues after all the elements that its header announces; correct the counts in the header");
 }
 
 PlyBinarySource::PlyBinarySource(const std::filesystem::path& path, std::string_view file, std::size_t begin,

@@ -38,7 +38,7 @@ class PlyTextSource {
     /// The next number, which is finite, unless faults are noted. In text its type does not matter.
     double real(PlyType) { return scanner_.real("a coordinate"); }
 
-    /// The next number, be it finite or not; what is none is NaN.
+    /// The next number, finite or not; NaN if it is none.
     double number(PlyType) { return scanner_.number_or_nan(); }
 
     /// The characters of the next number.
@@ -64,7 +64,7 @@ class PlyTextSource {
 class PlyBinarySource {
   public:
     /// @param path for messages only.
-    /// @param file the whole file; has to outlive the source.
+    /// @param file the whole file; must outlive the source.
     /// @param begin of the data in the file.
     PlyBinarySource(const std::filesystem::path& path, std::string_view file, std::size_t begin, Encoding encoding);
 
@@ -118,7 +118,7 @@ void pass_over(Source& source, const PlyElement& element, std::uint64_t i, const
     source.end_element();
 }
 
-/// Whether a text file does not have a line for each element, so that lines can be no more than blanks.
+/// Whether a text file does not have one line per element, so that line ends only count as blanks.
 /// @param after_header stands at the last line of the header.
 bool breaks_lines_freely(const TextScanner& after_header, const PlyHeader& header);
 

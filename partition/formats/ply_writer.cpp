@@ -40,7 +40,7 @@ std::string header_of(const PlyCounts& counts, Encoding encoding, const PlyExtra
     return header + "end_header\n";
 }
 
-/// What there is to write.
+/// The content to write.
 struct PlyContent {
     const PolygonMesh& mesh;
     Encoding encoding;

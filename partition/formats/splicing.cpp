@@ -100,14 +100,14 @@ std::optional<Point> MovedNormals::of_face(Index f, const Point& given) const
 
 std::string changed_since_read(const std::filesystem::path& source)
 {
-    return source.string() + ": the file has been changed since it was read, so that what it holds besides positions "
-                             "cannot be taken over; leave it alone until the result is written";
+    return source.string() + ": the file has been changed since it was read, so its data besides positions cannot be "
+                             "copied; leave it alone until the result is written";
 }
 
 std::string kept_normals_remark(const std::filesystem::path& source, const std::string& normals)
 {
     return "the " + normals + " of " + source.string() +
-           " stay as they were: ranks that each have a slice of the file do not make them new";
+           " stay as they were: ranks that each have a slice of the file do not recompute them";
 }
 
 std::string rounding_remark(const std::filesystem::path& source)

@@ -15,21 +15,21 @@
 
 namespace seamflow {
 
-/// Copies the content of a file, or a slice of it, with parts of it exchanged.
+/// Copies the content of a file, or a slice of it, with parts replaced.
 class Splicer {
   public:
-    /// @param writer, content have to outlive the splicer.
+    /// @param writer, content must outlive the splicer.
     Splicer(ByteWriter& writer, std::string_view content)
         : writer_(writer)
         , rest_(content)
     {
     }
 
-    /// Copies what precedes `part`, a part of the content behind all those exchanged so far, and leaves it out.
-    /// @returns where to write what is to stand in its place.
+    /// Copies the content before `part`, which must follow all parts replaced so far, and omits `part`.
+    /// @returns where to write its replacement.
     ByteWriter& exchange(std::string_view part);
 
-    /// Copies what is left. To be called once, at the end.
+    /// Copies the rest. To be called once, at the end.
     void finish() { writer_.text(rest_); }
 
   private:
@@ -37,41 +37,40 @@ class Splicer {
     std::string_view rest_;
 };
 
-/// Whether two numbers differ in any bit: 0 and -0 do, something that is not a number and itself do not.
+/// Whether two numbers differ in any bit: 0 and -0 do, a NaN and itself do not.
 bool differ(double a, double b);
 
-/// Goes past the next three numbers of the line and exchanges those that differ from the coordinates of `position`.
+/// Reads the next three numbers of the line and replaces those that differ from the coordinates of `position`.
 void exchange_position(TextScanner& scanner, Splicer& splicer, const Point& position);
 
-/// Three numbers of a line as they stand there, whatever they are.
+/// Three numbers of a line as written, whatever they are.
 struct WrittenNormal {
     std::array<std::string_view, 3> parts;
     Point value;
 };
 
-/// Goes past the next three tokens of the line.
+/// Reads the next three tokens of the line.
 WrittenNormal read_normal(TextScanner& scanner);
 
 /// Writes a normal, in single precision, in place of another.
 void exchange_normal(Splicer& splicer, const WrittenNormal& before, const Point& after);
 
-/// New normals for those that a file holds, after its vertices have moved. A normal that pointed to the back of its
-/// faces does so again.
+/// New normals for a file after its vertices have moved. A normal that pointed to the back of its faces still does.
 class MovedNormals {
   public:
-    /// @param mesh where the vertices are now; has to outlive this object.
+    /// @param mesh where the vertices are now; must outlive this object.
     /// @param before #V by 3, where they were.
     MovedNormals(const PolygonMesh& mesh, Points before, const Executor& exec = run_serially);
     MovedNormals(const MovedNormals&) = delete;
     MovedNormals& operator=(const MovedNormals&) = delete;
 
     /// The normal of the faces of some corners at one vertex (see VertexNormals), of length 1.
-    /// @param given the normal before; what is not a number does not matter.
+    /// @param given the normal before; NaN does not matter.
     /// @returns nothing if it stays: the faces have not moved, or have no normal now.
     [[nodiscard]] std::optional<Point> around_vertex(std::span<const Index> corners, const Point& given) const;
 
-    /// The same for all corners at vertex v. Along a seam (see weld) those of all copies count where the normal before
-    /// was more nearly theirs than that of v alone: shading that went on across the seam does so again.
+    /// The same for all corners at vertex v. Along a seam (see weld) those of all copies count if the normal before was
+    /// closer to theirs than to that of v alone: shading that was continuous across the seam stays so.
     [[nodiscard]] std::optional<Point> around_vertex(Index v, const Point& given) const;
 
     /// The same for one face.
@@ -92,7 +91,7 @@ class MovedNormals {
     std::optional<VertexNormals> across_seams_;
 };
 
-/// What stands anew in a file, or a slice of it.
+/// New vertex data of a file, or a slice of it.
 template <class Normals>
 struct NewVertices {
     /// From vertex `first` of the file on.
@@ -104,13 +103,13 @@ struct NewVertices {
     [[nodiscard]] Point position(std::int64_t v) const { return positions.row(v - first); }
 };
 
-/// What is wrong with a file that cannot be written again.
+/// The message for a file changed since it was read.
 std::string changed_since_read(const std::filesystem::path& source);
 
 /// A sentence for the user of a file in slices. @param normals which, in a few words.
 std::string kept_normals_remark(const std::filesystem::path& source, const std::string& normals);
 
-/// A sentence for the user of a file whose numbers hold less than the results.
+/// A sentence for the user of a file less precise than the results.
 /// @param source the file that decides about their type.
 std::string rounding_remark(const std::filesystem::path& source);
 

@@ -21,20 +21,20 @@
 
 namespace seamflow {
 
-/// Reads STL, as binary if the size of the file is the one that the count of facets in a binary file calls for,
-/// whatever it begins with; as text, if it begins with the word `solid` and holds no byte 0 early on; else as binary.
-/// Corners with equal coordinates become one vertex, numbered in order of appearance; normals, names and attributes are
-/// passed over (see StlForm), and several solids become one mesh. After the facets of a binary file only padding
-/// (zeros, blanks, line ends) is accepted.
-/// @param path for messages only. @param faults where to note them instead of throwing, if not null.
+/// Reads STL: as binary if the size of the file matches the count of facets in a binary file, whatever it begins with;
+/// as text if it begins with the word `solid` and has no byte 0 near its beginning; else as binary. Corners with equal
+/// coordinates become one vertex, numbered in order of appearance; normals, names and attributes are skipped (see
+/// StlForm), and several solids become one mesh. After the facets of a binary file only padding (zeros, blanks, line
+/// ends) is accepted.
+/// @param path for messages only. @param faults if not null, collects faults instead of throwing.
 /// @throws InputError naming line, or facet and byte; also for a facet of which two corners coincide.
 MeshFile read_stl(const std::filesystem::path& path, std::string_view file, const Slicing& slicing,
                   FaultLog* faults = nullptr);
 
-/// A binary STL file of which a reader takes some of the facets alone.
+/// A binary STL file of which a reader takes only some of the facets.
 class StlRanges {
   public:
-    /// @param content the whole file, of which only what is asked for is looked at. It has to outlive this.
+    /// @param content the whole file, of which only the parts asked for are read. Must outlive this object.
     /// @throws InputError as read_stl.
     StlRanges(std::filesystem::path path, std::string_view content);
     StlRanges(const StlRanges&) = delete;
@@ -43,7 +43,7 @@ class StlRanges {
 
     [[nodiscard]] Index n_facets() const { return n_facets_; }
 
-    /// All facets as they stand there.
+    /// The bytes of all facets.
     [[nodiscard]] std::string_view all() const { return bytes(0, n_facets_); }
 
     /// The facets from `begin` to `end` - 1.
@@ -51,7 +51,7 @@ class StlRanges {
 
     /// Appends the facets from `begin` to `end` - 1.
     /// @param faces without vertices; corners are numbers of the points that are returned.
-    /// @param faults where to note those that are left out, numbered from 0 for `begin`.
+    /// @param faults collects the facets left out, numbered from 0 for `begin`.
     /// @throws InputError naming facet and byte.
     PointNumbers facets(Index begin, Index end, PolygonMesh& faces, FaultLog& faults) const;
 
@@ -59,7 +59,7 @@ class StlRanges {
     /// @throws InputError naming the byte.
     void require_end() const;
 
-    /// Says that the file has no vertices.
+    /// Reports a file without vertices.
     /// @throws InputError naming the byte.
     [[noreturn]] void refuse_empty() const;
 
@@ -69,16 +69,16 @@ class StlRanges {
     Index n_facets_ = 0;
 };
 
-/// A text STL file of which a reader takes some of the facets alone.
+/// A text STL file of which a reader takes only some of the facets.
 class StlText {
   public:
-    /// @param path for messages only. @param content the whole file. It has to outlive this.
+    /// @param path for messages only. @param content the whole file; must outlive this.
     StlText(const std::filesystem::path& path, std::string_view content);
 
     /// All of it, except for a byte order mark.
     [[nodiscard]] std::string_view all() const { return whole_.rest(); }
 
-    /// At most n shares of it that begin where a facet does, except for the first.
+    /// At most n shares of it that begin at facets, except for the first.
     [[nodiscard]] std::vector<std::string_view> shares(std::size_t n) const;
 
     /// Appends the facets of a share.
@@ -86,9 +86,9 @@ class StlText {
     /// @throws InputError if there is any fault, not necessarily naming it (see `check`).
     PointNumbers facets(std::string_view share, PolygonMesh& faces, const Slicing& slicing) const;
 
-    /// The same as a reader of the whole file does it who notes which facets are left out.
-    /// @param lines_before so many lines of the file precede. @param in_solid whether the share begins within a solid;
-    /// receives whether what follows does. @param faults see StlRanges::facets.
+    /// The same as in reading the whole file while noting which facets are left out.
+    /// @param lines_before number of lines before the share. @param in_solid whether the share begins within a solid;
+    /// receives the same for what follows. @param faults see StlRanges::facets.
     /// @throws InputError naming the line.
     PointNumbers check(std::string_view share, std::size_t lines_before, bool& in_solid, PolygonMesh& faces,
                        FaultLog& faults) const;
@@ -107,7 +107,7 @@ class StlText {
     TextScanner whole_;
 };
 
-/// A binary file begins with a title and the number of facets. Each has its normal, three corners, and an attribute.
+/// A binary file begins with a title and the number of facets, each with a normal, three corners and an attribute.
 constexpr std::size_t stl_header_bytes = 84;
 constexpr std::size_t stl_facet_bytes = 50;
 
@@ -117,13 +117,13 @@ std::vector<std::string_view> stl_slices_at_facets(const TextScanner& whole, std
 /// Whether it is text rather than binary (see read_stl).
 bool is_text_stl(std::string_view file);
 
-/// Whether `read_stl` can make anything of it: the size is that of a binary file, or the text begins with `solid`.
+/// Whether `read_stl` can read it: the size is that of a binary file, or the text begins with `solid`.
 bool is_stl(std::string_view file);
 
 /// Checks that STL can hold the mesh: triangles only, no vertex without faces, and for the binary encoding all
-/// coordinates within single precision. Facets of which corners come to the same place are written, too: they are
-/// lines, which readers pass over. Vertices that coincide without having a face in common are one vertex when the file
-/// is read again: STL has points only, and no numbers for them.
+/// coordinates within single precision. Facets with coinciding corners are written, too: they are lines, which readers
+/// skip. Vertices that coincide without having a face in common become one vertex when the file is read again: STL has
+/// points only, and no numbers for them.
 /// @returns a remark on these.
 /// @throws OutputError naming the face or vertex, and the remedy.
 std::vector<std::string> require_fits_stl(const std::filesystem::path& path, const PolygonMesh& mesh,
@@ -132,7 +132,7 @@ std::vector<std::string> require_fits_stl(const std::filesystem::path& path, con
 /// The corners of a facet.
 using StlFacet = std::array<Point, 3>;
 
-/// What require_fits_stl checks of positions, of some vertices for the binary encoding.
+/// Checks the positions of some vertices as require_fits_stl does for binary files.
 /// @param first the number of the first of the vertices.
 /// @throws OutputError
 void require_floats(const std::filesystem::path& path, const Points& vertices, Index first = 0);
@@ -154,28 +154,28 @@ Point normal_of_facet(const StlFacet& triangle);
 /// @throws OutputError
 void write_stl(OutputFile& file, const PolygonMesh& mesh, Encoding encoding, const Slicing& slicing);
 
-/// A file as the form for another with other positions. What is no coordinate and no normal of a facet that has moved
+/// A file as the template for one with other positions. All except coordinates and normals of facets that have moved
 /// stays byte for byte: names of solids, title, attributes, facets that are lines.
 class StlForm {
   public:
-    /// @param path for messages only. @param content of a file that read_stl has read; has to outlive this.
+    /// @param path for messages only. @param content of a file read by read_stl; must outlive this.
     StlForm(const std::filesystem::path& path, std::string_view content);
 
     [[nodiscard]] bool is_text() const { return is_text_; }
 
-    /// What precedes the facets, these, and what follows them; in text all but a byte order mark counts as facets.
+    /// The bytes before, of and after the facets; in text, all except a byte order mark counts as facets.
     [[nodiscard]] std::string_view begin() const;
     [[nodiscard]] std::string_view facets() const;
     [[nodiscard]] std::string_view end() const;
 
-    /// Pieces of some facets, each of about so many bytes, of whole facets.
+    /// Pieces of whole facets, each of about so many bytes.
     [[nodiscard]] std::vector<std::string_view> pieces(std::string_view facets, std::size_t bytes) const;
 
     /// How many facets of a piece are triangles, and so faces of the mesh that is read.
     [[nodiscard]] Index count(std::string_view piece) const;
 
     /// Writes a piece.
-    /// @param facet_of where the triangles of the piece are now, in their order.
+    /// @param facet_of the new corners of the piece's triangles, in order.
     /// @returns how many of them have become lines.
     Index rewrite(ByteWriter& file, std::string_view piece, const std::function<StlFacet(Index facet)>& facet_of) const;
 

@@ -69,15 +69,15 @@ class FacetCollector {
     Index n_facets_ = 0;
 };
 
-/// Reads slices several at a time. The points of a slice become numbers of its own, and these those of all slices.
-/// @param read called with a slice and where its faces belong; gives its points.
+/// Reads slices, several at a time. Points are numbered within each slice, and then for all slices.
+/// @param read called with a slice and where its faces go; returns its points.
 /// @param faces gets the faces of all slices.
 PointNumbers join_facets(Index n_slices, const Executor& exec,
                          const std::function<PointNumbers(Index slice, const MeshSlice& place)>& read,
                          PolygonMesh& faces);
 
-/// Makes vertices of points.
-/// @throws InputError, of no use to a reader, if there are none.
+/// Sets the mesh's vertices.
+/// @throws InputError with no useful message if there are none.
 void set_vertices(PolygonMesh& mesh, const PointNumbers& points);
 
 }  // namespace seamflow

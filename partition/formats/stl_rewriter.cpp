@@ -19,7 +19,7 @@ namespace seamflow {
 
 namespace {
 
-/// A facet as it stands in a file.
+/// A facet as written in a file.
 struct WrittenFacet {
     WrittenNormal normal;
     StlFacet corners;
@@ -192,8 +192,7 @@ std::vector<std::string> remarks_on_lines(const std::filesystem::path& path, std
 {
     if (n == 0)
         return {};
-    return {fmt::format("{} of {} {} become {}, because corners have come to one place in the file's precision; {} "
-                        "still there",
+    return {fmt::format("{} of {} {} become {}, because corners coincide in the file's precision; {} still there",
                         counted(static_cast<std::size_t>(n), "facet", "facets"), path.string(), n == 1 ? "has" : "have",
                         n == 1 ? "a line" : "lines", n == 1 ? "it is" : "they are")};
 }

@@ -37,7 +37,7 @@ class TextReader {
 
     /// @param in_solid whether the first line is within a solid. @param end where the last line to be read begins, at
     /// most.
-    /// @returns the same of what follows.
+    /// @returns whether a solid is still open.
     bool read(bool in_solid, const char* end);
 
     /// @throws InputError within a solid.

@@ -15,12 +15,12 @@
 #include "partition/io/text_scanner.h"
 #include "partition/polygon_mesh.h"
 
-/// Mesh files that are text, of which a reader takes, and a writer makes, some lines alone.
+/// Text mesh files of which only some lines are read, or written.
 namespace seamflow {
 
-/// What stands before a place in a file.
+/// Counts up to a place in a file.
 struct TextCounts {
-    /// Lines with a token after the header, where they alone say which element a line is: in OFF and PLY.
+    /// Lines with a token after the header, where they alone give the element of a line: in OFF and PLY.
     std::int64_t n_lines = 0;
     /// Lines `v` and `vn` of OBJ.
     std::int64_t n_vertices = 0;
@@ -36,23 +36,22 @@ struct TextCounts {
     friend bool operator==(const TextCounts&, const TextCounts&) = default;
 };
 
-/// Some slices of a file, one behind the other.
+/// Some consecutive slices of a file.
 struct TextSlices {
     std::span<const std::string_view> bytes;
-    /// What stands before each of them and behind the last, in the whole file.
+    /// The counts before each slice and after the last, in the whole file.
     std::span<const TextCounts> counts;
     /// Of the whole file.
     TextCounts all;
 };
 
-/// What is found in one slice that is read from its first line to its last.
+/// The result of reading one slice from its first line to its last.
 struct CheckedSlice {
     /// As SlicedText::read gives it.
     PolygonMesh mesh;
     /// Faults that are noted.
     FaultLog faults{.of_faces_alone = true};
-    /// That a vertex which a face names does not come; empty: they do. It counts where all other lines are without
-    /// fault.
+    /// A message that a vertex named by a face is missing; else empty. It counts if all other lines are without fault.
     std::string of_reference;
 };
 
@@ -63,14 +62,14 @@ class SlicedText {
     SlicedText& operator=(const SlicedText&) = delete;
     virtual ~SlicedText() = default;
 
-    /// Stands at the end of the header: what is left is what slices are made of.
+    /// Stands at the end of the header: the rest is cut into slices.
     [[nodiscard]] const TextScanner& after_header() const { return after_header_; }
 
-    /// Counts what stands before each of some slices that follow each other, from 0, and in all of them.
+    /// The counts before each of some consecutive slices, from 0, and in all of them.
     [[nodiscard]] virtual std::vector<TextCounts> count(std::span<const std::string_view> slices,
                                                         const Executor& exec) const = 0;
 
-    /// How many vertices precede a place; with the counts of the whole file, how many it has to have.
+    /// How many vertices precede a place; with the counts of the whole file, how many it must have.
     [[nodiscard]] virtual std::int64_t n_vertices_before(const TextCounts& counts) const = 0;
     [[nodiscard]] virtual std::int64_t n_vertices(const TextCounts& all) const = 0;
 
@@ -78,21 +77,21 @@ class SlicedText {
     /// @throws InputError if there is any fault in them or in the counts, not necessarily naming it (see `check`).
     [[nodiscard]] virtual PolygonMesh read(const TextSlices& slices, const Executor& exec) const = 0;
 
-    /// Reads one slice as a reader of the whole file does who notes faults of faces and rows.
-    /// @param scanner of the slice, which knows the number of its first line. @param slices this one alone.
+    /// Reads one slice as in reading the whole file while noting faults of faces and rows.
+    /// @param scanner of the slice, with the number of its first line. @param slices this one only.
     /// @throws InputError naming the line.
     virtual void check(const TextScanner& scanner, const TextSlices& slices, CheckedSlice& found) const = 0;
 
     /// Whether the header's types can hold the coordinates x, y and z of all these positions.
     [[nodiscard]] virtual std::array<bool, 3> coordinates_fit(const Points&) const { return {true, true, true}; }
 
-    /// Writes the header again.
+    /// Rewrites the header.
     /// @param fits see coordinates_fit, of all vertices. @param all of the whole file.
-    /// @returns what a user should know about it and about normals, in sentences.
+    /// @returns remarks for the user on it and on normals, in sentences.
     virtual std::vector<std::string> rewrite_header(ByteWriter& file, std::string_view header,
                                                     const std::array<bool, 3>& fits, const TextCounts& all) const = 0;
 
-    /// Writes one of some slices again with other positions, and everything else as it was.
+    /// Rewrites one of some slices with other positions; everything else stays.
     /// @param positions of the vertices of all of the slices.
     virtual void rewrite(ByteWriter& file, const TextSlices& slices, Index slice, const Points& positions) const = 0;
 
@@ -108,7 +107,7 @@ class SlicedText {
         return static_cast<Index>(n_vertices_before(slices.counts.front()));
     }
 
-    /// Whether one of some slices is the last of the file.
+    /// Whether a slice is the last of the file.
     [[nodiscard]] bool is_last(std::string_view slice) const
     {
         const std::string_view rest = after_header_.rest();
@@ -119,8 +118,8 @@ class SlicedText {
     TextScanner after_header_;
 };
 
-/// Looks at the header of a file.
-/// @param path for messages only. @param text has to outlive the result.
+/// Reads the header of a file.
+/// @param path for messages only. @param text must outlive the result.
 /// @throws InputError as a reader of the whole file does.
 std::unique_ptr<SlicedText> slice_obj_text(const std::filesystem::path& path, std::string_view text);
 std::unique_ptr<SlicedText> slice_off_text(const std::filesystem::path& path, std::string_view text);

@@ -19,7 +19,7 @@ namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
-/// A mesh and how it hangs together.
+/// A mesh and its connectivity.
 struct Surface {
     const PolygonMesh& mesh;
     const Topology& topology;
@@ -27,7 +27,7 @@ struct Surface {
     [[nodiscard]] Index start(Index h) const { return mesh.face_vertices[h]; }
     [[nodiscard]] Index end(Index h) const { return mesh.face_vertices[topology.next(mesh, h)]; }
     [[nodiscard]] Edge edge(Index h) const { return {std::min(start(h), end(h)), std::max(start(h), end(h))}; }
-    /// Whether both ends are somewhere.
+    /// Whether both ends have finite positions.
     [[nodiscard]] bool is_finite(Index h) const
     {
         return mesh.vertices.row(start(h)).allFinite() && mesh.vertices.row(end(h)).allFinite();
@@ -35,7 +35,7 @@ struct Surface {
     [[nodiscard]] double length(Index h) const { return edge_length(mesh, topology, h); }
 };
 
-/// The edges of the half-edges for which `holds`, each once, ascending.
+/// The edges of the half-edges for which `holds` is true, each once, ascending.
 template <class Predicate>
 std::vector<Edge> edges_where(const Surface& s, const Executor& exec, Predicate&& holds)
 {
@@ -46,7 +46,7 @@ std::vector<Edge> edges_where(const Surface& s, const Executor& exec, Predicate&
     return edges;
 }
 
-/// Half-edges without a twin are on edges of one face, or of three and more.
+/// Half-edges without a twin are on edges of one face, or of three or more.
 void inspect_edges(const Surface& s, const Executor& exec, MeshInspection& found)
 {
     const auto alone = select(exec, s.mesh.n_corners(), [&](Index h) { return s.topology.twin[h] < 0; });
@@ -112,7 +112,7 @@ void measure_box(const PolygonMesh& mesh, MeshInspection& found)
         found.bits_for_detail = std::max(0, 53 - (std::ilogb(farthest) - std::ilogb(found.edge_lengths.mean)));
 }
 
-/// The largest of the face's coordinates bounds what rounding can make of its area.
+/// The largest of the face's coordinates bounds the rounding error of its area.
 bool lacks_area(const PolygonMesh& mesh, Index f)
 {
     const double area = vector_area(mesh.face(f), mesh.vertices).norm();
@@ -128,8 +128,8 @@ bool lacks_area(const PolygonMesh& mesh, Index f)
     return !std::isnormal(area) || area <= epsilon * farthest * longest;
 }
 
-/// The elements that are equal to one before them, with the first of these, ascending.
-/// @param before an order in which equal elements follow each other. @param same whether two are equal.
+/// The elements that equal an earlier one, each with the first of these, ascending.
+/// @param before an order in which equal elements are consecutive. @param same whether two are equal.
 template <class Before, class Same>
 std::vector<std::pair<Index, Index>> repetitions(Index n, Before&& before, Same&& same)
 {
@@ -148,7 +148,7 @@ std::vector<std::pair<Index, Index>> repetitions(Index n, Before&& before, Same&
 
 std::vector<Index> coincident_vertices(const Points& positions)
 {
-    // A total order, whatever the coordinates: zeros are the same zero, and what is no number has its place, too.
+    // A total order for any coordinates: zeros of both signs are equal, and NaNs are ordered, too.
     const auto before = [&](Index a, Index b) {
         for (int c = 0; c < 3; ++c)
             if (const auto order = std::strong_order(positions(a, c) + 0.0, positions(b, c) + 0.0); order != 0)
@@ -173,7 +173,7 @@ std::vector<Index> duplicate_faces(const PolygonMesh& mesh)
     return faces;
 }
 
-/// Turns faces, one after the other, so that they fit those before; whether all fit each other in the end.
+/// Orients faces one after the other consistently with those before; whether all are consistent in the end.
 bool is_orientable(const Surface& s)
 {
     std::vector<signed char> sense(s.mesh.n_faces(), 0);

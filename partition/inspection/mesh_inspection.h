@@ -11,7 +11,7 @@
 
 namespace seamflow {
 
-/// How much there is of a mesh.
+/// Element counts of a mesh.
 struct ElementCounts {
     Index vertices = 0;
     Index faces = 0;
@@ -22,7 +22,7 @@ struct ElementCounts {
     Index components = 0;
     /// Edges of one face.
     Index boundary_edges = 0;
-    /// Pairs of those that lie on each other along seams, and the vertices at their ends that are doubled (see weld).
+    /// Pairs of boundary edges that coincide along seams, and the duplicated vertices at their ends (see weld).
     Index seam_edges = 0;
     Index seam_vertices = 0;
 };
@@ -40,10 +40,10 @@ struct MeshBox {
     double diagonal = 0.0;
 };
 
-/// What is uncommon or wrong, element by element. All numbers count from 0; all lists are ascending, and edges have the
-/// lower vertex first.
+/// The unusual or faulty elements. All numbers count from 0; all lists are ascending, and edges have the lower vertex
+/// first.
 struct MeshDefects {
-    /// Vertices with a coordinate that is no finite number. What is measured leaves them and their edges and faces out.
+    /// Vertices with a coordinate that is not finite. Measurements leave out these and their edges and faces.
     std::vector<Index> vertices_not_finite;
     /// Edges of three faces or more.
     std::vector<Edge> non_manifold_edges;
@@ -51,13 +51,13 @@ struct MeshDefects {
     std::vector<Index> non_manifold_vertices;
     /// Edges whose two faces run along them in the same direction: they are oriented against each other.
     std::vector<Edge> inconsistent_edges;
-    /// Faces that have the same vertices as a face before them, in whatever order.
+    /// Faces that have the same vertices as an earlier face, in any order.
     std::vector<Index> duplicate_faces;
-    /// Faces whose vector area is no normal double, or smaller than rounding of their coordinates leaves.
+    /// Faces whose vector area is not a normal double, or within the rounding of their coordinates.
     std::vector<Index> faces_without_area;
     /// Edges whose length is no normal double.
     std::vector<Edge> edges_without_length;
-    /// Vertices at the same place as a vertex before them.
+    /// Vertices at the same place as an earlier one.
     std::vector<Index> coincident_vertices;
     /// Vertices without faces.
     std::vector<Index> isolated_vertices;
@@ -65,24 +65,24 @@ struct MeshDefects {
     std::vector<FacePair> self_intersections;
 };
 
-/// What a mesh is made of and what is wrong with it.
+/// The composition and the defects of a mesh.
 struct MeshInspection {
     ElementCounts counts;
     EdgeLengths edge_lengths;
     MeshBox box;
     MeshDefects defects;
-    /// Whether faces could be turned so that there are no inconsistent edges; a Möbius band's cannot.
+    /// Whether the faces can be oriented consistently; those of a Möbius band cannot.
     bool orientable = true;
-    /// How many of the bits of a double are left for detail of the size of the mean edge at the distance from the
-    /// origin at which the mesh lies; of 53. A file with floats keeps 29 fewer.
+    /// How many of the 53 bits of a double are left for detail of the size of the mean edge at the mesh's distance from
+    /// the origin. A file with floats keeps 29 fewer.
     int bits_for_detail = 53;
 };
 
-/// Examines a mesh. Near to linear in its size.
-/// @param mesh valid (see require_valid), but that coordinates need not be finite.
+/// Examines a mesh. Nearly linear in its size.
+/// @param mesh valid (see require_valid), but coordinates need not be finite.
 MeshInspection inspect(const PolygonMesh& mesh, const Topology& topology, const Executor& exec = run_serially);
 
-/// A face with the same vertices as one before it, in whatever order.
+/// A face with the same vertices as an earlier one, in any order.
 struct RepeatedFace {
     Index face;
     /// The first face with these vertices.

@@ -28,7 +28,7 @@ void ByteScanner::require_end()
     if (left == std::string_view::npos)
         return;
     last_ = left;
-    fail("the file goes on where, by its header, it should end; correct the counts in the header or export the mesh "
+    fail("the file continues where its header says it should end; correct the counts in the header or export the mesh "
          "again");
 }
 

@@ -12,18 +12,18 @@
 
 namespace seamflow {
 
-/// What may stand behind the last element of a binary file.
+/// Bytes allowed after the last element of a binary file.
 inline constexpr std::string_view padding("\0 \t\r\n", 5);
 
 /// Walks through binary data in memory number by number.
 class ByteScanner final : public InputPosition {
   public:
     /// @param path for messages only.
-    /// @param file the whole file; has to outlive the scanner, as has what is given to `enter`.
+    /// @param file the whole file; must outlive the scanner, as must what is given to `enter`.
     /// @param offset where to begin.
     ByteScanner(const std::filesystem::path& path, std::string_view file, std::size_t offset, std::endian order);
 
-    /// Says, for messages, which element (numbered from 0) the following bytes belong to.
+    /// Sets, for messages, the element (numbered from 0) of the following bytes.
     void enter(std::string_view element, std::uint64_t i);
 
     /// @throws InputError if the file ends first.
@@ -33,7 +33,7 @@ class ByteScanner final : public InputPosition {
         return from_bytes<Number>(take(sizeof(Number)), order_);
     }
 
-    /// Passes over n bytes, and gives the first of them.
+    /// Skips n bytes and returns a pointer to them.
     /// @throws InputError if the file ends first.
     const char* take(std::size_t n)
     {
@@ -44,7 +44,7 @@ class ByteScanner final : public InputPosition {
         return file_.data() + last_;
     }
 
-    /// The next n bytes, of which the caller knows that they are there.
+    /// The next n bytes, which the caller knows to be there.
     [[nodiscard]] std::string_view peek(std::size_t n) const { return file_.substr(next_, n); }
 
     [[nodiscard]] std::size_t remaining() const { return file_.size() - next_; }

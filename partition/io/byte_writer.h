@@ -14,7 +14,7 @@
 
 namespace seamflow {
 
-/// Puts text, numbers and binary data one behind the other.
+/// Writes text, numbers and binary data in sequence.
 class ByteWriter {
   public:
     ByteWriter(const ByteWriter&) = delete;
@@ -40,7 +40,7 @@ class ByteWriter {
             append_chars(value, std::chars_format::scientific);
     }
 
-    /// A line of the word, which may be empty, and the numbers, with blanks between.
+    /// A line of the word, which may be empty, and the numbers, separated by blanks.
     void line(std::string_view word, const auto& numbers)
     {
         text(word);
@@ -81,7 +81,7 @@ class ByteWriter {
     ByteWriter& operator=(ByteWriter&&) = default;
     ~ByteWriter() = default;
 
-    /// What has been written and not yet been given up.
+    /// The bytes written and not yet given up.
     [[nodiscard]] std::string_view kept() const { return {bytes_.get(), used_}; }
     void give_up() { used_ = 0; }
 

@@ -10,12 +10,12 @@
 
 namespace seamflow {
 
-/// What was wrong in a file that was read as far as possible.
+/// The faults of a file that was read as far as possible.
 struct FaultLog {
-    /// Whether only faults of a face or a row are noted that leave no doubt what the rest means, and others thrown.
+    /// Whether only faults of a face or a row that leave no doubt about the rest are noted, and others thrown.
     bool of_faces_alone = false;
     static constexpr std::size_t most_messages = 1000;
-    /// The first ones, in the order of the file, as InputError would have said them.
+    /// The first ones, in the order of the file, as InputError would report them.
     std::vector<std::string> messages = {};
     /// All of them.
     std::uint64_t count = 0;

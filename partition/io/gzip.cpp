@@ -21,7 +21,7 @@ namespace {
 constexpr std::size_t plausible_ratio = 250;
 constexpr std::size_t always_plausible = std::size_t{1} << 26;
 
-/// The state of zlib, freed in the end.
+/// The state of zlib, freed on destruction.
 class Inflation {
   public:
     Inflation()
@@ -43,7 +43,7 @@ class Inflation {
 }
 
 /// Unpacks one member.
-/// @returns how many bytes of `packed` it has.
+/// @returns the number of its bytes in `packed`.
 std::size_t unpack_member(const std::filesystem::path& path, std::string_view packed,
                           const std::function<void(std::string_view piece)>& take)
 {
@@ -112,7 +112,7 @@ PackedPiece pack_piece(std::string_view bytes)
     piece.checksum =
         static_cast<std::uint32_t>(::crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
     try {
-        // A flush has at most 6 bytes.
+        // A flush takes at most 6 bytes.
         piece.bytes.resize(::deflateBound(&stream, bytes.size()) + 6);
     } catch (...) {
         ::deflateEnd(&stream);
@@ -122,7 +122,7 @@ PackedPiece pack_piece(std::string_view bytes)
     stream.avail_in = static_cast<uInt>(bytes.size());
     stream.next_out = reinterpret_cast<Bytef*>(piece.bytes.data());
     stream.avail_out = static_cast<uInt>(piece.bytes.size());
-    // To whole bytes, and without an end: other pieces follow.
+    // Flushed to whole bytes, and without an end: other pieces follow.
     ::deflate(&stream, Z_FULL_FLUSH);
     piece.bytes.resize(piece.bytes.size() - stream.avail_out);
     ::deflateEnd(&stream);
@@ -145,7 +145,7 @@ void GzipMember::add(const PackedPiece& piece)
 
 std::string GzipMember::tail() const
 {
-    // An empty block that is the last one, the checksum, and the size modulo 2^32.
+    // An empty final block, the checksum, and the size modulo 2^32.
     std::string bytes("\x03\x00", 2);
     for (const std::uint32_t number : {checksum_, static_cast<std::uint32_t>(size_)}) {
         const auto of_number = to_bytes(number, std::endian::little);

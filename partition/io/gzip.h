@@ -19,31 +19,31 @@ inline bool is_gzip(std::string_view bytes)
 bool is_gzip_name(const std::filesystem::path& path);
 
 /// Unpacks a gzip file of one member or several.
-/// @param path for messages only. @param take called with what is unpacked, piece by piece.
-/// @throws InputError if it is damaged or cut off, or if what comes out is implausibly much.
+/// @param path for messages only. @param take called with unpacked data, piece by piece.
+/// @throws InputError if it is damaged or cut off, or if the result is implausibly large.
 void unpack_gzip(const std::filesystem::path& path, std::string_view packed,
                  const std::function<void(std::string_view piece)>& take);
 
-/// Some bytes of a gzip file, packed without a view to others.
+/// Some bytes of a gzip file, packed independently of others.
 struct PackedPiece {
     std::string bytes;
-    /// Of what was packed.
+    /// Of the input.
     std::uint32_t checksum = 0;
     std::size_t size = 0;
 };
 
 PackedPiece pack_piece(std::string_view bytes);
 
-/// The one member of a gzip file that is put together of pieces.
+/// The single member of a gzip file assembled from pieces.
 class GzipMember {
   public:
-    /// What stands before the first piece.
+    /// The bytes before the first piece.
     [[nodiscard]] static std::string_view head();
 
     /// To be called with every piece, in order.
     void add(const PackedPiece& piece);
 
-    /// What stands behind the last piece.
+    /// The bytes after the last piece.
     [[nodiscard]] std::string tail() const;
 
   private:

@@ -27,7 +27,7 @@ namespace {
                      "; check the name and the permissions of the file");
 }
 
-/// Asked before the file is opened, for opening a pipe would wait for somebody to write into it.
+/// Checked before the file is opened, because opening a pipe would wait for a writer.
 void require_regular(const std::filesystem::path& path)
 {
     struct stat status = {};
@@ -41,7 +41,7 @@ void require_regular(const std::filesystem::path& path)
         throw InputError(path.string() + ": the file is empty; export the mesh again");
 }
 
-/// A file without a name, in memory.
+/// An unnamed file in memory.
 class MemoryFile {
   public:
     /// @param path for messages only.
@@ -70,7 +70,7 @@ class MemoryFile {
         }
     }
 
-    /// The descriptor, which becomes the caller's.
+    /// The descriptor, which the caller then owns.
     [[nodiscard]] int release() { return std::exchange(descriptor_, -1); }
 
   private:
@@ -78,7 +78,7 @@ class MemoryFile {
     int descriptor_;
 };
 
-/// @returns how many bytes there were; 0 at the end.
+/// @returns the number of bytes read; 0 at the end.
 std::size_t read_some(const std::filesystem::path& path, int descriptor, std::span<char> bytes)
 {
     while (true) {
@@ -115,7 +115,7 @@ OpenFile::OpenFile(const std::filesystem::path& path)
         unpack();
 }
 
-/// Takes what comes through a stream into memory.
+/// Reads a stream into memory.
 void OpenFile::collect()
 {
     MemoryFile collected(path_);

@@ -13,13 +13,13 @@ inline bool is_standard_stream(const std::filesystem::path& path)
     return path == "-";
 }
 
-/// Whether a path names something that is open already, be it a pipe: `-`, /dev/stdin, or what a shell puts in place of
-/// <(command). It has no name that could give the format, and can be read once.
+/// Whether a path names something already open, perhaps a pipe: `-`, /dev/stdin, or a shell's substitute for
+/// <(command). It has no name that could give the format, and can be read only once.
 bool is_input_stream(const std::filesystem::path& path);
 
-/// A regular file, open for reading: what it holds can be read even after it was renamed, replaced or removed. A file
-/// that is compressed by gzip (whatever its name is) is unpacked first, and what comes through a stream (see
-/// is_input_stream) is collected, both in memory.
+/// A regular file, open for reading: its content can be read even after it was renamed, replaced or removed. A file
+/// compressed by gzip (whatever its name) is unpacked first, and a stream (see is_input_stream) is collected, both in
+/// memory.
 class OpenFile {
   public:
     /// @param path `-` for standard input.
@@ -54,7 +54,7 @@ class OpenFile {
     int descriptor_ = -1;
 };
 
-/// The whole of a file in memory. A large one is mapped: while it is, another program that cuts it off ends this one.
+/// A whole file in memory. A large one is mapped: another program that truncates it meanwhile ends this one.
 class InputFile {
   public:
     /// @throws InputError

@@ -10,7 +10,7 @@
 
 namespace seamflow {
 
-/// Where a reader stands in its file; every complaint about the file begins with it.
+/// A reader's position in its file; every complaint about the file begins with it.
 class InputPosition {
   public:
     virtual ~InputPosition() = default;
@@ -19,18 +19,17 @@ class InputPosition {
     /// @throws InputError "path:line: complaint" for text, "path: element, byte: complaint" for binary data.
     [[noreturn]] void fail(const std::string& complaint) const;
 
-    /// Says a fault after which reading can go on.
+    /// Reports a fault that does not end reading.
     /// @throws InputError as `fail` does, unless faults are noted.
     void fault(const std::string& complaint) const { fault_at(position(), complaint); }
     void fault_at(const std::string& place, const std::string& complaint) const;
-    /// The same for a fault of a face or a row that leaves no doubt what the rest means (see
-    /// FaultLog::of_faces_alone).
+    /// The same for a fault of a face or a row that leaves no doubt about the rest (see FaultLog::of_faces_alone).
     void harmless_fault(const std::string& complaint) const;
     /// Notes that a face is left out.
     /// @param f its number in the file.
     void leave_out_face(Index f) const;
 
-    /// From now on faults are noted there; it has to outlive the reading.
+    /// Notes faults in `log` from now on; it must outlive the reading.
     void note_faults_in(FaultLog* log) { log_ = log; }
     [[nodiscard]] bool notes_faults() const { return log_ != nullptr && !log_->of_faces_alone; }
 
@@ -45,7 +44,7 @@ class InputPosition {
     FaultLog* log_ = nullptr;
 };
 
-/// A part of a file for a message: shortened, and with '?' for what cannot be printed.
+/// A part of a file for a message: shortened, and with '?' for unprintable bytes.
 std::string printable(std::string_view text);
 
 /// The same in quotation marks.
@@ -57,7 +56,7 @@ std::string counted(std::uint64_t count, const std::string& singular, const std:
 /// With a to z for A to Z.
 std::string lower_case(std::string_view text);
 
-/// Appends what a list does not have yet.
+/// Appends `what` unless it is there.
 void add_once(std::vector<std::string>& list, std::string_view what);
 
 }  // namespace seamflow

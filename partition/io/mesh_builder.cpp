@@ -110,14 +110,13 @@ void MeshBuilder::add_face(std::span<const Index> corners)
         corners = distinct_;
     }
     if (corners.size() > most - mesh_.face_vertices.size())
-        position_.fail(fmt::format(
-            "the faces have more than {} corners together; let ranks share them (smooth-distributed), or divide "
-            "the mesh into several files",
-            most));
+        position_.fail(fmt::format("the faces have more than {} corners in total; use several ranks "
+                                   "(smooth-distributed), or divide the mesh into several files",
+                                   most));
     mesh_.add_face(corners);
 }
 
-/// Those that named vertices which never came.
+/// Those that refer to vertices that were never added.
 void MeshBuilder::leave_out_faces_without_vertices()
 {
     const PolygonMesh all = std::exchange(mesh_, {});

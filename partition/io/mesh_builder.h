@@ -10,7 +10,7 @@
 
 namespace seamflow {
 
-/// Whether the corners are at least three, and all different.
+/// Whether there are at least three corners, all different.
 /// @param sorted scratch: receives the corners, sorted, where they may be alike.
 bool are_corners_of_face(std::span<const Index> corners, std::vector<Index>& sorted);
 
@@ -31,14 +31,14 @@ struct MeshSlice {
 };
 
 /// Collects the vertices and faces that a reader finds, and checks each face on its way in. Where faults are noted
-/// instead of thrown, faces that have any are left out.
+/// instead of thrown, faulty faces are left out.
 class MeshBuilder {
   public:
-    /// @param position of the reader, for messages; has to outlive the builder.
+    /// @param position of the reader, for messages; must outlive the builder.
     /// @param first_number the number of the first vertex in this format, for messages.
     explicit MeshBuilder(const InputPosition& position, Index first_number = 0);
 
-    /// A builder for one slice of a file, which has no need to be finished.
+    /// A builder for one slice of a file, which need not be finished.
     MeshBuilder(const InputPosition& position, Index first_number, const MeshSlice& slice);
 
     MeshBuilder(const MeshBuilder&) = delete;
@@ -51,19 +51,18 @@ class MeshBuilder {
     void add_vertex(const std::array<double, 3>& position);
 
     /// Corners that repeat the one before them count once.
-    /// @param corners vertices from 0, that need not have been added yet, or -1 for those that `vertex` found fault
-    /// with.
-    /// @throws InputError for less than three corners and for a vertex named twice otherwise, unless such faces are
-    ///         left out (see InputPosition::harmless_fault), and for more than 2^31 - 1 corners in all.
+    /// @param corners vertices from 0, which need not have been added yet, or -1 for those that `vertex` refused.
+    /// @throws InputError for fewer than three corners and for other repeated vertices, unless such faces are left out
+    ///         (see InputPosition::harmless_fault), and for more than 2^31 - 1 corners in all.
     void add_face(std::span<const Index> corners);
 
     /// How many there are so far, those before the slice included.
     [[nodiscard]] Index n_vertices() const { return n_vertices_; }
 
     /// Checks that 0 <= index < n.
-    /// @param n number of vertices that there are to choose from.
+    /// @param n number of vertices to choose from.
     /// @throws InputError
-    /// @returns the index; -1 if that is not so and faults are noted.
+    /// @returns the index; -1 if this fails and faults are noted.
     [[nodiscard]] Index vertex(std::int64_t index, std::int64_t n) const
     {
         return index >= 0 && index < n ? static_cast<Index>(index) : refuse_vertex(index, n);

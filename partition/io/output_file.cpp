@@ -27,20 +27,20 @@ std::filesystem::path folder_of(const std::filesystem::path& file)
     return file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
 }
 
-/// A name that no other file of this program has; should another program have it, the next one will do.
+/// A name that no other file of this program has; if another program uses it, the next one is taken.
 std::filesystem::path temporary_name(const std::filesystem::path& target)
 {
     static std::atomic<unsigned> counter = 0;
     return folder_of(target) / fmt::format(".seamflow-{}-{}.tmp", ::getpid(), counter++);
 }
 
-/// How the system knows an open file.
+/// The system's name of an open file.
 std::string name_of_descriptor(int descriptor)
 {
     return fmt::format("/proc/self/fd/{}", descriptor);
 }
 
-/// Opens a file without a name, which vanishes with the process, however that ends.
+/// Opens an unnamed file, which disappears with the process, however that ends.
 /// @returns -1 where the system cannot do that, or could not give it a name later.
 int open_unnamed(const std::filesystem::path& folder)
 {
@@ -53,14 +53,14 @@ int open_unnamed(const std::filesystem::path& folder)
     return -1;
 }
 
-/// Some file systems cannot do it: that is no reason to fail.
+/// Some file systems do not support this, which is no reason to fail.
 int synchronise(int descriptor)
 {
     const bool done = ::fsync(descriptor) == 0 || errno == EINVAL || errno == ENOTSUP || errno == EROFS;
     return done ? 0 : errno;
 }
 
-/// So that the new name survives a power cut as well. The file is complete in any case: errors do not matter.
+/// Makes the new name survive a power cut as well. The file is complete in any case: errors do not matter.
 void synchronise_folder(const std::filesystem::path& folder)
 {
     const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -204,7 +204,7 @@ void OutputFile::slices(Index n, const Executor& exec, const std::function<void(
     flush();
     constexpr Index at_once = 32;
     std::vector<Slice> round(at(std::min(n, at_once)));
-    // Each round writes what the one before has made, for only then it is known where that belongs.
+    // Each round writes the output of the previous one, because its offset is known only then.
     for (Index begin = 0; begin < n + at_once; begin += at_once) {
         for_each(exec, static_cast<Index>(round.size()), [&](Index i) {
             Slice& slice = round[i];
@@ -232,14 +232,14 @@ void OutputFile::slices(Index n, const Executor& exec, const std::function<void(
             std::swap(slice.made, slice.to_write);
         }
 #ifdef SYNC_FILE_RANGE_WRITE
-        // So that there is less left for `commit` to wait for.
+        // Leaves less for `commit` to wait for.
         static_cast<void>(::sync_file_range(descriptor_, 0, 0, SYNC_FILE_RANGE_WRITE));
 #endif
     }
 }
 
-/// A temporary one: only by being renamed can a file replace another. Once it has it, nothing may fail before that is
-/// noted.
+/// A temporary name: a file can replace another only by being renamed. Once it is given, nothing may fail before that
+/// is recorded.
 void OutputFile::give_name()
 {
     const std::string source = name_of_descriptor(descriptor_);
@@ -256,7 +256,7 @@ void OutputFile::give_name()
 
 void OutputFile::commit()
 {
-    // What takes memory comes first: with its name the file is there, and nothing may fail any more.
+    // Allocations come first: once the file has its name, it exists, and nothing may fail any more.
     const std::filesystem::path folder = folder_of(target_);
     flush();
     if (gzip_ != nullptr)

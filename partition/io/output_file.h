@@ -12,11 +12,11 @@
 
 namespace seamflow {
 
-/// The file that a path leads to: symbolic links are followed, to files that do not exist as well.
-/// @returns the path of a link only where links lead round in a circle.
+/// The file that a path leads to: symbolic links are followed, even to files that do not exist.
+/// @returns the path of a link only if links form a cycle.
 std::filesystem::path file_behind(const std::filesystem::path& path);
 
-/// Says that a file could not be written, and why.
+/// Reports why a file could not be written.
 /// @param error of the system.
 /// @throws OutputError
 [[noreturn]] void fail_to_write(const std::filesystem::path& path, int error);
@@ -28,10 +28,10 @@ std::filesystem::path file_behind(const std::filesystem::path& path);
 /// throw OutputError if the file cannot be written.
 class OutputFile final : public ByteWriter {
   public:
-    /// When it gets a name, if a temporary one: AtOnce for those whom other processes have to find.
+    /// When it gets a name, if a temporary one: AtOnce for files that other processes must find.
     enum class Naming { Late, AtOnce };
 
-    /// @param path `-` for standard output, which gets everything at once, and none of it back.
+    /// @param path `-` for standard output, which gets everything at once and irrevocably.
     /// @throws OutputError naming the file and the system's reason; also if `path` is there but no regular file.
     explicit OutputFile(const std::filesystem::path& path, Naming naming = Naming::Late);
     OutputFile(const OutputFile&) = delete;
@@ -44,12 +44,10 @@ class OutputFile final : public ByteWriter {
     /// The temporary name, if it has one.
     [[nodiscard]] const std::filesystem::path& temporary() const { return temporary_; }
 
-    /// Writes bytes to where they belong, and nothing in between: not for files that are packed, nor together with what
-    /// is written one behind the other.
+    /// Writes bytes at an offset, and nothing in between: not for packed files, nor together with sequential writing.
     void write_at(std::string_view bytes, std::size_t offset) const { write(bytes, offset); }
 
-    /// Writes n slices, one behind the other, each of which `make` puts into a buffer: several at a time are made and
-    /// written.
+    /// Writes n consecutive slices, each of which `make` puts into a buffer; several are made and written at a time.
     void slices(Index n, const Executor& exec, const std::function<void(Index slice, OutputBuffer& buffer)>& make);
 
     /// Writes what is left to the disk and gives the file its name. To be called once, at the end.
@@ -73,7 +71,7 @@ class OutputFile final : public ByteWriter {
     bool is_stream_ = false;
     /// Null: nothing is packed.
     std::unique_ptr<GzipMember> gzip_;
-    /// So many bytes have been handed to the system.
+    /// Number of bytes handed to the system.
     std::size_t n_written_ = 0;
 };
 

@@ -14,7 +14,7 @@ namespace seamflow {
 
 namespace {
 
-/// Asks the system for large pages where memory that has not been touched yet will lie. It need not heed that.
+/// Asks the system for large pages for memory that has not been touched yet. It may ignore this.
 void prefer_large_pages(void* memory, std::size_t n_bytes)
 {
     constexpr std::uintptr_t page = std::uintptr_t{1} << 21;
@@ -26,8 +26,8 @@ void prefer_large_pages(void* memory, std::size_t n_bytes)
 #endif
 }
 
-/// Makes room for the parts, and for as much in each of the slices that follow, up to a multiple of what there is, in
-/// large pages: to touch memory for the first time takes longer than to copy it.
+/// Makes room for the parts, and for as much in each of the following slices, up to a multiple of the current size, in
+/// large pages: touching memory for the first time takes longer than copying it.
 template <class Value>
 void make_room(std::vector<Value>& values, std::span<const PolygonMesh> parts, Index n_to_follow,
                std::vector<Value> PolygonMesh::*member)
@@ -87,7 +87,7 @@ void append_faces(PolygonMesh& mesh, Index n, const Executor& exec,
                   const std::function<void(Index slice, PolygonMesh& faces)>& read,
                   const std::function<void(Index slice, PolygonMesh& faces)>& finish)
 {
-    // So many that few threads wait, and so few that they need little memory.
+    // Enough that few threads wait, and few enough that they need little memory.
     constexpr Index at_once = 64;
     std::vector<PolygonMesh> parts(at(std::min(n, at_once)));
     for (Index begin = 0; begin < n; begin += at_once) {

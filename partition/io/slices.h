@@ -17,10 +17,10 @@
 
 namespace seamflow {
 
-/// How files are read and made by several threads: slice by slice.
+/// How several threads read and write files: slice by slice.
 struct Slicing {
     Executor exec = run_serially;
-    /// About how many bytes of a file are one.
+    /// Approximate size of a slice in bytes.
     std::size_t bytes = std::size_t{1} << 18;
 };
 
@@ -30,8 +30,8 @@ inline Index elements_per_slice(const Slicing& slicing, std::size_t size)
     return static_cast<Index>(slicing.bytes / size + 1);
 }
 
-/// Writes n elements in slices of so many, several at a time.
-/// @param write called with what takes the bytes and the element.
+/// Writes n elements in slices of per_slice, several at once.
+/// @param write called with a buffer and the element.
 template <class Write>
 void write_elements(OutputFile& file, Index n, Index per_slice, const Executor& exec, Write&& write)
 {
@@ -62,14 +62,14 @@ void append_faces(PolygonMesh& mesh, Index n, const Executor& exec,
                   const std::function<void(Index slice, PolygonMesh& faces)>& read,
                   const std::function<void(Index slice, PolygonMesh& faces)>& finish = {});
 
-/// For faults of slices: nobody gets to read of them (see read_in_slices_if_faultless).
+/// For faults of slices, which nobody gets to read (see read_in_slices_if_faultless).
 class NoPosition final : public InputPosition {
   private:
     [[nodiscard]] std::string position() const override { return {}; }
 };
 
-/// Reads a file slice by slice. Which slice finds fault first is a matter of luck: a file with a fault is read again in
-/// one go, which complains about the first, and knows its line.
+/// Reads a file slice by slice. Which slice fails first is a matter of chance: a file with a fault is read again in one
+/// go, which reports the first fault with its line.
 template <class InSlices, class InOneGo>
 PolygonMesh read_in_slices_if_faultless(InSlices&& in_slices, InOneGo&& in_one_go)
 {

@@ -17,7 +17,7 @@ bool is_blank(char c)
     return c == ' ' || (c >= '\t' && c <= '\r');
 }
 
-/// CR if the first line ends so and there is no LF in the text, or none that counts; else LF.
+/// CR if the first line ends with it and the text has no LF, or none that counts; else LF.
 char line_break_of(std::string_view text, bool first_line_end_decides)
 {
     const auto first = text.find_first_of("\r\n");
@@ -27,13 +27,13 @@ char line_break_of(std::string_view text, bool first_line_end_decides)
     return feed == std::string_view::npos || (first_line_end_decides && feed > first + 1) ? '\r' : '\n';
 }
 
-/// The beginning of a number: a plus sign is passed over, for from_chars does not know it.
+/// The beginning of a number: a plus sign is skipped, because from_chars does not accept it.
 const char* after_plus(const char* first, const char* last)
 {
     return last - first > 1 && *first == '+' && first[1] != '-' ? first + 1 : first;
 }
 
-/// from_chars, but correctly rounded to a zero where from_chars only says "out of range".
+/// from_chars, but correctly rounded to a zero where from_chars only reports "out of range".
 std::from_chars_result parse(const char* first, const char* last, double& value)
 {
     auto result = std::from_chars(first, last, value);
@@ -86,7 +86,7 @@ TextScanner::TextScanner(const TextScanner& whole, std::string_view slice, std::
     line_ = lines_before;
 }
 
-/// Behind the line break of the line that continues from there.
+/// The position after the line break of the line that continues from there.
 const char* TextScanner::end_of_line(const char* from) const
 {
     const auto* const line_break =

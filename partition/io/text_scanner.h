@@ -12,13 +12,13 @@
 
 namespace seamflow {
 
-/// What besides blanks and line ends has a meaning of its own in a text format.
+/// Special characters of a text format, besides blanks and line ends.
 struct TextSyntax {
     /// From this character to the end of the line is a comment; 0: there are no comments.
     char comment = '#';
     /// Whether a backslash at the end of a line joins it to the next.
     bool continuation = false;
-    /// Whether the first line end shows what ends all lines, for binary data may follow the text.
+    /// Whether the first line end determines all others, as binary data may follow the text.
     bool first_line_end_decides = false;
 };
 
@@ -28,22 +28,22 @@ struct TextSyntax {
 class TextScanner final : public InputPosition {
   public:
     /// @param path for messages only.
-    /// @param text has to outlive the scanner.
+    /// @param text must outlive the scanner.
     TextScanner(const std::filesystem::path& path, std::string_view text, TextSyntax syntax = {});
 
     /// A scanner for a slice of the text of another: its lines end alike.
-    /// @param lines_before its first line, from which lines are counted: those of the slice alone without it.
+    /// @param lines_before number of lines before the slice; 0: lines are numbered within the slice.
     TextScanner(const TextScanner& whole, std::string_view slice, std::size_t lines_before = 0);
 
-    /// The rest of the text in slices that begin and end where lines do, none within a line that is continued.
-    /// @param bytes how long they are, up to the end of a line.
+    /// The rest of the text in slices that begin and end at line boundaries, none within a continued line.
+    /// @param bytes their size, up to the end of a line.
     [[nodiscard]] std::vector<std::string_view> slices(std::size_t bytes) const;
 
-    /// From now on lines are blanks: tokens go on in the next line, and next_line goes nowhere while there are any.
+    /// From now on line ends are blanks: tokens go on in the next line, and next_line stays while there are any.
     void cross_lines() { crosses_lines_ = true; }
     [[nodiscard]] bool crosses_lines() const { return crosses_lines_; }
 
-    /// Goes to the next line with a token, whatever is left of the present one. False at the end of the text.
+    /// Goes to the next line with a token, skipping the rest of this one. False at the end of the text.
     bool next_line();
 
     /// The next token of the line; empty if there is none left.
@@ -55,25 +55,25 @@ class TextScanner final : public InputPosition {
     /// Whether a token of the line is left.
     [[nodiscard]] bool has_token();
 
-    /// Passes over the tokens that are left of the line. @returns how many.
+    /// Skips the remaining tokens of the line. @returns how many.
     std::size_t pass_over_rest();
 
-    /// What is left of the token from which a number has just been read; empty if it is used up.
+    /// The rest of the token from which a number has just been read; empty if it is used up.
     [[nodiscard]] std::string_view rest_of_token() const;
 
-    /// Passes over n characters of the token that `peek` or `rest_of_token` gives.
+    /// Skips n characters of the token that `peek` or `rest_of_token` gives.
     void skip(std::size_t n) { cursor_ += n; }
 
-    /// The next token as a finite number, correctly rounded. Too small to be represented, it is a zero.
+    /// The next token as a finite number, correctly rounded. If too small to represent, it is zero.
     /// @param what is expected ("a coordinate"), for the message.
-    /// @throws InputError if there is no token left or it is no finite number.
+    /// @throws InputError if no token is left or it is not a finite number.
     double real(const char* what);
 
     /// The next three tokens as the coordinates x, y and z.
     /// @throws InputError as for `real`.
     std::array<double, 3> coordinates();
 
-    /// The next token as a number; what is none, or not finite, or missing, is NaN.
+    /// The next token as a number; NaN if it is missing or not a finite number.
     double number_or_nan();
 
     /// The next token, or its beginning up to a slash, as a whole number.

@@ -11,7 +11,7 @@
 
 namespace seamflow {
 
-/// A box along the axes, borders included; empty at first.
+/// An axis-aligned box, borders included; empty at first.
 struct Box {
     Point low = Point::Constant(std::numeric_limits<double>::infinity());
     Point high = Point::Constant(-std::numeric_limits<double>::infinity());
@@ -35,8 +35,8 @@ struct Box {
     }
 };
 
-/// A binary tree over boxes in an order that keeps neighbours together. The node k of a level spans the nodes 2k and
-/// 2k + 1 of the level below, where there are so many.
+/// A binary tree over boxes in an order that keeps neighbours together. Node k of a level spans the nodes 2k and 2k + 1
+/// of the level below, as far as these exist.
 class BoxTree {
   public:
     explicit BoxTree(std::vector<Box> leaves)

@@ -17,10 +17,10 @@ struct Displacement {
     bool defined = false;
 };
 
-/// Splits the displacement V′ − V of a vertex at the direction n + n′, the sum of the unit normals of both states. The
-/// normal of one state alone would take the sagitta of every finite move along a curved surface for a move out of it;
-/// against n + n′ a turn of a sphere in itself, however far, is tangential, and neither state comes first.
-/// @param normal_before, normal_after n and n′, of length 1, or 0 where there is none: the other one counts alone then.
+/// Splits the displacement V′ − V of a vertex along the direction n + n′, the sum of the unit normals of both states.
+/// The normal of one state alone would count the sagitta of every finite move along a curved surface as a move out of
+/// it; with n + n′ any rotation of a sphere about its centre is tangential, and neither state is preferred.
+/// @param normal_before, normal_after n and n′, of length 1, or 0 where there is none: then only the other counts.
 Displacement split_displacement(const Point& displacement, const Point& normal_before, const Point& normal_after);
 
 /// The parts of the displacements of all vertices.
@@ -35,7 +35,7 @@ struct DisplacementField {
 /// @throws InputError if the numbers of vertices differ.
 DisplacementField displacement_field(const PolygonMesh& mesh, const Points& before, const Points& after);
 
-/// Both parts over all vertices where they are defined, those that stay where they are among them.
+/// Both parts over all vertices where they are defined, including vertices that stay in place.
 struct DisplacementStatistics {
     LengthStatistics tangential;
     LengthStatistics normal;

@@ -1,6 +1,6 @@
 #include "partition/metrics/exact_crossing.h"
 
-// Exact numbers by headers alone: no further library is linked for the few that need them.
+// Header-only exact numbers: no further library is linked for the few cases that need them.
 #define CGAL_DISABLE_GMP 1
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 

@@ -2,7 +2,7 @@
 
 #include "partition/vector_area.h"
 
-/// What triangle_crossing.h says of triangles, by predicates that are exact: for the few that doubles do not settle.
+/// The tests of triangle_crossing.h with exact predicates, for the few triangles that doubles do not settle.
 namespace seamflow::exact {
 
 /// Whether the corners lie on one line.
@@ -11,10 +11,10 @@ bool is_flat(const TriangleCorners& t);
 /// Whether two triangles that have area have a point in common.
 bool meet(const TriangleCorners& a, const TriangleCorners& b);
 
-/// The same of triangles that share their first corner and no other: beyond that.
+/// The same for triangles that share only their first corner: beyond that.
 bool meet_beyond_corner(const TriangleCorners& a, const TriangleCorners& b);
 
-/// The same of triangles that share their first two corners and not the third: beyond the edge between them.
+/// The same for triangles that share only their first two corners: beyond the edge between them.
 bool meet_beyond_edge(const TriangleCorners& a, const TriangleCorners& b);
 
 }  // namespace seamflow::exact

@@ -14,9 +14,9 @@ namespace seamflow {
 std::vector<Index> flipped_faces(const PolygonMesh& mesh, const Points& before, const Points& after,
                                  const Executor& exec = run_serially);
 
-/// Those among them that lie against the faces around their vertices in the state `after`, and did not before: the
-/// surface has folded there. The others are those that noise had turned, and the ones of regions that turned as a
-/// whole. Where faces are not oriented alike none are told from the others, and both kinds may be missed.
+/// The flipped faces that oppose the faces around their vertices in the state `after`, and did not before: the surface
+/// has folded there. The others are those that noise had turned, and those of regions that turned as a whole. Where
+/// faces are not oriented alike none are told from the others, and both kinds may be missed.
 /// @param flipped see flipped_faces.
 std::vector<Index> folded_faces(const PolygonMesh& mesh, const Points& before, const Points& after,
                                 const std::vector<Index>& flipped);

@@ -12,14 +12,14 @@ struct LengthStatistics {
     double max = 0.0;
 };
 
-/// Adds up what the statistics of some lengths are made of.
+/// Accumulates the sums for statistics of some lengths.
 class LengthSums {
   public:
-    /// Takes in the absolute value of a length; what is not a number is left out.
+    /// Adds the absolute value of a length; NaN is left out.
     void add(double length);
-    /// Takes in those of others.
+    /// Adds those of `others`.
     void add(const LengthSums& others);
-    /// All 0 if there was none.
+    /// All 0 if none was added.
     [[nodiscard]] LengthStatistics statistics() const;
 
   private:
@@ -29,8 +29,8 @@ class LengthSums {
     double largest_ = 0.0;
 };
 
-/// Of the absolute values of `lengths`, those that are not a number left out; all 0 if none is left. Summed in order,
-/// so that the bits are always the same.
+/// Statistics of the absolute values of `lengths` without NaNs; all 0 if none is left. Summed in order, so that the
+/// bits are always the same.
 LengthStatistics length_statistics(std::span<const double> lengths);
 
 }  // namespace seamflow

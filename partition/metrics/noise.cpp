@@ -19,42 +19,42 @@ namespace seamflow {
 namespace {
 
 constexpr Index most_neighbourhoods = 500;
-/// With fewer there is no telling noise from shape.
+/// With fewer, noise cannot be distinguished from shape.
 constexpr Index fewest_neighbourhoods = 200;
-/// The vertices of a neighbourhood are those within so many rings of its middle, and not more than so many of them.
+/// The vertices of a neighbourhood are those within this many rings of its middle, and at most this many of them.
 constexpr int member_rings = 2;
 constexpr std::size_t most_members = 24;
-/// A half of fewer vertices says nothing.
+/// A half with fewer vertices gives no information.
 constexpr int fewest_of_half = 3;
 constexpr int near_rings = 2;
 constexpr int wide_rings = 3;
-/// Around vertices of hundreds of faces there are no rings to speak of.
+/// Around vertices of hundreds of faces, rings are not meaningful.
 constexpr std::size_t most_surrounding = 1000;
-/// A quadratic function of two coordinates has six coefficients; with hardly more points it meets their noise.
+/// A quadratic function of two coordinates has six coefficients; with hardly more points it fits their noise.
 constexpr std::size_t fewest_points = 9;
 /// Pivots smaller than this, relative to the largest, are those of points on a conic section.
 constexpr double smallest_pivot = 1e-10;
 
-/// What follows is calibrated on surfaces that are known and on files of parts, scans and models, with and without
-/// noise. The part of the neighbourhoods that counts.
+/// The following is calibrated on known surfaces and on files of parts, scans and models, with and without noise. The
+/// fraction of the neighbourhoods that counts.
 constexpr double smoothest = 0.12;
-/// Squared residuals on three rings over those on two: of noise in the smoothest neighbourhoods, and of shape.
+/// Squared residuals on three rings over those on two: for noise in the smoothest neighbourhoods, and for shape.
 constexpr double growth_of_noise = 1.06;
 constexpr double growth_of_shape = 2.05;
 /// The true deviation over that of smooth neighbourhoods, in which noise is a little smaller than elsewhere.
 constexpr double smaller_than_elsewhere = 1.04;
-/// The correlation of residuals of neighbours over that of independent noise, which is negative: of noise in smooth
-/// neighbourhoods it is 0.3 to 0.8, of shape it is mostly below 0.
+/// The correlation of residuals of neighbours over that of independent noise, which is negative: for noise in smooth
+/// neighbourhoods it is 0.3 to 0.8, for shape it is mostly below 0.
 constexpr double least_whiteness = 0.2;
-/// Of vertices with noise, few are as near to their fits as this part of its deviation: more than this many of all are
-/// on planes or the like, where noise would have moved them.
+/// Few vertices with noise are within this fraction of its deviation from their fits: more than this fraction of all
+/// are on planes or the like, where noise would have moved them.
 constexpr double quiet = 0.02;
 constexpr double most_quiet = 0.06;
-/// In mean edges as measured: noise of half of the true mean edge makes edges that are half as long again.
+/// In measured mean edges: noise of half of the true mean edge makes edges half as long again.
 constexpr double most_noise = 1.0 / 3.0;
 constexpr double least_noise = 1e-2;
 
-/// The sums of squared residuals over some vertices, those of fits to two and to three rings.
+/// The sums of squared residuals over some vertices, for fits to two and to three rings.
 struct Residuals {
     double near = 0.0;
     double wide = 0.0;
@@ -68,8 +68,8 @@ struct Residuals {
     }
 };
 
-/// The sums over pairs of neighbours of the products of their residuals, and of what is expected of these if there is
-/// nothing but independent noise of variance 1.
+/// The sums over pairs of neighbours of the products of their residuals, and of their expected values if there is only
+/// independent noise of variance 1.
 struct Products {
     double found = 0.0;
     double expected = 0.0;
@@ -85,12 +85,12 @@ struct Neighbourhood {
     /// Every other vertex, and the rest.
     std::array<Residuals, 2> halves;
     Products products;
-    /// Of all vertices, of fits to two rings, without signs.
+    /// Absolute values for all vertices, from fits to two rings.
     std::vector<double> residuals;
 };
 
-/// The fits at a vertex. Residuals are linear in the heights of the vertices around; of independent noise of variance 1
-/// they have the variance 1.
+/// The fits at a vertex. Residuals are linear in the heights of the vertices around; for independent noise of variance
+/// 1 they have variance 1.
 struct VertexFit {
     /// The residual of the fit to two rings, along the direction.
     double near = 0.0;
@@ -102,8 +102,8 @@ struct VertexFit {
     double squared_wide = 0.0;
 };
 
-/// The vertices around a vertex, in ascending order, and for those further inside their neighbours: the vertices of
-/// their faces.
+/// The vertices around a vertex, in ascending order, and the neighbours of those further inside: the vertices of their
+/// faces.
 class Surroundings {
   public:
     Surroundings(const PolygonMesh& mesh, const Topology& topology, Index middle)
@@ -189,7 +189,7 @@ class Surroundings {
 /// The height of the origin over the quadratic height function fitted to points around it, whose heights are their
 /// first coordinates.
 struct HeightFit {
-    /// Over the deviation that it has if the points and the origin have the deviation 1.
+    /// Divided by the deviation that it has if the points and the origin have deviation 1.
     double residual = 0.0;
     /// Of the points' heights in the residual, and of the origin's.
     std::vector<double> weights;
@@ -221,7 +221,7 @@ std::optional<HeightFit> fit_heights(const Eigen::Ref<const Eigen::MatrixX3d>& p
     return std::isfinite(fit.residual) ? std::optional(std::move(fit)) : std::nullopt;
 }
 
-/// @param points around the origin, n by 3. @param n_near so many first ones are those of two rings.
+/// @param points around the origin, n by 3. @param n_near the number of those of two rings, which come first.
 std::optional<VertexFit> fit_rings(Eigen::MatrixX3d& points, std::size_t n_near)
 {
     const auto near = points.topRows(static_cast<Eigen::Index>(n_near));
@@ -265,7 +265,7 @@ std::optional<VertexFit> fit_at(const PolygonMesh& mesh, const Surroundings& sur
     return fit;
 }
 
-/// Over all pairs of neighbours among the vertices fitted.
+/// Over all pairs of neighbours among the fitted vertices.
 Products products_of(const std::vector<VertexFit>& fits, const Surroundings& surroundings)
 {
     Products products;
@@ -306,7 +306,7 @@ Neighbourhood measure_neighbourhood(const PolygonMesh& mesh, const Topology& top
     return found;
 }
 
-/// The part of all vertices that noise of that deviation has not moved.
+/// The fraction of all vertices that noise of that deviation has not moved.
 double quiet_part(const std::vector<Neighbourhood>& neighbourhoods, double noise)
 {
     std::size_t n = 0;
@@ -318,12 +318,12 @@ double quiet_part(const std::vector<Neighbourhood>& neighbourhoods, double noise
     return static_cast<double>(n_quiet) / static_cast<double>(n);
 }
 
-/// What the smoothest neighbourhoods tell.
+/// The sums over the smoothest neighbourhoods.
 struct Evidence {
     Residuals residuals;
     Products products;
 
-    /// Adds the other halves of those neighbourhoods of which one half, the first or the second, has the smallest
+    /// Adds the other halves of the neighbourhoods whose given half, the first or the second, has the smallest
     /// residuals.
     void add_smoothest(const std::vector<Neighbourhood>& neighbourhoods, std::size_t half)
     {

@@ -13,7 +13,7 @@ namespace seamflow {
 
 namespace {
 
-/// In degrees; not a number if one of them has no direction.
+/// In degrees; NaN if one of them has no direction.
 double angle_between(const Point& a, const Point& b)
 {
     if (!(a.norm() > 0.0) || !(b.norm() > 0.0))

@@ -10,12 +10,12 @@ namespace seamflow {
 struct Roughness {
     /// The root mean square.
     double rms = 0.0;
-    /// Of twenty angles one is larger.
+    /// One angle in twenty is larger.
     double percentile_95 = 0.0;
 };
 
 /// Measures the angles between the triangles on both sides of an edge, over all edges of the mesh in triangles (see
-/// fans_around_centres), those within a face included: a polygon whose corners go up and down in turn is rough, though
+/// fans_around_centres), those within a face included: a polygon whose corners alternate up and down is rough, though
 /// its vector area does not show it. Triangles without area, and positions that are not finite, are left out.
 /// @param positions #V by 3, not necessarily those of the mesh.
 Roughness roughness(const PolygonMesh& mesh, const Points& positions);

@@ -14,7 +14,7 @@ namespace seamflow {
 
 namespace {
 
-/// How many triangles a leaf of the tree has, how many leaves one task, and how many tasks run until pairs are counted.
+/// Triangles per leaf of the tree, leaves per task, and tasks per round, after which pairs are counted.
 constexpr Index leaf_size = 4;
 constexpr Index leaves_of_task = 64;
 constexpr Index tasks_of_round = 64;
@@ -25,14 +25,14 @@ struct Piece {
     Index face;
 };
 
-/// A box's middle in 2²¹ steps along each side of another, the bits of all three in turn: numbers that are near to each
-/// other are of boxes that are so, too (Morton, A Computer Oriented Geodetic Data Base, 1966).
+/// The centre of a box in 2²¹ steps along each side of another, the bits of all three interleaved: numbers that are
+/// close belong to boxes that are close, too (Morton, A Computer Oriented Geodetic Data Base, 1966).
 std::uint64_t place_on_curve(const Box& box, const Box& whole)
 {
     constexpr int n_bits = 21;
     std::uint64_t place = 0;
     for (int c = 0; c < 3; ++c) {
-        // Halves, for the sums of large numbers are none.
+        // Halved, because sums of large numbers overflow.
         const double side = 0.5 * whole.high[c] - 0.5 * whole.low[c];
         const double offset = 0.5 * (0.5 * box.low[c] + 0.5 * box.high[c] - whole.low[c]);
         const double part = side > 0.0 ? std::clamp(offset / side, 0.0, 1.0) : 0.0;
@@ -68,7 +68,7 @@ class CrossingSearch {
     {
     }
 
-    /// Not in order, and pairs of polygons perhaps several times.
+    /// Unsorted, and pairs of polygons possibly several times.
     [[nodiscard]] std::vector<FacePair> run(const Executor& exec) const
     {
         std::vector<FacePair> found;
@@ -110,7 +110,7 @@ class CrossingSearch {
     BoxTree tree_;
 };
 
-/// Along the curve, those at one place as they come.
+/// Along the curve, those at one place in their previous order.
 void CrossingSearch::sort_pieces(const Executor& exec)
 {
     const auto n = static_cast<Index>(pieces_.size());

@@ -11,20 +11,20 @@ namespace seamflow {
 /// Two faces, the lower number first.
 using FacePair = std::array<Index, 2>;
 
-/// More pairs than these are not looked for: in a surface that has collapsed, each face may cross all others.
+/// The search stops at this many pairs: in a collapsed surface, each face may cross all others.
 inline constexpr std::size_t most_self_intersections = 1'000'000;
 
 /// The pairs of faces that have a point in common beyond the vertices and edges that they share: where one pierces the
 /// other, touches it, lies on it in one plane, or is folded back onto it along their edge (see cross, which is exact).
-/// Polygons are triangulated (see triangulation.h); whether one crosses itself is not asked. What two faces share is
-/// told by positions: where a file doubles vertices along the seams of a texture, meeting there is no crossing. Faces
-/// that lie on each other with all their corners cross. Triangles without area cross nothing, nor do those with a
-/// corner that is not finite.
+/// Polygons are triangulated (see triangulation.h); self-crossings are ignored. What two faces share is decided by
+/// positions: if a file duplicates vertices along the seams of a texture, meeting there is no crossing. Faces that lie
+/// on each other with all their corners cross. Triangles without area cross nothing, nor do those with a corner that is
+/// not finite.
 ///
-/// Near to linear in the size of the mesh where faces are about as large as their neighbours. The same pairs however
-/// loops are run.
+/// Nearly linear in the size of the mesh if faces are about as large as their neighbours. The same pairs for every
+/// executor.
 /// @param positions #V by 3, not necessarily those of the mesh; need not be finite.
-/// @returns ascending. Of more than most_self_intersections just so many.
+/// @returns ascending; at most most_self_intersections pairs.
 std::vector<FacePair> self_intersections(const PolygonMesh& mesh, const Points& positions,
                                          const Executor& exec = run_serially);
 

@@ -18,7 +18,7 @@ namespace seamflow {
 
 namespace {
 
-// No predicate or construction of the kernel decides about a distance: it only holds the triangles and their boxes.
+// No predicate or construction of the kernel determines a distance: it only holds the triangles and their boxes.
 using Kernel = CGAL::Simple_cartesian<double>;
 using Triangles = std::vector<Kernel::Triangle_3>;
 using Primitive = CGAL::AABB_triangle_primitive<Kernel, Triangles::const_iterator>;
@@ -67,7 +67,7 @@ double squared_distance_to_inside(const Point& a, const Point& b, const Point& c
     double s = 0.0;
     double t = 0.0;
     Point foot = a;
-    // Further passes mend what the rounding of `height` did to the first one in a thin triangle.
+    // Further passes correct the effect of the rounding of `height` on the first one in a thin triangle.
     for (int pass = 0; pass < 3; ++pass) {
         const double dt = -foot.dot(height) / hh;
         s -= (foot + dt * w).dot(u) / uu;
@@ -100,8 +100,7 @@ double squared_distance_to_triangle(const Point& a, const Point& b, const Point&
 
 namespace {
 
-/// Goes down the tree, nearer boxes first, and keeps the smallest squared distance. The names are those that CGAL's
-/// trees call.
+/// Descends the tree, nearer boxes first, and keeps the smallest squared distance. CGAL's trees require these names.
 class NearestSearch {
   public:
     using Priority = double;

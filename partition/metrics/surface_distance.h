@@ -9,9 +9,9 @@
 
 namespace seamflow {
 
-/// Squared distance of the origin from the triangle abc, in length². The triangle may be as thin as it likes, a segment
-/// or a point. Never less than the truth but by rounding: it is always taken to a point of the triangle. Pass the
-/// corners relative to the point of interest, and no offset costs precision.
+/// Squared distance of the origin from the triangle abc, in length². The triangle may be arbitrarily thin, a segment or
+/// a point. Never too small except by rounding: it is always taken to a point of the triangle. Pass the corners
+/// relative to the point of interest, so that no offset costs precision.
 double squared_distance_to_triangle(const Point& a, const Point& b, const Point& c);
 
 /// Distances from points to the surface of a mesh, whose polygons are triangulated (see triangulation.h); triangles
@@ -27,8 +27,7 @@ class SurfaceDistance {
     SurfaceDistance& operator=(SurfaceDistance&&) noexcept;
 
     /// The distance of every point from the closest point of the surface, in units of length; one entry per row. Exact
-    /// to rounding, wherever the origin is: a point and a triangle are taken relative to each other. For any number of
-    /// threads at once.
+    /// to rounding, wherever the origin is: a point and a triangle are taken relative to each other. Thread-safe.
     /// @param points finite, one a row.
     [[nodiscard]] std::vector<double> operator()(const Points& points) const;
 
@@ -38,13 +37,13 @@ class SurfaceDistance {
 };
 
 /// H_mean, H_RMS and H_max of the paper (section Evaluation), in units of length: the distances of the vertices of
-/// `from` to the closest points of the surface of `to`. Vertices of `from` without faces are no part of its surface and
-/// not counted: a mesh has the distance 0 from itself.
+/// `from` to the closest points of the surface of `to`. Vertices of `from` without faces are not part of its surface
+/// and not counted: a mesh has distance 0 from itself.
 /// @throws InputError if one of the meshes has no faces.
 LengthStatistics surface_distance(const PolygonMesh& from, const PolygonMesh& to);
 
-/// The larger one of each pair of numbers. Of H in both directions it makes the measure that does not change when the
-/// two meshes change places.
+/// The larger of each pair of numbers. Of H in both directions, this is the measure that is symmetric in the two
+/// meshes.
 LengthStatistics larger_of(const LengthStatistics& a, const LengthStatistics& b);
 
 }  // namespace seamflow

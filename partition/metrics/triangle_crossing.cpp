@@ -10,10 +10,10 @@ namespace seamflow {
 
 namespace {
 
-/// Above the rounding error of all sums of products here, relative to the sum of their absolute values: no term has
-/// more than a dozen roundings of half an epsilon.
+/// A bound of the rounding error of all sums of products here, relative to the sum of their absolute values: no term
+/// has more than a dozen roundings of half an epsilon.
 constexpr double rounding = 16.0 * std::numeric_limits<double>::epsilon();
-/// Above what is lost where products are no normal doubles.
+/// A bound of the error where products are not normal doubles.
 constexpr double underflow = 1e-290;
 
 /// A number and a bound of its error.
@@ -26,7 +26,7 @@ struct Estimate {
     [[nodiscard]] bool has_sign() const { return is_positive() || is_negative(); }
 };
 
-/// Of numbers so large that their products are none: anything.
+/// If the numbers are so large that their products overflow: anything.
 Estimate dot(const Point& d, const Point& p)
 {
     constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -48,7 +48,7 @@ Estimate volume(const Point& a, const Point& b, const Point& c)
     return {a.cross(b).dot(c), rounding * size_of_cross(a, b).dot(c.cwiseAbs()) + underflow};
 }
 
-/// The values of three points along an axis lie between these.
+/// Bounds of the values of three points along an axis.
 struct Span {
     double low;
     double high;
@@ -73,9 +73,9 @@ TriangleCorners edges_of(const TriangleCorners& t)
     return {t[1] - t[0], t[2] - t[1], t[0] - t[2]};
 }
 
-/// Whether a plane lies between the triangles: along one of their edges and normal to the triangle, as where both are
-/// of one smooth surface, parallel to one of them, or parallel to an edge of each. Exact numbers would leave none out;
-/// rounding leaves out triangles that nearly touch.
+/// Whether a plane separates the triangles: along one of their edges and normal to the triangle, as on a smooth
+/// surface, parallel to one of them, or parallel to an edge of each. Exact numbers would miss none; rounding misses
+/// triangles that nearly touch.
 bool are_apart(const TriangleCorners& a, const TriangleCorners& b)
 {
     const TriangleCorners edges_a = edges_of(a);
@@ -90,7 +90,7 @@ bool are_apart(const TriangleCorners& a, const TriangleCorners& b)
            });
 }
 
-/// Whether p and q are on one side of the plane through the origin, a and b, and not in it.
+/// Whether p and q are on the same side of the plane through the origin, a and b, and not in it.
 bool are_on_one_side(const Point& a, const Point& b, const Point& p, const Point& q)
 {
     const Estimate of_p = volume(a, b, p);
@@ -98,8 +98,8 @@ bool are_on_one_side(const Point& a, const Point& b, const Point& p, const Point
     return (of_p.is_positive() && of_q.is_positive()) || (of_p.is_negative() && of_q.is_negative());
 }
 
-/// Of triangles whose first corner is the origin: whether a plane through it has them on different sides, or one of
-/// them and the other on one side.
+/// For triangles whose first corner is the origin: whether a plane through it separates them, or contains one of them
+/// and has the other on one side.
 bool are_apart_beyond_corner(const TriangleCorners& a, const TriangleCorners& b)
 {
     const auto middle = [](const TriangleCorners& t) -> Point { return t[1].normalized() + t[2].normalized(); };
@@ -109,7 +109,7 @@ bool are_apart_beyond_corner(const TriangleCorners& a, const TriangleCorners& b)
            are_on_one_side(a[1], a[2], b[1], b[2]) || are_on_one_side(b[1], b[2], a[1], a[2]);
 }
 
-/// Of triangles with their first corner at the origin and the second one in common: whether they span a volume, or lie
+/// For triangles with their first corner at the origin and the second one in common: whether they span a volume, or lie
 /// on different sides of their edge.
 bool are_apart_beyond_edge(const TriangleCorners& a, const TriangleCorners& b)
 {
@@ -134,7 +134,7 @@ std::size_t bring_shared_to_front(TriangleCorners& a, TriangleCorners& b)
     return n;
 }
 
-/// Relative to a place near both.
+/// Relative to a point near both.
 TriangleCorners seen_from(const Point& origin, const TriangleCorners& t)
 {
     return {t[0] - origin, t[1] - origin, t[2] - origin};

@@ -16,13 +16,13 @@ using Point2 = Eigen::RowVector2d;
 enum class Quality {
     /// Turns left, and no other corner lies in its triangle.
     Clean,
-    /// In line, or so nearly that the rounding decides.
+    /// Collinear, or so nearly that rounding decides.
     Flat,
-    /// None of these: only a polygon that crosses itself has no other.
+    /// Neither: only a polygon that crosses itself has no others.
     None,
 };
 
-/// A corner that could be cut off. Ears compare by what makes one go before another.
+/// A corner that could be cut off. Ears are compared by their priority.
 struct Ear {
     Quality quality = Quality::None;
     double diagonal = std::numeric_limits<double>::infinity();
@@ -38,7 +38,7 @@ double turn(const Point2& a, const Point2& b, const Point2& c)
     return u.x() * w.y() - u.y() * w.x();
 }
 
-/// The polygon that is left, seen along the vector area of the whole, and its ears.
+/// The remaining polygon, seen along the vector area of the whole one, and its ears.
 class EarClipper {
   public:
     EarClipper(std::span<const Index> corners, const Points& positions);
@@ -58,7 +58,7 @@ class EarClipper {
     const Points& positions_;
     /// One per corner of the polygon.
     std::vector<Point2> flat_;
-    /// What is left: places in `corners_`, and the ear at each.
+    /// The remaining corners: places in `corners_`, and the ear at each.
     std::vector<std::size_t> left_;
     std::vector<Ear> ears_;
 };
@@ -78,7 +78,7 @@ EarClipper::EarClipper(std::span<const Index> corners, const Points& positions)
     }
 }
 
-/// Whether no corner that is left lies in the triangle or on its border; those that coincide with its corners may.
+/// Whether no remaining corner lies in the triangle or on its border; those that coincide with its corners may.
 bool EarClipper::is_empty(const Point2& a, const Point2& b, const Point2& c) const
 {
     return std::ranges::none_of(left_, [&](std::size_t k) {
@@ -105,8 +105,8 @@ void EarClipper::examine(std::size_t k)
     ears_[k] = {quality_of(k), diagonal.squaredNorm(), vertex(k)};
 }
 
-/// After the corner that stood at k is gone. Without a clean ear nothing changes but its neighbours; a corner in line,
-/// however, can have lain on the diagonal of any other.
+/// After the corner at k has been removed. Removing a clean ear only affects its neighbours; a collinear corner,
+/// however, may have been on the diagonal of any other.
 void EarClipper::examine_around(std::size_t k, Quality quality)
 {
     const std::size_t next = k == left_.size() ? 0 : k;

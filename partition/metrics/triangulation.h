@@ -12,23 +12,23 @@ namespace seamflow {
 using Triangle = std::array<Index, 3>;
 
 /// Cuts a polygon of n corners, convex or not, planar or not, into n − 2 triangles by diagonals: the surface that
-/// stands for the polygon where it has to be one. The polygon is looked at along its vector area. Of all ears there,
-/// corners that can be cut off without crossing the polygon, that with the shortest diagonal in space goes first, and
-/// so on until three corners are left; a convex quad is divided along its shorter diagonal. The result depends neither
-/// on the corner that the list starts from nor on its sense, except for the order and sense of the triangles: of
-/// diagonals of the same length, that one goes first whose ear has the lowest number. Polygons that cross themselves
-/// when looked at so, or have no area, are still covered by n − 2 triangles.
+/// represents the polygon where one is needed. The polygon is seen along its vector area. Of all ears there, corners
+/// that can be cut off without crossing the polygon, the one with the shortest diagonal in space goes first, and so on
+/// until three corners are left; a convex quad is divided along its shorter diagonal. The result depends neither on the
+/// first corner of the list nor on its sense, except for the order and sense of the triangles: of diagonals of the same
+/// length, the one whose ear has the lowest number goes first. Polygons that cross themselves in this view, or have no
+/// area, are still covered by n − 2 triangles.
 /// @param corners at least three vertices, in order.
 /// @param positions #V by 3.
-/// @param triangles receives the triangles, some of them without area if corners lie in line or in one place.
+/// @param triangles receives the triangles, some of them without area if corners are collinear or coincide.
 void triangulate(std::span<const Index> corners, const Points& positions, std::vector<Triangle>& triangles);
 
 /// All triangles of all faces, face by face.
 std::vector<Triangle> triangulate(const PolygonMesh& mesh);
 
-/// A mesh in triangles as an eye sees its faces, which need not be planar: each face of more than three corners becomes
+/// A mesh as triangles that look like its faces, which need not be planar: each face of more than three corners becomes
 /// a fan of triangles around its centre, the mean of its corners. A face whose corners do not all turn the same way
-/// around its centre, as of a polygon that is far from convex, is cut along its diagonals instead (see triangulate).
+/// around its centre, such as a polygon far from convex, is cut along its diagonals instead (see triangulate).
 struct CentreFans {
     /// Its first #V vertices are those of the mesh; the centres follow.
     PolygonMesh triangles;

@@ -9,26 +9,26 @@
 
 namespace seamflow {
 
-/// The normals of the vertices of a mesh in whatever positions: the sum of the vector areas of the faces around a
-/// vertex, so that large faces count for more. It is the direction in which the vertex adds most to the volume below
-/// the surface. Faces need not be oriented alike: around each vertex they are turned as the first one (that of the
-/// lowest corner) of their fan, which decides the sign.
+/// The vertex normals of a mesh in any positions: the sum of the vector areas of the faces around a vertex, so that
+/// large faces count for more. It is the direction in which the vertex adds most to the volume below the surface. Faces
+/// need not be oriented alike: around each vertex they are oriented like the first one (that of the lowest corner) of
+/// their fan, which decides the sign.
 class VertexNormals {
   public:
     /// @param mesh, topology must outlive the normals.
     VertexNormals(const PolygonMesh& mesh, const Topology& topology);
 
-    /// Of length 1, or 0 where there is none: without faces, or if their vector areas add up to nothing.
+    /// Of length 1, or 0 where there is none: without faces, or if their vector areas add up to 0.
     /// @param positions #V by 3, not necessarily those of the mesh.
     [[nodiscard]] Point operator()(Index v, const Points& positions) const;
 
-    /// The same of the faces of some corners alone, which are all at one vertex.
+    /// The same for only the faces of some corners, all at one vertex.
     [[nodiscard]] Point operator()(std::span<const Index> corners, const Points& positions) const;
 
   private:
     const PolygonMesh& mesh_;
     const Topology& topology_;
-    /// One per corner: 1, or -1 if its face is turned against the first one of its fan. Empty: 1 everywhere.
+    /// One per corner: 1, or -1 if its face is oriented against the first of its fan. Empty: 1 everywhere.
     std::vector<std::int8_t> sense_;
 };
 

@@ -12,7 +12,7 @@ namespace seamflow {
 
 namespace {
 
-/// That of the opposite half-edge is the negative.
+/// The hash of the opposite half-edge is the negative.
 XXH64_hash_t hash_of_half_edge(Index from, Index to)
 {
     const std::array ends{std::min(from, to), std::max(from, to)};
@@ -22,7 +22,7 @@ XXH64_hash_t hash_of_half_edge(Index from, Index to)
 
 }  // namespace
 
-/// Half-edges and their opposites cancel each other: the sum of their hashes is 0 then, and hardly ever else.
+/// Half-edges and their opposites cancel each other: the sum of their hashes is then 0, and hardly ever otherwise.
 bool encloses_volume(const PolygonMesh& mesh, const Executor& exec)
 {
     const auto hash_of_face = [&](Index f) {

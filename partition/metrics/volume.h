@@ -6,9 +6,9 @@
 
 namespace seamflow {
 
-/// What the faces enclose with an origin, in length³: the volume of the cones from it to them, negative for faces that
-/// are turned towards it. Polygons that are not planar are fans around the mean of their corners.
-/// Where a surface encloses a volume, that is the same from any origin.
+/// The volume between an origin and the faces, in length³: that of the cones from it to them, negative for faces turned
+/// towards it. Polygons that are not planar are fans around the mean of their corners. If a surface encloses a volume,
+/// this is the same from any origin.
 /// @param positions #V by 3, not necessarily those of the mesh.
 double volume_of_cones(const PolygonMesh& mesh, const Points& positions, const Point& origin, const Executor& exec);
 

@@ -15,7 +15,7 @@ namespace {
 constexpr Index settled = -1;
 constexpr Index unvisited = -2;
 
-/// The loose components of the suspect parts and what is done about them.
+/// The loose components of the suspect parts and how they are joined.
 class LooseComponents {
   public:
     LooseComponents(const PolygonMesh& mesh, const Topology& topology, std::vector<Index>& labels, std::size_t n_labels)
@@ -48,8 +48,8 @@ class LooseComponents {
     std::vector<Index> candidates_;
 };
 
-/// Appends the component of its part that face f lies in, whose faces become settled. Looks at `component_of_` for
-/// faces of this part alone.
+/// Appends the component of face f within its part; its faces become settled. Reads `component_of_` only for faces of
+/// this part.
 void LooseComponents::collect_component(Index f, IndexLists& components)
 {
     component_of_[f] = settled;
@@ -64,7 +64,7 @@ void LooseComponents::collect_component(Index f, IndexLists& components)
     components.close();
 }
 
-/// All of a part but the largest one.
+/// All components of a part except the largest.
 void LooseComponents::keep_loose_components(const IndexLists& components)
 {
     Index largest = 0;
@@ -93,7 +93,7 @@ void LooseComponents::find(const std::vector<bool>& suspects, const Executor& ex
             if (n_faces[label]++ == 0)
                 lowest[label] = f;
         }
-    // The component with the lowest face is all there is of most parts.
+    // Most parts consist only of the component with the lowest face.
     std::vector<IndexLists> found(suspects.size());
     for_each(exec, static_cast<Index>(found.size()), [&](Index label) {
         if (n_faces[label] == 0)
@@ -112,7 +112,7 @@ void LooseComponents::find(const std::vector<bool>& suspects, const Executor& ex
     queued_.assign(components_.size(), false);
 }
 
-/// Queues a component, once; not what is settled.
+/// Queues a component once, unless it is settled.
 void LooseComponents::enqueue(Index component)
 {
     if (component == settled || queued_[component])
@@ -121,7 +121,7 @@ void LooseComponents::enqueue(Index component)
     queue_.push_back(component);
 }
 
-/// The settled part with the longest boundary to the component; of equals the one met first.
+/// The settled part with the longest boundary to the component; of equals the one found first.
 Index LooseComponents::best_neighbour(Index component)
 {
     candidates_.clear();
@@ -186,7 +186,7 @@ Index split_by_component(const PolygonMesh& mesh, const Topology& topology, Inde
     std::iota(by_component.begin(), by_component.end(), 0);
     std::stable_sort(by_component.begin(), by_component.end(),
                      [&](Index f, Index g) { return components.component_of[f] < components.component_of[g]; });
-    // For each label, the component seen last and what the label is called there.
+    // For each label, the component seen last and the label's name there.
     std::vector<Index> component_of(n_labels, -1);
     std::vector<Index> name(n_labels, -1);
     Index n_names = n_labels;

@@ -10,7 +10,7 @@ namespace seamflow {
 
 /// Makes parts connected through edges: each keeps its largest connected component (of equals the one with the lowest
 /// face), and every other one goes to the neighbouring part with which it shares the longest boundary.
-/// @param suspects one entry per label: the parts to look at; the others are taken to be connected.
+/// @param suspects one entry per label: the parts to check; the others are assumed to be connected.
 /// @param labels #F, in the range of `suspects`; no part may lie in several connected components of the mesh.
 /// @returns the faces that changed their label.
 std::vector<Index> join_loose_components(const PolygonMesh& mesh, const Topology& topology,

@@ -11,7 +11,7 @@ namespace seamflow {
 
 namespace {
 
-/// How many runs too many there are at an interior vertex.
+/// The number of excess runs at an interior vertex.
 Index excess_runs_at_interior(const PolygonMesh& mesh, const Topology& topology, const std::vector<Index>& labels,
                               Index v)
 {
@@ -23,7 +23,7 @@ Index excess_runs_at_interior(const PolygonMesh& mesh, const Topology& topology,
             n_half_joints += label_of(topology.twin[spoke]) == label_of(corner) ? 1 : 0;
     // Each run has one face more than edges between two of its faces.
     const std::size_t n_runs = corners.size() - n_half_joints / 2;
-    // There are two labels at least: with one run each, none is pinched.
+    // There are at least two labels: with one run each, none is pinched.
     if (n_runs == 2)
         return 0;
     std::vector<Index> around;
@@ -81,7 +81,7 @@ void PinchMender::find_runs(const Fan& fan)
     }
 }
 
-/// The number of runs less the number of labels; sets pinched_label_ if that is not zero.
+/// The number of runs minus the number of labels; sets pinched_label_ if that is not zero.
 Index PinchMender::count_excess_runs()
 {
     ++count_;
@@ -122,7 +122,7 @@ Fan PinchMender::find_pinch(Index v)
     return {};
 }
 
-/// Proposes to give the faces of some runs in a row, counted around the end of the fan, to another part.
+/// Proposes to give the faces of consecutive runs, counted past the end of the fan, to another part.
 void PinchMender::propose(const Fan& fan, std::size_t first_run, std::size_t last_run, Index label)
 {
     Move& move = moves_.emplace_back();
@@ -205,7 +205,7 @@ double PinchMender::cut_length_around(const std::vector<Index>& faces) const
     return length;
 }
 
-/// What the move would cost; leaves the labels as they are.
+/// The cost of the move; leaves the labels unchanged.
 PinchMender::Cost PinchMender::try_out(const Move& move)
 {
     Cost cost{0, -pinches_around(move.faces), move.faces.size(), -cut_length_around(move.faces)};

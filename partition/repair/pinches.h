@@ -10,7 +10,7 @@
 
 namespace seamflow {
 
-/// Whether v may be pinched (see PinchMender), found without walking around it; at interior vertices it is if so.
+/// Whether v may be pinched (see PinchMender), found without walking around it; exact at interior vertices.
 /// @param labels #F.
 bool may_be_pinched(const PolygonMesh& mesh, const Topology& topology, const std::vector<Index>& labels, Index v);
 
@@ -20,15 +20,15 @@ class PinchMender {
     /// Mesh, topology and labels must outlive the object. @param n_labels all labels are below it.
     PinchMender(const PolygonMesh& mesh, const Topology& topology, std::vector<Index>& labels, Index n_labels);
 
-    /// To be called before faces are moved or parts compared, and after others have changed labels: counts the faces of
-    /// the parts.
+    /// Counts the faces of the parts. To be called before faces are moved or parts compared, and after outside changes
+    /// of labels.
     void count_faces(const Executor& exec = run_serially);
 
-    /// How many runs too many there are at v.
+    /// The number of excess runs at v.
     Index pinches_at(Index v);
 
     /// Moves faces at v to other parts until v is not pinched, in small steps, each the best of a few by the parts it
-    /// uses up, the pinches it leaves nearby, the number of faces moved and the length of the cut.
+    /// empties, the pinches it leaves nearby, the number of faces moved and the length of the cut.
     /// @param moved gets the faces that changed their label, @param labels_before the labels they had.
     void mend(Index v, std::vector<Index>& moved, std::vector<Index>& labels_before);
 
@@ -37,7 +37,7 @@ class PinchMender {
     std::pair<Index, Index> pinched_and_between(Index v);
 
   private:
-    /// Neighbouring faces of one label, as positions in their fan that may run over its end.
+    /// Neighbouring faces of one label: positions in their fan, which may wrap around.
     struct Run {
         Index label;
         std::size_t begin;
@@ -47,7 +47,7 @@ class PinchMender {
         std::vector<Index> faces;
         Index label;
     };
-    /// What speaks against a move, weightiest first; compared in this order.
+    /// The cost of a move, most important first; compared in this order.
     struct Cost {
         Index parts_used_up;
         Index pinches;
@@ -74,7 +74,7 @@ class PinchMender {
     std::vector<std::int64_t> n_faces_;
     std::vector<std::size_t> met_in_count_;
     std::size_t count_ = 0;
-    /// The runs of the fan looked at last, in order, and the label that occurs in several.
+    /// The runs of the fan examined last, in order, and the label that occurs in several.
     std::vector<Run> runs_;
     Index pinched_label_ = -1;
     std::vector<Move> moves_;

@@ -17,7 +17,7 @@ namespace {
 /// Cuts by METIS need two or three rounds; a cut that needs more than this gets its pinched parts merged.
 constexpr int max_repair_rounds = 12;
 
-/// Vertices to look at, each once.
+/// Vertices to examine, each once.
 class VertexQueue {
   public:
     VertexQueue(Index n_vertices, std::vector<Index> vertices)
@@ -38,7 +38,7 @@ class VertexQueue {
                 }
     }
 
-    /// Empties the queue. @returns what was in it.
+    /// Empties the queue. @returns its contents.
     std::vector<Index> take()
     {
         for (const Index v : vertices_)
@@ -51,7 +51,7 @@ class VertexQueue {
     std::vector<Index> vertices_;
 };
 
-/// What to look at first.
+/// What to examine first.
 struct Suspects {
     /// See join_loose_components.
     std::vector<bool> parts;
@@ -76,7 +76,7 @@ Suspects suspects_of(const PolygonMesh& mesh, const Topology& topology, const Su
         for (const Index v : mesh.face(suspected.faces[i]))
             std::atomic_ref(is_corner[v]).store(1, std::memory_order_relaxed);
     });
-    // Not all at once: where memory lacks for a later member, GCC 12 destroys twice what it has made of {}.
+    // Not all at once: if memory runs out for a later member, GCC 12 destroys members made from {} twice.
     Suspects suspects;
     suspects.parts = suspected.parts;
     suspects.vertices = select(exec, mesh.n_vertices(),

@@ -97,11 +97,11 @@ void require_consistent(const CLI::App& app, const BenchmarkCommand& command)
     std::error_code error;
     std::filesystem::create_directories(command.export_folder, error);
     if (error)
-        throw OutputError(command.export_folder.string() + ": cannot be made, " + error.message());
+        throw OutputError(command.export_folder.string() + ": cannot be created: " + error.message());
     require_writable(command.export_folder / "system.mtx");
 }
 
-/// More threads than cores would delay each other, which the recorded times would show. Tasks wait only for each other,
+/// More threads than cores would delay each other, as the recorded times would show. Tasks wait only for each other,
 /// not for memory.
 void prepare_simulation(const CLI::App& app, std::string_view threads, BenchmarkCommand& command)
 {
@@ -123,11 +123,11 @@ void prepare_ranks(std::string_view ranks, BenchmarkCommand& command)
     accuracy.approach = accuracy.tolerance ? Approach::Converged : Approach::Sweep;
 }
 
-/// A single value takes the place of an axis.
+/// A single value replaces an axis.
 void prepare_grid(const CLI::App& app, BenchmarkCommand& command)
 {
     command.mode = BenchmarkMode::Grid;
-    // Without a file the library gives one without a name.
+    // Without a file, the library supplies one without a name.
     std::erase(command.grid.files, std::filesystem::path());
     if (app.count("--kind") > 0)
         command.grid.kinds = {command.kind};
@@ -137,7 +137,7 @@ void prepare_grid(const CLI::App& app, BenchmarkCommand& command)
         command.grid.steps = {command.options.flow.steps};
 }
 
-/// Who is compared with ours where --peers does not say.
+/// The peers of the comparison unless --peers is given.
 const char* usual_peers(BenchmarkMode mode)
 {
     if (mode == BenchmarkMode::Grid)
@@ -160,7 +160,7 @@ std::vector<Method> peers_named(std::string_view word)
             std::find_if(known_peers.begin(), known_peers.end(), [&](const Peer& p) { return p.name == name; });
         if (found == known_peers.end())
             throw OptionError("--peers: \"" + std::string(name) +
-                              "\" is none of cholmod, umfpack, cg, cg-ic, amg, cgal, sweep, converged, our-cg, "
+                              "\" is not one of cholmod, umfpack, cg, cg-ic, amg, cgal, sweep, converged, our-cg, "
                               "undecomposed; or all, or none");
         wanted[static_cast<std::size_t>(found - known_peers.begin())] = true;
         if (name.size() == rest.size())
@@ -196,7 +196,7 @@ std::vector<int> numbers_named(std::string_view word, std::string_view option)
 
 namespace {
 
-/// What is said of peers and of modes, as it stands on the command line.
+/// The arguments for peers and modes, as given on the command line.
 struct Words {
     std::string peers;
     std::string simulated_threads;
@@ -206,7 +206,7 @@ struct Words {
 void add_peers(CLI::App& app, Words& words, BenchmarkCommand& command)
 {
     app.add_option("--peers", words.peers,
-                   "all, none, or a list of those that ours is held beside [all but ours by name]\n"
+                   "all, none, or a list of those that ours is compared with [all but ours by name]\n"
                    "cholmod,umfpack,cg,cg-ic,amg,cgal, and of ours by an approach that is named: "
                    "sweep,converged,our-cg,undecomposed. By default with --grid cholmod,cg,amg, with --whole-run "
                    "cholmod,cg; none with --scaling, --threads-sweep, --simulate-threads and --simulate-ranks.")
@@ -225,7 +225,7 @@ void add_peers(CLI::App& app, Words& words, BenchmarkCommand& command)
         ->type_name("DIR");
 }
 
-/// Adds what is measured in place of one case; each excludes the others, and options that mean nothing to it.
+/// Adds the modes that replace a single case; each excludes the others, and options that have no meaning for it.
 void add_modes(CLI::App& app, Words& words, BenchmarkCommand& command)
 {
     const auto add_mode = [&](const std::string& name, BenchmarkMode mode, const std::string& text) {
@@ -245,12 +245,12 @@ void add_modes(CLI::App& app, Words& words, BenchmarkCommand& command)
                 ->type_name("LIST"),
             {"--scaling", "--threads-sweep", "--peers", "--export"});
     exclude(app.add_option("--simulate-ranks", words.simulated_ranks,
-                           "ours, shared by each of these numbers of ranks: what they have to do and to say\n"
-                           "Ranks are threads of one process. What follows for large meshes is said by a model.")
+                           "ours, shared by each of these numbers of ranks: their work and their messages\n"
+                           "Ranks are threads of one process. A model predicts what follows for large meshes.")
                 ->type_name("LIST"),
             {"--scaling", "--threads-sweep", "--simulate-threads", "--peers", "--export"});
     exclude(app.add_option("--grid", command.grid.files,
-                           "who is the fastest at equal accuracy, set-up included, on many meshes and these\n"
+                           "which is the fastest at equal accuracy, set-up included, on many meshes and these\n"
                            "Triangles, quads, hexagons and mixed polygons (or --kind) of 10^4, 10^5, … vertices, and "
                            "these meshes; dt 1, 5, 50 and 500 (or --time-step-edges); 1, 3 and 10 steps (or --steps).")
                 ->expected(0, -1)
@@ -303,7 +303,7 @@ void settle(const CLI::App& app, const Words& words, BenchmarkCommand& command)
 
 std::optional<ExitStatus> parse_benchmark_command(int argc, char** argv, BenchmarkCommand& command)
 {
-    CLI::App app("Holds one implicit step of ours beside what a user would run instead, time, memory and accuracy.",
+    CLI::App app("Compares one implicit step of ours with what a user would run instead: time, memory and accuracy.",
                  "benchmark");
     Words words;
     command.options.flow.time_step = 1.0;

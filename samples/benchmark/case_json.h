@@ -9,7 +9,7 @@ namespace seamflow {
 /// One method with one tolerance.
 nlohmann::ordered_json row_json(const Row& row);
 
-/// What was found for one mesh, as `--json` has it.
+/// The results for one mesh, as written by `--json`.
 /// @param mesh name of the mesh.
 /// @param dt_over_h2 time step in squared mean edge lengths.
 nlohmann::ordered_json case_json(const std::string& mesh, double dt_over_h2, const CaseOptions& options,

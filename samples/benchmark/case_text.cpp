@@ -31,7 +31,7 @@ std::string named(const Row& row)
     return equal && row.succeeded() ? row.name + " " + short_number(row.task.tolerance, 1) : row.name;
 }
 
-/// Nothing where phases are unknown.
+/// Empty if phases are unknown.
 std::string phase(double value)
 {
     return value > 0.0 ? seconds(value) : "";

@@ -79,7 +79,7 @@ void print_explanation(std::ostream& out, const Explanation& explanation)
                                  : "",
                            distance_text(row.v_mean), distance_text(row.v_max));
     }
-    out << "*: chosen where nothing is said\n" << std::flush;
+    out << "*: chosen by default\n" << std::flush;
 }
 
 Json explanation_json(const Explanation& explanation)

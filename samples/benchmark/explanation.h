@@ -10,15 +10,15 @@
 
 namespace seamflow {
 
-/// Why ours takes its steps as it does: what the model of costs expects of each approach, and what was measured.
+/// The reasons for the approach of ours: the predictions of the cost model for each approach, and the measurements.
 struct Explanation {
     FlowSize size;
-    /// What is chosen where nothing is said.
+    /// The approach that is chosen by default.
     Approach chosen = Approach::Automatic;
     /// One approach.
     struct Entry {
         PredictedCost predicted;
-        /// What MethodResult says; the distance, where there is a reference.
+        /// The MethodResult; also the distance, if there is a reference.
         Row measured;
     };
     std::vector<Entry> entries;

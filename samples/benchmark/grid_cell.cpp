@@ -13,7 +13,7 @@ namespace {
 
 /// Where the search for a tolerance begins: 1e-3.
 constexpr std::size_t first_place = 4;
-/// Times that differ by more than this factor need no second look, if they are longer than this.
+/// Times that differ by more than this factor are not measured again if they are longer than this.
 constexpr double clear_factor = 2.0;
 constexpr double long_seconds = 1.0;
 
@@ -22,7 +22,7 @@ double seconds(const Row& row)
     return row.result.total_seconds();
 }
 
-/// Of ours and of the peers that are as near.
+/// The least of ours and of equally close peers.
 double least_seconds(const GridCell& cell)
 {
     const Row* const peer = cell.fastest_peer();
@@ -126,7 +126,7 @@ Row GridRunner::run_iterative(Method peer, const GridCell& cell, const FlowOptio
     return row;
 }
 
-/// The least times of several turns, where it is not clear who is faster.
+/// The least times of several turns, if it is not clear who is faster.
 void GridRunner::repeat(GridCell& cell) const
 {
     const auto again = [&](Row& row) {

@@ -17,25 +17,25 @@ struct GridCell {
     double time_step_edges = 0.0;
     int steps = 0;
     Row ours;
-    /// None where ours or the undecomposed flow failed. Of an iterative peer the row of the loosest tolerance with
+    /// Empty if ours or the undecomposed flow failed. For an iterative peer, the row of the loosest tolerance with
     /// which it is as near to the undecomposed flow as ours.
     std::vector<Row> peers;
 
-    /// Of the peers that are as near as ours the one that takes the least time, set-up included; null if there is none.
+    /// The fastest of the peers that are as near as ours, set-up included; null if there is none.
     [[nodiscard]] const Row* fastest_peer() const;
-    /// Its time in that of ours; infinite without one.
+    /// Its time divided by that of ours; infinite without one.
     [[nodiscard]] double ratio() const;
 };
 
 /// Whether a row ends at least as near to the undecomposed flow as ours, by V_max and V_mean. Distances below a
-/// thousandth and a ten-thousandth of a mean edge count as none.
+/// thousandth and a ten-thousandth of a mean edge count as zero.
 bool is_as_near(const Row& row, const Row& ours);
 
-/// What is run in a cell.
+/// The methods to run in a cell, and how.
 struct GridOptions {
     std::vector<Method> peers;
     Reference reference = Reference::Automatic;
-    /// How often ours and the peers that come near it are run in turns; the least times count.
+    /// How often ours and the peers with similar times are run, in turns; the least times count.
     int turns = 3;
 };
 
@@ -45,10 +45,10 @@ class GridRunner {
     /// @param mesh, options must outlive this.
     GridRunner(const PolygonMesh& mesh, const GridOptions& options);
 
-    /// Ours, the undecomposed flow, and the peers. A peer is given up where it is not yet as near and takes twice as
-    /// long as the fastest: its row says so.
-    /// @returns a cell without name and dt in edges; without peers where ours or the undecomposed flow fails, and ours
-    ///          says why.
+    /// Ours, the undecomposed flow, and the peers. A peer is abandoned if it is not yet as near and takes twice as long
+    /// as the fastest: its row reports this.
+    /// @returns a cell without name and dt in edges; without peers if ours or the undecomposed flow fails; the row of
+    ///          ours then has the reason.
     GridCell run(const FlowOptions& flow);
 
     /// With the undecomposed flow of the last cell.
@@ -62,7 +62,7 @@ class GridRunner {
 
     const GridOptions& options_;
     MethodRows rows_;
-    /// Place in tolerance_ladder of the tolerance of the cell before.
+    /// Index in tolerance_ladder of the tolerance of the previous cell.
     std::map<Method, std::size_t> place_;
 };
 

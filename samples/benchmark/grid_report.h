@@ -17,8 +17,8 @@ std::string name_with_tolerance(const Row& row);
 void print_grid_head(std::ostream& out);
 void print_grid_cell(std::ostream& out, const GridCell& cell);
 
-/// What the numbers mean; a table in Markdown with the ratios, a line for each mesh and a column for each time step
-/// with all numbers of steps; and the cells in which ours is not the fastest, and by how much.
+/// Prints the meaning of the numbers; a table of the ratios in Markdown, with a line for each mesh and a column for
+/// each time step with all numbers of steps; and the cells in which ours is not the fastest, with the margins.
 /// @param cells mesh by mesh, for each dt by dt.
 void print_grid_summary(std::ostream& out, const std::vector<GridCell>& cells);
 

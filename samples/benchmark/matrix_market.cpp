@@ -26,7 +26,7 @@ void write_array(const fs::path& path, const Eigen::DenseBase<Derived>& array)
     file.commit();
 }
 
-/// Row and column numbers of a pattern whose entry counts.
+/// Whether an entry of a pattern, by row and column, counts.
 bool counts(SystemForm form, Index row, Index column)
 {
     return form == SystemForm::AsTheyStand || row >= column;

@@ -15,7 +15,7 @@ namespace seamflow {
 /// @throws OutputError naming the file.
 void export_first_step(const std::filesystem::path& folder, const PolygonMesh& mesh, const FlowOptions& options);
 
-/// A matrix stored by columns, of a symmetric one the lower triangle.
+/// Writes a matrix stored by columns; of a symmetric one, the lower triangle.
 void write_matrix(const std::filesystem::path& path, const WholeSystem& system, SystemForm form);
 
 }  // namespace seamflow

@@ -6,7 +6,7 @@
 
 namespace seamflow {
 
-/// A task and a result on their way from one process to another; the positions go another way.
+/// A task and a result in the form in which processes exchange them; the positions go another way.
 nlohmann::json task_json(const MethodTask& task);
 MethodTask task_of(const nlohmann::json& json);
 nlohmann::json result_json(const MethodResult& result);

@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* this_program = "/proc/self/exe";
 
-/// The high-water mark of this process alone, in bytes. What getrusage gives includes the parent's.
+/// The high-water mark of this process alone, in bytes. That of getrusage includes the parent's.
 std::int64_t high_water_mark()
 {
     std::ifstream status("/proc/self/status");
@@ -36,8 +36,8 @@ std::int64_t high_water_mark()
     return 0;
 }
 
-/// OpenBLAS asks for ever for the work area of its first call (128 MiB a thread) where the address space is limited and
-/// full. Here there is still room, or it is known that there is none.
+/// OpenBLAS never stops asking for the work area of its first call (128 MiB a thread) if the address space is limited
+/// and full. Here there is still room, or it is known that there is none.
 /// @throws std::bad_alloc if there is no room.
 void take_blas_work_areas_within_limit(int threads)
 {

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double reference_tolerance = 1e-12;
 
-/// @param tolerance a power of ten, as everywhere but at equal accuracy.
+/// @param tolerance a power of ten, as everywhere except at equal accuracy.
 std::string with_tolerance(std::string_view title, double tolerance)
 {
     const int exponent = static_cast<int>(std::lround(std::log10(tolerance)));

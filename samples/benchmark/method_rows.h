@@ -8,10 +8,10 @@
 
 namespace seamflow {
 
-/// Whose positions stand for the undecomposed flow.
+/// The method whose positions represent the undecomposed flow.
 enum class Reference {
-    /// Direct up to two million vertices (300,000 for Ptáčková-Velho, whose factors are larger); beyond, and where that
-    /// fails, Iterative.
+    /// Direct up to two million vertices (300,000 for Ptáčková-Velho, whose factors are larger); for larger meshes, and
+    /// if that fails, Iterative.
     Automatic,
     /// One factorisation of the whole mesh: CHOLMOD, for Ptáčková-Velho UMFPACK.
     Direct,
@@ -36,26 +36,26 @@ struct Row {
 };
 
 /// Runs methods on one mesh, each in a process of its own, and measures how far from the undecomposed flow they end.
-/// One at a time, as it has a ScratchFolder.
+/// Only one object at a time, because of its ScratchFolder.
 class MethodRows {
   public:
     /// @param mesh must outlive this.
     explicit MethodRows(const PolygonMesh& mesh);
 
-    /// A task of a peer with the threads that it can take.
+    /// A task of a peer with the threads that it can use.
     [[nodiscard]] static MethodTask task_of(Method method, const FlowOptions& flow, double tolerance = 0.0);
 
-    /// With its positions, without its distance.
+    /// Returns a row with its positions, without its distance.
     [[nodiscard]] Row run(const MethodTask& task) const;
 
-    /// Runs whoever gives the undecomposed flow of these options, in place of those before.
+    /// Runs the method that gives the undecomposed flow for these options, which replaces the previous one.
     /// @throws ComputationError if it fails.
     void find_reference(Reference wanted, const FlowOptions& flow);
 
-    /// Its row; nothing with Reference::None.
+    /// The row of the reference; empty with Reference::None.
     [[nodiscard]] const std::optional<Row>& reference() const { return reference_row_; }
 
-    /// Distances take the place of the positions.
+    /// Replaces the positions of a row by distances.
     void measure(Row& row) const;
 
     [[nodiscard]] const PolygonMesh& mesh() const { return mesh_; }
@@ -70,7 +70,7 @@ class MethodRows {
     Points reference_ = Points(0, 3);
 };
 
-/// @throws ComputationError where a row did not succeed.
+/// @throws ComputationError if a row did not succeed.
 void require_success(const Row& row);
 
 }  // namespace seamflow

@@ -16,8 +16,8 @@ namespace seamflow {
 
 namespace {
 
-/// Variables by which libraries learn how many threads they may start. CHOLMOD asks for four, whatever OMP_NUM_THREADS
-/// says: the limit stops it. Threads that wait are to sleep.
+/// Variables that tell libraries how many threads they may start. CHOLMOD asks for four, regardless of OMP_NUM_THREADS:
+/// the limit prevents that. Waiting threads should sleep.
 std::vector<std::string> environment_for(int threads)
 {
     const std::string number = std::to_string(threads);
@@ -58,7 +58,7 @@ std::string run_and_wait(const std::string& program, std::vector<std::string>& w
         if (errno != EINTR)
             return std::string("cannot be waited for: ") + std::strerror(errno);
     if (WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL)
-        return "killed, most likely because the memory of this machine does not suffice";
+        return "killed, most likely because this machine has too little memory";
     if (WIFSIGNALED(status))
         return std::string("ended by the signal \"") + strsignal(WTERMSIG(status)) + "\"";
     return WEXITSTATUS(status) == 0 ? "" : "ended with status " + std::to_string(WEXITSTATUS(status));

@@ -6,18 +6,18 @@
 
 namespace seamflow {
 
-/// How a process went.
+/// The outcome of a process.
 struct ProcessEnd {
     /// Why it did not succeed; empty: it did.
     std::string failure;
     /// Wall-clock time from its start to its end.
     double seconds = 0.0;
-    /// The most memory that it had.
+    /// Its peak memory.
     std::size_t peak_memory_bytes = 0;
 };
 
-/// Runs a program, whatever it prints unread, and waits for it. Libraries that start threads of their own are held to
-/// this number of them.
+/// Runs a program, discards its output, and waits for it. Libraries that start threads of their own are limited to this
+/// number of them.
 /// @param words its arguments, its name first.
 ProcessEnd run_process(const std::string& program, std::vector<std::string> words, int threads);
 

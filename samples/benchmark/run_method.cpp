@@ -14,7 +14,7 @@ namespace seamflow {
 
 namespace {
 
-/// The options of a task for the approach that its method names. Nothing is measured of steps, as by other methods.
+/// The options of a task for the approach of its method. As with other methods, steps are not measured.
 FlowOptions options_of(const MethodTask& task)
 {
     FlowOptions options = task.options;

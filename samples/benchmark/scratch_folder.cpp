@@ -28,7 +28,7 @@ constexpr const char* positions_file = "positions.bin";
 constexpr std::array all_files{mesh_file,    task_file,    result_file,  positions_file, "input.obj",  "input.ply",
                                "output.obj", "output.off", "output.ply", "output.stl",   "report.json"};
 
-/// What to remove when the program is told to stop. A signal handler can do no more than hand over text that is there.
+/// The files to remove when the program is told to stop. A signal handler can only use text that already exists.
 struct Remains {
     std::array<std::string, all_files.size()> files;
     std::string folder;
@@ -158,7 +158,7 @@ ScratchFolder::ScratchFolder()
     std::error_code error;
     std::string name = (fs::temp_directory_path(error) / "benchmark-XXXXXX").string();
     if (error || mkdtemp(name.data()) == nullptr)
-        throw OutputError(name + ": no folder for temporary files can be made; set TMPDIR");
+        throw OutputError(name + ": cannot create a folder for temporary files; set TMPDIR");
     path_ = name;
     remove_when_stopped(path_);
 }

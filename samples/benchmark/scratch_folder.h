@@ -6,8 +6,8 @@
 
 namespace seamflow {
 
-/// A folder for temporary files that goes away with this object, or when the program is stopped by SIGHUP, SIGINT or
-/// SIGTERM, and what the processes of a benchmark hand to each other in it. One at a time.
+/// A folder for temporary files, in which the processes of a benchmark exchange data. It is removed with this object,
+/// or when the program is stopped by SIGHUP, SIGINT or SIGTERM. Only one object at a time.
 class ScratchFolder {
   public:
     /// @throws OutputError if no folder can be made where temporary files belong (TMPDIR).
@@ -22,8 +22,8 @@ class ScratchFolder {
     std::filesystem::path path_;
 };
 
-/// The files of such a folder; numbers are stored as memory has them. A whole run has its own there: input and output
-/// as .obj or .ply, and report.json. Writing throws OutputError naming the file, reading InputError.
+/// The files of such a folder; numbers are stored as they are in memory. A whole run has its own files there: input and
+/// output as .obj or .ply, and report.json. Writing throws OutputError naming the file, reading InputError.
 void write_mesh_for_methods(const std::filesystem::path& folder, const PolygonMesh& mesh);
 PolygonMesh read_mesh_for_methods(const std::filesystem::path& folder);
 void write_task(const std::filesystem::path& folder, const MethodTask& task);

@@ -68,7 +68,7 @@ RankCounts counts_of(const RunOnRanks& run, const Points& expected)
 /// A network between machines.
 struct Network {
     const char* name;
-    /// From one to the other, seconds; bytes each second.
+    /// From machine to machine: seconds; bytes per second.
     double latency;
     double bandwidth;
 };
@@ -77,7 +77,7 @@ constexpr Network networks[] = {{"InfiniBand (2 us, 12 GB/s)", 2e-6, 12e9}, {"10
 constexpr int machines = 64;
 constexpr int cores = 64;
 
-/// Seconds that a machine of m vertices takes to tell others of a step.
+/// Seconds that a machine of m vertices needs to communicate a step.
 double network_seconds(const RankCounts& counts, const Network& network, double m)
 {
     const double growth = std::sqrt(m / counts.mean_vertices);
@@ -86,10 +86,10 @@ double network_seconds(const RankCounts& counts, const Network& network, double 
            static_cast<double>(counts.bytes) / network.bandwidth * growth;
 }
 
-/// How many vertices a machine has when it computes as long as it tells others: with fewer the network is the limit.
+/// The number of vertices with which computing takes as long as communicating: with fewer the network is the limit.
 double vertices_where_even(const RankCounts& counts, const Network& network, double seconds_per_vertex)
 {
-    // Computing grows faster than telling.
+    // Computing grows faster than communicating.
     double low = 1.0;
     double high = 1e15;
     while (high / low > 1.001) {
@@ -137,8 +137,7 @@ void print_simulated_ranks(std::ostream& out, const SimulatedRanks& simulated)
         const double told = network_seconds(last, network, m);
         const double even = vertices_where_even(last, network, per_vertex);
         out << fmt::format(
-            "  {}: {:.3g} s of computing, {:.3g} s of messages; as long as each other at {:.2g} vertices "
-            "a machine\n",
+            "  {}: {:.3g} s of computing, {:.3g} s of messages; equally long at {:.2g} vertices per machine\n",
             network.name, m * per_vertex, told, even);
     }
 }

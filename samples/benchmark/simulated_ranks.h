@@ -12,11 +12,11 @@
 
 namespace seamflow {
 
-/// What ranks that share a mesh have to do and to say, counted: with more ranks than cores nothing can be timed.
+/// Counts of the work and messages of ranks that share a mesh: with more ranks than cores nothing can be timed.
 struct RankCounts {
     int ranks = 0;
     Index sub_meshes = 0;
-    /// Vertices of the rank that has most, and of all on average.
+    /// Vertices of the rank that has most, and the mean over all ranks.
     Index most_vertices = 0;
     double mean_vertices = 0.0;
     /// Of one step (the last), of the rank that sends most.
@@ -28,7 +28,7 @@ struct RankCounts {
     bool same_bits = false;
 };
 
-/// What is known of flows on ranks.
+/// The results of flows on ranks.
 struct SimulatedRanks {
     std::vector<RankCounts> counts;
     /// A step of one rank in one thread, seconds a vertex.
@@ -36,14 +36,14 @@ struct SimulatedRanks {
 };
 
 /// Runs the flow once for each number of ranks, which are threads of this process, and before that with one.
-/// @param flow with steps, a time step, and conditions that a distributed flow knows.
+/// @param flow with steps, a time step, and conditions that a distributed flow supports.
 /// @throws what a distributed flow throws.
 SimulatedRanks simulate_ranks(const PolygonMesh& mesh, const FlowOptions& flow, const std::vector<int>& ranks);
 
-/// The counts, and what follows from them for large meshes, by a model: a step takes what its vertices take, with all
-/// cores of a machine at work, and then what its messages take, one after the other. The bytes that a rank tells others
-/// grow with the square root of its vertices; so do the messages of sweeps, one for each sub-mesh at its border. In
-/// converged steps there are as many for each iteration, however many vertices a rank has.
+/// Prints the counts, and a prediction from them for large meshes, by a model: a step takes the time of its vertices,
+/// on all cores of a machine, and then the time of its messages, one after the other. The bytes that a rank sends grow
+/// with the square root of its vertices; so do the messages of sweeps, one for each sub-mesh at its border. The number
+/// of messages per iteration of converged steps does not depend on the number of vertices of a rank.
 void print_simulated_ranks(std::ostream& out, const SimulatedRanks& simulated);
 
 /// {"simulated_ranks": [{"ranks", "sub_meshes", "most_vertices", "mean_vertices", "messages", "bytes", "iterations",

@@ -182,7 +182,7 @@ Json run_explanation(const BenchmarkCommand& command, std::ostream& out)
     return explanation_json(explanation);
 }
 
-/// Of one mesh in all formats.
+/// Runs one mesh in all formats.
 void run_whole_of(const BenchmarkCommand& command, Index vertices, std::ostream& out, std::vector<WholeRun>& runs)
 {
     const PolygonMesh mesh = load(command, vertices);

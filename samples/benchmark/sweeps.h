@@ -8,8 +8,8 @@
 
 namespace seamflow {
 
-/// What a command asks for. Prints the tables as they grow.
-/// @returns what --json gets: of one case, simulated or not, as case_json; of --explain as explanation_json; of
+/// Runs a command. Prints the tables as they grow.
+/// @returns the contents for --json: of one case, simulated or not, as case_json; of --explain as explanation_json; of
 ///          --scaling, --threads-sweep, --grid and --whole-run {"scaling": […]}, {"threads_sweep": […]}, {"grid": […]}
 ///          and {"whole_runs": […]}, one case, cell or run after the other.
 /// @throws InputError, OptionError, OutputError, ComputationError as its parts.

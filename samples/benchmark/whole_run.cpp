@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-/// The program that lies beside this one.
+/// The program in the folder of this one.
 std::string path_of_smooth()
 {
     return (fs::read_symlink("/proc/self/exe").parent_path() / "smooth").string();
@@ -63,7 +63,7 @@ class WholeRunner {
         run_.file_bytes = fs::file_size(input_);
     }
 
-    /// The output that is left is that of `smooth`.
+    /// Leaves the output of `smooth`.
     void take_turn()
     {
         for (WholePeer& peer : run_.peers) {
@@ -78,7 +78,7 @@ class WholeRunner {
         run_.peak_memory_bytes = end.peak_memory_bytes;
     }
 
-    /// Of one more run, for a report, less what is measured for it.
+    /// Phases of one more run, for a report, less its measuring.
     void note_phases()
     {
         const fs::path file = grid_.rows().scratch().path() / "report.json";
@@ -100,7 +100,7 @@ class WholeRunner {
         run_.peers.push_back({std::move(row), {}});
     }
 
-    /// How near the output of `smooth` is to the undecomposed flow.
+    /// How close the output of `smooth` is to the undecomposed flow.
     void measure_output()
     {
         Row row;

@@ -12,7 +12,7 @@
 
 namespace seamflow {
 
-/// Where the time of one run of `smooth` goes, in seconds of wall-clock time.
+/// The time of one run of `smooth` by phases, in seconds of wall-clock time.
 struct WholeRunPhases {
     double read = 0.0;
     double cut = 0.0;
@@ -36,7 +36,7 @@ struct WholePeer {
     Turns whole;
 };
 
-/// `smooth` from file to file, a process for each turn, and what was run in turns with it.
+/// `smooth` from file to file, a process for each turn, and the methods that ran in turns with it.
 struct WholeRun {
     std::string mesh;
     Index vertices = 0;
@@ -47,23 +47,23 @@ struct WholeRun {
     std::string format;
     std::uintmax_t file_bytes = 0;
     Turns smooth;
-    /// Of a run beside them.
+    /// Of one further run.
     WholeRunPhases phases;
     std::size_t peak_memory_bytes = 0;
     /// Distance to the undecomposed flow.
     std::optional<double> v_max;
     std::optional<double> v_mean;
-    /// One step by CHOLMOD, analysis and files excepted; empty without CHOLMOD among the peers.
+    /// One step by CHOLMOD, without analysis and files; empty without CHOLMOD among the peers.
     Turns cholmod_step;
     /// As near to the undecomposed flow as ours: see GridRunner.
     std::vector<WholePeer> peers;
 
-    /// Medians: all of `smooth` in steps of CHOLMOD.
+    /// Medians: all of `smooth` divided by a step of CHOLMOD.
     [[nodiscard]] double ratio_to_cholmod_step() const;
 };
 
-/// Writes the mesh in a format, unless it is a file already, and runs `smooth`, which lies beside this program, and the
-/// peers on that file.
+/// Writes the mesh in a format, unless it is a file already, and runs `smooth`, which is in the folder of this program,
+/// and the peers on that file.
 /// @param given the file of the mesh; empty: it is written as `format`.
 /// @param time_step_edges dt in squared mean edge lengths.
 /// @throws ComputationError if `smooth` fails; as GridRunner.

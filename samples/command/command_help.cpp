@@ -55,14 +55,14 @@ std::string heading_of(const CLI::Option& option)
     return heading;
 }
 
-/// Of the description: what --help says.
+/// The line of the description in --help.
 std::string first_line(const CLI::Option& option)
 {
     const std::string& text = option.get_description();
     return text.substr(0, text.find('\n'));
 }
 
-/// Each line of it after two blanks.
+/// Indents each line by two blanks.
 std::string with_indent(std::string_view text)
 {
     std::string result;
@@ -78,7 +78,7 @@ std::string line_of(const std::string& heading, const std::string& text)
     return fmt::format("  {:<26}  {}\n", heading, text);
 }
 
-/// "INPUT", or "[FIGURE …]" of what there may be none of and several.
+/// "INPUT", or "[FIGURE …]" for any number of arguments.
 std::string name_in_usage(const CLI::Option& positional)
 {
     const char* const more = positional.get_items_expected_max() > 1 ? " …" : "";
@@ -104,7 +104,7 @@ bool speaks_of_lengths(const CLI::App& app)
 constexpr const char* about_lengths = "A LENGTH is in the units of the file, or with % a part of the bounding box's "
                                       "diagonal: 0.5, 2%.";
 
-/// Of "auto|never|TOL" those that are to be typed as they stand.
+/// The words of "auto|never|TOL" that are typed literally.
 std::vector<std::string> words_of(const CLI::Option& option)
 {
     std::vector<std::string> words = CLI::detail::split(option.get_type_name(), '|');
@@ -121,7 +121,7 @@ std::string joined_words(const std::vector<std::string>& words)
     return fmt::format("{}", fmt::join(words, " "));
 }
 
-/// @param marked every character of these gets a backslash before it.
+/// @param marked the characters that are preceded by a backslash.
 std::string with_backslashes(std::string_view text, std::string_view marked)
 {
     std::string result;
@@ -133,7 +133,7 @@ std::string with_backslashes(std::string_view text, std::string_view marked)
     return result;
 }
 
-/// As roff prints it: hyphens that can be copied, lines as they are, no command at the beginning of any.
+/// Escaped for roff: hyphens that can be copied, lines as they are, no command at the beginning of any.
 std::string roff(std::string_view text)
 {
     std::string result = "\\&";
@@ -200,7 +200,7 @@ std::string help_text(const CLI::App& app)
     }
     if (speaks_of_lengths(app))
         text += fmt::format("\n{}\n", about_lengths);
-    return text + fmt::format("\nman {0} says more of each; where that is not installed, {0} --help-man | man -l -\n",
+    return text + fmt::format("\nman {0} says more about each; where it is not installed, {0} --help-man | man -l -\n",
                               app.get_name());
 }
 

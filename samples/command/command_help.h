@@ -5,8 +5,8 @@
 
 #include <CLI/CLI.hpp>
 
-/// What a program says of its options. The first line of an option's description is its line in --help; further lines
-/// are for the manual page. The footer of a program has its examples: command lines, each with what it does.
+/// The texts of a program about its options. The first line of an option's description is its line in --help; further
+/// lines are for the manual page. The footer of a program has its examples: command lines, each with its effect.
 namespace seamflow {
 
 /// The groups of options, in the order in which --help lists them; options of no group come last.
@@ -28,11 +28,11 @@ std::vector<const CLI::Option*> options_by_groups(const CLI::App& app);
 /// The whole of --help: examples, arguments, and the options by groups, a line each.
 std::string help_text(const CLI::App& app);
 
-/// The manual page of a program, for man: made from the options that --help lists, and all that is said of them.
+/// The manual page of a program, for man: made from the options that --help lists, and their full descriptions.
 std::string man_page(const CLI::App& app);
 
-/// What completes the options of a program, and their values where these are words, on the command line of bash; made
-/// from the same options. Where there are no words, bash completes names of files.
+/// Completion of the options of a program, and of their values if these are words, for bash; made from the same
+/// options. Other values are completed as names of files.
 std::string bash_completion(const CLI::App& app);
 
 /// The same for zsh, which shows descriptions, too.

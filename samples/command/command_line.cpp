@@ -33,7 +33,7 @@ std::string described(const Limits& limits)
     return text;
 }
 
-/// What a suffix multiplies by; nothing for one that is none.
+/// The factor of a suffix; nothing if it is unknown.
 std::optional<double> unit_of(std::string_view suffix)
 {
     constexpr std::string_view letters = "KMGT";
@@ -46,7 +46,7 @@ std::optional<double> unit_of(std::string_view suffix)
     return std::pow(rest == "iB" ? 1024.0 : 1000.0, static_cast<double>(power + 1));
 }
 
-/// What the build asks a program for, to install it.
+/// Texts that the build requests for installation.
 std::optional<std::string> text_about(const CLI::App& app, std::string_view asked)
 {
     if (asked == "--help-man")
@@ -153,7 +153,7 @@ auto integer_from(int least)
     };
 }
 
-/// How many letters have to be put in, left out or exchanged to make one word of the other (Levenshtein, 1966).
+/// The number of letters to insert, remove or replace to turn one word into the other (Levenshtein, 1966).
 std::size_t edits_between(std::string_view a, std::string_view b)
 {
     std::vector<std::size_t> row(b.size() + 1);
@@ -169,7 +169,7 @@ std::size_t edits_between(std::string_view a, std::string_view b)
     return row.back();
 }
 
-/// About the first argument that the program does not know; empty if there is none.
+/// On the first argument that the program does not know; empty if there is none.
 std::string complaint_of_surplus(const CLI::App& app)
 {
     const std::vector<std::string> left = app.remaining();
@@ -181,7 +181,7 @@ std::string complaint_of_surplus(const CLI::App& app)
     const std::string name = option->substr(0, option->find('='));
     std::string nearest;
     std::size_t fewest = std::max<std::size_t>(name.size() / 3, 2);
-    // Not those that are there to be refused.
+    // Except for options that exist to be refused.
     for (const CLI::Option* const known :
          app.get_options([](const CLI::Option* one) { return !one->get_group().empty(); }))
         for (const std::string& word : known->get_lnames())

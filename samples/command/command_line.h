@@ -94,7 +94,7 @@ CLI::Option* add_choice(CLI::App& app, const std::string& names, Value& target,
                 target = value;
                 return;
             }
-        throw CLI::ValidationError(names, "\"" + word + "\" is none of " + words);
+        throw CLI::ValidationError(names, "\"" + word + "\" is not one of " + words);
     };
     return app.add_option_function<std::string>(names, store, description)->type_name(words);
 }
@@ -109,7 +109,7 @@ CLI::Option* add_choice(CLI::App& app, const std::string& names, Option& target,
 }
 
 /// Parses the command line.
-/// @returns nothing to go on, or how to end: Success after --help, WrongUsage, said on standard error.
+/// @returns empty to continue, else how to end: Success after --help, WrongUsage, reported on standard error.
 std::optional<ExitStatus> parse_command_line(CLI::App& app, int argc, char** argv);
 
 }  // namespace seamflow

@@ -22,8 +22,8 @@ struct CompareCommand {
     std::optional<double> full_scale;
 };
 
-/// Parses the command line and checks that the results can be written where it says.
-/// @returns nothing to go on, or how to end: Success after --help, WrongUsage, said on standard error.
+/// Parses the command line and checks that the results can be written to the given paths.
+/// @returns empty to continue, else how to end: Success after --help, WrongUsage, reported on standard error.
 /// @throws OptionError, OutputError (see output_files.h).
 std::optional<ExitStatus> parse_compare_command(int argc, char** argv, CompareCommand& command);
 

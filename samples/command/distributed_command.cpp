@@ -11,12 +11,12 @@ namespace seamflow {
 
 namespace {
 
-/// What is about the whole mesh, or shows the tasks of one process.
+/// Options that concern the whole mesh, or show the tasks of one process.
 std::vector<SmoothProgram::Lack> lacks()
 {
-    const char* const one_process = "it takes the whole mesh in one process; smooth has it";
+    const char* const one_process = "it needs the whole mesh in one process; use smooth";
     std::vector<SmoothProgram::Lack> list{
-        {"--noise", "the amount for it takes the whole mesh; say --time-step, --time-step-edges or --radius"}};
+        {"--noise", "its amount needs the whole mesh; give --time-step, --time-step-edges or --radius"}};
     for (const OptionTraits& one : all_options())
         if ((one.concerns & concern::one_process) != 0 && !one.option.empty())
             list.push_back({std::string(one.option), one_process});
@@ -25,8 +25,8 @@ std::vector<SmoothProgram::Lack> lacks()
     return list;
 }
 
-/// Steps of ranks are in sub-meshes: sweeps where neither a tolerance is asked for nor a free boundary, which
-/// sub-meshes can share in converged steps alone.
+/// Ranks take steps in sub-meshes: sweeps unless a tolerance or a free boundary is asked for; sub-meshes can share the
+/// latter only in converged steps.
 void settle_approach(FlowOptions& options)
 {
     AccuracyOptions& accuracy = options.accuracy;
@@ -50,7 +50,7 @@ std::optional<ExitStatus> parse_distributed_command(int argc, char** argv, int r
                     "mpirun -n 4 smooth-distributed scan.ply smooth.ply --time-step-edges 5 --converge 1e-6   exact "
                     "steps\n"
                     "mpirun -n 4 smooth-distributed scan.ply smooth.ply --radius 1% --steps 50 --checkpoint state   "
-                    "goes on where it was stopped\n",
+                    "continues where it was stopped\n",
         .add_own =
             [&](CLI::App& app) {
                 app.get_option("--approach")
@@ -61,7 +61,7 @@ std::optional<ExitStatus> parse_distributed_command(int argc, char** argv, int r
                 app.get_option("--conditions")->type_name("adapted-robin|adapted-ventcell");
                 app.get_option("--preset")
                     ->type_name("fair")
-                    ->description("options that suit a kind of mesh\nSmooth alone, which has the whole mesh, measures "
+                    ->description("options that suit a kind of mesh\nOnly smooth, which has the whole mesh, measures "
                                   "noise and keeps edges.");
                 app.option_defaults()->group(option_group::machine);
                 add_bytes(app, "--whole-up-to", whole_up_to,
@@ -71,12 +71,12 @@ std::optional<ExitStatus> parse_distributed_command(int argc, char** argv, int r
     if (const auto end = parse_smooth_command(argc, argv, command.flow, program))
         return end;
     if (command.flow.options.keep_edges)
-        throw OptionError("--preset cad keeps edges, which takes the whole mesh: let smooth do it");
+        throw OptionError("--preset cad keeps edges, which needs the whole mesh: use smooth");
     if (command.flow.chooses_amount) {
         const PresetTraits& preset = preset_of(command.flow.preset);
         if (preset.measures_noise())
-            throw OptionError("say how much to smooth by --time-step, --time-step-edges or --radius, or --preset fair: "
-                              "smooth alone, which has the whole mesh, can measure its noise");
+            throw OptionError("say how much to smooth with --time-step, --time-step-edges, --radius or --preset fair: "
+                              "only smooth, which has the whole mesh, can measure its noise");
         command.flow.amount = {.time_step_edges = preset.time_step_edges, .radius = preset.radius};
         command.flow.chosen += amount_of(preset);
     }

@@ -10,13 +10,13 @@
 
 namespace seamflow {
 
-/// The command line of `smooth-distributed`: that of `smooth`, without what a mesh in parts has not.
+/// The command line of `smooth-distributed`: that of `smooth`, without options unsupported for a mesh in parts.
 struct DistributedCommand {
     SmoothCommand flow;
     FileSharing sharing;
 };
 
-/// Parses the command line; on rank 0 also checks that the results can be written where it says.
+/// Parses the command line; on rank 0 also checks that the results can be written to the given paths.
 /// @returns, throws as parse_smooth_command.
 std::optional<ExitStatus> parse_distributed_command(int argc, char** argv, int rank, DistributedCommand& command);
 

@@ -18,7 +18,7 @@ namespace seamflow {
 
 namespace {
 
-/// Results in formats that there are.
+/// Requires results in known formats.
 void require_usable_results(const SmoothCommand& command)
 {
     if (!command.html.empty())
@@ -30,15 +30,15 @@ void require_usable_results(const SmoothCommand& command)
         throw OptionError("--parts " + command.parts.string() + ": the cut is written as .ply only");
 }
 
-/// The most that --every-step may write.
+/// The most files that --every-step may write.
 constexpr int most_files = 100'000;
 
-/// Also keeps every result but OUTPUT from replacing one of the inputs.
+/// Also keeps every result except OUTPUT from replacing one of the inputs.
 void require_usable_files(const SmoothCommand& command)
 {
     if (command.every_step && command.options.steps > most_files)
-        throw OptionError(
-            fmt::format("--every-step would write {} files; {} are the most", command.options.steps, most_files));
+        throw OptionError(fmt::format("--every-step would write {} files; at most {} are allowed",
+                                      command.options.steps, most_files));
     std::vector<std::filesystem::path> results;
     for (int step = 1; command.every_step && step <= command.options.steps; ++step)
         results.push_back(command.every_step->path(step));
@@ -68,7 +68,7 @@ void require_usable_files(const SmoothCommand& command)
         require_writable(path);
 }
 
-/// --help does not speak of what a program has not.
+/// Omits from --help the options that a program lacks.
 void hide(CLI::App& app, const SmoothProgram& program)
 {
     for (const SmoothProgram::Lack& lack : program.lacks)
@@ -100,7 +100,7 @@ std::optional<ExitStatus> parse_smooth_command(int argc, char** argv, SmoothComm
     require_known(app, program);
     command.arguments.assign(argv + 1, argv + argc);
     settle(app, command);
-    // Nobody would see it.
+    // Only if they are shown.
     command.options.report.measures = command.verbose || !command.report.empty() || !command.csv.empty() ||
                                       !command.html.empty() || !command.checkpoint.empty();
     command.self_intersections = command.self_intersections || !command.report.empty();
@@ -135,7 +135,7 @@ SmoothCommand parse_flow_options(const std::vector<std::string>& words)
     app.set_help_flag();
     SmoothCommand command;
     add_flow_options(app, command);
-    // CLI11 takes them last first.
+    // CLI11 expects reverse order.
     std::vector<std::string> reversed(words.rbegin(), words.rend());
     try {
         app.parse(std::move(reversed));

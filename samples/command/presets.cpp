@@ -11,7 +11,7 @@ std::vector<PresetOption> options_of(const PresetTraits& preset)
     using Attach = std::optional<LengthOnMesh>;
     const PresetTraits defaults{};
     std::vector<PresetOption> options;
-    // What keeps edges does not look at the Laplacian.
+    // Steps that keep edges do not use the Laplacian.
     if (!preset.keep_edges)
         options.push_back({"--laplacian", std::string(name_of(preset.laplacian)),
                            [=](FlowOptions& o, Attach&) { o.laplacian = preset.laplacian; }});

@@ -10,18 +10,18 @@
 
 namespace seamflow {
 
-/// One of the options that say the same as a preset, beside its amount.
+/// One of the options that have the same effect as a preset, besides its amount.
 struct PresetOption {
     /// "--steps", "3".
     std::string_view name;
     std::string value;
-    /// Does what the option does.
+    /// Applies the option.
     std::function<void(FlowOptions& options, std::optional<LengthOnMesh>& attach)> set;
 };
 
 std::vector<PresetOption> options_of(const PresetTraits& preset);
 
-/// The amount as an option, "--radius 3%"; empty where it follows from the noise of a mesh.
+/// The amount as an option, "--radius 3%"; empty if it follows from the noise of a mesh.
 std::string amount_of(const PresetTraits& preset);
 
 }  // namespace seamflow

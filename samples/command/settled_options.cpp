@@ -27,7 +27,7 @@ constexpr OptionTraits options_of_program[] = {
     {"", "--paper", concern::sweeps | concern::method},
 };
 
-/// The first of these options that was given; empty: none.
+/// The first of these options that was given; empty if none.
 std::string first_given(const CLI::App& app, std::initializer_list<std::string_view> names)
 {
     for (const std::string_view name : names)
@@ -37,7 +37,7 @@ std::string first_given(const CLI::App& app, std::initializer_list<std::string_v
     return {};
 }
 
-/// The same of those with one of these concerns.
+/// The same for options with one of these concerns.
 std::string first_given(const CLI::App& app, unsigned concerns)
 {
     for (const std::span<const OptionTraits> list : {std::span<const OptionTraits>(options_of_program), all_options()})
@@ -48,7 +48,7 @@ std::string first_given(const CLI::App& app, unsigned concerns)
     return {};
 }
 
-/// Options that mean nothing to steps that keep edges.
+/// Refuses options that mean nothing to steps that keep edges.
 void require_room_for_edges(const CLI::App& app, const SmoothCommand& command)
 {
     const std::string other = first_given(app, concern::equations);
@@ -58,7 +58,7 @@ void require_room_for_edges(const CLI::App& app, const SmoothCommand& command)
                           "on the whole mesh: leave one of them out");
 }
 
-/// @param of_sweeps an option that is about sweeps; may be empty.
+/// @param of_sweeps an option for sweeps; may be empty.
 void require_consistent_approach(const CLI::App& app, const SmoothCommand& command, const std::string& of_sweeps)
 {
     const Approach approach = command.options.accuracy.approach;
@@ -90,13 +90,13 @@ void require_effective(const CLI::App& app, const SmoothCommand& command)
         if (const std::string rule = first_given(app, {"--p-rule", "--p-edge"}); !rule.empty())
             throw OptionError(rule + " is about p*, but --p sets p itself: leave one of them out");
     if (app.count("--fix-property") > 0 && format_of(command.fix) != FileFormat::Ply)
-        throw OptionError("--fix-property is for a .ply file; " + command.fix.string() + " has numbers of vertices");
+        throw OptionError("--fix-property is for a .ply file; " + command.fix.string() + " has vertex numbers");
     if (app.count("--attach-property") > 0 && format_of(command.attach_weights) != FileFormat::Ply)
         throw OptionError("--attach-property is for a .ply file; " + command.attach_weights.string() +
-                          " has a number a line");
+                          " has one number per line");
 }
 
-/// Whether what a preset says by an option is said otherwise, or has no place beside what is.
+/// Whether an option of a preset was given, or does not fit those that were.
 bool is_said(const CLI::App& app, const SmoothCommand& command, std::string_view option)
 {
     if (app.count(std::string(option)) > 0)
@@ -120,22 +120,22 @@ bool keeps_edges(const CLI::App& app)
     return app.count("--keep-edges") > 0 || names_edges(app);
 }
 
-/// Takes from the preset that is asked for, or that an amount which is not given asks for, what no option says.
+/// Takes options that were not given from the preset that was, or that is the default without an amount.
 void apply_preset(const CLI::App& app, SmoothCommand& command)
 {
     const bool has_amount = !first_given(app, {"--time-step", "--time-step-edges", "--radius"}).empty();
     if (app.count("--time-step") + app.count("--time-step-edges") + app.count("--radius") > 1)
         throw OptionError("--time-step, --time-step-edges and --radius all say how much to smooth: give one of them");
     if (has_amount && command.noise)
-        throw OptionError("--noise says how much a preset is to smooth, and " +
+        throw OptionError("--noise sets how much a preset smooths, and " +
                           first_given(app, {"--time-step", "--time-step-edges", "--radius"}) +
-                          " does so, too: give one of them");
+                          " does so too: give one of them");
     if (command.preset.empty() && has_amount)
         return;
     if (const std::string other = first_given(app, concern::method); !other.empty())
         throw OptionError(
-            fmt::format("{} {}: say how much to smooth by --time-step, --time-step-edges or --radius{}", other,
-                        command.preset.empty() ? "goes with no preset" : "and --preset exclude each other",
+            fmt::format("{} {}: say how much to smooth with --time-step, --time-step-edges or --radius{}", other,
+                        command.preset.empty() ? "cannot be combined with a preset" : "and --preset exclude each other",
                         command.preset.empty() ? "" : ", and leave the preset out"));
     if (command.preset.empty())
         command.preset = keeps_edges(app) ? "cad" : all_presets().front().name;
@@ -154,7 +154,7 @@ void apply_preset(const CLI::App& app, SmoothCommand& command)
         command.chosen += fmt::format("{} {} ", option.name, option.value);
     }
     if (!left_out.empty())
-        command.remarks.push_back(fmt::format("--preset {} leaves out {}, which --laplacian {} has no place for.",
+        command.remarks.push_back(fmt::format("--preset {} leaves out {}, which --laplacian {} does not support.",
                                               command.preset, left_out, name_of(command.options.laplacian)));
     command.chooses_amount = !has_amount;
 }
@@ -183,9 +183,8 @@ void require_consistent(const CLI::App& app, const SmoothCommand& command)
         command.options.interface.transmission != FlowOptions::plain().interface.transmission)
         throw OptionError("--paper keeps to the derivatives of the paper; --transmission predicted contradicts it");
     if (command.options.motion.rescale != Rescale::None && !command.fix.empty())
-        throw OptionError(
-            "--rescale moves every vertex, but --fix holds some: leave --rescale out; --filter low-pass, with "
-            "which what is large hardly shrinks, lets them stay");
+        throw OptionError("--rescale moves every vertex, but --fix holds some: leave --rescale out; --filter low-pass, "
+                          "which hardly shrinks large features, lets them stay");
     for (const auto& [option, path] : {std::pair{"--trace", command.trace}, {"--task-graph", command.task_graph}})
         if (!path.empty() && command.options.scheme == Scheme::ExplicitEuler)
             throw OptionError(
@@ -207,7 +206,7 @@ void settle(const CLI::App& app, SmoothCommand& command)
     apply_preset(app, command);
     if (names_edges(app) && !command.options.keep_edges)
         throw OptionError(first_given(app, {"--edges", "--edges-from-file"}) +
-                          " names edges to keep: say --preset cad, or --keep-edges with an angle, as well");
+                          " names edges to keep: give --preset cad, or --keep-edges with an angle, as well");
     command.limits_iterations = app.count("--converge-iterations") > 0;
     if (app.count("--approach") == 0 && !first_given(app, concern::implies_sweeps).empty())
         command.options.accuracy.approach = Approach::Sweep;

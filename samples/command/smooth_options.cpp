@@ -13,7 +13,7 @@ namespace seamflow {
 
 namespace {
 
-/// "scan: what it is for (--steps 3)", a preset a line.
+/// "scan: what it is for (--steps 3)", one preset per line.
 std::string describe_presets()
 {
     std::string text;
@@ -41,7 +41,7 @@ void add_amount(CLI::App& app, SmoothCommand& command)
     add_field(app, options, "--steps", "number of steps [1]");
     add_length(app, "--within", command.within,
                "no vertex ends further than this from where it was\n"
-               "Vertices beyond it are put back to it, and their neighbours follow smoothly.");
+               "Vertices beyond it are moved back to it, and their neighbours follow smoothly.");
     add_field(app, options, "--rescale",
               "scale the result to the area or volume of the input [none]\n"
               "The centroid stays. Not with fixed vertices; open surfaces therefore need --boundary free.");
@@ -83,7 +83,7 @@ void add_feature_edges(CLI::App& app, SmoothCommand& command)
         "The surface between them is smoothed; --time-step-edges 32 suits most noise. On the whole mesh.");
     auto* edges =
         app.add_option("--edges", command.edges,
-                       "further edges to keep: two numbers of vertices a line, from 0, or an .obj or .ply "
+                       "further edges to keep: two vertex numbers per line, from 0, or an .obj or .ply "
                        "with them\n"
                        "They are kept whatever their angle. An .obj has polylines, a .ply elements edge. With "
                        "--keep-edges or --preset cad.")
@@ -108,11 +108,12 @@ void add_what_stays(CLI::App& app, SmoothCommand& command)
         ->type_name("NAME");
     auto* attach = add_length(app, "--attach", command.attach,
                               "pull every vertex towards where it was: features larger than this stay");
-    auto* weights = app.add_option("--attach-weights", command.attach_weights,
-                                   "how strongly each vertex is pulled back, in 1/length²: a number a line, or a .ply\n"
-                                   "The .ply has as many vertices, and a property with the weight.")
-                        ->excludes(attach)
-                        ->type_name("FILE");
+    auto* weights =
+        app.add_option("--attach-weights", command.attach_weights,
+                       "how strongly each vertex is pulled back, in 1/length²: one number per line, or a .ply\n"
+                       "The .ply has as many vertices, and a property with the weight.")
+            ->excludes(attach)
+            ->type_name("FILE");
     app.add_option("--attach-property", command.attach_property, "the name of the property with the weight [weight]")
         ->needs(weights)
         ->type_name("NAME");
@@ -156,7 +157,7 @@ void add_accuracy(CLI::App& app, FlowOptions& options)
               "Explicit steps are undecomposed, and stable for small time steps only.");
 }
 
-/// Options that only mean something for the derivatives of the paper, and so ask for them.
+/// Options only for the derivatives of the paper, which they therefore select.
 void add_parameters(CLI::App& app, FlowOptions& options)
 {
     std::vector<CLI::Option*> of_derivatives;
@@ -222,7 +223,7 @@ void add_what_is_printed(CLI::App& app, SmoothCommand& command)
     app.add_flag("--verbose", command.verbose, "also print each step, the cut, and the time in tasks")->excludes(quiet);
 }
 
-/// What matters if the flow takes long.
+/// Options for flows that take long.
 void add_checkpoints(CLI::App& app, SmoothCommand& command)
 {
     auto* checkpoint =

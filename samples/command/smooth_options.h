@@ -13,7 +13,7 @@ namespace seamflow {
 /// are added, whatever the order on the command line; --help lists them by groups (see command_help.h).
 void add_flow_options(CLI::App& app, SmoothCommand& command);
 
-/// Adds INPUT, OUTPUT and the options about further files and what is printed.
+/// Adds INPUT, OUTPUT and the options about further files and printed text.
 /// @param every_step gets the pattern of --every-step.
 void add_files(CLI::App& app, SmoothCommand& command, std::string& every_step);
 

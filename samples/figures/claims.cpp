@@ -75,7 +75,7 @@ class Claims {
         add_at_most(text + ": H_mean", laplacians, conditions, h_mean, limits_.close_surfaces);
     }
 
-    /// Δ_F drags the texture, the others do not.
+    /// Δ_F drags the texture, unlike the others.
     void add_drag(const std::string& where, const Laplacians& others, std::string_view conditions)
     {
         auto values = last_step(table_, others, conditions, drift);
@@ -104,7 +104,7 @@ class Claims {
             values, holds);
     }
 
-    /// Not rougher than the input, or not so many times rougher.
+    /// At most as rough as the input, or `times` times as rough.
     void add_smoothed(const std::string& text, const Laplacians& laplacians, std::string_view conditions,
                       double times = 1.0)
     {
@@ -115,7 +115,7 @@ class Claims {
             holds);
     }
 
-    /// Rougher than the input, by more than artifacts are allowed to be.
+    /// Rougher than the input by more than the limit for artifacts.
     void add_artifacts(const std::string& text, Laplacian laplacian)
     {
         auto values = last_step(table_, {laplacian}, undecomposed_name, rough);
@@ -124,7 +124,7 @@ class Claims {
         add(text + ": roughness > " + written(limits_.artifacts) + " times that of the input", values, holds);
     }
 
-    /// Of a claim: why it does not hold, if it does not, and nothing is known yet.
+    /// Explains why a claim does not hold, if it does not, and no reason is known yet.
     static void explain(Claim& claim, const std::string& why)
     {
         if (!claim.holds && claim.why.empty())
@@ -268,7 +268,7 @@ void Claims::texture()
     add("the tangential derivative straightens the interface: length with < without", values, holds);
 }
 
-/// V_mean of a flow after the last step; not a number where it ended before.
+/// V_mean of a flow after the last step; NaN if it ended before.
 double final_distance(const Table& table, Variant variant, Settings settings)
 {
     variant.settings = settings;
@@ -276,7 +276,7 @@ double final_distance(const Table& table, Variant variant, Settings settings)
     return row == nullptr ? std::nan("") : row->v.mean;
 }
 
-/// @param others those of which it is not so.
+/// @param others those for which it is false.
 Claim counted(const std::string& text, Index count, std::size_t all, const std::vector<std::string>& others)
 {
     std::string why;
@@ -313,7 +313,7 @@ std::vector<Claim> claims_of_many(const std::vector<Table>& tables, const ClaimL
     std::vector<std::string> not_close;
     for (const Table& table : tables)
         for (const Variant& variant : table.flows) {
-            // There is nothing to stay close to where the undecomposed flow is no smooth surface any more.
+            // There is nothing to stay close to if the undecomposed flow is no longer a smooth surface.
             const double roughness = quantity(table, variant.laplacian, undecomposed_name, table.steps, rough);
             if (variant.settings != Settings::Default || !(roughness <= limits.spiky))
                 continue;

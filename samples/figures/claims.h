@@ -9,20 +9,20 @@
 
 namespace seamflow {
 
-/// Something that the paper says about a figure, as an inequality between numbers of its table.
+/// A statement of the paper about a figure, as an inequality between numbers of its table.
 struct Claim {
     std::string figure;
     /// In words, with the inequality that it is taken to mean.
     std::string text;
-    /// The numbers that decide.
+    /// The numbers that decide whether it holds.
     std::string measured;
-    /// False also where a number is missing, because a flow ended before its time.
+    /// False also where a number is missing, because a flow ended early.
     bool holds = false;
-    /// Where it does not hold, why, as far as it is known; else empty.
+    /// If it does not hold, the reason, as far as it is known; else empty.
     std::string why = {};
 };
 
-/// What the paper's words are taken to mean where they leave it open. Lengths in mean edge lengths.
+/// The meaning of the paper's words where they leave it open. Lengths are in mean edge lengths.
 struct ClaimLimits {
     /// "Small distances", "good outcomes": up to this V_mean a vertex is on average closer to its counterpart than to
     /// any other vertex, ...
@@ -39,22 +39,22 @@ struct ClaimLimits {
     double delays_velho = 5.0;
     /// "Artifacts": the roughness is more than so many times that of the input; "performs well": it is not.
     double artifacts = 2.0;
-    /// "Spiky": degrees of roughness. Neighbouring triangles stand at this angle to each other then.
+    /// "Spiky": degrees of roughness. Neighbouring triangles are then at this angle to each other.
     double spiky = 45.0;
 };
 
-/// What the paper says about the figure of that name, and whether it holds in its table.
+/// The paper's claims about the figure of a table, and whether they hold in the table.
 std::vector<Claim> claims_of(const Table& table, const ClaimLimits& limits = {});
 
-/// Of the tables with 2 to 32 sub-meshes, which the paper does not have: the library's defaults against the plain
-/// method.
+/// Claims about the tables with 2 to 32 sub-meshes, which the paper does not have: the library's defaults against the
+/// plain method.
 std::vector<Claim> claims_of_many(const std::vector<Table>& tables, const ClaimLimits& limits = {});
 
 /// Writes figure, claim, measured, holds (yes or no), why as CSV.
 /// @throws OutputError naming the file.
 void write_claims(const std::filesystem::path& path, const std::vector<Claim>& claims);
 
-/// Two lines for each, a third where it does not hold.
+/// Prints two lines for each, and a third if it does not hold.
 void print_claims(std::ostream& out, const std::vector<Claim>& claims);
 
 }  // namespace seamflow

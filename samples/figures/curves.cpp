@@ -48,7 +48,7 @@ std::vector<Rows> decomposed_flows(const Table& table)
     return flows;
 }
 
-/// What their code gives after the last step.
+/// The authors' results after the last step.
 PlottedCurve marks(const Row& flow, int steps, const Experiment& experiment)
 {
     PlottedCurve marks{.name = "the authors' V_mean and V_max", .colour = "#b02a50", .is_mark = true};
@@ -72,7 +72,7 @@ PlotPanel panel_of(const Rows& flow, int steps)
     return panel;
 }
 
-/// A way of taking steps, of the flows in many sub-meshes.
+/// A way of taking steps in flows with many sub-meshes.
 struct Way {
     const char* words;
     Settings settings;
@@ -93,7 +93,7 @@ constexpr std::array line_colours{LineColour{Laplacian::Fujiwara, "#2f78b7"},
                                   LineColour{Laplacian::PtackovaVelho, "#c8702a"}};
 
 /// V_mean and V_max of the flows that take steps in that way, each Laplacian in its colour.
-/// @param x_of where a flow of so many sub-meshes stands.
+/// @param x_of the abscissa for a number of sub-meshes.
 void add_curves(const Table& table, const Way& way, const std::function<double(Index)>& x_of,
                 std::vector<PlottedCurve>& plotted)
 {

@@ -10,8 +10,8 @@ namespace seamflow {
 
 /// Curves of the distances to the undecomposed flow over the steps, as SVG: for each decomposed flow of a table a panel
 /// with the mean, root mean square and largest V and H, all on the same logarithmic axis, and on the authors' own mesh
-/// what their code gives in the end.
-/// @returns empty where no flow has two steps or more.
+/// the results of their code at the end.
+/// @returns empty if no flow has two steps or more.
 std::string curves_svg(const Table& table, const Experiment& experiment);
 
 /// V_mean and V_max after the last step over the number of sub-meshes, as SVG: for each table and each way of taking

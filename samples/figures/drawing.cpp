@@ -17,12 +17,12 @@ namespace seamflow {
 namespace {
 
 constexpr int picture_width = 480;
-/// Samples of a pixel along each side of it.
+/// Samples along each side of a pixel.
 constexpr int samples = 3;
-/// Beside the mesh, in widths of the picture.
+/// Margin beside the mesh, in widths of the picture.
 constexpr double margin = 0.03;
 
-/// The direction that most meshes of such extents have upwards: along a long one, across a flat one, else z.
+/// The usual upward direction of meshes of such extents: along a long one, across a flat one, else z.
 int upwards(const Eigen::RowVector3d& extent)
 {
     std::array<int, 3> order{0, 1, 2};
@@ -32,7 +32,7 @@ int upwards(const Eigen::RowVector3d& extent)
     return extent[order[0]] < 0.6 * extent[order[1]] ? order[0] : 2;
 }
 
-/// How bright a triangle is; 0.46 where no light falls on it.
+/// The brightness of a triangle; 0.46 where no light falls on it.
 double brightness(const Eigen::Vector3d& towards_the_eye)
 {
     const Eigen::Vector3d key = Eigen::Vector3d(-0.45, -0.65, 0.75).normalized();
@@ -106,7 +106,7 @@ class Canvas {
                 static_cast<int>(std::clamp(std::ceil(places.maxCoeff()), 0.0, static_cast<double>(end)))};
     }
 
-    /// Leaves of the x between two ends those at which start + slope x is not negative.
+    /// Narrows an interval of x to where start + slope x is not negative.
     static void narrow(double start, double slope, double& first, double& last)
     {
         if (slope > 0.0)
@@ -218,7 +218,7 @@ void write_png(const std::filesystem::path& path, const Image& image)
     png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(form);
     std::string file(size, '\0');
     if (png_image_write_to_memory(&form, file.data(), &size, 0, image.pixels.data(), 0, nullptr) == 0)
-        throw OutputError(path.string() + ": cannot be written, " + form.message);
+        throw OutputError(path.string() + ": cannot be written: " + form.message);
     file.resize(size);
     write_text(path, file);
 }

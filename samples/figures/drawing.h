@@ -18,11 +18,11 @@ struct Image {
     std::vector<std::uint8_t> pixels;
 };
 
-/// From where surfaces are looked at: aslant from above, along parallel rays. The same for all pictures of a figure, so
+/// The view of surfaces: obliquely from above, in parallel projection. It is the same for all pictures of a figure, so
 /// that they can be compared.
 class Viewpoint {
   public:
-    /// @param mesh that fills the picture; vertices without faces do not count. It has faces.
+    /// @param mesh fills the picture; it has faces; vertices without faces are ignored.
     explicit Viewpoint(const PolygonMesh& mesh);
 
     /// In pixels to the right and downwards; the third coordinate grows towards the eye.
@@ -40,12 +40,12 @@ class Viewpoint {
     int height_ = 0;
 };
 
-/// The colour at a place of a triangle, by the value that the vertices' values have there.
+/// The colour at a point of a triangle, from the value that the vertices' values have there.
 using Paint = std::function<Colour(Index triangle, double value)>;
 
-/// Draws a surface as a lamp over the eye's shoulder shows it, each triangle flat, both sides alike. Triangles with
-/// coordinates that are not finite are left out; what lies outside of the picture is cut off.
-/// @param values #V, looked up pixel by pixel, as a texture is.
+/// Draws a surface lit by a lamp over the viewer's shoulder, each triangle flat, both sides alike. Triangles with
+/// coordinates that are not finite are left out; parts outside the picture are cut off.
+/// @param values #V, looked up pixel by pixel, like a texture.
 Image draw(const PolygonMesh& triangles, std::span<const double> values, const Paint& paint,
            const Viewpoint& viewpoint);
 

@@ -19,7 +19,7 @@ enum class CutKind {
     Metis,
 };
 
-/// By which options a flow runs.
+/// The options with which a flow runs.
 enum class Settings {
     /// FlowOptions::plain().
     Plain,
@@ -46,7 +46,7 @@ std::string_view name_of(Settings settings);
 std::string title_of(const Variant& variant);
 std::string words_of(const Variant& variant);
 
-/// What the authors' own code gives after the last step on their own mesh, in mean edge lengths.
+/// The results of the authors' own code after the last step on their own mesh, in mean edge lengths.
 struct AuthorsDistances {
     Laplacian laplacian = Laplacian::Fujiwara;
     Conditions conditions = Conditions::AdaptedRobin;
@@ -55,7 +55,7 @@ struct AuthorsDistances {
     double v_max = 0.0;
 };
 
-/// What stands in a row of pictures in place of the title of a flow.
+/// Names in a row of pictures that replace the title of a flow.
 namespace picture_of {
 inline constexpr std::string_view input = "input";
 /// The input, a colour for each sub-mesh.
@@ -69,7 +69,7 @@ struct Experiment {
     std::string_view name;
     /// The number of its figure in the paper (arXiv 2602.16874).
     int figure = 0;
-    /// What is shown, in a few words, and what the paper says of it.
+    /// The contents of the figure in a few words, and the paper's statements on it.
     std::string_view heading;
     std::string_view text;
     FigureSource source;

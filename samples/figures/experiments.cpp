@@ -92,7 +92,7 @@ Experiment polygons()
             .difference = {}};
 }
 
-/// Cut as the authors' own two files of its sub-meshes are: the lower one has 1,609 faces, the upper one overlaps it.
+/// Cut like the authors' own two files of its sub-meshes: the lower one has 1,609 faces, the upper one overlaps it.
 Experiment schwarz_on_polygons()
 {
     return {.name = "schwarz",
@@ -207,7 +207,7 @@ Experiment texture()
             .difference = {}};
 }
 
-/// What the authors did on their own mesh, and the cut.
+/// The authors' options on their own mesh, and the cut.
 void cut_in_two(FlowOptions& options, const FigureMesh& mesh)
 {
     options.cut.labels = mesh.labels;
@@ -220,7 +220,7 @@ void cut_in_two(FlowOptions& options, const FigureMesh& mesh)
     options.interface.correction = Correction::None;
 }
 
-/// As many digits as it takes to tell it from any other number.
+/// As many digits as distinguish it from any other number.
 std::string exact(double value)
 {
     for (int digits = 1; digits < 17; ++digits) {
@@ -234,7 +234,7 @@ std::string exact(double value)
     return text;
 }
 
-/// What says on a command line how a flow of the paper differs from --plain.
+/// The command line of a flow of the paper, relative to --plain.
 std::string plain_arguments(const FlowOptions& options)
 {
     std::string text = " --plain";
@@ -286,7 +286,7 @@ FlowOptions options_of(const Experiment& experiment, const Variant& variant, con
     options.laplacian = variant.laplacian;
     options.time_step = experiment.time_step;
     options.steps = experiment.steps;
-    // What the paper shows is shown, spikes included.
+    // All that the paper shows is shown, spikes included.
     options.accuracy.largest_update = std::numeric_limits<double>::infinity();
     if (variant.settings == Settings::Plain && variant.cut != CutKind::Uncut) {
         options.interface.conditions = variant.conditions;

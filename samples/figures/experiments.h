@@ -12,18 +12,18 @@ namespace seamflow {
 /// along the interface as the Laplacian itself has.
 inline constexpr double ventcell_q = 1.0;
 
-/// All of them, in the order of the paper.
+/// All experiments, in the order of the paper.
 const std::vector<Experiment>& experiments();
 
-/// The name of what the paper does not have: the same for 2, 4, 8, 16 and 32 sub-meshes.
+/// The name of the experiments with 2, 4, 8, 16 and 32 sub-meshes, which the paper does not have.
 inline constexpr std::string_view many_sub_meshes = "subdomains";
 
 /// The decomposed flows of an experiment with 2, 4, 8, 16 and 32 sub-meshes by METIS, plain and by the library's
-/// defaults, instead of its own; those Laplacians whose decomposed flow the figure shows.
+/// defaults, instead of its own; only for Laplacians whose decomposed flow the figure shows.
 Experiment with_many_sub_meshes(const Experiment& experiment);
 
-/// The options of one flow on the mesh of its figure. With CutKind::Halves the paper to the letter, except for what
-/// AuthorsRun says of the authors' own mesh.
+/// The options of one flow on the mesh of its figure. With CutKind::Halves they follow the paper to the letter, except
+/// for AuthorsRun on the authors' own mesh.
 FlowOptions options_of(const Experiment& experiment, const Variant& variant, const FigureMesh& mesh);
 
 /// The command line by which `smooth` repeats a flow from the files that `figures` writes.

@@ -10,15 +10,15 @@
 
 namespace seamflow {
 
-/// The page of a figure: all its flows.
+/// The page of a figure, with all its flows.
 class FigurePage {
   public:
     explicit FigurePage(const FigureMesh& input);
 
-    /// A flow that begins. @param compared whether its states come with those of the undecomposed flow.
+    /// Begins a flow. @param compared whether its states come with those of the undecomposed flow.
     [[nodiscard]] PageFlow begin(const std::string& title, Laplacian laplacian, int steps, bool compared) const;
 
-    /// A flow that has come to its end.
+    /// Adds a flow that has finished.
     /// @param command see command_of.
     void add(PageFlow flow, const FlowReport& report, const std::string& command);
 

@@ -33,8 +33,8 @@ std::string listed_names()
     return text.append(many_sub_meshes);
 }
 
-/// The name of a figure that may be called by its number in the paper.
-/// @throws OptionError for one that there is not.
+/// The name of a figure that may be given by its number in the paper.
+/// @throws OptionError if there is no such figure.
 std::string name_of_figure(const std::string& text)
 {
     for (const Experiment& experiment : experiments())
@@ -50,7 +50,7 @@ void require_folders(const FiguresCommand& command)
 {
     std::error_code error;
     if (!command.meshes.empty() && !std::filesystem::is_directory(command.meshes, error))
-        throw InputError(command.meshes.string() + ": is not a folder that can be read");
+        throw InputError(command.meshes.string() + ": is not a readable folder");
     if (!command.meshes.empty() && std::ranges::all_of(experiments(), [&](const Experiment& experiment) {
             return find_file(experiment.source.file, command.meshes).empty();
         }))
@@ -59,7 +59,7 @@ void require_folders(const FiguresCommand& command)
                                      command.meshes.string(), experiments().front().source.file));
     std::filesystem::create_directories(command.out, error);
     if (error)
-        throw OutputError(command.out.string() + ": cannot be made, " + error.message());
+        throw OutputError(command.out.string() + ": cannot be created: " + error.message());
     require_writable(command.out / "claims.csv");
 }
 

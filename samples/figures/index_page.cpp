@@ -64,7 +64,7 @@ page, repeats its flow bit for bit; it ends with status 4 where vertices are thr
 shown here.</p>
 )";
 
-/// A number with three digits, a dash if it is none.
+/// A number with three digits; a dash for NaN.
 std::string short_number(double value)
 {
     if (std::isnan(value))
@@ -84,7 +84,7 @@ std::string number_cell(const std::string& text)
     return "<td class=\"number\">" + (text.empty() ? "–" : text) + "</td>";
 }
 
-/// The picture of that title. Of a flow that ended early it says after which step that is.
+/// The picture with that title. For a flow that ended early, the caption gives the step.
 std::string picture(const FigureResult& result, const std::string& title)
 {
     std::string caption = title;
@@ -116,7 +116,7 @@ bool has_theirs(const FigureResult& result)
     return result.table.is_theirs && !result.experiment->theirs.empty();
 }
 
-/// What the authors measured for a flow, "0.277 / 3.66"; empty: nothing, or on another mesh.
+/// The authors' measurements for a flow, "0.277 / 3.66"; empty: none, or on another mesh.
 std::string theirs(const FigureResult& result, const Row& row)
 {
     if (has_theirs(result))

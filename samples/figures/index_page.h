@@ -10,7 +10,7 @@
 
 namespace seamflow {
 
-/// What came of a figure.
+/// The results of a figure.
 struct FigureResult {
     const Experiment* experiment = nullptr;
     Table table;
@@ -19,9 +19,9 @@ struct FigureResult {
 
 /// One page for all figures that were made, under their numbers in the paper, for any browser: pictures side by side in
 /// the order of the paper, curves, the last step of every flow with its settings and command beside the authors'
-/// numbers, and what the paper says against what was measured. It links to the files beside it.
+/// numbers, and the paper's claims beside the measurements. It links to the files beside it.
 /// @param with_pages whether each figure has a page of its own, FIGURE.html.
-/// @param many of the tables with 2 to 32 sub-meshes. @param to_come what is still to be made; empty: nothing.
+/// @param many claims about the tables with 2 to 32 sub-meshes. @param to_come the results still to come; empty: none.
 std::string index_html(const std::vector<FigureResult>& results, const std::vector<Claim>& many, bool with_pages,
                        const std::string& to_come = {});
 

@@ -21,7 +21,7 @@ inline constexpr Quantity drift = [](const Row& row) { return row.drift; };
 inline constexpr Quantity rough = [](const Row& row) { return row.roughness.rms; };
 inline constexpr Quantity interface_length = [](const Row& row) { return row.interface_length; };
 
-/// A number with the name of what it belongs to.
+/// A value with its name.
 struct Measured {
     std::string name;
     double value;
@@ -30,7 +30,7 @@ struct Measured {
 /// "Δ_F", "Δ_A" or "Δ_P".
 std::string symbol_of(Laplacian laplacian);
 
-/// Whether a row is of the flow that the authors measured.
+/// Whether a row belongs to the flow that the authors measured.
 bool is_of(const Row& row, const AuthorsDistances& theirs);
 
 /// The quantity of a flow (see Table::find) after a step; not a number if there is no such row.
@@ -40,10 +40,10 @@ double quantity(const Table& table, Laplacian laplacian, std::string_view condit
 std::vector<Measured> last_step(const Table& table, const std::vector<Laplacian>& laplacians,
                                 std::string_view conditions, Quantity what);
 
-/// "Δ_F 0.277, Δ_A 0.0241", with three significant digits; "none" for what is not a number.
+/// "Δ_F 0.277, Δ_A 0.0241", with three significant digits; "none" for values that are not a number.
 std::string listed(const std::vector<Measured>& values);
 
-/// Whether none of them is larger than a limit, or not a number.
+/// Whether all of them are numbers, and none is larger than a limit.
 bool at_most(const std::vector<Measured>& values, double limit);
 
 }  // namespace seamflow

@@ -11,7 +11,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The file of that name in a folder, with or without its prefix; empty: there is none.
+/// The file with that name in a folder, with or without its prefix; empty if there is none.
 FigureMesh read_file(const FigureSource& source, const fs::path& path)
 {
     FigureMesh result;

@@ -12,11 +12,11 @@ namespace seamflow {
 
 /// How the authors of the paper ran a file of theirs that is cut in two.
 struct AuthorsRun {
-    /// The first so many faces are one sub-mesh, the others the second.
+    /// The first `first_part` faces are one sub-mesh, the others the second.
     Index first_part = 0;
-    /// Their Robin parameter, in 1/length. Empty: with the conditions of the figure there is none.
+    /// Their Robin parameter, in 1/length. Empty: the conditions of the figure have none.
     std::optional<double> p;
-    /// Whether the first faces always solve first and Γ is not corrected, as in their first figure alone; otherwise the
+    /// Whether the first faces always solve first and Γ is not corrected, as in their first figure only; otherwise the
     /// sub-mesh with the larger total curvature leads, and Γ is corrected after every step.
     bool uncorrected = false;
 };
@@ -26,7 +26,7 @@ struct FigureSource {
     /// Name of the authors' file.
     std::string_view file;
     std::optional<AuthorsRun> authors;
-    /// Makes the stand-in with about so many vertices.
+    /// Generates the stand-in with about that many vertices.
     PolygonMesh (*generate)(Index vertices) = nullptr;
     /// Vertices of the authors' file. A file with another number of them is another mesh.
     Index vertices = 0;
@@ -45,17 +45,17 @@ struct FigureMesh {
     std::string cut;
     /// Whether it is the authors' own.
     bool is_theirs = false;
-    /// With their own mesh, and where it is cut.
+    /// Only with their own mesh, if it is cut.
     std::optional<AuthorsRun> authors;
 };
 
-/// The path of an authors' file in a folder, under its own name or with "ddm__" before it; empty if it is not there.
+/// The path of an authors' file in a folder, under its own name or with "ddm__" before it; empty if it does not exist.
 /// @param folder empty: there is none.
 std::filesystem::path find_file(std::string_view name, const std::filesystem::path& folder);
 
-/// Reads the authors' file, or the same with the prefix "ddm__", from a folder if it is there, and makes the stand-in
-/// else. Their own file is cut in two as they did, another one of that name after the first half of its faces, the
-/// stand-in by rows.
+/// Reads the authors' file, or the same with the prefix "ddm__", from a folder if it exists, and generates the stand-in
+/// otherwise. Their own file is cut in two as they did, another file of that name after the first half of its faces,
+/// the stand-in by rows.
 /// @param folder empty: the stand-in.
 /// @throws InputError for a file that cannot be read.
 FigureMesh load(const FigureSource& source, const std::filesystem::path& folder);

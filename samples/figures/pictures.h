@@ -9,9 +9,9 @@
 
 namespace seamflow {
 
-/// What an experiment leaves to look at. The heights (z) of its input lie on all its surfaces as a texture, as the
-/// paper has it: blue where the input was lowest, red where it was highest, with lines of equal height. Where vertices
-/// are dragged along the surface, the lines are.
+/// The pictures of an experiment. The heights (z) of its input are a texture on all its surfaces, as in the paper: blue
+/// where the input was lowest, red where it was highest, with lines of equal height. Where vertices are dragged along
+/// the surface, so are the lines.
 class Pictures {
   public:
     /// Writes FIGURE-input.ply, and where the mesh is cut in two FIGURE-cut.txt, the label of each face.

@@ -49,7 +49,7 @@ std::string diamond(double x, double y, const std::string& colour)
                        x, y, colour);
 }
 
-/// From and to which power of ten all curves reach.
+/// The lowest and highest powers of ten of all curves.
 std::pair<int, int> powers_of_ten(const std::vector<PlotPanel>& panels)
 {
     double low = 1.0;
@@ -134,7 +134,7 @@ class Drawing {
     std::pair<int, int> powers_;
 };
 
-/// Three names a row.
+/// Three names per row.
 std::string drawn_legend(double y, const std::vector<PlottedCurve>& legend, const std::string& note)
 {
     std::string text;

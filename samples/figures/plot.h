@@ -12,7 +12,7 @@ struct PlottedCurve {
     /// x and y; where y is not a positive number the line has a gap.
     std::vector<std::pair<double, double>> points = {};
     std::string colour = {};
-    /// As SVG has them: "6 3"; empty: none.
+    /// As in SVG: "6 3"; empty: none.
     std::string dashes = {};
     bool is_mark = false;
 };
@@ -24,14 +24,14 @@ struct PlotPanel {
     bool logarithmic = false;
     double x_from = 0.0;
     double x_to = 1.0;
-    /// Where x is written below the axis.
+    /// Values of x to write below the axis.
     std::vector<double> x_ticks = {};
     std::vector<PlottedCurve> curves = {};
 };
 
 /// Panels as one SVG, all with the same axis of y.
-/// @param columns how many stand beside each other. @param legend whose names and colours are explained below. @param
-/// note stands below that.
+/// @param columns the number of panels side by side. @param legend the curves whose names and colours are explained
+///        below. @param note the text below that.
 std::string plot_svg(const std::vector<PlotPanel>& panels, int columns, const std::vector<PlottedCurve>& legend,
                      const std::string& note);
 

@@ -65,7 +65,7 @@ class Run {
     }
 
   private:
-    /// A flow on its way to the page, if there is one. It is compared if the undecomposed flow has come to its end.
+    /// A flow that is added to the page, if there is one. It is compared if the undecomposed flow has been completed.
     class Shown {
       public:
         Shown(Run& run, const Variant& variant)
@@ -135,7 +135,7 @@ class Run {
         report(title_of(variant), first);
     }
 
-    /// What is known of a flow's rows in the end alone.
+    /// Fills in what is known only at the end of a flow.
     void complete(const Variant& variant, const FlowReport& report, std::size_t first)
     {
         std::vector<double> p;
@@ -155,7 +155,7 @@ class Run {
             leading_ = report.cut.sub_meshes[0].colour == 0 ? 0 : 1;
     }
 
-    /// What is known of a state before the flow has come to its end.
+    /// The row of a state before the end of the flow.
     Row measured(const Variant& variant, const StepState& state, double drift) const
     {
         Row row;
@@ -201,7 +201,7 @@ class Run {
         row.interface_length = interface_length(positions) / interface_length(from.vertices);
     }
 
-    /// Sub-meshes; another number may come out.
+    /// Sub-meshes; the result may differ.
     static Index asked_for(const Variant& variant)
     {
         if (variant.cut == CutKind::Uncut)
@@ -216,7 +216,7 @@ class Run {
         return variant.cut == CutKind::Halves ? input_.cut : "METIS, " + std::to_string(variant.subdomains) + " parts";
     }
 
-    /// Of the edges between the two halves.
+    /// The length of the edges between the halves.
     [[nodiscard]] double interface_length(const Points& positions) const
     {
         double length = 0.0;
@@ -251,7 +251,7 @@ class Run {
     Table table_;
     /// Per Laplacian and step, from step 1.
     std::map<Laplacian, std::vector<Points>> reference_;
-    /// Of the two halves, the one that solves first.
+    /// The half that solves first.
     Index leading_ = 0;
     std::optional<Pictures> pictures_;
     std::optional<FigurePage> page_;

@@ -17,7 +17,7 @@ namespace seamflow {
 
 namespace {
 
-/// From the unit square to that from -1 to 1; heights grow with it.
+/// Maps the unit square to that from -1 to 1; heights grow with it.
 PolygonMesh doubled(PolygonMesh mesh)
 {
     mesh.vertices *= 2.0;
@@ -36,7 +36,7 @@ void jitter(PolygonMesh& mesh, double length)
                 mesh.vertices(v, axis) += length * random.symmetric();
 }
 
-/// z = height · cos(2π waves x) · cos(2π waves y), as many waves in a unit of length.
+/// z = height · cos(2π waves x) · cos(2π waves y), with `waves` waves per unit of length.
 void raise_bumps(PolygonMesh& mesh, double height, double waves)
 {
     const double turn = 2.0 * std::numbers::pi * waves;
@@ -44,8 +44,8 @@ void raise_bumps(PolygonMesh& mesh, double height, double waves)
         p.z() = height * std::cos(turn * p.x()) * std::cos(turn * p.y());
 }
 
-/// n by n cells over the square from -1 to 1, jittered off the boundary, each of them cut into two triangles along one
-/// diagonal or the other, as a draw decides.
+/// n by n cells over the square from -1 to 1, jittered off the boundary, each cut into two triangles along a random
+/// diagonal.
 PolygonMesh drawn_triangles(Index n)
 {
     PolygonMesh mesh;

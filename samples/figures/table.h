@@ -23,12 +23,12 @@ struct Row {
     Laplacian laplacian = Laplacian::Fujiwara;
     /// See conditions_of.
     std::string conditions;
-    /// How many sub-meshes there were.
+    /// The number of sub-meshes.
     Index subdomains = 1;
     /// From 1.
     int step = 0;
     /// Distances of corresponding vertices, and of the reference's vertices from the surface, to the undecomposed flow;
-    /// not a number where there is no such flow any more.
+    /// not a number after the end of that flow.
     LengthStatistics v;
     LengthStatistics h;
     /// Wall-clock time of the step.
@@ -54,7 +54,7 @@ struct Row {
     std::string words;
 };
 
-/// What one experiment gave.
+/// The results of one experiment.
 struct Table {
     std::string figure;
     std::string mesh;
@@ -66,18 +66,18 @@ struct Table {
     int steps = 0;
     /// Of the input.
     Roughness roughness;
-    /// That of the surface of the input, in length².
+    /// The area of the input's surface, in length².
     double area = 0.0;
-    /// All that were to run; one that ended early has fewer rows than steps.
+    /// All flows of the experiment; one that ended early has fewer rows than steps.
     std::vector<Variant> flows;
     std::vector<Row> rows;
-    /// Flows that ended before their time, and why; a sentence each.
+    /// Flows that ended early, and why; one sentence each.
     std::vector<std::string> remarks;
 
     /// The row of a flow in halves or undecomposed after a step; nullptr: there is none.
     [[nodiscard]] const Row* find(Laplacian laplacian, std::string_view conditions, int step) const;
 
-    /// The row of a flow, whatever it is, after a step; nullptr: there is none.
+    /// The row of any flow after a step; nullptr: there is none.
     [[nodiscard]] const Row* find(const Variant& variant, int step) const;
 
     /// The last row of each flow.

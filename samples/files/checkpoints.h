@@ -10,31 +10,31 @@
 
 namespace seamflow {
 
-/// After which steps a checkpoint is kept: every so many, and only if the last one is so many seconds old.
+/// The steps after which a checkpoint is saved: every `steps`, and only if the last one is `seconds` old.
 struct CheckpointPeriod {
     int steps = 1;
     double seconds = 0.0;
 };
 
-/// The checkpoint of a run in a folder of its own, always that of the latest of the steps that are kept.
+/// The checkpoint of a run in a folder of its own, always that of the latest saved step.
 class Checkpoints {
   public:
     Checkpoints(const std::filesystem::path& folder, const CheckpointPeriod& period);
 
     [[nodiscard]] const std::filesystem::path& file() const { return file_; }
 
-    /// Makes the folder if it is not there, and finds where the run was, if it has been there before.
+    /// Creates the folder if it does not exist, and reads the state that an earlier run has saved there, if any.
     /// @param mesh, options as the flow gets them.
-    /// @returns nothing where there is no checkpoint.
-    /// @throws OutputError if there can be no folder; InputError and OptionError, naming the file, if it is damaged or
-    ///         belongs to another input or other options.
+    /// @returns null if there is no checkpoint.
+    /// @throws OutputError if the folder cannot be created; InputError and OptionError, naming the file, if it is
+    ///         damaged or belongs to another input or other options.
     std::shared_ptr<const FlowState> find(const PolygonMesh& mesh, const FlowOptions& options) const;
 
-    /// Keeps the state after a step where the period or the end of the run asks for it.
+    /// Saves the state after a step if the period or the end of the run requires it.
     /// @throws OutputError.
     void keep(const StepState& state, bool is_last);
 
-    /// The step that was last kept by this object; 0: none.
+    /// The step that this object saved last; 0: none.
     [[nodiscard]] int step() const { return step_; }
 
   private:

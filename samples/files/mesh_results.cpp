@@ -37,8 +37,9 @@ std::vector<std::string> remarks_on_losses(const std::filesystem::path& path, bo
     }
     if (list.empty())
         return {};
-    return {path.string() + " does not have what the input holds besides the surface: " + list +
-            (joined ? "; an output of the input's format has" : "; joined sub-meshes, in the input's format, have")};
+    return {path.string() + " lacks the input's data besides the surface: " + list +
+            (joined ? "; an output of the input's format keeps them"
+                    : "; joined sub-meshes, in the input's format, keep them")};
 }
 
 void require_faces(const std::filesystem::path& path, std::int64_t n_faces, const FaultLog& left_out)
@@ -47,7 +48,7 @@ void require_faces(const std::filesystem::path& path, std::int64_t n_faces, cons
         return;
     const std::string reason =
         left_out.messages.empty()
-            ? "vertices alone are no surface; export the mesh with its faces"
+            ? "vertices alone are not a surface; export the mesh with its faces"
             : fmt::format("{} cannot be used (the first: {})", counted(left_out.faces_left_out.size(), "face", "faces"),
                           left_out.messages.front());
     throw InputError(fmt::format("{}: has no faces: {}", path.string(), reason));
@@ -56,7 +57,7 @@ void require_faces(const std::filesystem::path& path, std::int64_t n_faces, cons
 std::string remark_on_faces(const FaultLog& faults, const std::filesystem::path& path, bool joined,
                             const FileKind& input)
 {
-    // What write_mesh_like copies.
+    // Copied by write_mesh_like.
     const bool stays = joined && kind_for_writing(path, input).format == input.format;
     const std::size_t n_faces = faults.faces_left_out.size();
     const std::size_t n_rows = faults.n_harmless - n_faces;
@@ -66,10 +67,10 @@ std::string remark_on_faces(const FaultLog& faults, const std::filesystem::path&
                            n_faces == 1 ? "1 face names" : fmt::format("{} faces name", n_faces),
                            n_faces == 1 ? "has" : "have", n_faces == 1 ? "takes" : "take");
     if (n_rows > 0)
-        text += fmt::format("{}{} more numbers than the file declares, which were passed over",
-                            text.empty() ? "" : "; ", n_rows == 1 ? "1 row has" : fmt::format("{} rows have", n_rows));
+        text += fmt::format("{}{} more numbers than the file declares, which were ignored", text.empty() ? "" : "; ",
+                            n_rows == 1 ? "1 row has" : fmt::format("{} rows have", n_rows));
     return fmt::format("{}; the result {} (the first: {}; --strict refuses such files).", text,
-                       stays ? "has all that as it was" : "is written without", faults.messages.front());
+                       stays ? "keeps all this unchanged" : "leaves all this out", faults.messages.front());
 }
 
 std::vector<Index> labels_of_faces(const std::filesystem::path& path, Index n_faces, const std::vector<Index>& left_out)

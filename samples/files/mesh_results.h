@@ -10,8 +10,8 @@
 
 namespace seamflow {
 
-/// Writes a state of a mesh: in the form of the input (see write_mesh_like) where the format of `path` is the same and
-/// the sub-meshes are joined, else as a plain mesh.
+/// Writes a state of a mesh: in the form of the input (see write_mesh_like) if the format of `path` is the same and the
+/// sub-meshes are joined, else as a plain mesh.
 /// @param separated the sub-meshes, each with its own copies of shared vertices; null: they are joined.
 /// @returns remarks for the user.
 /// @throws OutputError, InputError (see write_mesh_like).
@@ -19,18 +19,18 @@ std::vector<std::string> write_state(const std::filesystem::path& path, const Po
                                      const PolygonMesh* separated, const MeshFile& input,
                                      const Executor& exec = run_serially);
 
-/// Says what of the input such a file will not have.
-/// @param joined whether the sub-meshes will be.
+/// Lists the data of the input that such a file will not have.
+/// @param joined whether the sub-meshes will be joined.
 /// @returns remarks for the user.
 std::vector<std::string> remarks_on_losses(const std::filesystem::path& path, bool joined, const MeshFile& input,
                                            const Executor& exec = run_serially);
 
-/// Checks that there is a surface.
+/// Checks that there are faces.
 /// @param left_out what of the file is not among the faces.
 /// @throws InputError
 void require_faces(const std::filesystem::path& path, std::int64_t n_faces, const FaultLog& left_out = {});
 
-/// About what of a file has been left out of the flow.
+/// A remark on the parts of a file that were left out of the flow.
 /// @param path, joined see remarks_on_losses. @param input the kind of the file.
 std::string remark_on_faces(const FaultLog& faults, const std::filesystem::path& path, bool joined,
                             const FileKind& input);

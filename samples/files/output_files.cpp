@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 [[noreturn]] void refuse(const fs::path& path, std::string_view reason)
 {
-    throw OutputError(path.string() + ": cannot be written, " + std::string(reason));
+    throw OutputError(path.string() + ": cannot be written: " + std::string(reason));
 }
 
 fs::path directory_of(const fs::path& path)
@@ -47,13 +47,13 @@ void require_writable(const fs::path& path)
     std::error_code ignored;
     const fs::path directory = directory_of(file_behind(path));
     if (path.empty() || fs::is_directory(path, ignored))
-        refuse(path, "for that is the name of a directory");
+        refuse(path, "it is a directory");
     if (!fs::is_directory(directory, ignored))
-        refuse(path, "for there is no directory " + directory.string());
+        refuse(path, "there is no directory " + directory.string());
     if (fs::exists(path, ignored) && !fs::is_regular_file(path, ignored))
-        refuse(path, "for it is a device or a pipe");
+        refuse(path, "it is a device or a pipe");
     if (access(directory.c_str(), W_OK | X_OK) != 0)
-        refuse(path, "for its directory may not be written to: " + std::string(std::strerror(errno)));
+        refuse(path, "its directory is not writable: " + std::string(std::strerror(errno)));
 }
 
 void require_different(const std::vector<fs::path>& paths)
@@ -61,7 +61,7 @@ void require_different(const std::vector<fs::path>& paths)
     std::set<fs::path> places;
     for (const fs::path& path : paths) {
         std::error_code error;
-        // Absolute first: of a relative path of which nothing exists yet only the text would be compared.
+        // Made absolute first: a relative path of which nothing exists yet would only be compared as text.
         fs::path place = fs::weakly_canonical(fs::absolute(path), error);
         if (!places.insert(error ? fs::absolute(path).lexically_normal() : place).second)
             throw OptionError(path.string() + " is named for two different files: give each a name of its own");
@@ -72,8 +72,8 @@ void require_files(const std::vector<fs::path>& paths)
 {
     for (const fs::path& path : paths)
         if (is_standard_stream(path))
-            throw OptionError("- stands for standard input and output, which only a mesh to read and one to write can "
-                              "be: name files for the others");
+            throw OptionError("- means standard input or output, for one mesh to read and one to write only: name "
+                              "files for the others");
 }
 
 void require_storable(const PolygonMesh& mesh, const fs::path& path, const FileKind& kind)
@@ -82,10 +82,10 @@ void require_storable(const PolygonMesh& mesh, const fs::path& path, const FileK
         return;
     for (Index f = 0; f < mesh.n_faces(); ++f)
         if (mesh.face(f).size() > 3)
-            refuse(path, fmt::format("for STL holds triangles only, and face {} has {} sides; choose {}", f,
+            refuse(path, fmt::format("STL holds triangles only, and face {} has {} sides; choose {}", f,
                                      mesh.face(f).size(), extensions_of(FormatGroup::Polygons)));
     if (has_isolated_vertices(mesh))
-        refuse(path, "for STL cannot hold vertices without faces; choose " + extensions_of(FormatGroup::Polygons));
+        refuse(path, "STL cannot hold vertices without faces; choose " + extensions_of(FormatGroup::Polygons));
 }
 
 void write_text(const fs::path& path, const std::string& text)

@@ -9,8 +9,8 @@
 /// Checks of result files before the long work begins, so that no user waits an hour for a mistyped name.
 namespace seamflow {
 
-/// @throws OutputError if no file can be made at that place (`-` is none): its directory does not exist or may not be
-///         written to, or the path names a directory.
+/// @throws OutputError if no file can be made at that path (`-` is not a file): its directory does not exist or may not
+///         be written to, or the path names a directory.
 void require_writable(const std::filesystem::path& path);
 
 /// @throws OptionError if two of the files are the same one.

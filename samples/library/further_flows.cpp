@@ -34,9 +34,9 @@ try {
     flow("low-pass", [](Options& options) { options.filter = seamflow::Filter::LowPass; });
     flow("attached", [&](Options& options) { options.motion.attachment = 1.0 / (9.0 * edge * edge); });
     flow("conformalized", [](Options& options) { options.flow = seamflow::FlowEquation::Conformalized; });
-    // It needs no Laplacian; the angle is in degrees.
+    // This needs no Laplacian; the angle is in degrees.
     flow("edges kept", [](Options& options) { options.keep_edges = 30.0; });
-    // What the program does without options; a mesh without noise stays.
+    // The default of the program; a mesh without noise stays unchanged.
     flow("its noise removed",
          [&](Options& options) { options = seamflow::options_for(seamflow::Preset::Scan, mesh).options; });
 } catch (const std::exception& error) {

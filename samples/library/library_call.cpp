@@ -1,4 +1,4 @@
-// The library in ten lines: reads a mesh, smooths it, writes it with all else that its file holds.
+// The library in ten lines: reads a mesh, smooths it, writes it with all other contents of its file.
 //
 //     library_call INPUT OUTPUT    (both of one format)
 

@@ -1,4 +1,4 @@
-// Looks on while a mesh flows: prints the area after each step and writes every k-th state.
+// Observes a mesh while it flows: prints the area after each step and writes every k-th state.
 //
 //     observe_steps INPUT OUTPUT_FOLDER STEPS K
 
@@ -39,7 +39,7 @@ try {
     options.steps = std::atoi(argv[3]);
 
     std::cout << "step 0: area " << area(file.mesh, file.mesh.vertices) << '\n';
-    // Called in this thread; an exception thrown here ends the flow and comes out of it.
+    // Called in this thread; an exception thrown here ends the flow and reaches its caller.
     const auto on_step = [&](const seamflow::StepState& state) {
         std::cout << "step " << state.step << ": area " << area(file.mesh, state.positions) << ", moved by "
                   << state.report.displacement.normal.max / edge << " mean edges out of the surface at most\n";

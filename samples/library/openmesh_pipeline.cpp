@@ -1,4 +1,4 @@
-// A pipeline of OpenMesh: reads a mesh, smooths it where it is, makes its normals new, writes it.
+// An OpenMesh pipeline: reads a mesh, smooths it in place, updates its normals, and writes it.
 //
 //     openmesh_pipeline INPUT OUTPUT
 

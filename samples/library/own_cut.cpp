@@ -1,4 +1,4 @@
-// A cut of one's own: the mesh is cut into slabs along its longest side, each a sub-mesh.
+// A custom cut: the mesh is cut into slabs along its longest side, each a sub-mesh.
 //
 //     own_cut INPUT PARTS.ply SLABS
 
@@ -41,7 +41,7 @@ try {
     options.time_step = edge * edge;
     options.cut.labels = slabs(file.mesh, std::atoi(argv[3]));
     const seamflow::FlowReport report = seamflow::mean_curvature_flow(file.mesh, options);
-    // The parts as they were used: what was not connected, or pinched at a vertex, has been repaired.
+    // The parts as used: those not connected, or pinched at a vertex, have been repaired.
     seamflow::write_labelled_ply(argv[2], file.mesh, report.cut.labels);
     std::cout << report.cut.n_sub_meshes() << " sub-meshes, " << report.cut.interface_vertices
               << " vertices between them, " << report.cut.repaired_faces << " faces moved to another one\n";

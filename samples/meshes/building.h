@@ -6,7 +6,7 @@
 
 #include "partition/polygon_mesh.h"
 
-/// What several of the generators use.
+/// Helpers that several generators share.
 namespace seamflow {
 
 /// A grid of vertices, numbered row by row.

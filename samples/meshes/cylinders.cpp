@@ -37,7 +37,7 @@ void place(PolygonMesh& mesh, Index vertex, double angle, double z, const Cylind
     mesh.vertices.row(vertex) << r * std::cos(angle), r * std::sin(angle), z;
 }
 
-/// Rings from z = low on, `spacing` apart.
+/// Rings from z = low upwards, `spacing` apart.
 void place_rings(PolygonMesh& mesh, const Rings& rings, double low, double spacing, const CylinderShape& shape)
 {
     for (Index ring = 0; ring < rings.rings; ++ring)
@@ -53,7 +53,7 @@ void add_quads(PolygonMesh& mesh, const Rings& rings)
                             rings.vertex(k, ring + 1)});
 }
 
-/// Displaces all vertices but the `first` and the `last` ones, which lie on the boundary.
+/// Displaces all vertices except the `first` and the `last` ones, which lie on the boundary.
 void add_noise(PolygonMesh& mesh, Index first, Index last, const CylinderShape& shape)
 {
     RandomNumbers random(shape.seed);

@@ -14,7 +14,7 @@ std::size_t n_cells(const Grid& grid)
     return static_cast<std::size_t>(grid.columns - 1) * static_cast<std::size_t>(grid.rows - 1);
 }
 
-/// y of a honeycomb's vertex, in rows. Where column + row is even an edge leads upwards, else one leads downwards.
+/// y of a vertex of a honeycomb, in rows. Where column + row is even, an edge leads upwards, else downwards.
 double zigzag(const Grid& grid, Index column, Index row)
 {
     if (row == 0 || row == grid.rows - 1)

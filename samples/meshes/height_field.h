@@ -8,7 +8,7 @@ namespace seamflow {
 /// @throws OptionError naming the field.
 void require_valid(const HeightFieldShape& shape);
 
-/// Sets z of the grid's vertices from their x and y, with noise off the border of the grid.
+/// Sets z of the grid's vertices from their x and y, with noise except on the border of the grid.
 void raise(PolygonMesh& mesh, const Grid& grid, const HeightFieldShape& shape);
 
 /// A mesh without faces: the vertices of a regular grid over the unit square, z = 0.

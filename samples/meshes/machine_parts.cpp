@@ -16,7 +16,7 @@ namespace {
 using Point2 = Eigen::RowVector2d;
 using Point3 = Eigen::RowVector3d;
 
-/// A closed curve, as many points on each of the curves that a surface is swept along.
+/// A closed curve; all curves that a surface is swept along have equally many points.
 using Curve = std::vector<Point3>;
 
 void require_valid(Index vertices, const MachinePartShape& shape)
@@ -54,8 +54,7 @@ Index pieces(double length, double spacing)
     return std::max(Index{1}, static_cast<Index>(std::lround(length / spacing)));
 }
 
-/// The spacing of vertices, of those near that for the area, with which a mesh has the number of vertices wanted most
-/// nearly.
+/// The vertex spacing, among those near that for the area, that gives most nearly the number of vertices wanted.
 double choose_spacing(Index wanted, double area, const std::function<double(double)>& vertices_with)
 {
     constexpr int trials = 400;
@@ -100,7 +99,7 @@ std::vector<Index> divide(const std::vector<Point2>& polygon, double spacing)
     return divisions;
 }
 
-/// How the curves of a part lie for a spacing of vertices: each is joined to the next, and the last to the first.
+/// The curves of a part for a spacing of vertices: each is joined to the next, and the last to the first.
 using Outline = std::function<std::vector<Curve>(double spacing)>;
 
 double distance_of(const Curve& a, const Curve& b)
@@ -111,7 +110,7 @@ double distance_of(const Curve& a, const Curve& b)
     return sum / static_cast<double>(a.size());
 }
 
-/// How many rings of vertices there are from each curve to the next.
+/// The number of rings of vertices from each curve to the next.
 std::vector<Index> rings_between(const std::vector<Curve>& curves, double spacing)
 {
     std::vector<Index> rings;
@@ -156,7 +155,7 @@ PolygonMesh sweep(Index vertices, double area, const Outline& outline, const Mac
     return mesh;
 }
 
-/// The vertices of a box: rings around the z axis, and behind them those inside the bottom and the top.
+/// The vertices of a box: rings around the z axis, followed by those inside the bottom and the top.
 struct BoxGrid {
     Index x = 0;
     Index y = 0;
@@ -166,7 +165,7 @@ struct BoxGrid {
     [[nodiscard]] Index inside() const { return (x - 1) * (y - 1); }
     [[nodiscard]] Index size() const { return around() * (z + 1) + 2 * inside(); }
 
-    /// Of the bottom (level 0) or the top (level z).
+    /// On the bottom (level 0) or the top (level z).
     [[nodiscard]] Index vertex(Index i, Index j, Index level) const
     {
         if (j == 0)

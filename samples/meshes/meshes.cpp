@@ -36,7 +36,7 @@ template <PolygonMesh (*Make)(Index, const MachinePartShape&), PartFaces Faces>
 PolygonMesh make_part(Index vertices, const MeshVariation& variation)
 {
     if (variation.amplitude)
-        throw OptionError("amplitude is that of waves, but machine parts have none: leave it out");
+        throw OptionError("amplitude is for waves, but machine parts have none: leave it out");
     const MachinePartShape shape;
     return Make(vertices, {Faces, variation.noise.value_or(shape.noise), variation.seed.value_or(shape.seed)});
 }

@@ -7,9 +7,9 @@
 
 #include "partition/polygon_mesh.h"
 
-/// Small generators of meshes to try things on. All of them
-/// - take about the number of vertices wanted, at least 100 (machine parts 400) and at most 100,000,000, and keep
-///   within 10 percent of it,
+/// Small generators of test meshes. All of them
+/// - take the approximate number of vertices, at least 100 (machine parts 400) and at most 100,000,000, and keep within
+///   10 percent of it,
 /// - run in time and memory linear in that number,
 /// - give manifold meshes of simple faces, oriented alike, without vertices that no face uses,
 /// - give the same mesh for the same arguments everywhere, up to the last bits of the platform's sin and cos,
@@ -24,7 +24,7 @@ struct HeightFieldShape {
     int waves = 2;
     /// Each vertex off the boundary is displaced by up to this many mean vertex distances in z, at least 0.
     double noise = 0.0;
-    /// Of the noise, and of whatever else is drawn at random.
+    /// Seed of the noise, and of anything else drawn at random.
     std::uint32_t seed = 1;
 };
 
@@ -41,14 +41,14 @@ PolygonMesh make_hexagons(Index vertices, const HeightFieldShape& shape = {});
 /// A height field of mixed faces.
 struct MixedPolygonsShape {
     HeightFieldShape surface;
-    /// Each vertex off the boundary of the grid moves by up to this part of a cell in x and in y, 0 to 0.24.
+    /// Each vertex off the boundary of the grid moves by up to this fraction of a cell in x and in y, 0 to 0.24.
     double jitter = 0.2;
-    /// Part of the cells that the draw merges or cuts, 0 to 1; the others stay quads.
+    /// Fraction of the cells that the draw merges or cuts, 0 to 1; the others stay quads.
     double changed = 0.8;
 };
 
-/// Triangles to nonagons, convex and not: a jittered grid, some of whose cells are merged with their neighbours, or
-/// with halves of them, or cut in two, as a seeded draw decides. Interior vertices keep at least three edges.
+/// Triangles to nonagons, convex or not: a jittered grid in which a seeded draw merges some cells with their
+/// neighbours, or with halves of them, or cuts them in two. Interior vertices keep at least three edges.
 PolygonMesh make_mixed_polygons(Index vertices, const MixedPolygonsShape& shape = {});
 
 /// An open tube around the z axis, z from -height / 2 to height / 2, whose radius is modulated in both directions:
@@ -94,10 +94,10 @@ struct NoisySphereShape {
 /// A closed mesh of triangles between circles of latitude, with exactly the number of vertices asked for.
 PolygonMesh make_noisy_sphere(Index vertices, const NoisySphereShape& shape = {});
 
-/// Of the faces of a machine part.
+/// The kind of the faces of a machine part.
 enum class PartFaces { Triangles, Quads };
 
-/// Parts with flat and round sides and sharp edges between them: what is to survive smoothing there is known.
+/// Parts with flat and round sides and sharp edges between them: the features that must survive smoothing are known.
 struct MachinePartShape {
     PartFaces faces = PartFaces::Triangles;
     /// Each vertex is displaced by up to this many mean vertex distances in x, y and z, at least 0.
@@ -126,10 +126,10 @@ struct MeshKind {
     std::string_view description;
 };
 
-/// All kinds that make_mesh knows.
+/// All kinds that make_mesh supports.
 std::span<const MeshKind> mesh_kinds();
 
-/// What all kinds of mesh have in common; empty: the default of the kind.
+/// The parameters that all kinds of mesh share; empty: the default of the kind.
 struct MeshVariation {
     std::optional<std::uint32_t> seed;
     std::optional<double> amplitude;

@@ -77,7 +77,7 @@ class FaceDraw {
         return true;
     }
 
-    /// Adds a face, given in order for a run to the right: a run upwards mirrors it.
+    /// Adds a face, given in order for a run to the right, mirrored for a run upwards.
     void add_oriented(std::span<Index> corners)
     {
         if (upwards_)
@@ -113,7 +113,7 @@ class FaceDraw {
     double changed_;
     RandomNumbers& random_;
     PolygonMesh& mesh_;
-    /// By the vertex at a cell's lower left corner.
+    /// Indexed by a cell's lower left vertex.
     std::vector<bool> used_;
     std::vector<bool> lost_an_edge_;
     /// Direction of the run being drawn.

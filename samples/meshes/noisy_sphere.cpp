@@ -19,7 +19,7 @@ struct Latitude {
     [[nodiscard]] Index vertex(Index k) const { return first + k % count; }
 };
 
-/// Circles from the north to the south pole, which are circles of one vertex. Vertices are dealt out by the length of
+/// Circles from the north to the south pole, which are circles of one vertex. Vertices are distributed by the length of
 /// the circles, and the running total is rounded, so that all are used.
 std::vector<Latitude> choose_latitudes(Index vertices)
 {
@@ -40,7 +40,7 @@ std::vector<Latitude> choose_latitudes(Index vertices)
     return latitudes;
 }
 
-/// Triangles between two circles: from edge to edge, going on along the circle whose next vertex comes first.
+/// Triangles between two circles: from edge to edge, advancing along the circle whose next vertex comes first.
 void add_triangles(PolygonMesh& mesh, const Latitude& upper, const Latitude& lower)
 {
     const Index upper_edges = upper.count > 1 ? upper.count : 0;

@@ -10,7 +10,7 @@ namespace seamflow {
 
 namespace {
 
-/// The faces around so many vertices tell the roughness of all within about a hundredth.
+/// The faces around so many vertices give the roughness of all within about a hundredth.
 constexpr Index enough_vertices = 4000;
 
 }  // namespace

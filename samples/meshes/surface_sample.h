@@ -7,8 +7,8 @@
 
 namespace seamflow {
 
-/// Whether the faces around a vertex are in the sample by which the roughness of large meshes is told: those around
-/// some thousands of vertices, spread over the mesh without a pattern. Of small meshes all faces are.
+/// Whether the faces around a vertex are in the sample from which the roughness of large meshes is estimated: those
+/// around some thousands of vertices, spread over the mesh without a pattern. The sample of small meshes has all faces.
 bool is_sampled(Index v, Index n_vertices);
 
 /// Some faces as a mesh of their own, without positions.

@@ -9,10 +9,10 @@
 
 namespace seamflow {
 
-/// What the faces of a material look like.
+/// The appearance of the faces of a material.
 struct FileMaterial {
     Colour colour = {255, 255, 255};
-    /// The image that is laid on them, as a data URL (RFC 2397); empty: none, only the colour.
+    /// The image that textures them, as a data URL (RFC 2397); empty: only the colour.
     std::string image;
 };
 
@@ -24,7 +24,7 @@ struct FileColours {
     std::vector<FileMaterial> materials;
     /// #F, an index into `materials`; empty without these.
     std::vector<Index> material_of_face;
-    /// Places in an image: 0, 0 is its lower left corner, 1, 1 its upper right one; beyond, it is repeated.
+    /// Points in an image: 0, 0 is its lower left corner, 1, 1 its upper right one; outside, the image repeats.
     std::vector<std::array<float, 2>> places;
     /// One per corner of every face, as PolygonMesh::face_vertices: an index into `places`; empty without images.
     std::vector<Index> place_of_corner;

@@ -32,7 +32,7 @@ float finite_part(double value)
     return std::isfinite(part) ? part : 0.0F;
 }
 
-/// What is left of a line, with one blank between its words: a name may have some.
+/// The rest of a line, with one blank between its words: a name may contain blanks.
 std::string rest_of(TextScanner& scanner)
 {
     std::string rest;
@@ -41,7 +41,7 @@ std::string rest_of(TextScanner& scanner)
     return rest;
 }
 
-/// Passes over the options of a map, such as `-s 1 1 1`: words that begin with a dash, and what belongs to them.
+/// Skips the options of a map, such as `-s 1 1 1`: words that begin with a dash, and their arguments.
 void pass_over_options(TextScanner& scanner)
 {
     const auto is_number = [](std::string_view word) {
@@ -133,7 +133,7 @@ void ObjColourReader::read_vertex()
         colours_.push_back({numbers[numbers.size() - 3], numbers[numbers.size() - 2], numbers[numbers.size() - 1]});
 }
 
-/// Of a corner such as 7/2, 7/2/1 or 7/-1: what stands behind its first slash; the first place if there is none.
+/// For a corner such as 7/2, 7/2/1 or 7/-1, the place behind its first slash; the first place if there is none.
 Index ObjColourReader::read_place()
 {
     const std::string_view corner = scanner_.token();
@@ -165,7 +165,7 @@ void ObjColourReader::read_face()
     for (const Index k : distinct)
         result_.place_of_corner.push_back(places[at(k)]);
     if (f >= mesh_.n_faces() || distinct.size() != mesh_.face(f).size())
-        scanner_.fail("the face is not that of the mesh; leave the file as it is while it is read");
+        scanner_.fail("the face is not that of the mesh; leave the file unchanged while it is read");
     const auto [entry, is_new] = materials_.try_emplace(material_, static_cast<Index>(names_.size()));
     if (is_new)
         names_.push_back(material_);
@@ -182,7 +182,7 @@ void ObjColourReader::read_library()
     }
 }
 
-/// Only what differs from plain grey is worth a choice.
+/// Only materials other than plain grey are worth a choice.
 void ObjColourReader::drop_what_is_not_shown()
 {
     const auto is_image = [](const FileMaterial& material) { return !material.image.empty(); };
@@ -241,7 +241,7 @@ FileColours ObjColourReader::read()
         FileMaterial& material = result_.materials.emplace_back();
         if (!description.image.empty())
             material.image = images.data_url(description.image);
-        // Images count as they are: many files have a dark colour beside them, which viewers pass over.
+        // Images are used as they are: many files have a dark colour beside them, which viewers ignore.
         if (material.image.empty())
             material.colour = description.colour.value_or(Colour{219, 222, 226});
     }

@@ -57,7 +57,7 @@ std::string packed(std::span<const std::uint8_t> bytes)
 {
     uLongf size = compressBound(bytes.size());
     std::vector<std::uint8_t> stream(size);
-    // The only way to fail, with room enough.
+    // With enough room, the only way to fail.
     if (compress2(stream.data(), &size, bytes.data(), bytes.size(), Z_DEFAULT_COMPRESSION) != Z_OK)
         throw std::bad_alloc();
     return base64(std::span(stream).first(size));

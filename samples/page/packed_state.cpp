@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::uint16_t undefined = 65535;
 
-/// @param part from 0 to 1. @param most what stands for 1.
+/// @param part from 0 to 1. @param most represents 1.
 std::uint16_t sixteen_bits(double part, double most)
 {
     return static_cast<std::uint16_t>(std::lround(std::clamp(part, 0.0, 1.0) * most));
@@ -29,7 +29,7 @@ PackedPoints pack_points(const Points& positions)
         result.lower = positions.colwise().minCoeff();
         result.upper = positions.colwise().maxCoeff();
     }
-    // Halves, for the difference of two large numbers may be none.
+    // Halves, since the difference of two large numbers may overflow.
     const Eigen::RowVector3d extent = 0.5 * result.upper - 0.5 * result.lower;
     for (Eigen::Index axis = 0; axis < 3; ++axis)
         for (Eigen::Index v = 0; extent[axis] > 0.0 && v < positions.rows(); ++v)

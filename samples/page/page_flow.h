@@ -20,7 +20,7 @@ struct PageMesh {
     PolygonMesh mesh;
     Topology topology;
     double mean_edge = 0.0;
-    /// Those of its file, where they are known.
+    /// The colours of its file, if they are known.
     FileColours colours;
 };
 
@@ -30,31 +30,31 @@ struct PageSurface {
     PackedValues curvature;
 };
 
-/// What a page shows of one step.
+/// One step as a page shows it.
 struct PageState {
     /// 0: the input.
     int step = 0;
     PageSurface surface;
     std::optional<PageSurface> undecomposed;
-    /// Distance of each vertex to the undecomposed flow, in mean edge lengths of that one's mesh (as V_mean is);
-    /// without it from where it was in the input, in mean edge lengths of the input.
+    /// Distance of each vertex to the undecomposed flow, in mean edge lengths of that flow's mesh (like V_mean);
+    /// without that flow, to its position in the input, in mean edge lengths of the input.
     PackedValues distance;
 };
 
-/// One flow on the mesh of a page: takes each state when it comes, and keeps it in a few bytes a vertex.
+/// One flow on the mesh of a page: takes each state as it arrives, and stores it in a few bytes per vertex.
 class PageFlow {
   public:
     /// @param name for the user, where a page has several flows.
-    /// @param steps how many states will come. @param undecomposed whether they come with the undecomposed flow.
+    /// @param steps the number of states to come. @param undecomposed whether they include the undecomposed flow.
     PageFlow(std::shared_ptr<const PageMesh> mesh, std::string name, Laplacian laplacian, int steps, bool undecomposed);
 
     /// @param positions, undecomposed #V by 3; the latter null without that flow.
     void add_step(int step, const Points& positions, const Points* undecomposed);
 
-    /// What is known at the end alone. @param report_json see smooth_report_json.
+    /// Adds the data that are only known at the end. @param report_json see smooth_report_json.
     void finish(const FlowReport& report, std::string report_json);
 
-    /// After the last step: a sentence for the user if not all are shown, else empty.
+    /// After the last step: a sentence for the user if not all steps are shown, else empty.
     [[nodiscard]] std::string remark() const;
 
     [[nodiscard]] const PageMesh& mesh() const { return *mesh_; }

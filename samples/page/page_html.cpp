@@ -21,10 +21,10 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// What a browser has shown so far is a quarter of this.
+/// Four times the largest page shown in a browser so far.
 constexpr Index most_faces = 5'000'000;
 
-/// The data of a page: scripts that are none, which the page's own script finds by their number.
+/// The data of a page: scripts that are not run, which the page's own script finds by their number.
 class Blocks {
   public:
     /// @returns the number of the block.
@@ -48,7 +48,7 @@ void replace_all(std::string& text, std::string_view old, std::string_view now)
         text.replace(place, old.size(), now);
 }
 
-/// JSON in which nothing looks like the end of a script: "<" occurs in strings alone.
+/// JSON in which nothing looks like the end of a script: "<" occurs only in strings.
 std::string escaped_for_script(const Json& json)
 {
     std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
@@ -103,7 +103,7 @@ Json flow_json(const PageFlow& flow, Blocks& blocks)
     return json;
 }
 
-/// For each corner of the triangles the place in an image.
+/// For each corner of the triangles, its place in an image.
 std::vector<std::uint32_t> places_of(const PageTriangles& triangles, const PolygonMesh& mesh,
                                      const std::vector<Index>& place_of_corner)
 {
@@ -209,15 +209,15 @@ void require_page()
 {
     if (page_template().empty())
         throw OptionError(
-            "--html: this program was built without the page, which takes npm; install it (Debian: apt-get install "
+            "--html: this program was built without the page, which needs npm; install it (Debian: apt-get install "
             "nodejs npm), configure again where the npm registry can be reached (cmake --preset release), and build");
 }
 
 void require_showable(const PolygonMesh& mesh, const std::filesystem::path& path)
 {
     if (mesh.n_faces() > most_faces)
-        throw OutputError(path.string() + ": cannot be written, for a browser shows at most " +
-                          std::to_string(most_faces) + " faces, and the mesh has " + std::to_string(mesh.n_faces()));
+        throw OutputError(path.string() + ": cannot be written: a browser shows at most " + std::to_string(most_faces) +
+                          " faces, and the mesh has " + std::to_string(mesh.n_faces()));
 }
 
 }  // namespace seamflow

@@ -8,11 +8,11 @@
 
 namespace seamflow {
 
-/// A page for a browser that shows flows on one mesh: the surface step by step, coloured by what was measured there,
-/// and plots of distances and times. It holds all it needs: opening it asks for nothing from anywhere.
+/// A page for a browser that shows flows on one mesh: the surface step by step, coloured by measured values, and plots
+/// of distances and times. It is self-contained: opening it loads nothing else.
 /// @param title plain text, in any characters: the name of the input.
 /// @param flows at least one, finished, all on the same mesh.
-/// @throws OptionError as require_page.
+/// @throws OptionError (see require_page).
 std::string page_html(const std::string& title, std::span<const PageFlow> flows);
 
 /// @throws OptionError saying what to install if this program was built without the page.
@@ -21,7 +21,7 @@ void require_page();
 /// @throws OutputError for a mesh of more faces than a browser can show.
 void require_showable(const PolygonMesh& mesh, const std::filesystem::path& path);
 
-/// A text as it stands in HTML, between tags or in quotation marks.
+/// A text escaped for HTML, between tags or in quotation marks.
 std::string escaped_for_html(std::string text);
 
 }  // namespace seamflow

@@ -1,4 +1,4 @@
-// In place of the page where the project is built without npm.
+// Replaces the page if the project is built without npm.
 
 #include "samples/page/page_template.h"
 

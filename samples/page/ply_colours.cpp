@@ -14,7 +14,7 @@ namespace seamflow {
 
 namespace {
 
-/// What a number of a vertex means here.
+/// The meaning of a number of a vertex.
 enum PlyColourRole : std::size_t { Red, Green, Blue, U, V, Other };
 
 PlyColourRole colour_role_of(std::string_view name)
@@ -30,7 +30,7 @@ PlyColourRole colour_role_of(std::string_view name)
     return Other;
 }
 
-/// A colour's part as files of each type have it: of 255 or 65535, or from 0 to 1.
+/// A colour component as files of each type store it: of 255 or 65535, or from 0 to 1.
 std::uint8_t eight_bits_of(double value, PlyType type)
 {
     const double most = type == PlyType::UInt16 ? 65535.0 : is_integer(type) ? 255.0 : 1.0;
@@ -45,7 +45,7 @@ bool has(const PlyElement& element, PlyColourRole role)
     });
 }
 
-/// The first image that comments of the header name; empty if none does.
+/// The first image that comments of the header name; empty if there is none.
 std::string texture_file(std::string_view header)
 {
     constexpr std::string_view mark = "comment TextureFile ";
@@ -158,7 +158,7 @@ FileColours PlyColourReader::finish(const std::filesystem::path& path)
 {
     if (n_vertices_ != mesh_.n_vertices() || (has_image_ && n_faces_ != mesh_.n_faces()))
         throw InputError(path.string() + ": the file is not that of the mesh");
-    // What is no number has no order.
+    // NaN has no order.
     for (auto* places : {&result_.places, &of_corners_})
         for (auto& place : *places)
             for (float& part : place)

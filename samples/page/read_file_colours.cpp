@@ -14,7 +14,7 @@ namespace seamflow {
 FileColours read_file_colours(const std::filesystem::path& path, const PolygonMesh& mesh,
                               std::span<const Index> left_out)
 {
-    // Standard input is gone when the mesh has been read.
+    // Standard input is consumed when the mesh has been read.
     const auto format = is_input_stream(path) ? std::nullopt : format_of(path);
     if (format != FileFormat::Obj && format != FileFormat::Ply)
         return {};
@@ -22,7 +22,7 @@ FileColours read_file_colours(const std::filesystem::path& path, const PolygonMe
         const InputFile file{OpenFile(path)};
         FileColours colours = format == FileFormat::Obj ? read_obj_colours(path, file.content(), mesh, left_out)
                                                         : read_ply_colours(path, file.content(), mesh, left_out);
-        // One colour for all tells nothing.
+        // A single colour carries no information.
         if (std::adjacent_find(colours.of_vertices.begin(), colours.of_vertices.end(), std::not_equal_to<>()) ==
             colours.of_vertices.end())
             colours.of_vertices.clear();

@@ -9,9 +9,9 @@ namespace seamflow {
 
 /// Reads the colours of a file: the vertices' from OBJ and PLY; from OBJ the materials (colour Kd and image map_Kd),
 /// and from PLY the image that `comment TextureFile` names, with texture coordinates of vertices or of corners. Images
-/// are looked for where the file says and beside it. What cannot be read is left out, with a remark.
-/// @param path of the file that `mesh` has been read from. @param left_out ascending: the numbers of its faces that are
-///        not in the mesh.
+/// are searched for at the path given there and beside the file. Anything unreadable is left out, with a remark.
+/// @param path of the file that `mesh` was read from. @param left_out ascending: the numbers of its faces that are not
+///        in the mesh.
 FileColours read_file_colours(const std::filesystem::path& path, const PolygonMesh& mesh,
                               std::span<const Index> left_out);
 

@@ -7,7 +7,7 @@ namespace seamflow {
 
 namespace {
 
-/// What a vertex of one state takes in the file, about: its position, its curvature, its distance.
+/// Approximate bytes of a vertex of one state in the file: its position, curvature and distance.
 constexpr double bytes_of_state = 8.0;
 constexpr double bytes_of_undecomposed_state = 6.0;
 constexpr double most_bytes = 80e6;
@@ -32,7 +32,7 @@ std::string remark_on_shown_steps(int steps, int shown)
     if (shown == steps)
         return {};
     return "The page shows " + std::to_string(shown) + " of the " + std::to_string(steps) +
-           " steps' surfaces: of those of this run as many as a browser takes; its plots have all steps.";
+           " steps' surfaces: as many of this run's as a browser can take; its plots have all steps.";
 }
 
 }  // namespace seamflow

@@ -7,8 +7,8 @@
 
 namespace seamflow {
 
-/// The steps whose states a page holds, so that its size stays bounded: all where that is at most about 80 MB and 200
-/// steps; else as many as that allows, evenly spaced, the last one always.
+/// The steps whose states a page holds, so that its size stays bounded: all if they take at most about 80 MB and are at
+/// most 200; else as many as this allows, evenly spaced, always with the last one.
 /// @param steps of the flow. @param undecomposed whether the page holds the undecomposed flow, too.
 /// @returns ascending, from 1 to `steps`.
 std::vector<int> shown_steps(int steps, Index n_vertices, bool undecomposed);

@@ -15,10 +15,10 @@ namespace seamflow {
 
 namespace {
 
-/// Of all images of a page.
+/// For all images of a page.
 constexpr std::size_t most_image_bytes = 32'000'000;
 
-/// The file that a name means; empty if there is none.
+/// The file that a name refers to; empty if there is none.
 std::filesystem::path file_of(const std::filesystem::path& folder, std::string name)
 {
     std::replace(name.begin(), name.end(), '\\', '/');
@@ -72,8 +72,8 @@ std::string TextureImages::read(const std::string& name)
             return {};
         }
         if (bytes.size() > most_image_bytes - bytes_) {
-            remarks_.push_back(fmt::format("The page lacks the texture {}: a page takes {} MB of them.", name,
-                                           most_image_bytes / 1'000'000));
+            remarks_.push_back(fmt::format("The page lacks the texture {}: a page holds at most {} MB of textures.",
+                                           name, most_image_bytes / 1'000'000));
             return {};
         }
         bytes_ += bytes.size();

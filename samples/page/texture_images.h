@@ -8,7 +8,7 @@
 
 namespace seamflow {
 
-/// The folder of a file, which is never empty: a name in it is never taken for standard input.
+/// The folder of a file; it is never empty, so that a name in it is never taken for standard input.
 inline std::filesystem::path folder_of(const std::filesystem::path& file)
 {
     return file.has_parent_path() ? file.parent_path() : ".";
@@ -23,10 +23,10 @@ class TextureImages {
     {
     }
 
-    /// Reads a PNG, JPEG, WebP, GIF or BMP file, which is told by its first bytes.
-    /// @param name as the mesh file has it, with slashes of either kind: relative to the folder of that file; else the
-    ///        file of that name in this folder is taken.
-    /// @returns empty, with a remark: there is none, or no browser shows it, or all are too large for a page.
+    /// Reads a PNG, JPEG, WebP, GIF or BMP file, which is recognised by its first bytes.
+    /// @param name as given in the mesh file, with slashes of either kind: relative to the folder of that file; else
+    ///        the file of that name in this folder is used.
+    /// @returns empty, with a remark, if there is none, or no browser shows it, or all are too large for a page.
     std::string data_url(const std::string& name);
 
     /// Sentences for the user.

@@ -24,7 +24,7 @@ void do_without_blas_threads_where_limited()
     for (std::string& word : words)
         pointers.push_back(word.data());
     pointers.push_back(nullptr);
-    // Where it cannot be started anew, it goes on as it is.
+    // If it cannot be restarted, it continues as it is.
     if (!words.empty() && ::setenv(variable, "1", 1) == 0)
         ::execv("/proc/self/exe", pointers.data());
 }

@@ -14,12 +14,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Of one group: microseconds of each period. Not positive, or not a number: no limit.
+/// For one group: microseconds of each period. Not positive, or not a number: no limit.
 std::optional<double> quota_of(const fs::path& group)
 {
     double quota = 0.0;
     double period = 0.0;
-    // Version 2 has both in a line, and the word max where there is no limit.
+    // Version 2 has both in a line, and the word max if there is no limit.
     std::ifstream both(group / "cpu.max");
     if (!(both >> quota >> period)) {
         std::ifstream first(group / "cpu.cfs_quota_us");
@@ -47,7 +47,7 @@ std::optional<int> cpu_quota(const fs::path& root)
         if (!is_unified && controllers.find(",cpu,") == std::string::npos)
             continue;
         const fs::path mounted = root / "sys/fs/cgroup" / (is_unified ? "" : "cpu");
-        // The limits of all groups around it hold. In a container the path may be that outside.
+        // The limits of all enclosing groups apply. In a container, the path may be that outside.
         for (fs::path group = fs::path(line.substr(second + 1)).relative_path();; group = group.parent_path()) {
             if (const std::optional<double> quota = quota_of(mounted / group))
                 least = std::min(least.value_or(*quota), *quota);

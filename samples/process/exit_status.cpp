@@ -33,9 +33,8 @@ Failure current_failure()
         return {ExitStatus::OutputNotWritten, error.what()};
     } catch (const std::bad_alloc&) {
         return {ExitStatus::ComputationFailed,
-                "there is not enough memory: close other programs, raise the limit of this one (ulimit -v), or "
-                "give it less to do at once (fewer vertices; where these options are, more --subdomains or fewer "
-                "--threads)"};
+                "there is not enough memory: close other programs, raise the limit of this one (ulimit -v), or give it "
+                "less to do at once (fewer vertices; where these options exist, more --subdomains or fewer --threads)"};
     } catch (const std::exception& error) {
         return {ExitStatus::ComputationFailed, error.what()};
     } catch (...) {

@@ -5,7 +5,7 @@
 
 namespace seamflow {
 
-/// How the programs end. Scripts rely on these numbers.
+/// The exit statuses of the programs. Scripts rely on these numbers.
 enum class ExitStatus : int {
     Success = 0,
     WrongUsage = 2,
@@ -23,11 +23,11 @@ struct Failure {
     std::string message;
 };
 
-/// Of the exception that is being handled: OptionError → WrongUsage, InputError → UnusableInput, OutputError →
-/// OutputNotWritten; ComputationError, running out of memory and anything else → ComputationFailed.
+/// The failure for the exception that is being handled: OptionError → WrongUsage, InputError → UnusableInput,
+/// OutputError → OutputNotWritten; ComputationError, running out of memory and anything else → ComputationFailed.
 Failure current_failure();
 
-/// Runs the body of a program and turns what it throws into an exit status, with one message on standard error (see
+/// Runs the body of a program and converts its exceptions to an exit status, with one message on standard error (see
 /// current_failure).
 /// @param program the name that begins the message.
 /// @returns the status, for main to return.

@@ -13,7 +13,7 @@ namespace seamflow {
 
 namespace {
 
-/// Wakes the waiting thread at the end; only it gets it.
+/// Wakes only the waiting thread, at the end.
 constexpr int wake_up = SIGUSR1;
 
 bool is_ignored(int signal)
@@ -27,10 +27,10 @@ ExitStatus status_after(int signal)
     return signal == SIGTERM ? ExitStatus::Terminated : ExitStatus::Interrupted;
 }
 
-/// For the handler, which can know nothing else.
+/// For the handler, which can access nothing else.
 std::atomic<pthread_t> waiting_thread{};
 
-/// Runs in threads of libraries alone, which do not block signals: all others do.
+/// Runs only in threads of libraries, which do not block signals: all others do.
 void hand_on(int signal)
 {
     const int error = errno;
@@ -54,7 +54,7 @@ Interruption::Interruption(std::string program)
             sigaddset(&ours_, signal);
     waited_for_ = ours_;
     sigaddset(&waited_for_, wake_up);
-    // Threads have the mask of the one that makes them.
+    // Threads inherit the mask of their creator.
     pthread_sigmask(SIG_BLOCK, &waited_for_, &mask_before_);
     end_threads_of_blas();
     thread_ = std::thread([this] { wait_for_signals(); });
@@ -114,7 +114,7 @@ void Interruption::end_unmade(int signal) const
     ::_exit(static_cast<int>(status_after(signal)));
 }
 
-/// By the signal itself, so that whoever waits for the program knows.
+/// Ends by the signal itself, so that whoever waits for the program knows.
 void Interruption::end_at_once(int signal)
 {
     if (::isatty(STDERR_FILENO) != 0)

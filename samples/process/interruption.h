@@ -10,14 +10,14 @@
 
 namespace seamflow {
 
-/// Ends a program well when SIGINT (Ctrl-C) or SIGTERM arrives, as long as this lives. The first signal ends the
-/// program at once if there is no result yet, and otherwise asks it to stop. The second ends it at once, as it would
-/// without this. A thread waits for them, so that no code runs in the middle of other code; all others block them, so
-/// that the handlers that METIS installs for a while are never called. A signal that the program ignored from its start
-/// is left alone. One at a time in a program.
+/// Ends a program cleanly when SIGINT (Ctrl-C) or SIGTERM arrives, as long as this object exists. The first signal ends
+/// the program at once if there is no result yet, and otherwise asks it to stop. The second ends it at once, as it
+/// would without this object. A thread waits for the signals, so that none interrupts other code; all other threads
+/// block them, so that the handlers that METIS temporarily installs are never called. A signal that the program ignored
+/// from its start is left alone. Only one object at a time in a program.
 class Interruption {
   public:
-    /// To be made before any other thread, which would get the signals otherwise.
+    /// Must be made before any other thread, which would otherwise get the signals.
     /// @param program the name that begins the message.
     explicit Interruption(std::string program);
     ~Interruption();
@@ -27,10 +27,10 @@ class Interruption {
     /// From here on the first signal only asks to stop.
     void begin_work() { works_.store(true); }
 
-    /// Says whether a signal has asked to stop.
+    /// Reports whether a signal has asked to stop.
     [[nodiscard]] std::stop_token token() const { return source_.get_token(); }
 
-    /// How the program is to end after that.
+    /// The exit status of the program after that.
     [[nodiscard]] ExitStatus status() const;
 
   private:
@@ -45,7 +45,7 @@ class Interruption {
     std::atomic<bool> is_over_{false};
     /// 0: none yet.
     std::atomic<int> first_signal_{0};
-    /// SIGINT and SIGTERM, except for those that were ignored; and with what wakes the thread.
+    /// SIGINT and SIGTERM, except for those that were ignored; and the same with the signal that wakes the thread.
     sigset_t ours_{};
     sigset_t waited_for_{};
     sigset_t mask_before_{};

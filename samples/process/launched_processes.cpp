@@ -10,7 +10,7 @@ namespace seamflow {
 
 namespace {
 
-/// Where a launcher tells a process how many there are, and which of them it is.
+/// Variables with the number of processes, and which of them this is.
 struct Launcher {
     const char* size;
     const char* rank;
@@ -21,7 +21,7 @@ constexpr std::array launchers{Launcher{"OMPI_COMM_WORLD_SIZE", "OMPI_COMM_WORLD
                                Launcher{"PMI_SIZE", "PMI_RANK"}, Launcher{"MV2_COMM_WORLD_SIZE", "MV2_COMM_WORLD_RANK"},
                                Launcher{"SLURM_STEP_NUM_TASKS", "SLURM_PROCID"}};
 
-/// @returns -1 where the variable is not set, or is no number.
+/// @returns -1 if the variable is not set, or is not a number.
 int number_in(const char* variable)
 {
     const char* const value = std::getenv(variable);

@@ -6,10 +6,10 @@
 
 namespace seamflow {
 
-/// Refuses to be one of several processes that a launcher of MPI programs has started: each would do the same work and
-/// write the same file. The first of them says so on standard error, the others end without a word.
+/// Refuses to run as one of several processes that an MPI launcher has started: each would do the same work and write
+/// the same file. The first of them reports this on standard error, the others end silently.
 /// @param program its name, for the message.
-/// @returns nothing to go on, or how to end.
+/// @returns empty to continue, else how to end.
 std::optional<ExitStatus> refuse_several_processes(const char* program);
 
 }  // namespace seamflow

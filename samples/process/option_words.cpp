@@ -22,8 +22,8 @@ bool is_of_word(char c)
            std::string_view("_-./:").find(c) != std::string_view::npos;
 }
 
-/// Whether text[begin, end) is no part of a longer name, of a file for instance. A colon, a full stop or a blank may
-/// follow it.
+/// Whether text[begin, end) is not part of a longer name, for instance of a file. A colon, a full stop or a blank may
+/// follow.
 bool stands_alone(std::string_view text, std::size_t begin, std::size_t end)
 {
     if (begin > 0 && is_of_word(text[begin - 1]))
@@ -33,7 +33,7 @@ bool stands_alone(std::string_view text, std::size_t begin, std::size_t end)
     return (text[end] == ':' || text[end] == '.') && (end + 1 == text.size() || text[end + 1] == ' ');
 }
 
-/// Wherever it stands alone.
+/// Only where it stands alone.
 void exchange(std::string& text, std::string_view word, std::string_view option)
 {
     for (auto at = text.find(word); at != std::string::npos; at = text.find(word, at + 1))

@@ -1,4 +1,4 @@
-// What the Python package calls: arrays in, arrays out. The package turns what users give it into these arrays.
+// Functions for the Python package: arrays in, arrays out. The package converts its arguments to these arrays.
 
 #include <algorithm>
 #include <array>
@@ -75,7 +75,7 @@ PolygonMesh make_mesh(const Array<double>& positions, const Array<Integer>& corn
     return mesh;
 }
 
-/// A flow in a thread of its own, so that the one that Python runs in can look for signals, which reach no other.
+/// A flow in its own thread, so that the thread of Python can check for signals, which reach no other thread.
 class FlowThread {
   public:
     FlowThread(SmoothCommand command, PolygonMesh mesh, bool tells_progress)
@@ -101,8 +101,8 @@ class FlowThread {
 
     void stop() { stop_.request_stop(); }
 
-    /// Waits until there is something to tell, a moment has passed, or the flow is over.
-    /// @returns whether it is over.
+    /// Waits until there is something to report, a moment has passed, or the flow has ended.
+    /// @returns whether it has ended.
     bool wait(std::vector<FlowProgress>& heard)
     {
         constexpr std::chrono::milliseconds moment(50);
@@ -113,7 +113,7 @@ class FlowThread {
         return is_over_;
     }
 
-    /// To be called when it is over. @throws what it threw.
+    /// To be called when it has ended. @throws what it threw.
     FlowResult take()
     {
         if (failure_)
@@ -132,7 +132,7 @@ class FlowThread {
     std::jthread thread_;
 };
 
-/// Runs the flow without the GIL. Signals, and what `progress` raises, stop it.
+/// Runs the flow without the GIL. Signals, and exceptions of `progress`, stop it.
 FlowResult run_interruptibly(SmoothCommand command, PolygonMesh mesh, const py::object& progress)
 {
     FlowThread flow(std::move(command), std::move(mesh), !progress.is_none());
@@ -159,7 +159,7 @@ FlowResult run_interruptibly(SmoothCommand command, PolygonMesh mesh, const py::
     return flow.take();
 }
 
-/// An array that owns what it shows.
+/// An array that owns its data.
 py::array_t<double> to_array(Points points)
 {
     auto owner = std::make_unique<Points>(std::move(points));
@@ -175,7 +175,7 @@ std::vector<Value> to_vector(const Array<Value>& array)
 }
 
 /// @param words see parse_flow_options. @param progress called with the phase, the step, the number of steps and the
-/// part that is done; or None.
+/// fraction that is done; or None.
 /// @returns positions, labels, report, and what was missed.
 template <class Integer>
 py::tuple run(const Array<double>& positions, const Array<Integer>& corners, const Array<std::int64_t>& offsets,
@@ -201,7 +201,7 @@ void define_run(py::module_& module)
                py::arg("weights"), py::arg("progress"));
 }
 
-/// Those that are arrays here, or are about files.
+/// Options that are arrays here, or that concern files.
 bool is_of_files(const FlowOptionText& option)
 {
     constexpr std::array names{"fix",       "fix-property", "labels",         "attach-weights", "attach-property",

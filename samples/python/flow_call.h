@@ -9,7 +9,7 @@
 
 namespace seamflow {
 
-/// What a flow of a mesh in memory gives back.
+/// The result of a flow of a mesh in memory.
 struct FlowResult {
     /// #V by 3.
     Points positions;
@@ -21,10 +21,10 @@ struct FlowResult {
     std::string missed;
 };
 
-/// Does to a mesh in memory what `smooth` does to one in a file, with the same bits.
+/// Smooths a mesh in memory as `smooth` smooths one in a file, with the same bits.
 /// @param command from parse_flow_options; labels, fixed vertices and weights are in its options.
 /// @param mesh need not be valid.
-/// @throws what mean_curvature_flow throws; what is wrong with the mesh begins with "mesh: ".
+/// @throws the exceptions of mean_curvature_flow; messages about the mesh begin with "mesh: ".
 FlowResult call_flow(SmoothCommand command, PolygonMesh mesh, const FlowControl& control);
 
 }  // namespace seamflow

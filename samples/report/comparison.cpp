@@ -95,11 +95,11 @@ Comparison compare_meshes(const PolygonMesh& reference, const PolygonMesh& candi
         measure_vertices(reference, candidate, comparison, exec);
     else
         comparison.remarks.push_back(
-            "V_ and displacements are left out, for the vertices do not correspond: " + mismatch + ".");
+            "V_ and displacements are left out, because the vertices do not correspond: " + mismatch + ".");
     if (reference.n_faces() > 0 && candidate.n_faces() > 0)
         measure_surfaces(reference, candidate, comparison);
     else if (mismatch.empty())
-        comparison.remarks.push_back("H_ is left out, for without faces there is no surface.");
+        comparison.remarks.push_back("H_ is left out, because without faces there is no surface.");
     else
         throw InputError("the meshes have nothing to compare: without faces there is no surface, and their vertices do "
                          "not correspond: " +

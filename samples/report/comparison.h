@@ -13,21 +13,21 @@
 
 namespace seamflow {
 
-/// From the vertices of which mesh to the surface of which H_ is measured.
+/// The direction of H_: from the vertices of one mesh to the surface of the other.
 enum class Direction {
     /// The paper's.
     ReferenceToCandidate,
     CandidateToReference,
     /// One after the other.
     Both,
-    /// The larger one of both, number by number.
+    /// The larger of the two, number by number.
     Symmetric,
 };
 
-/// As on the command line.
+/// Its name on the command line.
 std::string_view name_of(Direction direction);
 
-/// What `compare` found.
+/// The results of `compare`.
 struct Comparison {
     /// Names of the files.
     std::string reference;
@@ -46,9 +46,9 @@ struct Comparison {
     std::optional<LengthStatistics> surface_distance_back;
     /// From the reference to the candidate, where the vertices correspond.
     std::optional<DisplacementStatistics> displacement;
-    /// Faces whose normal has turned by more than 90° (see flipped_faces), where the vertices correspond.
+    /// The number of faces whose normal has turned by more than 90° (see flipped_faces), where the vertices correspond.
     std::optional<Index> flipped_faces;
-    /// How many pairs of faces cross each other in the reference, and in the candidate (see self_intersections).
+    /// Numbers of pairs of faces that cross each other in the reference, and in the candidate (see self_intersections).
     Index self_intersections = 0;
     Index candidate_self_intersections = 0;
     /// Sentences for the user: what was left out, and why.
@@ -58,8 +58,8 @@ struct Comparison {
 /// Why the vertices of two meshes do not correspond; empty if they do: the same number of vertices and the same faces.
 std::string why_not_corresponding(const PolygonMesh& reference, const PolygonMesh& candidate);
 
-/// Measures all that can be measured of two meshes; the names of the files are left to the caller.
-/// @throws InputError if there is nothing.
+/// Measures everything that can be measured for two meshes; the caller sets the names of the files.
+/// @throws InputError if nothing can be measured.
 Comparison compare_meshes(const PolygonMesh& reference, const PolygonMesh& candidate, Direction direction,
                           const Executor& exec = run_serially);
 

@@ -22,7 +22,7 @@ Values vertex_distances(const PolygonMesh& reference, const PolygonMesh& candida
     return distances;
 }
 
-/// The values that are shown come first.
+/// The values to show come first.
 std::vector<VertexValues> measure(const PolygonMesh& reference, const PolygonMesh& candidate, Shown shown)
 {
     if (shown == Shown::SurfaceDistance)
@@ -54,7 +54,7 @@ ErrorRange write_error_map(const std::filesystem::path& path, const PolygonMesh&
 {
     const std::string mismatch = why_not_corresponding(reference, candidate);
     if (shown != Shown::SurfaceDistance && !mismatch.empty())
-        throw InputError("the error map cannot show this, for the vertices do not correspond: " + mismatch);
+        throw InputError("the error map cannot show this, because the vertices do not correspond: " + mismatch);
     const std::vector<VertexValues> values = measure(reference, candidate, shown);
     const bool with_sign = shown == Shown::Normal;
     const double end = last ? *last : length_statistics(values[0].values).max;

@@ -8,13 +8,13 @@
 
 namespace seamflow {
 
-/// What an error map shows at each vertex of the candidate.
+/// The quantity that an error map shows at each vertex of the candidate.
 enum class Shown {
     /// Its distance from the surface of the reference.
     SurfaceDistance,
     /// Its distance from the corresponding vertex of the reference.
     VertexDistance,
-    /// How far it was moved along the surface from its place in the reference.
+    /// How far it was moved along the surface from its position in the reference.
     Tangential,
     /// How far it was moved along the normal, negative against it.
     Normal,
@@ -29,7 +29,7 @@ struct ErrorRange {
 
 /// Writes the candidate, each vertex with its colour (rainbow_colour of value / last, for Shown::Normal signed_colour)
 /// and values in units of length: `distance` for the distances; `tangential`, `normal` and their joint length
-/// `distance` for the parts of the displacement. Values that are not defined are not a number, and grey.
+/// `distance` for the parts of the displacement. Undefined values are not a number, and grey.
 /// @param last the value that gets the last colour, positive; empty: the largest.
 /// @returns the range of the colours.
 /// @throws InputError if this cannot be shown for these meshes; OutputError.

@@ -27,7 +27,7 @@ std::string text_of(const Edge& edge)
     return fmt::format("{}-{}", edge[0], edge[1]);
 }
 
-/// Prints what was found wrong, one kind a paragraph.
+/// Prints the defects, one kind per paragraph.
 class FindingsPrinter {
   public:
     FindingsPrinter(std::ostream& out, int most_listed)
@@ -113,7 +113,7 @@ void print_inspection(std::ostream& out, const std::string& file, const FaultLog
     print_sizes(out, file, found);
     FindingsPrinter printer(out, most_listed);
     printer.print(faults);
-    printer.print(found.defects.vertices_not_finite, "vertices with coordinates that are no finite numbers",
+    printer.print(found.defects.vertices_not_finite, "vertices with coordinates that are not finite numbers",
                   "smooth refuses them: give them positions, or remove them and their faces");
     printer.print(found.defects.non_manifold_edges, "edges of three faces or more",
                   "smooth holds their vertices fixed");
@@ -123,13 +123,13 @@ void print_inspection(std::ostream& out, const std::string& file, const FaultLog
                   found.orientable ? "smooth does not mind; normals that it writes do"
                                    : "smooth does not mind; no orientation fits all faces, as on a Möbius band");
     printer.print(
-        found.defects.duplicate_faces, "faces with the same vertices as one before them",
+        found.defects.duplicate_faces, "faces with the same vertices as an earlier face",
         "where they make the mesh not manifold smooth leaves them out of the flow, and keeps them in the file");
     printer.print(found.defects.faces_without_area, "faces without area",
                   "with any Laplacian but fujiwara smooth cannot move their vertices");
     printer.print(found.defects.edges_without_length, "edges without length",
                   "with fujiwara smooth cannot move their ends");
-    printer.print(found.defects.coincident_vertices, "vertices at the same place as one before them",
+    printer.print(found.defects.coincident_vertices, "vertices at the same place as an earlier vertex",
                   "smooth moves those along seams as one, and each of the others with its own faces");
     printer.print(found.defects.isolated_vertices, "vertices without faces", "they stay where they are");
     printer.print(found.defects.self_intersections,
@@ -138,8 +138,8 @@ void print_inspection(std::ostream& out, const std::string& file, const FaultLog
                       : "pairs of faces that cross each other, and no more were looked for",
                   "smooth moves them as if they did not; programs that fill or print the solid may mind");
     if (found.bits_for_detail < 30)
-        printer.print("The mesh lies so far from the origin that its coordinates are coarse against its edges: floats "
-                      "cannot hold it; move it to the origin.");
+        printer.print("The mesh lies so far from the origin that its coordinates are coarse compared with its edges: "
+                      "floats cannot hold it; move it to the origin.");
     if (!printer.any())
         out << "nothing wrong was found\n";
     out.flush();

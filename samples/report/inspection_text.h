@@ -8,8 +8,8 @@
 
 namespace seamflow {
 
-/// What `inspect` found, for reading: sizes, then each kind of finding with what `smooth` does about it.
-/// @param most_listed how many elements of each kind are named.
+/// Prints the findings of `inspect`: sizes, then each kind of finding with its treatment by `smooth`.
+/// @param most_listed the most elements of each kind to name.
 void print_inspection(std::ostream& out, const std::string& file, const FaultLog& faults, const MeshInspection& found,
                       int most_listed);
 

@@ -8,27 +8,27 @@
 #include "samples/report/run_record.h"
 #include "samples/report/surface_change.h"
 
-/// What the reports of all programs have in common.
+/// Parts that the reports of all programs share.
 namespace seamflow {
 
-/// To be raised whenever a key of a report goes or means something else.
+/// Must be raised whenever a key of a report is removed or changes its meaning.
 inline constexpr int report_schema = 1;
 
 using ReportJson = nlohmann::ordered_json;
 
-/// A report's first keys: its schema, the version of the program, the date (UTC), and what the run was asked for.
+/// A report's first keys: its schema, the version of the program, the date (UTC), the files and arguments of the run.
 ReportJson begin_report(const RunRecord& run);
 
 /// Null for a number that is not finite.
 ReportJson json_number(double value);
 
-/// NAME_mean, NAME_rms and NAME_max in units of `mean_edge`; with _absolute behind them in units of length.
+/// NAME_mean, NAME_rms and NAME_max in units of `mean_edge`; with the suffix _absolute in units of length.
 void add_statistics(ReportJson& json, const std::string& name, const LengthStatistics& lengths, double mean_edge);
 
 /// Area, volume, roughness and, where they were counted, crossing faces.
 ReportJson look_json(const SurfaceLook& look);
 
-/// The text of a report. Names of files need not be valid UTF-8, JSON must.
+/// The text of a report. Names of files need not be valid UTF-8, but JSON must be.
 std::string text_of(const ReportJson& json);
 
 }  // namespace seamflow

@@ -15,7 +15,7 @@ namespace seamflow {
 namespace {
 
 constexpr double seconds_between = 0.1;
-/// Seconds of steps from which the time left can be told.
+/// Seconds of steps needed to estimate the time left.
 constexpr double seconds_to_judge_by = 0.5;
 constexpr const char* erase_line = "\r\033[K";
 
@@ -106,7 +106,7 @@ void ProgressBar::draw(const FlowProgress& progress, bool is_stopping)
     const auto seconds_left = time_left_.after(progress, now);
     if (!is_shown_ || (drawn_at_ && now - *drawn_at_ < seconds_between))
         return;
-    // A line as wide as the terminal would begin another one.
+    // A line as wide as the terminal would begin a new one.
     const int width = terminal_width() - 1;
     const std::string line = is_stopping
                                  ? std::string("finishing the running tasks").substr(0, static_cast<std::size_t>(width))

@@ -8,11 +8,11 @@
 
 namespace seamflow {
 
-/// One line of at most `width` columns: what is being done, a bar where there is room for it, the part that is done in
-/// percent, and the time that is left, where it is known.
+/// One line of at most `width` columns: the current phase, a bar where there is room for it, the percentage done, and
+/// the remaining time, where it is known.
 std::string progress_line(const FlowProgress& progress, std::optional<double> seconds_left, int width);
 
-/// How much time is left of a flow, as the steps so far have gone: what comes before them says nothing.
+/// The remaining time of a flow, extrapolated from its steps, and not from the work before them.
 class TimeLeft {
   public:
     /// @param now seconds, by any clock.
@@ -23,14 +23,14 @@ class TimeLeft {
     double fraction_at_start_ = 0.0;
 };
 
-/// A line on standard error that says how far a flow is, redrawn in place at most ten times per second; nothing at all
-/// where standard error is no terminal.
+/// A line on standard error that shows the progress of a flow, redrawn in place at most ten times per second; nothing
+/// at all if standard error is not a terminal.
 class ProgressBar {
   public:
     enum class Shown { OnTerminal, Never };
 
     explicit ProgressBar(Shown shown);
-    /// Erases it.
+    /// Erases the line.
     ~ProgressBar();
     ProgressBar(const ProgressBar&) = delete;
     ProgressBar& operator=(const ProgressBar&) = delete;

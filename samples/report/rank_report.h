@@ -10,10 +10,10 @@
 #include "engine/options/flow_options.h"
 #include "samples/report/run_record.h"
 
-/// What `smooth-distributed` tells of its run.
+/// The report of `smooth-distributed` on its run.
 namespace seamflow {
 
-/// What a rank has done.
+/// The work of one rank.
 struct RankRecord {
     std::int64_t vertices = 0;
     std::int64_t foreign_vertices = 0;
@@ -24,7 +24,7 @@ struct RankRecord {
     std::int64_t threads = 0;
 };
 
-/// All of it, at rank 0.
+/// The whole report, at rank 0.
 struct DistributedRecord {
     RunRecord run;
     SharedMeshSize size;
@@ -39,13 +39,13 @@ struct DistributedRecord {
 };
 
 /// One line for a step.
-/// @param steps of how many. @param mean_edge of the input.
+/// @param steps their number. @param mean_edge of the input.
 void print_rank_step(std::ostream& out, const RankStepState& state, int steps, double mean_edge);
 
-/// What was chosen, the cut, time and memory, remarks, where the result is, and how it differs from the input.
+/// Prints the choices, the cut, time and memory, remarks, where the result is, and how it differs from the input.
 void print_distributed_result(std::ostream& out, const DistributedRecord& record);
 
-/// REPORT.json, with the names and units of that of `smooth`.
+/// REPORT.json, with the same names and units as that of `smooth`.
 std::string distributed_report_json(const DistributedRecord& record, const FlowOptions& options);
 
 }  // namespace seamflow

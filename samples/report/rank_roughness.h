@@ -9,15 +9,15 @@
 
 namespace seamflow {
 
-/// The roughness of a mesh that ranks share: rank 0 measures the sample of faces that `smooth` takes, which is small.
-/// The bits are those of `smooth` for any number of ranks.
+/// The roughness of a mesh that ranks share: rank 0 measures the small sample of faces that `smooth` takes. The result
+/// has the same bits as that of `smooth` for any number of ranks.
 class RankRoughness {
   public:
     /// @param part of this rank, must outlive this. @param n_vertices of the whole mesh.
     RankRoughness(const MeshPart& part, std::int64_t n_vertices);
 
-    /// That of the part's vertices as they are now. All ranks call this together.
-    /// @returns at rank 0; the others know nothing of it.
+    /// The roughness with the present positions of the part's vertices. All ranks call this together.
+    /// @returns the roughness at rank 0 only.
     [[nodiscard]] Roughness measure(Communicator& comm) const;
 
   private:

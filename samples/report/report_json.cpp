@@ -113,7 +113,7 @@ Json surface_json(const RunRecord& run)
     return json;
 }
 
-/// Empty for what is not there or no number.
+/// Empty if missing or not a number.
 std::string text_of_cell(const Json& value)
 {
     return value.is_null() ? "" : value.dump();

@@ -17,18 +17,18 @@ namespace seamflow {
 /// of length; displacements are in mean edge lengths of the input.
 std::string smooth_report_json(const RunRecord& run, const FlowReport& report);
 
-/// STEPS.csv of --csv: a row a step, with all keys that steps have in the report, and the smallest and the largest
-/// Robin parameter p of sub-meshes, in 1/length. A cell is empty where there is no such number.
+/// STEPS.csv of --csv: one row per step, with all keys of steps in the report, and the smallest and the largest Robin
+/// parameter p of sub-meshes, in 1/length. A cell is empty if there is no such number.
 /// @param report that of `smooth` or `smooth-distributed`, as JSON.
 std::string steps_csv(std::string_view report);
 
-/// The same of a run that has failed: the files, the arguments and the error.
+/// REPORT.json of a run that has failed: the files, the arguments and the error.
 std::string smooth_failure_json(const RunRecord& run, const Failure& failure);
 
-/// REPORT.json of `compare`; the same units. What was not measured has no keys.
+/// REPORT.json of `compare`; the same units. Values that were not measured have no keys.
 std::string compare_report_json(const Comparison& comparison);
 
-/// What `inspect` found, whole, as it prints it with --json.
+/// All findings of `inspect`, as it prints them with --json.
 std::string inspection_json(const std::string& file, const FaultLog& faults, const MeshInspection& found);
 
 }  // namespace seamflow

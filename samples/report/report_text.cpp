@@ -48,7 +48,7 @@ std::string change(double before, double after, int significant)
     return digits(before, significant) + " -> " + digits(after, significant);
 }
 
-/// Explicit Euler steps factorise nothing. Only Cholesky's method has its memory set aside.
+/// Explicit Euler steps factorise nothing. Memory is set aside only for Cholesky's method.
 void print_factors(std::ostream& out, const FlowReport& report)
 {
     if (report.resources.live_factors == 0)

@@ -14,34 +14,34 @@
 
 namespace seamflow {
 
-/// What was read.
+/// Prints the input.
 void print_input(std::ostream& out, const RunRecord& run, std::int64_t n_vertices, std::int64_t n_faces);
 
-/// What a preset has chosen, if one has.
-/// @param options that say the same.
+/// Prints the choices of a preset, if one was used.
+/// @param options with the same effect.
 void print_preset(std::ostream& out, const RunRecord& run, const std::string& options);
 
-/// How much the flow is to smooth, in all units that it can be asked for in.
+/// Prints the amount of smoothing, in all units in which it can be given.
 void print_amount(std::ostream& out, const MeshScale& scale, const FlowOptions& options);
 
 /// One line for a step.
 /// @param step its number, from 1, of `steps`.
-/// @param mean_edge of the input; gaps are printed in it.
+/// @param mean_edge of the input; the unit of printed gaps.
 void print_step(std::ostream& out, const StepReport& report, int step, int steps, double mean_edge);
 
-/// How steps were taken: the cut, factors, the time per task and displacements.
+/// Prints how steps were taken: the cut, factors, the time per task and displacements.
 void print_details(std::ostream& out, const RunRecord& run, const FlowReport& report);
 
-/// What was chosen and why, remarks, time and memory, where the result is, and how it differs from the input.
+/// Prints choices with reasons, remarks, time and memory, where the result is, and how it differs from the input.
 void print_result(std::ostream& out, const RunRecord& run, const FlowReport& report);
 
-/// What `compare` found, absolute and in mean edge lengths of the reference; displacements in the latter alone.
+/// Prints the results of `compare`, absolute and in mean edge lengths of the reference; displacements only in these.
 void print_comparison(std::ostream& out, const Comparison& comparison);
 
-/// Where an error map is, and what its colours mean.
+/// Prints the path of an error map and the meaning of its colours.
 void print_error_map(std::ostream& out, const std::string& file, const ErrorRange& range);
 
-/// A table with one line per simulation: workers, makespan, efficiency, speed-up and critical path, times in
+/// Prints a table with one line per simulation: workers, makespan, efficiency, speed-up and critical path, times in
 /// milliseconds.
 void print_simulations(std::ostream& out, const std::vector<Simulation>& simulations);
 

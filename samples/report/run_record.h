@@ -10,7 +10,7 @@
 
 namespace seamflow {
 
-/// What `smooth` knows about its run beyond the FlowReport.
+/// The data of a run of `smooth` beyond the FlowReport.
 struct RunRecord {
     std::string input;
     std::string output;
@@ -18,12 +18,12 @@ struct RunRecord {
     std::vector<std::string> arguments;
     /// Name of the Laplacian.
     std::string laplacian;
-    /// The flow beside it: FlowOptions::flow, its filter, and MotionOptions::attachment.
+    /// The flow besides the Laplacian: FlowOptions::flow, its filter, and MotionOptions::attachment.
     FlowEquation flow = FlowEquation::MeanCurvature;
     StepFilter filter = {};
     /// In 1/length²; empty where there is none.
     std::optional<double> attachment = {};
-    /// Whether each vertex has one of its own.
+    /// Whether each vertex has an attachment of its own.
     bool has_attachment_weights = false;
     /// MotionOptions::rescale, and FlowOptions::keep_edges: in degrees.
     Rescale rescale = Rescale::None;
@@ -34,14 +34,14 @@ struct RunRecord {
     MeshScale scale = {};
     /// Its noise in mean edge lengths, if the amount follows from it.
     std::optional<double> noise = {};
-    /// What is to be said before the remarks of the flow, a sentence each.
+    /// Remarks to print before those of the flow, one sentence each.
     std::vector<std::string> remarks = {};
-    /// Wall-clock time for reading all inputs and for writing all results, report and trace excepted.
+    /// Wall-clock time for reading all inputs and for writing all results, except for report and trace.
     double read_seconds = 0.0;
     double write_seconds = 0.0;
-    /// Of the whole run so far.
+    /// Of the whole run until now.
     double seconds = 0.0;
-    /// From the input to the result.
+    /// The change from the input to the result.
     SurfaceChange surface = {};
 };
 

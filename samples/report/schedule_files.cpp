@@ -33,7 +33,7 @@ std::string name_of(const ScheduledTask& task)
     return task.sub_mesh >= 0 ? fmt::format("{} {}", kind, task.sub_mesh) : std::string(kind);
 }
 
-/// One event after the other, a line each.
+/// One event per line.
 class TraceFile {
   public:
     using Event = nlohmann::ordered_json;
@@ -45,7 +45,7 @@ class TraceFile {
     }
 
     /// @param kind the format's letter for it.
-    /// @param further what there is to say beside the row.
+    /// @param further the data besides the row.
     void add(const char* kind, int row, const Event& further)
     {
         Event event = {{"ph", kind}, {"pid", 1}, {"tid", row}};
@@ -76,7 +76,7 @@ class TraceFile {
     bool first_ = true;
 };
 
-/// Rows count from 1: viewers take thread 0 for an idle processor.
+/// Rows count from 1: viewers regard thread 0 as an idle processor.
 int row_of(const TaskRecord& record)
 {
     return record.thread + 1;
@@ -124,8 +124,8 @@ void write_tasks(TraceFile& file, const Schedule& schedule, const std::vector<Su
     }
 }
 
-/// For each step that ran both tasks. An arrow leaves in the last nanosecond of its slice, since with its end the next
-/// slice may begin.
+/// For each step that ran both tasks. An arrow leaves in the last nanosecond of its slice, since the next slice may
+/// begin at its end.
 void write_arrows(TraceFile& file, const Schedule& schedule)
 {
     std::vector<const TaskRecord*> ran(schedule.tasks.size(), nullptr);

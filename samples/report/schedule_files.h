@@ -14,7 +14,7 @@ namespace seamflow {
 void write_schedule_trace(const std::filesystem::path& path, const FlowReport& report);
 
 /// Writes the task graph of a flow in the language of Graphviz: a node for each task, named by phase and sub-mesh, an
-/// arrow to each task that waits for it. Sweeps that alternate are two graphs in one drawing.
+/// arrow to each task that waits for it. Alternating sweeps are two graphs in one drawing.
 /// @param report with a schedule.
 /// @throws OutputError naming the file.
 void write_task_graph(const std::filesystem::path& path, const FlowReport& report);

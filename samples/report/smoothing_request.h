@@ -7,7 +7,7 @@
 
 namespace seamflow {
 
-/// The sizes of a mesh that amounts of smoothing are measured by, in units of length.
+/// The sizes of a mesh by which amounts of smoothing are measured, in units of length.
 struct MeshScale {
     double mean_edge = 0.0;
     /// Of the bounding box of all vertices.
@@ -16,17 +16,17 @@ struct MeshScale {
 
 MeshScale measure_scale(const PolygonMesh& mesh, const Executor& exec = run_serially);
 
-/// How much a flow is to smooth, in one of three ways.
+/// The amount of smoothing of a flow, given in one of three ways.
 struct SmoothingRequest {
     /// dt in length².
     double time_step = 0.0;
     /// dt in squared mean edge lengths, if not empty.
     std::optional<double> time_step_edges = {};
-    /// What all steps together smooth (see smoothed_radius), if not empty.
+    /// The radius that all steps together smooth (see smoothed_radius), if not empty.
     std::optional<LengthOnMesh> radius = {};
 };
 
-/// dt in length² for that many steps, each with that filter.
+/// dt in length² for the given number of steps with the given filter.
 /// @throws InputError for a mesh that has no size to measure by.
 double time_step_of(const SmoothingRequest& request, const MeshScale& scale, int steps, const StepFilter& filter = {});
 

@@ -54,7 +54,7 @@ class Surface {
   private:
     const PolygonMesh& mesh_;
     const Executor& exec_;
-    /// Some of the faces, and which vertices of the mesh theirs are.
+    /// Some of the faces, and their vertices in the mesh.
     PolygonMesh sample_;
     std::vector<Index> sampled_vertices_;
     bool has_volume_;

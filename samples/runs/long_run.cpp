@@ -39,8 +39,9 @@ LongRun::LongRun(const SmoothCommand& command, const MeshFile& file, Interruptio
         } catch (const OptionError& error) {
             if (!command.amount.radius)
                 throw;
-            throw OptionError(std::string(error.what()) +
-                              " (--radius is divided among the steps: to go on with more of them, give --time-step)");
+            throw OptionError(
+                std::string(error.what()) +
+                " (--radius is divided among the steps: to continue with more of them, give --time-step)");
         }
     }
     if (resume_ != nullptr)
@@ -63,7 +64,7 @@ StepObserver LongRun::observing(StepObserver inner)
 {
     return [this, inner = std::move(inner)](const StepState& state) {
         bar_.erase();
-        // Before what may fail: the mesh has moved already.
+        // Before anything can fail: the mesh has moved already.
         if (state.separated != nullptr) {
             PolygonMesh separated = *state.separated;
             separated_ = std::move(separated);
@@ -90,7 +91,7 @@ ExitStatus LongRun::end_early()
                      : resume_                  ? resume_->n_steps()
                                                 : 0;
     if (kept > 0)
-        message += fmt::format("; the same command goes on after step {}", kept);
+        message += fmt::format("; the same command continues after step {}", kept);
     std::cerr << "smooth: " << message << '\n';
     return interruption_->status();
 }
@@ -105,7 +106,7 @@ void LongRun::keep_last_step()
         std::cerr << "smooth: " << path.string() << " has the mesh after step " << step_ << " of "
                   << command_->options.steps << '\n';
     } catch (const std::exception&) {
-        // What made the flow fail is what the user has to know, and comes out.
+        // The user needs to know why the flow failed: that is reported.
     }
 }
 

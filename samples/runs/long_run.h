@@ -15,33 +15,33 @@
 
 namespace seamflow {
 
-/// Where the last complete step goes if the run is interrupted: "smooth.ply" becomes "smooth.interrupted.ply", and so
+/// The file for the last complete step if the run is interrupted: "smooth.ply" becomes "smooth.interrupted.ply", and so
 /// on if that is the input.
 std::filesystem::path interrupted_path(const std::filesystem::path& output, const std::filesystem::path& input);
 
-/// What accompanies the flow of `smooth`: the progress bar, checkpoints, and what becomes of it when it is interrupted.
+/// Runs beside the flow of `smooth`: the progress bar, checkpoints, and the handling of interruptions.
 class LongRun {
   public:
-    /// Takes up the checkpoint, if there is one; from here on, a signal makes the flow stop.
-    /// @param file its mesh is the one that flows; all must outlive this.
+    /// Loads the checkpoint, if there is one; from here on, a signal makes the flow stop.
+    /// @param file its mesh flows; all arguments must outlive this.
     /// @throws what Checkpoints::find throws.
     LongRun(const SmoothCommand& command, const MeshFile& file, Interruption& interruption, std::ostream& out);
 
-    /// What the flow is to get. Its observer must not outlive this.
+    /// The control for the flow. Its observer must not outlive this.
     [[nodiscard]] FlowControl control();
 
-    /// An observer that does all that `inner` does, and keeps checkpoints.
+    /// An observer that calls `inner` and saves checkpoints.
     [[nodiscard]] StepObserver observing(StepObserver inner);
 
     /// After the flow: makes room for other text.
     void end() { bar_.erase(); }
 
-    /// After the flow was cancelled: writes the last complete step, if there was one, and says so.
-    /// @returns how to end.
+    /// After the flow was cancelled: writes the last complete step, if there was one, and reports it.
+    /// @returns the exit status.
     /// @throws OutputError.
     [[nodiscard]] ExitStatus end_early();
 
-    /// After the flow has failed: writes the last complete step, if there was one and it can be written, and says so.
+    /// After the flow failed: writes the last complete step, if there was one and it can be written, and reports it.
     void keep_last_step();
 
   private:
@@ -55,7 +55,7 @@ class LongRun {
     std::shared_ptr<const FlowState> resume_;
     /// The last complete step of this run; 0: none.
     int step_ = 0;
-    /// With --keep-gaps, as they were then.
+    /// With --keep-gaps, the separate sub-meshes at that step.
     std::optional<PolygonMesh> separated_;
 };
 

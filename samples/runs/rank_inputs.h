@@ -9,7 +9,7 @@
 #include "partition/io/fault_log.h"
 #include "samples/command/smooth_command.h"
 
-/// What a run of ranks reads beside the mesh. Rank 0 reads it; all ranks call these functions together.
+/// The inputs of a run of ranks besides the mesh. Rank 0 reads them; all ranks call these functions together.
 namespace seamflow {
 
 /// The labels of --labels for the faces of this rank's range.
@@ -23,9 +23,9 @@ std::vector<std::int64_t> read_fixed(Communicator& comm, const SmoothCommand& co
 /// The weights of --attach-weights, #V of the whole mesh at rank 0; empty elsewhere, and without that option.
 std::vector<double> read_weights(Communicator& comm, const SmoothCommand& command, std::int64_t n_vertices);
 
-/// The weights of the vertices of a part: those of a seam get the largest of all that move as one.
+/// The weights of the vertices of a part: vertices of a seam get the largest weight of all that move as one.
 /// @param weights see read_weights. @param numbers of the vertices, ascending. @param bounds of vertices.
-/// @returns empty where rank 0 has no weights.
+/// @returns empty if rank 0 has no weights.
 std::vector<double> deal_weights(Communicator& comm, std::vector<double> weights, const JoinedSeams& seams,
                                  std::span<const std::int64_t> numbers, std::span<const std::int64_t> bounds);
 

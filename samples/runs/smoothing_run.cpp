@@ -92,7 +92,7 @@ void remark_on_folds(const FlowOptions& options, const SurfaceChange& change, st
 {
     std::string what;
     if (change.folded_faces > 0)
-        what = fmt::format("{} turned over against those around",
+        what = fmt::format("{} turned over against neighbouring faces",
                            change.folded_faces == 1 ? "1 face has" : fmt::format("{} faces have", change.folded_faces));
     if (const std::size_t n = change.new_self_intersections.value_or(0); n > 0)
         what += fmt::format("{}{} of faces cross{} now that did not before", what.empty() ? "" : ", and ",

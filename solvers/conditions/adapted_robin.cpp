@@ -16,7 +16,7 @@ double mean_edge_at(const SubMesh& sub_mesh, Index i, const Points& positions)
     return sum / static_cast<double>(sub_mesh.corrected.neighbours[i].size());
 }
 
-/// Whether the coefficients of a fan's ∂n are neither vanishing nor huge against 1 / edge. Bounds found by measurement.
+/// Whether the coefficients of a fan's ∂n are neither vanishing nor huge relative to 1 / edge, by measured bounds.
 bool is_in_proportion(std::span<const Index> fan, const IndexLists& faces, const Conormal& conormal, double edge)
 {
     constexpr double least_diagonal = 0.2;

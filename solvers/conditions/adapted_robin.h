@@ -28,7 +28,7 @@ class AdaptedRobin final : public TransmissionCondition {
     [[nodiscard]] const DerivativeStencils& stencils() const { return stencils_; }
 
     /// Whether the two conormals at the i-th vertex exist, point away from each other, and belong to derivatives whose
-    /// coefficients are in proportion to the edges around: where that is not so, the condition lets vertices jump.
+    /// coefficients are in proportion to the edges around: otherwise the condition lets vertices jump.
     [[nodiscard]] bool is_well_defined(Index i, const Points& positions) const;
 
   private:
@@ -41,7 +41,7 @@ class AdaptedRobin final : public TransmissionCondition {
     const SubMesh* sub_mesh_;
     DerivativeStencils stencils_;
     double dt_p_ = 0.0;
-    /// Per vertex of Γ; nothing where one of them does not exist.
+    /// Per vertex of Γ; empty if one of them does not exist.
     std::vector<std::optional<Conormals>> conormals_;
 };
 

@@ -9,7 +9,7 @@ namespace seamflow {
 
 namespace {
 
-/// Of the fan of the given faces at a vertex with neighbours `before` and `after` along the fan's boundary.
+/// For the fan of the given faces at a vertex with neighbours `before` and `after` along the fan's boundary.
 std::optional<Conormal> conormal_of(std::span<const Index> fan, const IndexLists& faces, Index vertex, Index before,
                                     Index after, const Points& positions)
 {

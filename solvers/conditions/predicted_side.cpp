@@ -13,11 +13,11 @@ namespace seamflow {
 
 namespace {
 
-/// Which row stands at a vertex in this step.
+/// The kind of row of a vertex in this step.
 enum class RowKind : std::uint8_t {
-    /// The undecomposed step's, the other side responding to Γ.
+    /// That of the undecomposed step, with the other side responding to Γ.
     Responding,
-    /// The undecomposed step's, the other side as predicted.
+    /// That of the undecomposed step, with the other side as predicted.
     Held,
     Robin,
 };
@@ -88,7 +88,7 @@ class PredictedSide final : public TransmissionCondition {
     }
 
   private:
-    /// All that either kind of row may depend on.
+    /// All vertices that either kind of row may depend on.
     void list_columns(Index i)
     {
         std::vector<Index> columns(robin_.columns()[i].begin(), robin_.columns()[i].end());
@@ -117,7 +117,7 @@ class PredictedSide final : public TransmissionCondition {
         return remaining_diagonal(i, positions) >= 0.0 ? RowKind::Responding : RowKind::Held;
     }
 
-    /// What remains of the Laplacian's diagonal when the other side responds. Obtuse triangles can make it negative.
+    /// The remaining diagonal of the Laplacian when the other side responds. Obtuse triangles can make it negative.
     [[nodiscard]] double remaining_diagonal(Index i, const Points& positions) const
     {
         const auto star = star_.row(i);
@@ -150,13 +150,13 @@ class PredictedSide final : public TransmissionCondition {
         }
     }
 
-    /// Those of row i, one per entry of its star; 0 where the other side is held.
+    /// The responses of row i, one per entry of its star; 0 where the other side is held.
     [[nodiscard]] std::span<const double> responses(Index i) const
     {
         return std::span(responses_).subspan(at(star_.columns().offsets[i]), star_.columns()[i].size());
     }
 
-    /// Robin's columns are some of this condition's: its row is computed in front, then spread from the end.
+    /// Robin's columns are a subset of this condition's: its row is computed in front, then spread from the end.
     void robin_left_hand_side(Index i, const Points& positions, std::span<double> row) const
     {
         const auto columns = robin_.columns()[i];

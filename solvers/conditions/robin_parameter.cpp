@@ -52,7 +52,7 @@ EdgeLists list_edges(const SubMesh& sub_mesh, const Points& positions)
     return lists;
 }
 
-/// The edge that stands for ‖e‖; infinite if none has a positive length.
+/// The edge that represents ‖e‖; infinite if none has a positive length.
 double representative_edge(const EdgeLists& edges, PEdge which)
 {
     constexpr double percentile = 0.05;

@@ -28,8 +28,8 @@ class TransmissionCondition {
     /// @param row receives one coefficient per entry of columns()[i].
     virtual void left_hand_side(Index i, const Points& positions, std::span<double> row) const = 0;
 
-    /// The right-hand side of row i, which is linear in both: with other data in the place of positions, it is that for
-    /// the same geometry.
+    /// The right-hand side of row i, linear in both arguments: with data instead of positions, that of the data for the
+    /// same geometry.
     /// @param positions #local by 3: Vᵏ.
     /// @param other_side #local by 3: what is known of the other side's Vᵏ⁺¹, on Γ and in the halo.
     [[nodiscard]] virtual Point right_hand_side(Index i, const Points& positions, const Points& other_side) const = 0;

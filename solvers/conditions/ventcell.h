@@ -7,9 +7,9 @@
 
 namespace seamflow {
 
-/// The adapted Ventcell condition of the paper (eq. 24): (I + dt (p ∂n_A + q ∂t)) V_A^{k+1} = (I - dt p
-/// ∂n_B) V_B, with the tangential derivative along Γ, whose lengths are those of Vᵏ; otherwise as AdaptedRobin, which
-/// it is with q = 0. Straightens Γ.
+/// The adapted Ventcell condition of the paper (eq. 24): (I + dt (p ∂n_A + q ∂t)) V_A^{k+1} = (I - dt p ∂n_B) V_B, with
+/// the tangential derivative along Γ, whose lengths are those of Vᵏ; otherwise as AdaptedRobin, equal to it for q = 0.
+/// Straightens Γ.
 /// @param sub_mesh must outlive the condition.
 /// @param q not negative, without dimension.
 std::unique_ptr<TransmissionCondition> make_adapted_ventcell(const SubMesh& sub_mesh, double q = 0.0);

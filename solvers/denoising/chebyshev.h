@@ -27,7 +27,7 @@ class ChebyshevExpansion {
     Eigen::MatrixXd weights_;
 };
 
-/// Takes the terms of a Chebyshev basis, j = 0 … n_terms - 1 one after the other.
+/// Receives the terms of a Chebyshev basis, j = 0 … n_terms - 1, in order.
 using VisitTerm = std::function<void(Index j, const Signals& term)>;
 
 /// Makes the signals Tⱼ(L - 1) X: any filter f(L) X is a linear combination of them. L = D⁻¹ K is the Laplacian of the

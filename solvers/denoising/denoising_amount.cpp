@@ -20,15 +20,15 @@ constexpr Index n_terms = 48;
 constexpr double smallest_amount = 0.25;
 constexpr double largest_amount = 12.0;
 constexpr Index n_amounts = 52;
-/// The normals are first those of this filter, then those of the one found with these.
+/// The normals are first those of this filter, then those of the filter found with them.
 constexpr double first_amount = 1.5;
 constexpr int n_rounds = 2;
-/// The noise is within these factors of what is said.
+/// The noise is within these factors of the given value.
 constexpr double least_noise = 0.9;
 constexpr double most_noise = 1.15;
 /// Factor on the amount that comes nearest, for the normals.
 constexpr double for_normals = 1.15;
-/// Something is gained where the risk is below this part of that of the mesh as it is, σ².
+/// There is a gain if the risk is below this fraction of that of the unchanged mesh, σ².
 constexpr double clear_gain = 0.9;
 
 constexpr int probe_column = 3;
@@ -44,7 +44,7 @@ double amount_at(double place)
     return smallest_amount * std::pow(largest_amount / smallest_amount, place / (n_amounts - 1));
 }
 
-/// 1 or -1, by the number of a vertex alone (the mixing of splitmix64: Steele, Lea, Flood 2014).
+/// 1 or -1, depending only on the number of a vertex (the mixing of splitmix64: Steele, Lea, Flood 2014).
 double random_sign(Index v)
 {
     std::uint64_t bits = (static_cast<std::uint64_t>(v) + 1) * 0x9e3779b97f4a7c15ULL;
@@ -53,7 +53,7 @@ double random_sign(Index v)
     return (bits >> 63) == 0 ? 1.0 : -1.0;
 }
 
-/// The positions around their mean, and the random vector.
+/// The positions relative to their mean, and the random vector.
 Signals signals_of(const PolygonMesh& mesh, const FilterSample& sample)
 {
     Signals signals(static_cast<Eigen::Index>(sample.vertices.size()), Signals::ColsAtCompileTime);
@@ -66,7 +66,7 @@ Signals signals_of(const PolygonMesh& mesh, const FilterSample& sample)
     return signals;
 }
 
-/// Risks of all amounts, by what the basis is along given normals.
+/// Risks of all amounts, from the basis along given normals.
 class Risks {
   public:
     /// @param products n_terms by n_terms: of the changes Tⱼ X - (-1)ʲ X along the normals, mean over the measured
@@ -122,7 +122,7 @@ class Risks {
         return values[i] + (place - i) * (values[i + 1] - values[i]);
     }
 
-    /// The place of the least of some values, by the parabola through it and both beside it.
+    /// The place of the least of some values, by the parabola through it and its two neighbours.
     static double minimum(const Eigen::RowVectorXd& values, Index first, Index last)
     {
         Eigen::Index offset = 0;
@@ -139,7 +139,7 @@ class Risks {
     Eigen::RowVectorXd traces_;
 };
 
-/// A sample of a mesh, and what filters make of it.
+/// A sample of a mesh, and the results of filtering it.
 class FilteredSample {
   public:
     FilteredSample(const PolygonMesh& mesh, const Topology& topology, const Executor& exec)
@@ -156,7 +156,7 @@ class FilteredSample {
 
     [[nodiscard]] bool empty() const { return sample_.measured.empty(); }
 
-    /// Along the normals that the mesh has when it is filtered.
+    /// Along the normals of the filtered mesh.
     [[nodiscard]] Risks risks(double amount)
     {
         filter_positions(coefficients(amount));
@@ -187,8 +187,8 @@ class FilteredSample {
             [amount](double eigenvalue) { return filter_of_order_three(amount, eigenvalue); });
     }
 
-    /// Tⱼ X - (-1)ʲ X, which is 0 for what is constant: filters leave that as it is, however large it is and however
-    /// few terms they have.
+    /// Tⱼ X - (-1)ʲ X, which is 0 for constants: filters leave these unchanged, however large they are and however few
+    /// terms the filters have.
     [[nodiscard]] Eigen::RowVector4d change(Index j, const Signals& term, Index place) const
     {
         return term.row(place) + (j % 2 == 0 ? -1.0 : 1.0) * signals_.row(place);
@@ -207,7 +207,7 @@ class FilteredSample {
         for_each(exec_, n, [&](Index i) { positions_.row(sample_.vertices[i]) = filtered.row(i).head<3>(); });
     }
 
-    /// Of all columns with all columns.
+    /// Products of all columns with all columns.
     [[nodiscard]] Eigen::MatrixXd products(const Eigen::MatrixXd& columns) const
     {
         const auto n = static_cast<Index>(columns.rows());
@@ -225,7 +225,7 @@ class FilteredSample {
     VertexNormals normals_;
     FilterSample sample_;
     Signals signals_;
-    /// #V by 3: the filtered ones of the sample, no others.
+    /// #V by 3: filtered positions, only of the sample.
     Points positions_;
     ChebyshevExpansion expansion_{n_terms};
     /// n_terms by n_amounts.

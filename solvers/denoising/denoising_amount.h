@@ -6,13 +6,13 @@
 
 namespace seamflow {
 
-/// How much to smooth, and what is expected of it.
+/// How much to smooth, and the expected result.
 struct DenoisingAmount {
     /// t of the filter H = (1 + (t L)³)⁻¹, without a unit; 0: nothing is gained.
     double amount = 0.0;
     /// The mean squared distance from the true surface, along the normals, that is expected after the filter: length².
     double risk = 0.0;
-    /// By how much the filter moves vertices along the normals, root mean square, in units of length. Not more than the
+    /// Root mean square displacement of vertices along the normals by the filter, in units of length. At most the
     /// noise.
     double move = 0.0;
 };

@@ -16,7 +16,7 @@ constexpr int patch_rings = 18;
 constexpr int measured_rings = 8;
 constexpr int outside_patches = patch_rings + 1;
 
-/// #V: how many rings of faces away the nearest middle of a patch is; `outside_patches` further out.
+/// #V: the distance to the nearest middle of a patch in rings of faces; `outside_patches` further out.
 std::vector<std::int8_t> rings_around_middles(const PolygonMesh& mesh, const Topology& topology)
 {
     const Index n = mesh.n_vertices();

@@ -9,14 +9,14 @@
 
 namespace seamflow {
 
-/// A mesh, or if it is large patches spread all over it, as a graph on which filters are tried out.
+/// A mesh, or patches spread all over it if it is large, as a graph on which filters are tested.
 struct FilterSample {
     /// The vertices, in ascending order.
     std::vector<Index> vertices;
-    /// For each of them its neighbours along edges, by their places among the vertices; none for those that stay where
-    /// they are, as rims of patches do.
+    /// For each of them its neighbours along edges, as places among the vertices; none for those that stay fixed, such
+    /// as rims of patches.
     IndexLists neighbours;
-    /// The places of those vertices that move and are so far from rims of patches that these do not matter.
+    /// The places of vertices that move and are far enough from rims of patches not to be affected.
     std::vector<Index> measured;
 };
 

@@ -53,7 +53,7 @@ CholmodWorkspace::State& CholmodWorkspace::state()
 
 namespace {
 
-/// CHOLMOD with 32-bit integers: faster, for systems whose factors have less than 2³¹ entries.
+/// CHOLMOD with 32-bit integers: faster, for systems whose factors have fewer than 2³¹ entries.
 struct CholmodInt {
     using Integer = int;
     static constexpr auto start = cholmod_start;
@@ -90,7 +90,7 @@ void require_ok(const cholmod_common& common, const char* task)
         throw_failure("CHOLMOD", task, common.status);
 }
 
-/// What CHOLMOD wants where it only frees: that takes no memory, so that it cannot fail.
+/// The settings that CHOLMOD needs for freeing: they take no memory, so that this cannot fail.
 template <class Interface>
 struct Settings {
     cholmod_common common;
@@ -141,7 +141,7 @@ class CholmodLlt final : public DirectSolver {
 
     bool make_factor(std::span<const double> values, FactorMemory&, SolverWorkspace& workspace) override
     {
-        // CHOLMOD wants an unknown at least.
+        // CHOLMOD requires at least one unknown.
         if (upper_.n() == 0)
             return true;
         cholmod_common& common = Interface::common(workspace.cholmod);
@@ -178,7 +178,7 @@ class CholmodLlt final : public DirectSolver {
         solution = Eigen::Map<const Columns>(static_cast<const double*>(kept.solution->x), right_hand_side.rows(), 3);
     }
 
-    /// Leaves what the analysis has found.
+    /// Keeps the result of the analysis.
     void free_factor() override
     {
         if (upper_.n() == 0)

@@ -11,19 +11,19 @@ namespace seamflow {
 
 namespace {
 
-/// Columns in a block, rows that are used at once, and how much of L that makes.
+/// Columns in a block, rows that are used at once, and entries of L in such a tile.
 constexpr Index block_width = 4;
 constexpr Index n_lanes = DenseFactor::lanes;
 constexpr Index tile_size = block_width * n_lanes;
-/// So many tiles before they are used, they are asked for: most factors come from outside the caches.
+/// Tiles are prefetched this many tiles before their use: most factors come from outside the caches.
 constexpr Index tiles_ahead = 96;
 
 using Lanes = SimdVector<float, n_lanes>;
 
-/// Compilers leave out calls of functions that do nothing but this.
+/// Compilers omit calls of functions that only do this.
 [[gnu::always_inline]] inline void prefetch_after(const float* tile)
 {
-    // The last ones ask for what is after the factor, which does no harm.
+    // The last ones prefetch memory after the factor, which does no harm.
     const std::uintptr_t ahead = reinterpret_cast<std::uintptr_t>(tile) + at(tiles_ahead * tile_size) * sizeof(float);
     for (std::size_t byte = 0; byte < at(tile_size) * sizeof(float); byte += 64)
         __builtin_prefetch(reinterpret_cast<const void*>(ahead + byte));
@@ -42,7 +42,7 @@ struct Fours {
 };
 
 /// Some rows of three vectors. All three are used with a tile at once: a third of the loops, whose ends processors do
-/// not foresee.
+/// not predict.
 struct Rows {
     Lanes x{};
     Lanes y{};
@@ -74,7 +74,7 @@ struct Rows {
     }
 };
 
-/// The sums of four registers each.
+/// The sum of each of four registers.
 inline FourSums sums_of(const Lanes& a, const Lanes& b, const Lanes& c, const Lanes& d)
 {
     const Lanes ab = __builtin_shufflevector(a, b, 0, 1, 2, 3, 8, 9, 10, 11) +
@@ -142,7 +142,7 @@ inline void add_multiples(const Block& block, const Fours& factors, const FloatC
     }
 }
 
-/// The block, transposed, times v. The last rows come first: those of the block itself may have only just been found.
+/// The block, transposed, times v. The last rows come first: those of the block itself may just have been found.
 inline Fours multiply_transposed(const Block& block, const FloatColumns& v)
 {
     Rows a, b, c, d;
@@ -171,7 +171,7 @@ struct Lower {
 
     [[nodiscard]] Index n_groups() const { return (n + n_lanes - 1) / n_lanes; }
 
-    /// How many tiles there are before a block.
+    /// The number of tiles before a block.
     [[nodiscard]] Index tiles_before(Index begin) const
     {
         const Index whole = begin / n_lanes;
@@ -182,7 +182,7 @@ struct Lower {
     {
         return {tiles + at(tiles_before(begin)) * at(tile_size), n_groups() - begin / n_lanes, begin};
     }
-    /// Below 0 where there is none.
+    /// Negative if there is none.
     [[nodiscard]] Index last_block() const { return (n + block_width - 1) / block_width * block_width - block_width; }
 };
 
@@ -206,7 +206,7 @@ SEAMFLOW_WIDE void multiply_twice(Lower lower, const float* scales, FloatColumns
     }
 }
 
-/// result = L⁻¹ v; of v nothing of use remains.
+/// result = L⁻¹ v; v is overwritten.
 SEAMFLOW_WIDE void forward_substitute(Lower lower, FloatColumns v, FloatColumns result)
 {
     for (Index begin = 0; begin < lower.n; begin += block_width) {
@@ -224,7 +224,7 @@ SEAMFLOW_WIDE void forward_substitute(Lower lower, FloatColumns v, FloatColumns 
     }
 }
 
-/// result = L⁻ᵀ v, where it is 0 before.
+/// result = L⁻ᵀ v; result must be 0 before.
 SEAMFLOW_WIDE void back_substitute(Lower lower, FloatColumns v, FloatColumns result)
 {
     for (Index begin = lower.last_block(); begin >= 0; begin -= block_width) {
@@ -238,7 +238,7 @@ SEAMFLOW_WIDE void back_substitute(Lower lower, FloatColumns v, FloatColumns res
             }
             store_own_rows(block, rows, to);
         };
-        // What the own rows would contribute is 0 as yet.
+        // The contribution of the own rows is still 0.
         const Fours products = multiply_transposed(block, result);
         solve(v.x, products.x, result.x);
         solve(v.y, products.y, result.y);

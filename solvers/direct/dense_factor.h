@@ -6,7 +6,7 @@
 
 namespace seamflow {
 
-/// So many single-precision numbers, in whole cache lines.
+/// Single-precision numbers, in whole cache lines.
 class AlignedFloats {
   public:
     /// Makes room for n at least. All are 0 afterwards.
@@ -24,33 +24,33 @@ class AlignedFloats {
     std::vector<Line> lines_;
 };
 
-/// Three columns of n numbers. Each has room for DenseFactor::room(n), 0 from the n-th on.
+/// Three columns of n numbers, each padded with zeros to DenseFactor::room(n).
 struct FloatColumns {
     float* x;
     float* y;
     float* z;
 };
 
-/// Three columns one after the other.
-/// @param room numbers for each.
+/// Three consecutive columns.
+/// @param room numbers per column.
 inline FloatColumns columns_at(float* begin, std::size_t room)
 {
     return {begin, begin + room, begin + 2 * room};
 }
 
-/// A small dense symmetric matrix S = L D Lᵀ in single precision, for many products with S and S⁻¹. S has any unit: it
-/// is kept as scale() S₁, where single precision has room for S₁ and its inverse.
+/// A small dense symmetric matrix S = L D Lᵀ in single precision, for many products with S and S⁻¹. S may have any
+/// unit: it is kept as scale() S₁, so that S₁ and its inverse fit in single precision.
 ///
-/// Products are fastest where columns begin at whole registers, as those one after the other in AlignedFloats do.
+/// Products are fastest if columns are aligned to registers, as consecutive ones in AlignedFloats are.
 class DenseFactor {
   public:
-    /// Rows that are used at once.
+    /// Rows processed at once.
     static constexpr Index lanes = 8;
 
-    /// How many numbers a column of n has room for.
+    /// The padded length of a column of n numbers.
     [[nodiscard]] static std::size_t room(Index n) { return at((n + lanes - 1) / lanes * lanes); }
 
-    /// Takes a factorisation over.
+    /// Takes over a factorisation.
     /// @param scale by which the factor is to be multiplied: see LdlFactor::scale.
     template <class Number>
     void take(const DenseLdl<Number>& factor, double scale);
@@ -60,14 +60,14 @@ class DenseFactor {
     /// A power of two.
     [[nodiscard]] double scale() const { return scale_; }
 
-    /// result, which is elsewhere, becomes S₁ v, and v becomes Rᵀ v with R = L √D₁, so that S₁ = R Rᵀ.
+    /// result, not aliasing v, becomes S₁ v, and v becomes Rᵀ v with R = L √D₁, so that S₁ = R Rᵀ.
     void multiply(FloatColumns v, FloatColumns result) const;
 
     /// v becomes S₁⁻¹ v.
-    /// @param scratch receives nothing of use.
+    /// @param scratch is overwritten.
     void solve(FloatColumns v, FloatColumns scratch) const;
 
-    /// Asks for what the next product begins with: most factors come from outside the caches.
+    /// Prefetches the first data of the next product: most factors are outside the caches.
     void prefetch() const;
 
     /// The diagonal of S.
@@ -76,10 +76,10 @@ class DenseFactor {
   private:
     Index n_ = 0;
     double scale_ = 1.0;
-    /// L without its diagonal by blocks of four columns, each from the group of eight rows on that its own are in:
-    /// for every eight rows the four columns, one after the other, with zeros in the upper triangle.
+    /// L without its diagonal in blocks of four columns, each starting at the eight rows of its diagonal: for every
+    /// eight rows the four columns, one after the other, with zeros in the upper triangle.
     AlignedFloats lower_;
-    /// √D₁, and the inverses of D₁; with zeros as far as there is room.
+    /// √D₁ and the inverse of D₁, padded with zeros.
     std::vector<float> root_;
     std::vector<float> inverse_;
     std::vector<double> diagonal_;

@@ -21,13 +21,13 @@ class DirectSolver {
 
     virtual ~DirectSolver() = default;
 
-    /// Whose it is, of the factor that there is or of the next one; never Automatic.
+    /// The kind of the current factor or the next one; never Automatic.
     [[nodiscard]] virtual Factorisation kind() const = 0;
 
-    /// What a factor takes, in bytes; of UMFPACK's an estimate. CHOLMOD's and UMFPACK's are in their own memory.
+    /// Size of a factor, in bytes; for UMFPACK an estimate. CHOLMOD's and UMFPACK's are in their own memory.
     [[nodiscard]] virtual std::size_t factor_bytes() const = 0;
 
-    /// @pre there is no factor: one at a time.
+    /// @pre no factor exists: one at a time.
     /// @param values one per entry of the pattern; must stay as they are as long as the factor is used.
     /// @param memory must outlive the factor, as must the solver.
     /// @returns nothing where a symmetric matrix is not positive definite.
@@ -43,10 +43,10 @@ class DirectSolver {
     virtual void free_factor() = 0;
 };
 
-/// What a DirectSolver has made of a matrix. When it dies, its memory goes back to where it was taken from.
+/// A DirectSolver's factor of a matrix. On destruction, its memory goes back to where it was taken from.
 class DirectSolver::Factor {
   public:
-    /// Whether the matrix leaves a solution three correct digits at most.
+    /// Whether a solution has three correct digits at most.
     [[nodiscard]] bool is_nearly_singular() const { return solver_->is_nearly_singular(); }
 
     /// Solves for three right-hand sides.

@@ -8,10 +8,10 @@
 
 namespace seamflow {
 
-/// Where factors get their memory. Heap: std::pmr::new_delete_resource().
+/// Memory resource of factors. Heap: std::pmr::new_delete_resource().
 using FactorMemory = std::pmr::memory_resource;
 
-/// Gives an array back to where it was taken from.
+/// Returns an array to its memory resource.
 template <class Number>
 struct GiveBack {
     FactorMemory* memory = nullptr;
@@ -20,11 +20,11 @@ struct GiveBack {
     void operator()(Number* numbers) const { memory->deallocate(numbers, n * sizeof(Number), alignof(Number)); }
 };
 
-/// The numbers of a factor. When they die, maybe in another thread, their memory goes back to where it was taken from.
+/// The numbers of a factor. On destruction, maybe in another thread, their memory returns to where it was taken from.
 template <class Number>
 using FactorNumbers = std::unique_ptr<Number[], GiveBack<Number>>;
 
-/// Takes n numbers, whose values are not set.
+/// Allocates n uninitialised numbers.
 /// @param memory must outlive them.
 template <class Number>
 FactorNumbers<Number> take_numbers(FactorMemory& memory, std::size_t n)
@@ -33,18 +33,17 @@ FactorNumbers<Number> take_numbers(FactorMemory& memory, std::size_t n)
     return {static_cast<Number*>(numbers), {&memory, n}};
 }
 
-/// Memory that is taken from the heap once and used again and again, each block by one factor at a time. For one
-/// thread at a time.
+/// Memory that is taken from the heap once and reused, each block by one factor at a time. For one thread at a time.
 class FactorPool : public FactorMemory {
   public:
-    /// @param least_bytes of a block: what the largest factor takes, so that any block fits any factor; 0: each block
+    /// @param least_bytes of a block: those of the largest factor, so that any block fits any factor; 0: each block
     ///        fits factors of one size.
     explicit FactorPool(std::size_t least_bytes = 0)
         : least_bytes_(least_bytes)
     {
     }
 
-    /// What has been taken from the heap so far.
+    /// Bytes taken from the heap so far.
     [[nodiscard]] std::size_t bytes() const { return bytes_; }
 
   protected:
@@ -54,7 +53,7 @@ class FactorPool : public FactorMemory {
   private:
     struct Blocks {
         std::vector<std::unique_ptr<std::byte[]>> all;
-        /// The last one used comes last.
+        /// Most recently used last.
         std::vector<void*> free;
     };
 

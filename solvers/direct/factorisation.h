@@ -4,18 +4,18 @@ namespace seamflow {
 
 /// Whose factorisation solves sparse systems.
 enum class Factorisation {
-    /// What is fastest for the size: the library's own, of large systems CHOLMOD's or UMFPACK's.
+    /// The fastest for the size: the library's own, for large systems CHOLMOD's or UMFPACK's.
     Automatic,
-    /// The library's own: L D Lᵀ of symmetric systems, L U with pivots from the diagonal of others; UMFPACK's where
-    /// those pivots are too small.
+    /// The library's own: L D Lᵀ for symmetric systems, L U with diagonal pivots for others; UMFPACK's where those
+    /// pivots are too small.
     Own,
-    /// L Lᵀ by CHOLMOD of symmetric systems, L U by UMFPACK of others.
+    /// CHOLMOD's L Lᵀ for symmetric systems, UMFPACK's L U for others.
     Cholmod,
-    /// L U by UMFPACK of all.
+    /// UMFPACK's L U for all.
     Umfpack,
 };
 
-/// In which precision the factors of a sub-mesh are that solve for corrections, whose residual is in double precision.
+/// Precision of the factors of a sub-mesh that solve for corrections, whose residual is in double precision.
 enum class Precision {
     /// Single where that loses few digits, else double.
     Automatic,

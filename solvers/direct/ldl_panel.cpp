@@ -9,7 +9,7 @@ namespace seamflow {
 
 namespace {
 
-/// Columns that are factorised at once, and those of a source that are used in one go.
+/// Columns that are factorised at once, and those of a source that are used at once.
 constexpr Index group = 8;
 constexpr Index chunk = 64;
 /// Targets that are computed at once, at most.
@@ -33,13 +33,13 @@ template <Index Rows, class Vector, class Number, class Use>
         use(r, sums[r]);
 }
 
-/// Their sums fill eight registers at most.
+/// The sums of these rows fill at most eight registers.
 template <class Vector>
 constexpr Index rows_at_once = Vector::n_parts > 2 ? 2 : 4;
 
-/// Rows of a panel that are the targets of others', each in a lane of its own; what is in other lanes remains.
+/// Rows of a panel that are the targets of others', each in a lane of its own; other lanes are left unchanged.
 struct Targets {
-    /// The first one, and how many follow each other.
+    /// The first one, and the number of consecutive ones.
     Index first;
     Index n;
     std::array<Index, at(most_lanes)> lane;
@@ -82,7 +82,7 @@ template <class Vector, class Number, class Use>
     }
 }
 
-/// How many of the first of these columns, ascending, are among `width` neighbouring ones.
+/// The number of leading columns, of these ascending ones, that are among `width` consecutive ones.
 [[gnu::always_inline]] inline Index count_neighbours(const Index* columns, Index n, Index width)
 {
     Index count = 1;
@@ -91,7 +91,7 @@ template <class Vector, class Number, class Use>
     return count;
 }
 
-/// An update of columns among as many neighbouring ones as there are lanes. The others in between lose 0.
+/// Updates columns among as many consecutive ones as there are lanes. 0 is subtracted from those in between.
 template <class Vector, class Number>
 [[gnu::always_inline]] inline void update_columns(const LdlPanel<Number>& earlier, Index place, Index n,
                                                   const Index* target_rows, const LdlPanel<Number>& later)
@@ -112,7 +112,7 @@ template <class Vector, class Number>
         });
 }
 
-/// Takes what the panel's columns [first, last) contribute away from the n after them.
+/// Subtracts the contribution of the panel's columns [first, last) from the n columns after them.
 template <class Vector, class Number>
 [[gnu::always_inline]] inline void subtract_columns(const LdlPanel<Number>& panel, Index first, Index last, Index n)
 {
@@ -129,7 +129,7 @@ template <class Vector, class Number>
                              [&](Index i, const Vector& sums) { sums.subtract_from(target + at(i) * width, n); });
 }
 
-/// Factorises columns that depend on each other alone.
+/// Factorises columns that depend only on each other.
 /// @param Columns 1 to 4.
 template <Index Columns, class Number>
 [[gnu::always_inline]] inline bool factorise_columns(const LdlPanel<Number>& panel, Index first)

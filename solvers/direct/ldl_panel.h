@@ -8,32 +8,32 @@
 
 namespace seamflow {
 
-/// A block of columns of L, row by row; below the diagonal are the entries of L, on it those of D, above it nothing of
-/// use. Numbers are float or double.
+/// A block of columns of L, row by row: L below the diagonal, D on it, unused entries above it. Numbers are float or
+/// double.
 template <class Number>
 struct LdlPanel {
     Number* values;
     /// Number of columns.
     Index width;
-    /// The unknowns whose rows these are, ascending: first those of the columns.
+    /// The unknowns of the rows, ascending: first those of the columns.
     std::span<const Index> rows;
 };
 
-/// Takes what an earlier block contributes away from a block.
-/// @param place the first of the earlier block's rows that belong to columns of the later one; `n_columns` do.
-/// @param target_rows per unknown from rows[place] on of the earlier block: its row of the later one.
+/// Subtracts an earlier block's contribution from a block.
+/// @param place the first of the `n_columns` rows of the earlier block that belong to columns of the later one.
+/// @param target_rows per unknown of the earlier block from rows[place] on: its row in the later one.
 /// @param width see with_simd_width: the result is the same with any.
 template <class Number>
 void subtract_update(const LdlPanel<Number>& earlier, Index place, Index n_columns, const Index* target_rows,
                      const LdlPanel<Number>& later, Index width = register_width());
 
-/// Factorises a block from which all that earlier blocks contribute has been taken away.
+/// Factorises a block from which all earlier contributions have been subtracted.
 /// @param width see with_simd_width: the result is the same with any.
 /// @returns whether all of D is positive and finite.
 template <class Number>
 bool factorise_panel(const LdlPanel<Number>& panel, Index width = register_width());
 
-/// Numbers in a row of three right-hand sides, and one that plays no part: so that rows are registers.
+/// Numbers in a row: three right-hand sides and an unused one, so that rows fill registers.
 constexpr Index ldl_row = 4;
 
 /// Eliminates a block's unknowns from three right-hand sides.

@@ -28,8 +28,8 @@ template <class Number>
     return x + at(ldl_row) * at(unknown);
 }
 
-/// Eliminates columns that depend on each other, from which all that earlier ones contribute has been taken away.
-/// @param Columns 1 to 4: in loops of so many known turns processors do not lose their way.
+/// Eliminates columns that depend on each other, from which all contributions of earlier ones have been subtracted.
+/// @param Columns 1 to 4: processors predict loops with such a known number of iterations.
 template <Index Columns, class Number>
 [[gnu::always_inline]] inline void eliminate_columns(const LdlPanel<Number>& panel, Index first, Number* x)
 {
@@ -80,7 +80,7 @@ template <Index Columns, class Number>
     }
 }
 
-/// use(n), n from 1 to 4 being known to the compiler.
+/// Calls use(n), with n from 1 to 4 as a compile-time constant.
 template <class Use>
 [[gnu::always_inline]] inline void with_known(Index n, Use use)
 {

@@ -14,7 +14,7 @@ namespace seamflow {
 
 namespace {
 
-/// In numbers: how far before it is used what substitution goes through backwards is asked for, and in what portions.
+/// In numbers: how far ahead of their use backward substitution prefetches numbers, and in what portions.
 constexpr std::ptrdiff_t substituted_ahead = 1024;
 template <class Number>
 constexpr std::ptrdiff_t cache_line = 64 / sizeof(Number);
@@ -28,7 +28,7 @@ std::vector<Index> blocks_of_unknowns(const SymbolicFactor& pattern)
     return supernode_of;
 }
 
-/// By what numbers are divided: a power of two near the largest, and 1 in double precision.
+/// The divisor of the numbers: a power of two near the largest, and 1 in double precision.
 template <class Number>
 double scale_of(std::span<const double> values)
 {
@@ -39,7 +39,7 @@ double scale_of(std::span<const double> values)
     return power_of_two_near(largest);
 }
 
-/// Whether one of a panel's pivots is smaller than that part of the matrix's diagonal.
+/// Whether one of a panel's pivots is smaller than that fraction of the matrix's diagonal.
 template <class Number>
 bool has_small_pivot(const LdlPanel<Number>& panel, const std::vector<double>& diagonal, Number least_pivot)
 {
@@ -93,7 +93,7 @@ void LdlSolver::list_updates(const std::vector<Index>& supernode_of)
     updates_ = make_lists<Update>(pattern_.n_supernodes(), for_each_update);
 }
 
-/// An entry of column j belongs to the supernode of its row, which is eliminated first; where j stands among the rows
+/// An entry of column j belongs to the supernode of its row, which is eliminated first; the place of j among the rows
 /// of that supernode is known.
 void LdlSolver::find_places(const SparsePattern& upper, const std::vector<Index>& supernode_of)
 {
@@ -191,8 +191,8 @@ void LdlFactor<Number>::back_substitute(Number* x, Index n) const
     const std::vector<Index>& panels = solver_->panels_;
     for (Index b = pattern.n_supernodes(); b-- > 0;)
         if (pattern.first[b] < n) {
-            // Processors foresee only ways forward. Not in a function of its own: compilers leave out calls of
-            // functions that do nothing but this.
+            // Processors predict only forward access. Not in a function of its own: compilers omit calls of functions
+            // that only do this.
             for (std::ptrdiff_t i = panels[b]; i < panels[b + 1]; i += cache_line<Number>)
                 __builtin_prefetch(numbers_.get() + std::max(std::ptrdiff_t{0}, i - substituted_ahead));
             back_substitute_panel(solver_->panel(numbers_.get(), b), x);

@@ -20,34 +20,34 @@
 
 namespace seamflow {
 
-/// The largest power of two that is not above a positive number: what is divided by it loses no bit. 1 for numbers that
-/// are not positive, not finite, or so small that this power has no inverse.
+/// The largest power of two not above a positive number: division by it is exact. 1 for numbers that are not positive,
+/// not finite, or so small that this power has no inverse.
 inline double power_of_two_near(double number)
 {
     return number > 0x1p-1000 && std::isfinite(number) ? std::ldexp(1.0, std::ilogb(number)) : 1.0;
 }
 
-/// A dense L D Lᵀ row by row: D on the diagonal, L below it, nothing of use above it.
+/// A dense L D Lᵀ row by row: D on the diagonal, L below it, unused entries above.
 template <class Number>
 using DenseLdl = Eigen::Map<const Eigen::Matrix<Number, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
 
 template <class Number>
 class LdlFactor;
 
-/// LDLᵀ factorisation of symmetric sparse matrices of one pattern, in the order in which the unknowns are. All but the
-/// numbers is known beforehand. Different threads may factorise at the same time, each with a workspace of its own.
+/// LDLᵀ factorisation of symmetric sparse matrices of one pattern, in the given order of the unknowns. All except the
+/// numbers is known in advance. Different threads may factorise at the same time, each with a workspace of its own.
 class LdlSolver {
   public:
     /// Analyses the pattern, which is needed only during the call.
     /// @param upper the entries on and above the diagonal, the whole diagonal among them.
     /// @param n_last number of unknowns that are kept together at the end; factors have rows() then.
-    /// @param tree where it is known already, if no unknowns are kept together; otherwise empty.
+    /// @param tree if already known and no unknowns are kept together; otherwise empty.
     /// @throws ComputationError if the factor would have 2³¹ entries or more.
     explicit LdlSolver(const SparsePattern& upper, std::optional<Index> n_last = {}, const EliminationTree& tree = {});
 
     [[nodiscard]] Index n() const { return pattern_.n(); }
 
-    /// What a factor takes, in bytes.
+    /// Size of a factor, in bytes.
     template <class Number>
     [[nodiscard]] std::size_t factor_bytes() const
     {
@@ -57,15 +57,14 @@ class LdlSolver {
     /// Factorises in single or double precision.
     /// @param values one per entry of the pattern; needed only during the call.
     /// @param memory must outlive the factor, as must the solver.
-    /// @param least_pivot relative to the entry on the diagonal of the matrix: a pivot that is smaller has lost too
-    ///        many digits.
-    /// @returns nothing where the matrix is not positive definite, or a pivot too small.
+    /// @param least_pivot relative to the diagonal entry of the matrix: a smaller pivot has lost too many digits.
+    /// @returns nothing if the matrix is not positive definite, or a pivot is too small.
     template <class Number>
     [[nodiscard]] std::optional<LdlFactor<Number>> factorise(std::span<const double> values, FactorMemory& memory,
                                                              LdlWorkspace& workspace, Number least_pivot = {}) const;
 
-    /// What remains of the matrix that was factorised last for the last unknowns when all others are eliminated (Schur
-    /// complement), factorised too, in units of the factor's scale: in the workspace, until that is used again.
+    /// The Schur complement of the most recently factorised matrix on the last unknowns, factorised too, in units of
+    /// the factor's scale: in the workspace, until that is used again.
     template <class Number>
     [[nodiscard]] DenseLdl<Number> last(const LdlWorkspace& workspace) const
     {
@@ -76,15 +75,15 @@ class LdlSolver {
     template <class Number>
     friend class LdlFactor;
 
-    /// What an earlier supernode takes away from columns of a later one.
+    /// An update of columns of a later supernode by an earlier one.
     struct Update {
         Index earlier;
-        /// The first of the earlier supernode's rows that belong to these columns, and how many do.
+        /// The first of the earlier supernode's rows that belong to these columns; their number.
         Index place;
         Index n_columns;
     };
 
-    /// Where those of the unknowns that are kept together would begin.
+    /// Where the numbers of the unknowns kept together would begin.
     [[nodiscard]] Index n_factor_numbers() const { return n_last_ > 0 ? panels_.rbegin()[1] : panels_.back(); }
     /// Of a factor, and of the three right-hand sides that one without its last block keeps.
     [[nodiscard]] std::size_t n_numbers() const
@@ -104,7 +103,7 @@ class LdlSolver {
 
     Index n_last_;
     bool has_rows_;
-    /// Per entry of the matrix: where it stands in the factor.
+    /// Per entry of the matrix: its place in the factor.
     std::vector<Index> places_;
     SymbolicFactor pattern_;
     /// Per supernode, where it begins in the factor, and where the last one ends.
@@ -118,7 +117,7 @@ class LdlSolver {
 template <class Number>
 class LdlFactor {
   public:
-    /// A power of two, so that single precision has room for a matrix of any unit; 1 in double precision.
+    /// A power of two, so that a matrix of any unit fits in single precision; 1 in double precision.
     [[nodiscard]] double scale() const { return scale_; }
 
     /// Solves for three right-hand sides.
@@ -126,16 +125,16 @@ class LdlFactor {
     /// @param solution n by 3; may be the right-hand side.
     void solve(const Columns& right_hand_side, Columns& solution, LdlWorkspace& workspace) const;
 
-    /// Memory of the factor's own for three right-hand sides or what becomes of them: n by ldl_row, row by row.
-    /// @pre the solver was told how many unknowns come last.
+    /// The factor's own memory for three right-hand sides or what replaces them: n by ldl_row, row by row.
+    /// @pre the solver was constructed with n_last.
     [[nodiscard]] Number* rows() { return numbers_.get() + solver_->n_factor_numbers(); }
 
-    /// Forward substitution for all unknowns but the last: rows() become L⁻¹ rows() above, and below what remains for
+    /// Forward substitution for all except the last unknowns: rows() become L⁻¹ rows() above, and below the rest for
     /// the last unknowns.
     void forward_substitute() { forward_substitute(rows(), solver_->n() - solver_->n_last_); }
 
-    /// Solves for all unknowns but the last, in units of 1 / scale(). In rows(): what `forward_substitute` left, and
-    /// the last unknowns. Out: the solution.
+    /// Solves for all unknowns except the last, in units of 1 / scale(). rows() in: `forward_substitute`'s result and
+    /// the last ones; out: the solution.
     void back_substitute() { back_substitute(rows(), solver_->n() - solver_->n_last_); }
 
   private:

@@ -14,7 +14,7 @@ using Pair = Eigen::Array2d;
 constexpr Eigen::Index lower = 0;
 constexpr Eigen::Index upper = 1;
 
-/// Takes what some columns of a supernode contribute away from the column of L and the row of U of the unknown
+/// Subtracts the contributions of some columns of a supernode from the column of L and the row of U of the unknown
 /// rows[place].
 /// @param columns the first of them; each has as many entries as there are rows.
 template <std::size_t Width>
@@ -57,7 +57,7 @@ LuSolver::LuSolver(const SparsePattern& pattern)
     list_loads(pattern);
 }
 
-/// A value belongs to that of its row and its column which is eliminated first.
+/// A value belongs to its row or its column, whichever is eliminated first.
 void LuSolver::list_loads(const SparsePattern& pattern)
 {
     loads_ = make_lists<Load>(pattern.n(), [&](auto&& add) {
@@ -102,7 +102,7 @@ void LuSolver::load(Index unknown, std::span<const double> values, LuWorkspace& 
         workspace.elimination[place / 2][place % 2] = values[slot];
 }
 
-/// Takes away what earlier columns contribute, those of the same supernode last.
+/// Subtracts the contributions of earlier columns, those of the same supernode last.
 void LuSolver::eliminate(Index supernode, Index column, const Factor& factor, LuWorkspace& workspace) const
 {
     Pair* elimination = workspace.elimination.data();
@@ -115,7 +115,7 @@ void LuSolver::eliminate(Index supernode, Index column, const Factor& factor, Lu
 }
 
 /// Moves a column and a row to the factor.
-/// @returns whether the pivot will do.
+/// @returns whether the pivot is acceptable.
 bool LuSolver::store(Index supernode, Index column, const Factor& factor, LuWorkspace& workspace) const
 {
     constexpr double largest_multiplier = 1000.0;

@@ -16,11 +16,11 @@
 
 namespace seamflow {
 
-/// LU factorisation of sparse matrices of one pattern with each pivot taken from the diagonal. All but the numbers is
-/// known beforehand then, and a column of L and the row of U across the diagonal are computed in one go, so that a
-/// factor costs hardly more than that of a symmetric matrix. For matrices that are symmetric except for few rows, or
-/// whose diagonal dominates; others are found out. Different threads may factorise and solve at the same time, each
-/// with a workspace of its own.
+/// LU factorisation of sparse matrices of one pattern with all pivots taken from the diagonal. Everything except the
+/// numbers is thus known in advance, and a column of L and the row of U across the diagonal are computed together: a
+/// factor costs hardly more than that of a symmetric matrix. For matrices that are symmetric except for a few rows, or
+/// diagonally dominant; others are detected. Different threads may factorise and solve at the same time, each with a
+/// workspace of its own.
 class LuSolver {
   public:
     class Factor;
@@ -29,14 +29,14 @@ class LuSolver {
     /// @throws ComputationError if CHOLMOD, which finds the elimination ordering, fails (memory).
     explicit LuSolver(const SparsePattern& pattern);
 
-    /// What a factor takes, in bytes.
+    /// Size of a factor, in bytes.
     [[nodiscard]] std::size_t factor_bytes() const { return panels_.back() * sizeof(Eigen::Array2d); }
 
     /// @param values one per entry of the pattern; needed only during the call.
     /// @param memory must outlive the factor, as must the solver.
-    /// @returns nothing where the diagonal will not do: with rows divided by their sizes, a pivot is less than a
-    ///          thousandth of an entry below it (the bound that UMFPACK has for symmetric patterns), or next to
-    ///          nothing, or an entry of U has grown to a million times its row.
+    /// @returns nothing if the diagonal is unsuitable: with rows divided by their sizes, a pivot is less than a
+    ///          thousandth of an entry below it (UMFPACK's bound for symmetric patterns), or almost zero, or an entry
+    ///          of U has grown to a million times its row.
     [[nodiscard]] std::optional<Factor> factorise(std::span<const double> values, FactorMemory& memory,
                                                   LuWorkspace& workspace) const;
 
@@ -55,14 +55,14 @@ class LuSolver {
     bool store(Index supernode, Index column, const Factor& factor, LuWorkspace& workspace) const;
 
     SymbolicFactor pattern_;
-    /// Per unknown what is loaded for it.
+    /// Per unknown, its values to load.
     Lists<Load> loads_;
     /// Per supernode, where its columns begin, and where the last one ends.
     std::vector<std::size_t> panels_{0};
 };
 
 /// L U of one matrix, supernode after supernode, column after column: entries of L and of Uᵀ in pairs. On the diagonal
-/// stands the pivot's inverse; above it nothing of use.
+/// is the pivot's inverse; above it, unused entries.
 class LuSolver::Factor {
   public:
     /// Solves for three right-hand sides.

@@ -44,8 +44,8 @@ class OwnLdl final : public DirectSolver {
     std::optional<LdlFactor<double>> factor_;
 };
 
-/// By an LuSolver where the diagonal will do, by UMFPACK, which looks for better pivots, where it will not. Which of
-/// the two it is depends on the matrix alone.
+/// Uses an LuSolver if the pivots on the diagonal are acceptable, and otherwise UMFPACK, which searches for better
+/// ones. The choice depends only on the matrix.
 class OwnLu final : public DirectSolver {
   public:
     explicit OwnLu(const SparsePattern& pattern)
@@ -89,7 +89,7 @@ class OwnLu final : public DirectSolver {
     const SparsePattern* pattern_;
     LuSolver solver_;
     std::optional<LuSolver::Factor> factor_;
-    /// Nothing until it is needed.
+    /// Empty until it is needed.
     std::unique_ptr<DirectSolver> fallback_;
     std::optional<Factor> fallback_factor_;
 };
@@ -113,7 +113,7 @@ std::unique_ptr<DirectSolver> make_general_solver(const SparsePattern& pattern, 
         factorisation = pattern.n() <= most_unknowns_for_lu ? Factorisation::Own : Factorisation::Umfpack;
     if (factorisation == Factorisation::Own)
         return std::make_unique<OwnLu>(pattern);
-    // CHOLMOD has symmetric matrices alone.
+    // CHOLMOD supports only symmetric matrices.
     return make_umfpack_lu(pattern);
 }
 

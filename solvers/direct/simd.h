@@ -8,11 +8,11 @@
 
 #include "partition/index.h"
 
-// SIMD of our own, because the choice of registers is inside of kernels that call each other: libraries (xsimd,
-// highway) choose between whole files or functions that are compiled several times, which would take the kernels apart.
+// Our own SIMD, because registers are chosen inside kernels that call each other: libraries (xsimd, highway) choose
+// between whole files or functions that are compiled several times, which would split the kernels.
 
-/// Before a function whose loops pay in wider registers: compiled once more for machines that have them. The operations
-/// are the same, and so are the results. Nothing in such a function may throw: GCC 12 lets no exception out of it.
+/// For a function whose loops gain from wider registers: compiled once more for machines that have them. The operations
+/// are the same, and so are the results. Such a function must not throw: GCC 12 lets no exception out of it.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) &&               \
     !defined(__SANITIZE_THREAD__)
 #define SEAMFLOW_WIDE __attribute__((flatten, target_clones("avx2", "default")))
@@ -31,8 +31,8 @@ struct SimdVectorOf {
 
 }  // namespace detail
 
-/// So many neighbouring numbers, in a register if there are such wide ones. By name, because compilers do not find sums
-/// in loops. Loaded into and not returned: between functions they have no registers of their own.
+/// `Lanes` neighbouring numbers, in a register if one is that wide. Explicit, because compilers do not find sums in
+/// loops. Loaded into and not returned: between functions they have no registers of their own.
 /// @param Lanes a power of two.
 template <class Number, Index Lanes>
 using SimdVector = typename detail::SimdVectorOf<Number, Lanes>::Type;
@@ -53,8 +53,8 @@ template <class Number, class Vector>
     std::memcpy(to, &vector, sizeof vector);
 }
 
-/// So many neighbouring numbers in registers, as many as that takes. Arrays of vectors that are wider than a register
-/// do not do as well: GCC keeps them in memory all the time, which takes ten times as long.
+/// `Lanes` neighbouring numbers, in as many registers as needed. Arrays of vectors wider than a register are no
+/// substitute: GCC always keeps them in memory, which takes ten times as long.
 /// @param Width of a register, in double-precision numbers. @param Lanes a power of two.
 template <class Number, Index Width, Index Lanes>
 struct SimdBlock {
@@ -75,7 +75,7 @@ struct SimdBlock {
         for (Index p = 0; p < n_parts; ++p)
             part[p] += factor * numbers.part[p];
     }
-    /// Takes all of them away from neighbouring entries.
+    /// Subtracts all of them from neighbouring entries.
     [[gnu::always_inline]] void subtract_from(Number* target) const
     {
         for (Index p = 0; p < n_parts; ++p) {
@@ -93,11 +93,11 @@ struct SimdBlock {
     }
 };
 
-/// How many double-precision numbers a register holds; known to the compiler.
+/// How many double-precision numbers a register holds, at compile time.
 template <Index Width>
 using SimdWidth = std::integral_constant<Index, Width>;
 
-/// How many double-precision numbers the widest registers hold that are of use here.
+/// How many double-precision numbers the widest registers of use here hold.
 inline Index register_width()
 {
 #if defined(__x86_64__)
@@ -129,9 +129,9 @@ template <class Kernel, class... Arguments>
 
 #endif
 
-/// kernel(SimdWidth<width>(), arguments…), compiled for registers of that width. The operations on each number are the
-/// same with all of them, and so are the results.
-/// @param kernel what it calls is to be inlined always: clang compiles the rest for any machine.
+/// kernel(SimdWidth<width>(), arguments…), compiled for registers of that width. The operations on each number, and so
+/// the results, are the same for all widths.
+/// @param kernel its callees must always be inlined: clang compiles the rest for any machine.
 /// @param width 2, 4 or 8, register_width() at most.
 template <class Kernel, class... Arguments>
 auto with_simd_width([[maybe_unused]] Index width, const Kernel& kernel, Arguments&&... arguments)

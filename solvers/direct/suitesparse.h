@@ -12,19 +12,19 @@
 /// SuiteSparse's solvers behind the interface of direct solvers. Their factors are in their own memory.
 namespace seamflow {
 
-/// LLᵀ of symmetric matrices by dense blocks, by CHOLMOD, in the order in which the unknowns are.
+/// CHOLMOD's LLᵀ of symmetric matrices by dense blocks, in the given order of the unknowns.
 /// @param upper the entries on and above the diagonal, the whole diagonal among them.
 /// @throws ComputationError if CHOLMOD fails (memory).
 std::unique_ptr<DirectSolver> make_cholmod_llt(SparsePattern upper, CholmodWorkspace& workspace);
 
-/// LU by UMFPACK. Pivots are taken from the diagonal; where those would lose nearly all digits, the largest of each
-/// column are, and solutions are refined. A factor is nearly singular if the smallest pivot is below 1e-13 of the
-/// largest even so. Its bytes are an upper bound for most matrices, as long as pivots from the diagonal do.
+/// LU by UMFPACK. Pivots are taken from the diagonal; where those would lose nearly all digits, from the largest of
+/// each column, and solutions are refined. A factor is nearly singular if the smallest pivot is still below 1e-13 of
+/// the largest. Its size is an upper bound for most matrices, as long as diagonal pivots suffice.
 /// @param pattern must outlive the solver.
 /// @throws ComputationError if UMFPACK fails (memory).
 std::unique_ptr<DirectSolver> make_umfpack_lu(const SparsePattern& pattern);
 
-/// A pattern's own arrays, which must outlive this, or where SuiteSparse is to have longer integers, copies.
+/// A pattern's own arrays, which must outlive this, or copies if SuiteSparse takes longer integers.
 template <class Integer>
 class PatternView {
   public:

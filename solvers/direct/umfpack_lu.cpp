@@ -83,19 +83,19 @@ class UmfpackLu final : public DirectSolver {
     struct FreeNumeric {
         void operator()(void* numeric) const { Interface::free_numeric(&numeric); }
     };
-    /// How to look for pivots: on the diagonal where that will do, or the largest of every column.
+    /// How to choose pivots: on the diagonal where this is acceptable, or the largest of every column.
     struct Way {
         std::array<double, UMFPACK_CONTROL> control{};
         std::unique_ptr<void, FreeSymbolic> symbolic;
     };
-    /// The factor that there is.
+    /// The current factor.
     struct Numeric {
         std::unique_ptr<void, FreeNumeric> numbers;
         std::span<const double> values;
         Way* way = nullptr;
         bool is_nearly_singular = false;
     };
-    /// What UMFPACK needs while it solves.
+    /// Memory that UMFPACK needs to solve.
     struct Work {
         std::vector<Integer> integers;
         std::vector<double> numbers;

@@ -53,7 +53,7 @@ void ErrorEquation::number_own(std::vector<Index>& kinds)
     }
 }
 
-/// The neighbours of own vertices that are on Γ, too: in the order in which their peers number them.
+/// Numbers the neighbours of own vertices that are on Γ, too, in the order in which their peers number them.
 /// @param kinds #V: receives the numbers.
 void ErrorEquation::number_foreign(const PolygonMesh& mesh, const Topology& topology, std::vector<Index>& kinds)
 {
@@ -85,7 +85,7 @@ void ErrorEquation::number_foreign(const PolygonMesh& mesh, const Topology& topo
     }
 }
 
-/// Who has a neighbour is himself told of the vertex, whose neighbour that is.
+/// The holder of a vertex's neighbour receives the vertex, a neighbour in turn.
 void ErrorEquation::share_rows()
 {
     std::map<Index, SharedRows::Lists> with;
@@ -151,10 +151,10 @@ void ErrorEquation::measure_whole_rows(const PolygonMesh& mesh, const Topology& 
     });
 }
 
-/// What is beyond Γ also ties the vertices of Γ to each other, so that rough errors die away sooner: on regular grids T
-/// grows with the wave number along Γ, and not with its square. A multiple of the response, the
-/// smaller the more the vertices are coupled already, comes near to that: with these numbers within a factor of 2 for
-/// Δ_F and Δ_A on regular quads and triangles at all wave numbers but the highest.
+/// The mesh beyond Γ also couples the vertices of Γ to each other, so that rough errors decay sooner: on regular grids
+/// T grows with the wave number along Γ, and not with its square. A multiple of the response, the smaller the more the
+/// vertices are coupled already, approximates this: with these numbers within a factor of 2 for Δ_F and Δ_A on regular
+/// quads and triangles at all wave numbers except the highest.
 void ErrorEquation::stiffen(const Executor& exec)
 {
     for_each(exec, size(), [&](Index i) {

@@ -18,12 +18,11 @@
 namespace seamflow {
 
 /// The equation T e = r for the error of a decomposed step on Γ (see ErrorRow), one row per vertex of Γ. Peers solve it
-/// together, each with the rows of its own sub-meshes. The bits depend neither on the loop nor on who has what.
+/// together, each with its own sub-meshes' rows. The bits depend neither on the loop nor on the distribution.
 class ErrorEquation {
   public:
     /// @param decomposition, peers must outlive this. Sub-meshes do not overlap; those of other peers are fragments
-    /// (see
-    ///        decompose_part), and then not for Δ_P.
+    ///        (see decompose_part), and then not for Δ_P.
     ErrorEquation(const Decomposition& decomposition, const PolygonMesh& mesh, const Topology& topology,
                   const ScaledLaplacian& laplacian, InterfacePeers& peers, const Executor& exec = run_serially);
 
@@ -48,7 +47,7 @@ class ErrorEquation {
     void measure_whole_rows(const PolygonMesh& mesh, const Topology& topology, const Points& before,
                             const Points& after, double time_step, const Executor& exec);
 
-    /// Adds what attaches a vertex to V⁰.
+    /// Adds a vertex's attachment to V⁰.
     /// @param weight dt w. @param distance of Vᵏ⁺¹ from V⁰, as solved.
     void attach(Index i, double weight, const Point& distance)
     {
@@ -58,11 +57,11 @@ class ErrorEquation {
         iteration_.residual.row(i) += entry * distance;
     }
 
-    /// Adds to the right-hand side what makes the step spread a displacement of single vertices of Γ.
+    /// Adds to the right-hand side a displacement of single vertices of Γ that the step spreads.
     void add_displacement(Index i, const Point& d) { iteration_.residual.row(i) += rows_.mass[i] * d; }
 
-    /// The same for an error that dies away from Γ, so that it comes back where it is smooth along Γ, and smoothed
-    /// where it is rough.
+    /// The same for an error that dies away from Γ, so that it returns unchanged where smooth along Γ, and smoothed
+    /// where rough.
     void add_error(Index i, const Point& d) { iteration_.residual.row(i) += rows_.row_sum[i] * d; }
 
     /// Unit normal of the surface at Vᵏ; zero where it has none.
@@ -121,7 +120,7 @@ class ErrorEquation {
     Rows rows_;
     std::optional<SharedRows> shared_;
     SumTree tree_;
-    /// Of all sub-meshes of all peers, what is to be added up.
+    /// Per sub-mesh of all peers, the value to be added up.
     std::vector<double> sums_;
     Iteration iteration_;
     /// With Δ_P.

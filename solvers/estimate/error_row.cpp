@@ -10,7 +10,7 @@ namespace seamflow {
 
 namespace {
 
-/// A row in the making.
+/// A row under construction.
 struct Draft {
     const Points& before;
     const Points& after;
@@ -36,7 +36,7 @@ struct Draft {
     }
 };
 
-/// What the rows of the edges at the vertex add to the residual, to the couplings and to M.
+/// Adds the rows of the edges at the vertex to the residual, to the couplings and to M.
 template <EdgeKernel Kernel>
 void add_edges(Kernel kernel, double time_step, Draft& draft)
 {
@@ -55,7 +55,7 @@ void add_edges(Kernel kernel, double time_step, Draft& draft)
     draft.row.mass = Kernel::averages_mass ? sum / static_cast<double>(draft.neighbours.size()) : sum;
 }
 
-/// The coupling of the vertex to another corner of one of its faces.
+/// Adds the coupling of the vertex to another corner of one of its faces.
 void add_coupling(Index other, double coupling, Draft& draft)
 {
     draft.row.residual -= coupling * (draft.after.row(other) - draft.after.row(draft.vertex));
@@ -70,7 +70,7 @@ void add_coupling(Index other, double coupling, Draft& draft)
     draft.far_squares += coupling * difference.squaredNorm();
 }
 
-/// What the row of one face at its corner `own`, the vertex, adds.
+/// Adds the row of one face at its corner `own`, the vertex.
 template <FaceKernel Kernel>
 void add_face(std::span<const Index> corners, std::size_t own, double time_step, Draft& draft)
 {
@@ -102,7 +102,7 @@ Point unit(const Point& vector)
 }
 
 /// How far a disturbance spreads in a step, squared: dt D, D = ΣK d² / 4M. It is dt for a Laplacian that is exact on
-/// quadratic functions; obtuse triangles are kept from making it meaningless.
+/// quadratic functions; it is clamped, lest obtuse triangles make it meaningless.
 double spread(const Draft& draft, double time_step)
 {
     double squares = draft.far_squares;
@@ -136,7 +136,7 @@ void close_row(std::span<const Index> kinds, double spread_squared, Draft& draft
     draft.row.diagonal += beyond - draft.row.response;
 }
 
-/// The Laplacian whose matrix stands for that of another: Δ_A for those that reach two rings.
+/// The Laplacian whose matrix replaces that of another: Δ_A for those that reach two rings.
 template <class Kernel>
 using WithinOneRing = std::conditional_t<Kernel::traits.reach == Reach::TwoRings, AlexaWardetzky, Kernel>;
 

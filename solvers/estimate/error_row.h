@@ -8,21 +8,21 @@
 
 namespace seamflow {
 
-/// What a neighbour of a vertex of Γ is, where it is not itself on Γ (see error_row).
+/// Kind of a neighbour of a vertex of Γ that is not itself on Γ (see error_row).
 inline constexpr Index off_interface = -1;
 inline constexpr Index held_fixed = -2;
 
 /// One row of the equation T e = r for the error e that a decomposed step has on Γ. With the rows of the undecomposed
 /// step in symmetric form, M (Vᵏ⁺¹ - Vᵏ) + dt K Vᵏ⁺¹ = 0, the residual r is their left-hand side at the result of the
-/// sweep. T is M + dt K on Γ, and what lies beyond Γ answers as in a half plane: at distance d from Γ, e^-θ of the
-/// error is left, cosh θ = 1 + d² / 2 dt D, where D says how fast the row itself diffuses. Positive definite: couplings
-/// that are negative count as none.
+/// sweep. T is M + dt K on Γ, and what lies beyond Γ responds as in a half plane: at distance d from Γ, e^-θ of the
+/// error is left, cosh θ = 1 + d² / 2 dt D, where D is the diffusivity of the row itself. Positive definite: negative
+/// couplings count as none.
 struct ErrorRow {
     /// M_v: in length for Δ_F, in length² for the others.
     double mass = 0.0;
     /// T_vv.
     double diagonal = 0.0;
-    /// The response of the vertices beyond Γ, in the unit of T: what their coupling leaves of itself.
+    /// The response of the vertices beyond Γ, in the unit of T: what is left of their coupling.
     double response = 0.0;
     Point residual = Point::Zero();
     /// Unit normal of the surface at Vᵏ, for Δ_F of the sub-mesh's own side; zero where it has none.
@@ -34,7 +34,7 @@ struct SolvedStep {
     /// Vᵏ, and Vᵏ⁺¹ as solved.
     const Points& before;
     const Points& after;
-    /// The positions whose K the step has; Vᵏ, where it is not kept.
+    /// The positions whose K the step uses; Vᵏ if K is not kept.
     const Points& stiffness_at;
     /// dt, in length².
     double time_step;

@@ -9,8 +9,8 @@
 
 namespace seamflow {
 
-/// Rows of the undecomposed step with Δ_P at some vertices, without a matrix, or what some of the faces around the
-/// vertices have of them: they reach two rings.
+/// Rows of the undecomposed step with Δ_P at some vertices, without a matrix, or the shares in them of some faces
+/// around the vertices: they reach two rings.
 class PtackovaRows {
   public:
     /// @param vertices one per row. @param faces per row, faces around its vertex.
@@ -25,13 +25,13 @@ class PtackovaRows {
                   double time_step, const Executor& exec, Points& residuals);
 
   private:
-    /// A face of a mesh, and what is needed of it.
+    /// A face of a mesh, and its data.
     struct Face {
         Index index;
         /// See PtackovaVelho::flux_map: b and |f| at Vᵏ, x = Vᵏ⁺¹.
         Eigen::Matrix3d flux;
         double area;
-        /// What each of its corners has of ΔV, M_v times.
+        /// Share of each of its corners in ΔV, times M_v.
         Point share;
     };
 

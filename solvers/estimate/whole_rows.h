@@ -14,10 +14,10 @@
 
 namespace seamflow {
 
-/// What a decomposed step with Δ_P leaves of its rows at Γ, as those reach too far for one sub-mesh to know. What the
-/// rows of vertices beside Γ leave, which a sub-mesh has from its own faces alone, is shared out to the vertices of Γ
-/// with which they have a face in common. Every sub-mesh adds up what its faces have of the rows; a vertex of Γ has the
-/// sum of that over its copies.
+/// The residuals of the rows at Γ of a decomposed step with Δ_P, which reach too far for one sub-mesh to know. The
+/// residuals at vertices beside Γ, which a sub-mesh has from its own faces alone, are distributed to the vertices of Γ
+/// with which they share a face. Every sub-mesh adds up its faces' shares of the rows; a vertex of Γ has the sum of
+/// these over its copies.
 class WholeRows {
   public:
     /// @param decomposition, peers see ErrorEquation; both must outlive this.
@@ -33,7 +33,7 @@ class WholeRows {
     [[nodiscard]] Point residual(Index s, Index i) const;
 
   private:
-    /// Rows of which the own faces around their vertices have a part.
+    /// Rows, and the own faces around their vertices.
     struct Parts {
         std::vector<Index> vertices;
         IndexLists faces;
@@ -44,8 +44,8 @@ class WholeRows {
 
     InterfaceCopies copies_;
     SharedRows shared_;
-    /// Per row at Γ its copy, and the rows beside Γ that are shared out to it. These follow those at Γ; each with the
-    /// number of copies that have a share.
+    /// Per row at Γ its copy, and the rows beside Γ that are distributed to it. The latter follow those at Γ; each with
+    /// the number of copies sharing it.
     std::vector<Index> copy_of_row_;
     IndexLists beside_;
     std::vector<Index> n_sharing_;

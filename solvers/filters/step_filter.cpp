@@ -9,14 +9,14 @@ namespace seamflow {
 
 namespace {
 
-/// Coefficients of g(w) = 1 + Σ a_j (T_j(8w - 1) - T_j(-1)), j from 1 on, which stands for 1 / (1 - k w) at w = u S.
+/// Coefficients of g(w) = 1 + Σ a_j (T_j(8w - 1) - T_j(-1)), j from 1 on, which approximates 1 / (1 - k w) at w = u S.
 struct Polynomial {
     std::vector<double> a;
     /// The largest error of uᵏ g(u (1 - u)).
     double error = 0.0;
 };
 
-/// The least squares over u in [0, 1], with the weight uᵏ that g is multiplied by.
+/// The least-squares fit over u in [0, 1], with the weight uᵏ that g is multiplied by.
 Polynomial fit(int order, int degree)
 {
     constexpr Eigen::Index n = 1001;
@@ -37,7 +37,7 @@ Polynomial fit(int order, int degree)
     return {{a.begin(), a.end()}, (functions * a - wanted).cwiseAbs().maxCoeff()};
 }
 
-/// The one of least degree that is good enough.
+/// The polynomial of least degree that is good enough.
 Polynomial harmonic_polynomial(const StepFilter& filter)
 {
     constexpr int highest_degree = 40;

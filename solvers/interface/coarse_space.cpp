@@ -14,11 +14,11 @@ namespace seamflow {
 
 namespace {
 
-/// How much is added to the diagonal of E, relative to it: functions can cancel each other, and then E is singular; as
-/// Z cancels them too, it does no harm that their coefficients are arbitrary.
+/// The amount added to the diagonal of E, relative to it: functions can cancel each other, and then E is singular;
+/// since they also cancel in Z, their arbitrary coefficients do no harm.
 constexpr double regularisation = 1e-8;
 
-/// The values are the indices whose list it is, ascending.
+/// List k holds the indices i with list_of[i] = k, ascending.
 IndexLists inverse_lists(std::span<const Index> list_of, Index n_lists)
 {
     return make_lists(n_lists, [&](auto&& add) {
@@ -37,8 +37,8 @@ inline double sum_of(const FourDoubles& low, const FourDoubles& high)
     return (sums[0] + sums[1]) + (sums[2] + sums[3]);
 }
 
-/// The next numbers of two vectors, multiplied and added to eight sums, which are single numbers: GCC keeps arrays of
-/// them in memory.
+/// Multiplies the next numbers of two vectors and adds them to eight sums, which are single variables: GCC keeps arrays
+/// of them in memory.
 template <class Number>
 [[gnu::always_inline]] inline void add_products(const Number* a, const double* b, FourDoubles& low, FourDoubles& high)
 {
@@ -52,15 +52,15 @@ template <class Number>
     high += of_a * of_b;
 }
 
-/// How many numbers ahead of their use products are prefetched; they have left the caches since the last time.
+/// How many numbers ahead of their use products are prefetched; they have left the caches since their last use.
 constexpr std::size_t products_ahead = 2048;
 constexpr std::size_t cache_line = 64 / sizeof(float);
 
-/// column · v for three columns. Prefetches what comes a certain distance after the column.
+/// column · v for three columns. Prefetches at a certain distance after the column.
 /// @param v DenseFactor::room by 3.
 SEAMFLOW_WIDE void multiply_column(const float* column, const Columns& v, Point& result)
 {
-    // The last ones ask for what is after the products, which does no harm.
+    // The last ones prefetch memory after the products, which does no harm.
     const std::uintptr_t ahead = reinterpret_cast<std::uintptr_t>(column) + products_ahead * sizeof(float);
     FourDoubles x_low{}, x_high{}, y_low{}, y_high{}, z_low{}, z_high{};
     const double* x = v.data();
@@ -75,7 +75,7 @@ SEAMFLOW_WIDE void multiply_column(const float* column, const Columns& v, Point&
     result = {sum_of(x_low, x_high), sum_of(y_low, y_high), sum_of(z_low, z_high)};
 }
 
-/// product = columnsᵀ columns. Eigen's products of matrices would go by the size of the processor's caches.
+/// product = columnsᵀ columns. Eigen's products of matrices would depend on the size of the processor's caches.
 /// @param columns DenseFactor::room by any number.
 /// @param product as large as it will be.
 SEAMFLOW_WIDE void multiply_by_itself(const Eigen::MatrixXd& columns, Eigen::MatrixXd& product)
@@ -109,7 +109,7 @@ void CoarseSpace::find_functions()
     std::vector<VertexClass> here;
     std::vector<std::vector<Index>> vertices_of;
     std::map<std::vector<Index>, std::vector<Index>> found;
-    // Vertices with the same first sub-mesh follow each other.
+    // Vertices with the same first sub-mesh are consecutive.
     for (Index begin = 0, end = 0; begin < copies_.n_vertices(); begin = end) {
         const auto first_at = [this](Index v) { return copies_.sub_mesh[copies_.of_vertex[v].front()]; };
         found.clear();
@@ -144,7 +144,7 @@ void CoarseSpace::find_functions()
     divide_terms(classes);
 }
 
-/// Those of all peers, ascending: each tells of those that begin with a sub-mesh of its own.
+/// The classes of all peers, ascending: each sends those that begin with a sub-mesh of its own.
 /// @param here ascending.
 std::vector<CoarseSpace::VertexClass> CoarseSpace::classes_of_all(const std::vector<VertexClass>& here) const
 {
@@ -290,7 +290,7 @@ void CoarseSpace::multiply_functions(Index s, const DenseFactor& schur)
     share.energy *= share.scale;
 }
 
-/// In the order of `entries`; alike at all peers.
+/// In the order of `entries`; identical on all peers.
 void CoarseSpace::assemble()
 {
     const auto for_entries_at = [&](Index place, auto&& action) {
@@ -314,7 +314,7 @@ void CoarseSpace::assemble()
     for (Index place = 0; place < functions_at_.size(); ++place)
         for_entries_at(
             place, [&](Eigen::Index, Eigen::Index) { energy_.values[*slot++] += *next[peers_.holders()[place]]++; });
-    // Where all weights are the same, a function is none.
+    // If all weights are the same, a function vanishes.
     for (const Index diagonal : energy_.diagonal_slots)
         energy_.values[diagonal] =
             energy_.values[diagonal] > 0.0 ? (1.0 + regularisation) * energy_.values[diagonal] : 1.0;

@@ -17,8 +17,8 @@ namespace seamflow {
 /// The coarse space: few unknowns for the part of the error that single sub-meshes cannot reduce. An equivalence class
 /// of Γ is the set of vertices that the same sub-meshes share. On each class, the columns of Z are the functions that
 /// equal a sub-mesh's weights W there, and 0 elsewhere. Their basis is well conditioned where weights hardly differ:
-/// the constant, and the weights of all but the first sub-mesh without their mean; for a single vertex the constant
-/// alone. Balances the Neumann-Neumann preconditioner (Mandel, "Balancing domain decomposition", 1993, with one
+/// the constant, and the weights of all except the first sub-mesh minus their mean; for a single vertex only the
+/// constant. Balances the Neumann-Neumann preconditioner (Mandel, "Balancing domain decomposition", 1993, with one
 /// function for all classes of a sub-mesh) in the form in which an iteration needs no second product with S (A-DEF2 of
 /// Tang, Nabben, Vuik and Erlangga 2009): y becomes y + Z E⁻¹ Zᵀ (r - S y), where E = Zᵀ S Z.
 class CoarseSpace {
@@ -48,13 +48,13 @@ class CoarseSpace {
         /// Per function: its unknown.
         std::vector<Index> unknown_of;
         std::optional<LdlSolver> solver;
-        /// The entries on and above the diagonal; where each of `entries` stands among them, and the diagonal.
+        /// The entries on and above the diagonal; the places of `entries` among them, and of the diagonal.
         std::vector<double> values;
         std::vector<Index> slots;
         std::vector<Index> diagonal_slots;
         FactorPool memory;
         LdlWorkspace workspace;
-        /// None where there are no functions, or E is not definite to rounding.
+        /// Empty if there are no functions, or E is not definite to rounding.
         std::optional<LdlFactor<double>> factor;
     };
     /// A class of vertices of Γ: the places of the sub-meshes that share it.
@@ -64,20 +64,19 @@ class CoarseSpace {
 
         [[nodiscard]] Index n_functions() const { return is_single ? 1 : static_cast<Index>(sharing.size()); }
     };
-    /// What a peer tells others when all terms of Zᵀ (r - S y) are put together: the sums for functions on classes of
-    /// which all sub-meshes are its own; those that it begins, for functions on other classes; and the terms of its
-    /// sub-meshes for these.
+    /// What a peer sends to others when all terms of Zᵀ (r - S y) are collected: the sums for functions on classes all
+    /// of whose sub-meshes are its own; the sums begun here, for functions on other classes; and its sub-meshes' terms
+    /// for these.
     struct Told {
         std::vector<Index> finished;
         std::vector<Index> begun;
         std::vector<Index> terms;
     };
-    /// What a sub-mesh adds.
+    /// A sub-mesh's share.
     struct Share {
-        /// To S Z: a column with DenseFactor::room for each function there, and zeros to make their number a multiple
-        /// of three.
+        /// To S Z: a column with DenseFactor::room for each function there, and zero columns up to a multiple of three.
         AlignedFloats product;
-        /// By what that has to be multiplied (see DenseFactor).
+        /// Scale of the product (see DenseFactor).
         double scale = 1.0;
         /// To E: functions there by functions there.
         Eigen::MatrixXd energy;
@@ -98,14 +97,14 @@ class CoarseSpace {
 
     const InterfaceCopies& copies_;
     InterfacePeers& peers_;
-    /// Per copy: the function that it belongs to, and what it adds to that at its vertex.
+    /// Per copy: its function, and its contribution to that at its vertex.
     std::vector<Index> function_;
     std::vector<double> values_at_;
-    /// Per function those of its copies that are known here, in ascending order: all or none.
+    /// Per function, its copies that are known here, in ascending order: all or none.
     IndexLists copies_in_;
     /// Per place: the functions on this sub-mesh's part of Γ, in ascending order.
     IndexLists functions_at_;
-    /// Per function: where it stands among the values of `functions_at_`.
+    /// Per function: its places among the values of `functions_at_`.
     IndexLists terms_of_;
     Energy energy_;
     /// Per sub-mesh.

@@ -8,14 +8,14 @@ namespace seamflow {
 
 namespace {
 
-/// A vertex of Γ as the first whole sub-mesh knows it.
+/// A vertex of Γ in the first whole sub-mesh that has it.
 struct FoundVertex {
     Index in_lowest;
     Index s;
     Index i;
 };
 
-/// What the whole sub-meshes know, by the lowest sub-mesh of each vertex.
+/// The vertices in whole sub-meshes, by the lowest sub-mesh of each vertex.
 std::vector<std::vector<FoundVertex>> find_vertices(const std::vector<SubMesh>& sub_meshes)
 {
     std::vector<std::vector<FoundVertex>> found(sub_meshes.size());

@@ -9,8 +9,8 @@
 
 namespace seamflow {
 
-/// The vertices of Γ, and their copies in the sub-meshes: sub-mesh after sub-mesh, in each in the order of its own Γ.
-/// Of a sub-mesh that is not there as a whole (see decompose_part) there are those copies that whole ones share.
+/// The vertices of Γ and their copies in the sub-meshes, sub-mesh by sub-mesh, each in the order of its own Γ. A
+/// sub-mesh that is not present as a whole (see decompose_part) has those copies that whole ones share.
 struct InterfaceCopies {
     /// @param decomposition without overlap.
     explicit InterfaceCopies(const Decomposition& decomposition);
@@ -24,7 +24,7 @@ struct InterfaceCopies {
 
     /// Per sub-mesh its first copy, and one more.
     std::vector<Index> first{0};
-    /// Per sub-mesh the first of the vertices of which it has the first copy, and one more: they follow each other.
+    /// Per sub-mesh the first of the vertices whose first copy it has, and one more: they are consecutive.
     std::vector<Index> first_vertex{0};
     /// Per copy.
     std::vector<Index> vertex;
@@ -33,7 +33,7 @@ struct InterfaceCopies {
     IndexLists of_vertex;
 };
 
-/// What peers exchange of their copies: of every vertex that two of them have, each knows all copies.
+/// Exchange of copies between peers: of every vertex that two of them have, both know all copies.
 /// @param peers must outlive the result.
 SharedRows shared_copies(const InterfaceCopies& copies, InterfacePeers& peers);
 

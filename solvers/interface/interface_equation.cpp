@@ -100,7 +100,7 @@ void InterfaceEquation::weigh_copies(std::span<const DenseFactor> complements, c
     });
 }
 
-/// The shares may cancel each other almost wholly: only their sum is used.
+/// The shares may cancel each other almost completely: only their sum is used.
 void InterfaceEquation::sum_copies(Points& copies, Points& sums, const Executor& exec)
 {
     shared_.complete(copies.data(), 3);
@@ -112,8 +112,8 @@ void InterfaceEquation::sum_copies(Points& copies, Points& sums, const Executor&
     });
 }
 
-/// Moves the coarse unknowns to where they have to be: only from there on is the preconditioner symmetric. Then goes as
-/// far along the guess as pays.
+/// Moves the coarse unknowns to where they must be: the preconditioner is symmetric only from there on. Then moves
+/// along the guess as far as this helps.
 template <class Multiply>
 void InterfaceEquation::start(const Multiply& multiply, const Points* guess, const Point& unit, Points& x,
                               const Executor& exec)
@@ -154,8 +154,8 @@ void InterfaceEquation::precondition(std::span<const DenseFactor> complements, c
 }
 
 /// target = Σ W_i apply(W_i source) over the sub-meshes, W_i = 1 where not weighted. Applied to columns in units of
-/// their own, so that single precision has room for lengths of any unit; `apply` returns which columns have its result,
-/// and by what that is to be multiplied.
+/// their own, so that single precision can represent lengths of any unit; `apply` returns the columns with its result,
+/// and the factor to multiply it by.
 template <class Apply>
 void InterfaceEquation::on_each(std::span<const DenseFactor> complements, const Points& source, bool weighted,
                                 Points& target, const Executor& exec, Apply&& apply)
@@ -171,7 +171,7 @@ void InterfaceEquation::on_each(std::span<const DenseFactor> complements, const 
         const std::size_t room = DenseFactor::room(n);
         const FloatColumns columns = columns_at(products_.data() + first_product_[s], room);
         const FloatColumns scratch = columns_at(columns.x + 3 * room, room);
-        // In plain numbers, which takes less time than expressions of rows.
+        // With plain numbers, which is faster than expressions of rows.
         double* const rows = residual_copies_.data() + Eigen::Index{3} * first;
         double largest[3] = {};
         for (Index i = 0; i < n; ++i) {
@@ -193,7 +193,7 @@ void InterfaceEquation::on_each(std::span<const DenseFactor> complements, const 
             columns.y[i] = static_cast<float>(rows[3 * i + 1] * inverse[1]);
             columns.z[i] = static_cast<float>(rows[3 * i + 2] * inverse[2]);
         }
-        // What was not finite may have been in a solution before.
+        // A previous solution may have left values that are not finite.
         for (std::size_t c = 0; c < 6; ++c)
             std::fill(columns.x + c * room + at(n), columns.x + (c + 1) * room, 0.0F);
         const std::pair<FloatColumns, double> applied = apply(complements[s], columns, scratch);

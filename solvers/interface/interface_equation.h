@@ -17,8 +17,8 @@
 
 namespace seamflow {
 
-/// Whether the preconditioner is balanced by a CoarseSpace. There are fewer iterations then, but each iteration and the
-/// start of each solution cost more. It pays where sub-meshes are narrow against √dt.
+/// Whether the preconditioner is balanced by a CoarseSpace. This takes fewer iterations, but each iteration and the
+/// start of each solution cost more. It pays if sub-meshes are narrow relative to √dt.
 enum class Balancing {
     None,
     Coarse,
@@ -30,12 +30,11 @@ enum class Balancing {
 ///     S_i = A_{\Gamma\Gamma} - A_{\Gamma I}\, A_{II}^{-1} A_{I\Gamma} , \f]
 ///
 /// sums over the sub-meshes, each with the Schur complement of its share A = M + dt K (see NeumannSystem), its interior
-/// I condensed. Solved for all three columns at once by conjugate gradients, preconditioned by Σ W_i
-/// S_i⁻¹ W_i with weights that add up to 1 at each vertex (Neumann-Neumann), balanced or not. The products are in
-/// single precision, in units that leave it room; the residual is renewed, without beginning anew, from that of the
-/// whole step in double precision. So neither these products nor the factors of sub-meshes limit a tolerance.
-/// Sums are taken sub-mesh by sub-mesh and along a tree of sub-meshes (see InterfaceSums): the bits do not depend on
-/// how loops are run.
+/// I condensed. Solved for all three columns at once by conjugate gradients, preconditioned by Σ W_i S_i⁻¹ W_i with
+/// weights that add up to 1 at each vertex (Neumann-Neumann), balanced or not. The products are in single precision, in
+/// units that fit it; the residual is recomputed, without a restart, from that of the whole step in double precision.
+/// So neither these products nor the factors of sub-meshes limit a tolerance. Sums are taken sub-mesh by sub-mesh and
+/// along a tree of sub-meshes (see InterfaceSums): the bits do not depend on how loops are run.
 class InterfaceEquation {
   public:
     /// @param decomposition without overlap; needed only during the call.
@@ -47,8 +46,8 @@ class InterfaceEquation {
 
     [[nodiscard]] const InterfaceCopies& copies() const { return copies_; }
 
-    /// What the step leaves on Γ at an x, the interiors following it: each own sub-mesh's share, one row per copy. The
-    /// other rows are filled in where it is.
+    /// The step's residual on Γ at x, the interiors following it: each own sub-mesh's share, one row per copy. The
+    /// other rows are completed in place.
     using Residuals = std::function<Points&(const Points& x)>;
 
     /// Solves; all peers call this together.
@@ -56,7 +55,7 @@ class InterfaceEquation {
     /// @param right_hand_sides one row per copy: each own sub-mesh's share g_i. The other rows are filled in.
     /// @param residuals is called now and then.
     /// @param stop residual relative to that of x = 0, in the Euclidean norm, for each of x, y and z.
-    /// @param guess one row per vertex of Γ: a direction in which the solution may be expected; null: none is known.
+    /// @param guess one row per vertex of Γ: a direction in which the solution may be expected; null if unknown.
     /// @param x receives the solution, one row per vertex of Γ.
     /// @returns the largest residual of x, y and z; as distance the largest row of the preconditioned residual, scaled
     ///          like the last iteration.

@@ -10,10 +10,10 @@
 
 namespace seamflow {
 
-/// Those that solve one equation on Γ together, each of them with some of the sub-meshes, and with memory of its own.
-/// A peer also knows of the sub-meshes around its own, the foreign ones. Its sub-meshes have numbers there; their
-/// places among those of all peers are in the same order. All peers call the functions that are virtual here in the
-/// same order, with what each has to give.
+/// The peers that solve one equation on Γ together, each with some of the sub-meshes and with its own memory. A peer
+/// also knows the sub-meshes around its own, the foreign ones. It numbers the sub-meshes that it knows; their places
+/// among those of all peers are in the same order. All peers call the virtual functions in the same order, each with
+/// its own data.
 class InterfacePeers {
   public:
     /// Numbers that each peer gives or gets.
@@ -37,24 +37,24 @@ class InterfacePeers {
     [[nodiscard]] const std::vector<Index>& places() const { return places_; }
     [[nodiscard]] Index n_places() const { return static_cast<Index>(holders_.size()); }
 
-    /// The peer that has a sub-mesh of this one's, or whether it is its own.
+    /// The peer that has a sub-mesh known here, or whether it is this one.
     [[nodiscard]] Index holder_of(Index s) const { return holders_[places_[s]]; }
     [[nodiscard]] bool is_own(Index s) const { return holder_of(s) == self_; }
 
-    /// Whether this peer knows of no sub-mesh but its own.
+    /// Whether this peer knows only its own sub-meshes.
     [[nodiscard]] bool has_all() const
     {
         return std::ranges::all_of(places_, [&](Index place) { return holders_[place] == self_; });
     }
 
-    /// What every peer gives, in the order of their numbers.
+    /// The data of all peers, in the order of their numbers.
     virtual Numbers gather(const std::vector<double>& own) = 0;
 
-    /// Gives numbers to some other peers, and takes what each of them has for this one.
-    /// @param others ascending; they name this one, too. @param to_each corresponds. @returns the same.
+    /// Sends numbers to some other peers, and receives theirs for this one.
+    /// @param others ascending; they name this one, too. @param to_each one for each. @returns likewise.
     virtual Numbers exchange(std::span<const Index> others, const Numbers& to_each) = 0;
 
-    /// The largest of what the peers give, number by number; all of them call this together.
+    /// The maximum over all peers, number by number; all of them call this together.
     std::vector<double> largest(std::vector<double> own)
     {
         for (const std::vector<double>& numbers : gather(own))
@@ -68,7 +68,7 @@ class InterfacePeers {
     std::vector<Index> places_;
 };
 
-/// One that has all sub-meshes.
+/// A peer with all sub-meshes.
 class OnePeer final : public InterfacePeers {
   public:
     explicit OnePeer(Index n_sub_meshes)

@@ -5,11 +5,11 @@
 
 namespace seamflow {
 
-/// How the iteration for what sub-meshes share ended: for the equation on Γ, or for that on traces.
+/// Result of the iteration for shared unknowns: for the equation on Γ, or for that on traces.
 struct InterfaceResult : IterationResult {
     /// Estimate of the largest distance to the solution, in units of length.
     double estimated_distance = 0.0;
-    /// That of each coordinate, in the unit of the tolerance; `residual` is the largest.
+    /// Per coordinate, in the unit of the tolerance; `residual` is the largest.
     Point residuals = Point::Zero();
 };
 

@@ -8,7 +8,7 @@ SumTree::SumTree(InterfacePeers& peers)
     : peers_(&peers)
 {
     constexpr Index several = -1;
-    // Who has all of the rows that have been added to one.
+    // The peer that has all of the rows added to each row.
     std::vector<Index> holders = peers.holders();
     const auto n = static_cast<Index>(holders.size());
     told_.resize(n > 0 ? at(*std::ranges::max_element(holders)) + 1 : 0);

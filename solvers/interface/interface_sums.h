@@ -10,8 +10,8 @@
 namespace seamflow {
 
 /// Adds up one row per sub-mesh along a binary tree of their places: 0 and 1, 2 and 3 and so on, then the sums of two
-/// such pairs, and so on. So the order of additions depends on the number of sub-meshes alone, whoever has them. Peers
-/// add up what they have the whole of, which is most where their sub-meshes follow each other, and tell each other the
+/// such pairs, and so on. So the order of additions depends only on the number of sub-meshes, whoever has them. Peers
+/// compute the sums all of whose terms they have, most of them if their sub-meshes are consecutive, and exchange the
 /// rest.
 class SumTree {
   public:
@@ -20,7 +20,7 @@ class SumTree {
 
     /// All peers call this together.
     /// @param rows #places times `width` numbers, one row after the other, those of this peer's sub-meshes filled in.
-    ///        They are used up.
+    ///        Overwritten.
     /// @returns the sums: `width` numbers.
     std::vector<double> add_up(std::vector<double>& rows, std::size_t width);
 
@@ -32,10 +32,10 @@ class SumTree {
     static void add(const std::vector<Addition>& additions, std::vector<double>& rows, std::size_t width);
 
     InterfacePeers* peers_;
-    /// Those for which this peer has all; those that come after.
+    /// Those whose terms this peer has; those that come after.
     std::vector<Addition> own_;
     std::vector<Addition> last_;
-    /// Per peer, the rows at which it has come to what others need.
+    /// Per peer, the rows whose sums it sends to others.
     std::vector<std::vector<Index>> told_;
 };
 

@@ -8,10 +8,10 @@
 
 namespace seamflow {
 
-/// Rows of an array that several peers know, each of them the own one of one peer.
+/// Rows of an array that several peers know, each owned by one peer.
 class SharedRows {
   public:
-    /// What a peer gives to another one, and what it takes from it. Both sides have the same order.
+    /// The rows that a peer gives to another one and takes from it. Both sides have the same order.
     struct Lists {
         std::vector<Index> given;
         std::vector<Index> taken;

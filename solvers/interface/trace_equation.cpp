@@ -11,13 +11,13 @@ namespace seamflow {
 
 namespace {
 
-/// What the directions of GMRES may take before it forgets them and begins anew, but they are this many at least.
+/// The memory that the directions of GMRES may take before it restarts, but it keeps at least this many.
 constexpr std::size_t most_direction_bytes = std::size_t{1} << 30;
 constexpr std::size_t least_directions = 60;
-/// What rounding makes of a residual, relative to the positions.
+/// The rounding error of a residual, relative to the positions.
 constexpr double rounding = 8.0 * std::numeric_limits<double>::epsilon();
 
-/// About as much of a residual is amplified most (measured on real meshes).
+/// About this fraction of a residual is amplified most (measured on real meshes).
 constexpr double amplified_share = 0.1;
 
 int most_directions(Index n)
@@ -85,7 +85,7 @@ InterfaceResult TraceEquation::solve(const FactorisedBlocks& system, const Itera
     return result;
 }
 
-/// All vertices from the traces, and the traces' residual T g + c - g.
+/// Computes all vertices from the traces, and the traces' residual T g + c - g.
 void TraceEquation::renew(const FactorisedBlocks& system, Points& x, const Threads& threads)
 {
     for_each(threads.exec, static_cast<Index>(ends_.size()), [&](Index s) {

@@ -13,20 +13,20 @@
 namespace seamflow {
 
 /// The whole backward Euler step as an equation on traces: g are the positions of those vertices that occur in the
-/// equations of a block (see SchwarzBlock) without being among its unknowns. Every block, solved with g given, finds
-/// its own vertices anew; the step is where nothing changes by that, g = T g + c. Solved for x, y and z at once by
-/// GMRES, which is restricted additive Schwarz as preconditioner of the whole system (Cai and Sarkis 1999), but with
-/// vectors on the traces alone. Residuals are lengths. Sums are taken in a fixed order: the bits do not depend on how
-/// loops are run.
+/// equations of a block (see SchwarzBlock) without being among its unknowns. Every block, solved with g given, yields
+/// new positions of its own vertices; the step is the fixed point g = T g + c. Solved for x, y and z at once by GMRES,
+/// which is restricted additive Schwarz as preconditioner of the whole system (Cai and Sarkis 1999), but with vectors
+/// on the traces only. Residuals are lengths. Sums are taken in a fixed order: the bits do not depend on how loops are
+/// run.
 class TraceEquation {
   public:
-    /// How the work on many blocks is run, and what the calling thread works with.
+    /// How work on many blocks is run, and the workspace of the calling thread.
     struct Threads {
         Executor exec;
         std::function<SolverWorkspace&()> workspace;
     };
 
-    /// Blocks of parts that share out the mesh.
+    /// Blocks of parts that partition the mesh.
     using Blocks = std::span<const std::unique_ptr<SchwarzBlock>>;
     /// The same blocks, in the same order, each with its factor of a step.
     struct FactorisedBlocks {
@@ -41,8 +41,8 @@ class TraceEquation {
     [[nodiscard]] Index size() const { return first_.back(); }
 
     /// Solves.
-    /// @param stop residual relative to that at the beginning, in the Euclidean norm over x, y and z; or to what
-    ///        rounding alone makes of the positions, whatever is larger. The tolerance is positive.
+    /// @param stop residual relative to that at the beginning, in the Euclidean norm over x, y and z; or to the
+    ///        rounding error of the positions, whichever is larger. The tolerance is positive.
     /// @param x #V by 3. In: Vᵏ, where the iteration starts. Out: Vᵏ⁺¹.
     /// @returns as distance the longest row of the residual times the typical amplification of residuals (see
     ///          GmresCycle): rather too high, since the blocks' last solve reduces the error further.
@@ -50,11 +50,11 @@ class TraceEquation {
     InterfaceResult solve(const FactorisedBlocks& system, const IterationStop& stop, Points& x, const Threads& threads);
 
   private:
-    /// What a block takes from the traces and gives to them.
+    /// A block's inputs from the traces and outputs to them.
     struct Ends {
         /// For each of the vertices beyond, its number in the equation.
         std::vector<Index> inputs;
-        /// Those of its unknowns that are in the equation; their numbers follow each other.
+        /// Its unknowns that are in the equation; their numbers are consecutive.
         std::vector<Index> outputs;
     };
 

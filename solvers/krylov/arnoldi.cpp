@@ -12,7 +12,7 @@ namespace seamflow {
 
 namespace {
 
-/// What rounding may leave of a direction that lies in the span of others.
+/// The remainder that rounding may leave of a direction in the span of others.
 constexpr double rounding_of_directions = 16.0 * std::numeric_limits<double>::epsilon();
 
 }  // namespace
@@ -49,8 +49,8 @@ std::vector<Matrix3d> KrylovBasis::orthogonalise(const Executor& exec)
 }
 
 /// Makes the columns of W orthonormal, or zero if they depend on others.
-/// @param sizes what the columns' norms were before anything was taken away from them.
-/// @returns the triangle by which they have to be multiplied to become what they were.
+/// @param sizes the columns' norms before anything was subtracted from them.
+/// @returns the triangle by which they must be multiplied to give the original columns.
 Matrix3d KrylovBasis::normalise(const RowVector3d& sizes, const Executor& exec)
 {
     Matrix3d amounts = Matrix3d::Zero();
@@ -123,7 +123,7 @@ void HessenbergLeastSquares::append(const std::vector<Matrix3d>& blocks)
     }
 }
 
-/// Takes in a column of the Hessenberg matrix: rotated like the ones before, then so that nothing is left below its
+/// Adds a column of the Hessenberg matrix: rotated like the ones before, then so that nothing is left below its
 /// diagonal.
 void HessenbergLeastSquares::rotate(std::vector<double> column)
 {
@@ -157,8 +157,7 @@ double HessenbergLeastSquares::residual() const
     return std::sqrt(squares);
 }
 
-/// The amplification takes more the more directions there are: of many, a few more are waited for before it is found
-/// anew.
+/// The amplification costs more the more directions there are: with many, it is only computed again after a few more.
 bool HessenbergLeastSquares::has_reached(double goal)
 {
     const double size = residual();

@@ -7,12 +7,12 @@
 #include "partition/executor.h"
 #include "partition/polygon_mesh.h"
 
-/// What block GMRES is made of: Arnoldi's basis, and the least-squares problem in it.
+/// Parts of block GMRES: Arnoldi's basis, and the least-squares problem in it.
 namespace seamflow {
 
-/// The orthonormal basis V₁, V₂, … that block GMRES makes of a residual and its products with A, by Arnoldi's method
-/// with modified Gram-Schmidt, done twice. Each V has three columns, orthonormal or zero: those that depend on others
-/// are left out.
+/// The orthonormal basis V₁, V₂, … that block GMRES builds from a residual and its products with A, by Arnoldi's method
+/// with modified Gram-Schmidt, done twice. Each V has three columns, orthonormal or zero: linearly dependent ones are
+/// left out.
 class KrylovBasis {
   public:
     /// @param n number of unknowns.
@@ -21,11 +21,11 @@ class KrylovBasis {
     {
     }
 
-    /// Forgets what there was. The residual becomes W, of orthonormal columns.
+    /// Starts anew. The residual becomes W, with orthonormal columns.
     /// @returns the triangle R with residual = W R.
     Eigen::Matrix3d begin(const Points& residual, const Executor& exec);
 
-    /// Takes W in as the next V, and makes W = A V of it.
+    /// Appends W as the next V, and computes W = A V.
     /// @param multiply multiply(V, product) makes the product, #unknowns by 3.
     template <class Multiply>
     void extend(const Multiply& multiply)
@@ -56,29 +56,28 @@ class KrylovBasis {
     Points product_;
 };
 
-/// How much an error may be amplified against its residual before the residual says too little of it.
+/// Above this amplification of the error over its residual, the residual is an unreliable measure.
 inline constexpr double most_amplification = 100.0;
 
 /// The small least-squares problem of block GMRES, for three right-hand sides: its block Hessenberg matrix, made
 /// triangular by Givens rotations as its columns come.
 class HessenbergLeastSquares {
   public:
-    /// @param first what the first three rows of the right-hand sides are; the others are 0.
+    /// @param first the first three rows of the right-hand sides; the others are 0.
     explicit HessenbergLeastSquares(const Eigen::Matrix3d& first);
 
     /// Appends three columns of the Hessenberg matrix, and three rows.
     /// @param blocks of these columns, three rows each.
     void append(const std::vector<Eigen::Matrix3d>& blocks);
 
-    /// Whether the residual is no larger than the goal, divided by what the amplification is more than
-    /// most_amplification.
+    /// Whether the residual is no larger than the goal, divided by amplification / most_amplification if above 1.
     [[nodiscard]] bool has_reached(double goal);
 
     /// How many times longer than its residual an error can be: the norm of the triangle's inverse, by power
     /// iteration. At least 1.
     [[nodiscard]] double amplification() const;
 
-    /// Three rows for each column block. Columns that are zero have no part in it.
+    /// Three rows for each column block. Zero columns do not contribute.
     [[nodiscard]] Eigen::MatrixXd solution() const;
 
   private:
@@ -95,11 +94,11 @@ class HessenbergLeastSquares {
     void divide_by_transpose(Eigen::VectorXd& z) const;
     void divide(Eigen::VectorXd& z) const;
 
-    /// What rotations have made of the matrix, column by column, and of the right-hand sides, row by row.
+    /// The matrix after the rotations, column by column, and the right-hand sides, row by row.
     std::vector<std::vector<double>> triangle_;
     std::vector<Rotation> rotations_;
     std::vector<Eigen::RowVector3d> right_hand_side_;
-    /// Columns from which on the amplification is found anew.
+    /// Number of columns at the next amplification estimate.
     std::size_t next_size_to_check_ = 0;
 };
 

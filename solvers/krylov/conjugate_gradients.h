@@ -10,10 +10,10 @@
 
 namespace seamflow {
 
-/// What conjugate gradients work with, in Saad's letters, each n by 3: three right-hand sides at once, each with
-/// coefficients of its own.
+/// The vectors of conjugate gradients, in Saad's notation, each n by 3: three right-hand sides at once, each with its
+/// own coefficients.
 struct ConjugateGradientVectors {
-    /// @param how inner products are made.
+    /// @param how computes inner products.
     explicit ConjugateGradientVectors(Index n, InnerProducts how = inner_products)
         : r(n, 3)
         , p(n, 3)
@@ -52,13 +52,13 @@ struct ConjugateGradientVectors {
     Point alpha = Point::Ones();
 };
 
-/// Where the denominator is not positive, 0.
+/// 0 where the denominator is not positive.
 inline Point quotients(const Point& numerators, const Point& denominators)
 {
     return (denominators.array() > 0.0).select(numerators.array() / denominators.array(), 0.0).matrix();
 }
 
-/// The largest of the three; one whose denominator is 0 does not count. Not a number where one of them is none.
+/// The largest of the three, except those with denominator 0. Not a number if one of them is not a number.
 inline double largest_ratio(const Point& norms, const Point& first)
 {
     double largest = 0.0;
@@ -68,7 +68,7 @@ inline double largest_ratio(const Point& norms, const Point& first)
     return largest;
 }
 
-/// x goes along p to where the energy is least; r follows.
+/// Moves x along p to the least energy, and r with it.
 template <class Multiply>
 void advance(const Multiply& multiply, Points& x, ConjugateGradientVectors& v, const Executor& exec)
 {
@@ -85,7 +85,7 @@ void advance(const Multiply& multiply, Points& x, ConjugateGradientVectors& v, c
     });
 }
 
-/// The equations A X = B by what is done with them.
+/// The operators of the equations A X = B.
 template <class Multiply, class Precondition, class Measure>
 struct PreconditionedEquations {
     /// multiply(p, q) makes q = A p.
@@ -101,9 +101,9 @@ PreconditionedEquations(const Multiply&, const Precondition&, const Measure&)
     -> PreconditionedEquations<Multiply, Precondition, Measure>;
 
 /// Conjugate gradients for A X = B with a symmetric positive definite A, preconditioned (Saad, Iterative Methods for
-/// Sparse Linear Systems, 2003, algorithm 9.1), where products are rounded coarsely: now and then the residual is
-/// measured anew, without beginning anew; how far it had gone astray tells whether that is needed again. Sums are taken
-/// in a fixed order: the bits do not depend on how loops are run.
+/// Sparse Linear Systems, 2003, algorithm 9.1), where products are rounded coarsely: occasionally the residual is
+/// recomputed, without a restart; its drift until then decides whether that is needed again. Sums are taken in a fixed
+/// order: the bits do not depend on how loops are run.
 /// @param stop relative to the norms of B, for each column.
 /// @param x in: where to start. Out: the solution.
 /// @param v in: begun, and brought to x by `advance`, or not at all.
@@ -112,13 +112,13 @@ IterationResult conjugate_gradients(const PreconditionedEquations<Multiply, Prec
                                     const IterationStop& stop, Points& x, ConjugateGradientVectors& v,
                                     const Executor& exec)
 {
-    // From one measurement to the next so many iterations, and so much of the residual; what may be left of it then
-    // without too little progress.
+    // The most iterations and reduction of the residual between two measurements; the most that may be left of it with
+    // enough progress.
     constexpr int most_iterations_at_once = 100;
     constexpr double most_reduction_at_once = 1e-4;
     constexpr double most_left = 0.5;
-    // How far rounding leads the residual astray, relative to what was measured before: until that has shown, and at
-    // least. Where so many times that is less than what is wanted, the last residual need not be measured.
+    // Drift of the residual by rounding, relative to the residual measured before: until it is known, and at least. If
+    // `safety` times this is less than wanted, the last residual need not be measured.
     constexpr double first_drift = 1e-4;
     constexpr double least_drift = 1e-7;
     constexpr double safety = 10.0;
@@ -151,7 +151,7 @@ IterationResult conjugate_gradients(const PreconditionedEquations<Multiply, Prec
         do {
             // z = M⁻¹ r
             equations.precondition(v.r, v.z);
-            // β = -(z, q) / (p, q): conjugate to the direction before even where the residual has just been measured.
+            // β = -(z, q) / (p, q): conjugate to the previous direction even if the residual has just been measured.
             const Point beta = -quotients(v.products({{v.z, v.q}}, exec).front(), v.pq);
             // p = z + β p
             for_each(exec, static_cast<Index>(x.rows()),
@@ -160,7 +160,7 @@ IterationResult conjugate_gradients(const PreconditionedEquations<Multiply, Prec
         } while (++iterations < most && !is_below(v.norms(v.r, exec), goals()));
         const Point before = std::exchange(norms, norms_as_measured());
         criterion.note(iterations, largest_ratio(norms, v.b_norms), largest_ratio(norms, before));
-        // Rounding can spoil the directions so much that they lead nowhere: new ones then.
+        // Rounding can spoil the directions so much that they lead nowhere: start anew.
         if (criterion.is_stalling())
             v.pq.setZero();
     }

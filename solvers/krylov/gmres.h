@@ -9,9 +9,9 @@
 
 namespace seamflow {
 
-/// What GMRES works on.
+/// Vectors of GMRES.
 struct GmresVectors {
-    /// Its memory is used again.
+    /// Its memory is reused.
     KrylovBasis& V;
     /// In: where to start. Out: the solution.
     Points& x;
@@ -28,13 +28,13 @@ struct GmresCycle {
 };
 
 /// The generalised minimal residual method of Saad and Schultz (1986) for A X = B with any regular matrix A and three
-/// right-hand sides, which look for their solutions in one subspace together (block GMRES, Vital 1990). It does not
-/// break down: directions that depend on others are left out. Adds to X what makes the residual smallest. Sums are
-/// taken in a fixed order: the bits do not depend on how loops are run.
+/// right-hand sides, whose solutions are sought in one common subspace (block GMRES, Vital 1990). It does not break
+/// down: linearly dependent directions are left out. Adds to X the correction of least residual. Sums are taken in a
+/// fixed order: the bits do not depend on how loops are run.
 /// @param multiply multiply(v, product) makes the product A v.
-/// @param goal ends when the residual is estimated to be no larger, in the Euclidean norm over all three columns. Where
-///        that says too little of X, because the amplification is more than most_amplification, the goal is divided by
-///        what it is too much.
+/// @param goal ends when the residual is estimated to be no larger, in the Euclidean norm over all three columns. If
+///        that says too little of X, because the amplification is above most_amplification, the goal is divided by
+///        their ratio.
 /// @param most products with A, for each of which 24 n bytes are kept.
 template <class Multiply>
 GmresCycle gmres_cycle(const Multiply& multiply, double goal, int most, const GmresVectors& vectors,
@@ -57,18 +57,18 @@ struct GmresResult : IterationResult {
     double amplification = 1.0;
 };
 
-/// Restarted GMRES: cycles that forget the directions of those before, the residual being measured after each.
-/// @param measure brings the residual up to date with X.
+/// Restarted GMRES: cycles that discard all previous directions, with the residual measured after each.
+/// @param measure updates the residual to X.
 /// @param stop residuals in the Euclidean norm over all three columns; as the goal of a cycle they count for more where
 ///        the amplification is large.
 /// @param most_in_cycle see gmres_cycle.
-/// @param vectors with the residual that `measure` brings up to date. In: of x.
+/// @param vectors with the residual that `measure` updates. In: that of x.
 template <class Multiply, class Measure>
 GmresResult gmres(const Multiply& multiply, const Measure& measure, const IterationStop& stop, int most_in_cycle,
                   const GmresVectors& vectors, const Executor& exec)
 {
-    // What a cycle may leave of the residual without too little progress. The residual that GMRES estimates is about
-    // the true one.
+    // The fraction of the residual that a cycle may leave with enough progress. GMRES's estimated residual is about the
+    // true one.
     constexpr double most_left = 0.95;
     constexpr double safety = 0.8;
 

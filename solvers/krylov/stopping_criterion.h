@@ -15,19 +15,19 @@ struct IterationResult {
     int iterations = 0;
     /// As measured last, in the unit of the tolerance.
     double residual = 0.0;
-    /// Whether it ended above the tolerance, with iterations left, because they no longer made the residual smaller.
+    /// Whether it ended above the tolerance, with iterations left, because they no longer reduced the residual.
     bool stagnated = false;
 };
 
 /// The stopping criterion of all iterations: the residual, measured now and then, is small enough; or there are no
-/// iterations left; or the iteration stagnates, several measurements one after the other having found too little
-/// progress. One of them alone may be on a plateau that ends.
+/// iterations left; or the iteration stagnates: several consecutive measurements have found too little progress. A
+/// single one may be on a plateau that ends.
 class StoppingCriterion {
   public:
-    /// So many of them.
+    /// So many measurements without enough progress, one after the other, end it.
     static constexpr int most_stalls = 3;
 
-    /// @param most_left the part of the residual before that may be left without it being too little progress.
+    /// @param most_left the fraction of the previous residual that may be left with enough progress.
     /// @param residual at the beginning.
     StoppingCriterion(const IterationStop& stop, double most_left, double residual)
         : stop_(stop)
@@ -37,8 +37,8 @@ class StoppingCriterion {
     }
 
     /// Takes note of a measurement.
-    /// @param iterations since the one before.
-    /// @param left the part of the residual before that is left; not a number: no progress.
+    /// @param iterations since the previous one.
+    /// @param left the fraction of the previous residual left; not a number: no progress.
     void note(int iterations, double residual, double left)
     {
         iterations_ += iterations;
@@ -46,7 +46,7 @@ class StoppingCriterion {
         stalls_ = left <= most_left_ ? 0 : stalls_ + 1;
     }
 
-    /// Whether the iteration is to end; so it is where the residual is not a number.
+    /// Whether the iteration is to end; also if the residual is not a number.
     [[nodiscard]] bool is_met() const
     {
         return iterations_left() <= 0 || !(residual_ > stop_.tolerance) || stalls_ >= most_stalls;
@@ -60,7 +60,7 @@ class StoppingCriterion {
     /// @param residual as measured last.
     [[nodiscard]] IterationResult result(double residual) const
     {
-        // Where iterations have run out, the last ones may have been too few to get on.
+        // If iterations have run out, the last ones may have been too few for progress.
         const bool stagnated = stalls_ >= most_stalls && residual > stop_.tolerance && iterations_left() > 0;
         return {.iterations = iterations_, .residual = residual, .stagnated = stagnated};
     }

@@ -21,7 +21,7 @@ Sum sum_of(const Executor& exec, Index n, Value&& value)
     return sum(exec, n, value, zero);
 }
 
-/// The inner products of each column of A with the same of B.
+/// The inner products of each column of A with that of B.
 inline Eigen::RowVector3d column_products(const Points& a, const Points& b, const Executor& exec)
 {
     return sum_of<Eigen::RowVector3d>(exec, static_cast<Index>(a.rows()),
@@ -40,8 +40,8 @@ struct VectorPair {
     const Points& b;
 };
 
-/// How the inner products of pairs of vectors are made, those of each column of A with the same of B; all of them at
-/// once. Always in the same order of additions.
+/// How the inner products of pairs of vectors are computed, of each column of A with that of B; all of them at once.
+/// Always in the same order of additions.
 using InnerProducts = std::function<std::vector<Point>(std::initializer_list<VectorPair> pairs, const Executor& exec)>;
 
 /// One pair after the other, by column_products.

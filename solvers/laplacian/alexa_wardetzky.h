@@ -20,21 +20,21 @@ struct AlexaWardetzky {
     /// |f| / p (paper, eq. 11).
     static double corner_mass(double size, std::size_t p) { return corner_area(size, p); }
 
-    /// The bisectors of a polygon, computed when they are asked for.
+    /// The bisectors of a polygon, computed on demand.
     struct ComputedBisectors {
         std::span<const Index> corners;
         const Points& positions;
         Point operator()(std::size_t k) const { return corner_bisector(corners, k, positions); }
     };
 
-    /// Those of a polygon of which all rows are wanted, computed once.
+    /// Those of a polygon whose rows are all needed, computed once.
     struct StoredBisectors {
         const Point* bisectors;
         const Point& operator()(std::size_t k) const { return bisectors[k]; }
     };
     using Scratch = std::vector<Point>;
 
-    /// What one face contributes: see kernels.h.
+    /// Contribution of one face: see kernels.h.
     template <class Bisectors>
     class Face {
       public:
@@ -86,8 +86,8 @@ struct AlexaWardetzky {
         return {corners, positions, size, {scratch.data()}};
     }
 
-    /// The same of a triangle: its bisectors are half the opposite edges, so that K has half the cotangents of the
-    /// angles opposite to its edges, and each row of K sums to zero.
+    /// The same for a triangle: its bisectors are half the opposite edges, so that K has half the cotangents of the
+    /// angles opposite its edges, and each row of K sums to zero.
     class Triangle {
       public:
         /// Row i: minus the cotangents opposite to the edges ik, and their sum on the diagonal.

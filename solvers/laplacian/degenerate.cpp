@@ -11,7 +11,7 @@ namespace seamflow {
 
 namespace {
 
-/// The first corner of face f from which an edge of no sound length leads, and where that matters; -1 if there is none.
+/// The first corner of face f where an edge without a valid length starts, and where that matters; -1 if there is none.
 Index edge_without_length(const PolygonMesh& mesh, const Topology& topology, Index f)
 {
     const auto corners = mesh.face(f);
@@ -31,8 +31,8 @@ Index edge_without_length(const PolygonMesh& mesh, const Topology& topology, Ind
     throw InputError("vertices " + std::to_string(corners[corner]) + " and " +
                      std::to_string(corners[(at(corner) + 1) % corners.size()]) +
                      " (numbered from 0) are joined by an edge of face " + std::to_string(f) +
-                     " and lie at the same place, or so near or far that the distance is no normal double: "
-                     "merge them, move one, or scale the mesh");
+                     " and lie at the same place, or so near or far that their distance is not a normal double: merge "
+                     "them, move one, or scale the mesh");
 }
 
 bool may_move(const PolygonMesh& mesh, const Topology& topology, Index f)
@@ -41,8 +41,8 @@ bool may_move(const PolygonMesh& mesh, const Topology& topology, Index f)
     return std::any_of(corners.begin(), corners.end(), [&](Index v) { return topology.moves(v); });
 }
 
-/// Does the row of a vertex that may move divide by the area of face f? Those of Ptáčková-Velho also reach the faces
-/// across the edges of the vertex's own.
+/// Whether the row of a vertex that may move divides by the area of face f. Those of Ptáčková-Velho also reach the
+/// faces across the edges of the vertex's own faces.
 bool area_matters(const PolygonMesh& mesh, const Topology& topology, Laplacian laplacian, Index f)
 {
     if (may_move(mesh, topology, f))
@@ -64,7 +64,7 @@ bool divides_by_lengths(Laplacian laplacian)
     return traits_of(laplacian).divisor == Divisor::EdgeLengths;
 }
 
-/// The faces by whose edges or areas the row of a vertex that may move divides in vain.
+/// The faces whose edges or areas are invalid divisors in the row of a vertex that may move.
 std::vector<Index> degenerate_faces(const PolygonMesh& mesh, const Topology& topology, Laplacian laplacian,
                                     const Executor& exec)
 {
@@ -76,7 +76,7 @@ std::vector<Index> degenerate_faces(const PolygonMesh& mesh, const Topology& top
     });
 }
 
-/// Both ends of every edge of face f that has no sound length.
+/// Both ends of every edge of face f that has no valid length.
 void append_ends(const PolygonMesh& mesh, Index f, std::vector<Index>& vertices)
 {
     const auto corners = mesh.face(f);

@@ -15,7 +15,7 @@ namespace seamflow {
 void require_sound_geometry(const PolygonMesh& mesh, const Topology& topology, Laplacian laplacian,
                             const Executor& exec = run_serially);
 
-/// The vertices that may move and at which that is not so, ascending.
+/// The vertices that may move and fail this check, ascending.
 std::vector<Index> vertices_without_row(const PolygonMesh& mesh, const Topology& topology, Laplacian laplacian,
                                         const Executor& exec = run_serially);
 

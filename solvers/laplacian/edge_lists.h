@@ -15,11 +15,11 @@ struct VertexPair {
     friend auto operator<=>(const VertexPair&, const VertexPair&) = default;
 };
 
-/// Whose contributions a SymmetricLaplacian adds up.
+/// Contributions that a SymmetricLaplacian sums up.
 enum class Contributions {
-    /// Those of the faces on both sides of Γ: right at all vertices of the sub-mesh.
+    /// Of the faces on both sides of Γ: correct at all vertices of the sub-mesh.
     BothSides,
-    /// Those of the own faces, half of an edge on Γ being either side's: over all sub-meshes they add up to the whole.
+    /// Of the own faces, each side having half of an edge on Γ: over all sub-meshes they add up to the whole.
     OwnFaces,
 };
 
@@ -34,7 +34,7 @@ struct FacesOnBothSides {
     Contributions contributions = Contributions::BothSides;
 };
 
-/// Edges by the number of faces that they have here.
+/// Edges by the number of their faces here.
 struct OuterEdges {
     /// Of several faces.
     std::vector<VertexPair> inner;

@@ -7,14 +7,14 @@
 
 namespace seamflow {
 
-/// What the equations of a step, (M + dt K) Vᵏ⁺¹ = M Vᵏ, have beside dt and the positions Vᵏ that M and K are those of.
+/// Parameters of a step, (M + dt K) Vᵏ⁺¹ = M Vᵏ, besides dt and the positions Vᵏ at which M and K are taken.
 struct FlowTerms {
-    /// #V by 3: V⁰, of the whole mesh. Where any of the following is wanted; needed only while systems are made.
+    /// #V by 3: V⁰ of the whole mesh, if any of the following is used; needed only while systems are made.
     const Points* first = nullptr;
     /// Whether K is that of V⁰ in all steps: the conformalized flow (Kazhdan, Solomon, Ben-Chen 2012).
     bool keeps_stiffness = false;
     /// w of the attachment to V⁰, (M + dt K + dt M w) Vᵏ⁺¹ = M Vᵏ + dt M w V⁰, in 1/length²: that of each vertex (#V),
-    /// or, where there are none, of all.
+    /// or if empty, one for all.
     std::span<const double> weights = {};
     double uniform_weight = 0.0;
 

@@ -14,7 +14,7 @@ struct Fujiwara {
 
     static constexpr bool averages_mass = true;
 
-    /// What one edge contributes: see kernels.h.
+    /// Contribution of one edge: see kernels.h.
     class Edge {
       public:
         explicit Edge(const Point& difference)
@@ -25,7 +25,7 @@ struct Fujiwara {
         /// factor · (-K) of its two ends (eq. 14), in 1/length.
         [[nodiscard]] double weight(double factor) const { return factor / length_; }
 
-        /// Of which M_v is the mean, in length.
+        /// M_v is the mean of these, in length.
         [[nodiscard]] double mass() const { return length_; }
 
       private:

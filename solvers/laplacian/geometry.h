@@ -16,8 +16,8 @@ inline double area(std::span<const Index> corners, const Points& positions)
     return vector_area(corners, positions).norm();
 }
 
-/// What each corner of a p-gon has of its area, |f| / p. The sum at a vertex is its area, the inverse of the paper's
-/// W_V (eq. 11).
+/// A corner's share of the area of a p-gon, |f| / p. The sum at a vertex is its area, the inverse of the paper's W_V
+/// (eq. 11).
 inline double corner_area(double face_area, std::size_t p)
 {
     return face_area / static_cast<double>(p);

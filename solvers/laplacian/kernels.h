@@ -26,14 +26,14 @@ concept EdgeKernel = requires
 
 /// A Laplacian M⁻¹ K that is a sum over faces, with K = N / d in each. It has functions `polygon(corners, positions,
 /// size)`, for one row, and `whole_polygon(corners, positions, size, scratch)`, for all; `size(corners, positions)` is
-/// a number that both need, and `Scratch` what the latter stores, which must outlive the result. They return what has:
+/// a number that both need, and `Scratch` the memory of the latter, which must outlive the result. The results have:
 /// - `size()`, `corner(k)`: the number of vertices, and the k-th of them;
 /// - `row(i, scale)(k)`: scale · N_ik; the rows of N sum to zero;
 /// - `divisor()`: d;
-/// - `mass(k)`: what the face adds to M at corner k, which is also what `corner_mass(size, number of corners)` says;
+/// - `mass(k)`: what the face adds to M at corner k, equal to `corner_mass(size, number of corners)`;
 /// - `difference(i, k)`: V_k - V_i, for i < k.
 ///
-/// Where it has a class `Triangle` too, made from three corners, that one says the same of triangles in fewer
+/// If it also has a class `Triangle`, made from three corners, that provides the same for triangles in fewer
 /// operations.
 template <class Kernel>
 concept FaceKernel = requires
@@ -41,7 +41,7 @@ concept FaceKernel = requires
     typename Kernel::Scratch;
 };
 
-/// Calls action(face, i) with what is needed for the row of corner k of a face, i being its place there.
+/// Calls action(face, i) with the data for the row of corner k of a face, i being its place there.
 template <FaceKernel Kernel, class Action>
 void measure_corner(std::span<const Index> corners, std::size_t k, const Points& positions, Action&& action)
 {
@@ -53,7 +53,7 @@ void measure_corner(std::span<const Index> corners, std::size_t k, const Points&
     action(Kernel::polygon(corners, positions, Kernel::size(corners, positions)), k);
 }
 
-/// Calls action(face) with what is needed for all rows of a face.
+/// Calls action(face) with the data for all rows of a face.
 template <FaceKernel Kernel, class Action>
 void measure_face(std::span<const Index> corners, const Points& positions, typename Kernel::Scratch& scratch,
                   Action&& action)
@@ -68,7 +68,7 @@ void measure_face(std::span<const Index> corners, const Points& positions, typen
 using Kernels = std::tuple<Fujiwara, AlexaWardetzky, VirtualRefinement, PtackovaVelho, Uniform>;
 
 /// Calls action with the formula of a Laplacian.
-/// @throws OptionError for what is no Laplacian.
+/// @throws OptionError for an unknown Laplacian.
 template <std::size_t i = 0, class Action>
 auto with_kernel(const ScaledLaplacian& laplacian, Action&& action)
 {

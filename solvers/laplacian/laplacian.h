@@ -11,7 +11,7 @@ namespace seamflow {
 /// One for each Laplacian.
 std::span<const LaplacianTraits> all_laplacian_traits();
 
-/// @throws OptionError for what is no Laplacian.
+/// @throws OptionError for an unknown Laplacian.
 const LaplacianTraits& traits_of(Laplacian laplacian);
 
 /// "fujiwara", "alexa-wardetzky", "virtual-refinement", "ptackova-velho" or "uniform".

@@ -35,29 +35,29 @@ inline FaceView faces_of(const SubMesh& sub_mesh)
     return {sub_mesh.face_vertices.offsets, sub_mesh.face_vertices.values, sub_mesh.twin, sub_mesh.n_vertices};
 }
 
-/// Adds one Laplacian to the values of a matrix, again and again as the mesh moves. Which entries it touches, and in
-/// which order, depends on the faces alone: `entries` lists them once, and `add` then finds each value's place in a
-/// list of slots made from them, without searching.
+/// Adds one Laplacian to the values of a matrix, repeatedly as the mesh moves. Which entries it touches, and in which
+/// order, depends on the faces alone: `entries` lists them once, and `add` then finds each value's place in a list of
+/// slots made from them, without searching.
 class LaplacianAssembler {
   public:
     virtual ~LaplacianAssembler() = default;
 
-    /// The entries in the order in which `add` meets them; repetitions are welcome.
+    /// The entries in the order in which `add` meets them, maybe repeated.
     [[nodiscard]] virtual std::vector<MatrixEntry> entries() const = 0;
 
     /// values[slots[i]] += factor · (contribution to the i-th of `entries`).
     /// @param positions at least #V by 3.
-    /// @param slots one place per entry. Entries that are not wanted all point to one place that nobody reads.
+    /// @param slots one place per entry. Unwanted entries all point to one place that is never read.
     virtual void add(const Points& positions, double factor, std::span<const Index> slots,
                      std::span<double> values) = 0;
 
-    /// M_v of the positions last added: row v times this is the sum of what edges or faces contribute.
+    /// M_v of the positions last added: row v times this is the sum of edge or face contributions.
     [[nodiscard]] virtual double mass(Index v) const = 0;
 };
 
 /// The assembler of one Laplacian on the given faces, whose arrays must outlive it.
-/// @param stiffness_at at least #V by 3: the positions whose K the Laplacian, which is symmetric, keeps while M follows
-///        the mesh; needed only during the call. nullptr: K follows the mesh, too.
+/// @param stiffness_at at least #V by 3: the positions whose K a symmetric Laplacian keeps while M follows the mesh;
+///        needed only during the call. nullptr: K follows the mesh, too.
 std::unique_ptr<LaplacianAssembler> make_assembler(const ScaledLaplacian& laplacian, const FaceView& faces,
                                                    const Points* stiffness_at = nullptr);
 

@@ -23,7 +23,7 @@ enum class Laplacian {
     /// Positive diagonal times symmetric positive semi-definite.
     AlexaWardetzky,
     /// Δ_B of Bunge, Herholz, Kazhdan and Botsch (Polygon Laplacian Made Simple, 2020): the cotan Laplacian after each
-    /// polygon is made a fan of triangles around a virtual vertex, which is then a mean of the corners again; on
+    /// polygon is split into a triangle fan around a virtual vertex, then expressed as a mean of the corners; on
     /// triangles, Δ_A. Positive diagonal times symmetric positive semi-definite, 0 for constants alone: unlike Δ_A, it
     /// grows no spikes on polygons.
     VirtualRefinement,
@@ -34,18 +34,17 @@ enum class Laplacian {
     /// Two-ring stencil, not symmetric.
     PtackovaVelho,
     /// Δ_U, with uniform weights: the mean over the edges at v of v - v_j, times 4/h² with one length h for all
-    /// vertices
-    /// (see ScaledLaplacian), the mean edge length of the mesh:
+    /// vertices (see ScaledLaplacian), the mean edge length of the mesh:
     ///
     /// \f[ (\Delta_U V)_v = \frac{4}{h^2 n_v} \sum_j (v - v_j) . \f]
     ///
     /// Positive diagonal times symmetric positive semi-definite, and the same for any positions. On regular grids of
-    /// edges of length h it is the Laplacian of the surface. It does not see the size of triangles, as noise does not:
-    /// what is as narrow as the edges is smoothed alike everywhere. Drags vertices along the surface.
+    /// edges of length h it is the Laplacian of the surface. It ignores the size of triangles, as noise does: features
+    /// as narrow as the edges are smoothed alike everywhere. Drags vertices along the surface.
     Uniform,
 };
 
-/// A Laplacian with what it needs beside positions.
+/// A Laplacian with its data besides positions.
 struct ScaledLaplacian {
     ScaledLaplacian(Laplacian laplacian, double edge = 1.0)
         : kind(laplacian)
@@ -55,7 +54,7 @@ struct ScaledLaplacian {
     operator Laplacian() const { return kind; }
 
     Laplacian kind;
-    /// h of Δ_U, in length, above 0; the others do not look at it.
+    /// h of Δ_U, in length, above 0; unused by the others.
     double edge_length;
 };
 
@@ -69,7 +68,7 @@ enum class Reach {
     TwoRings,
 };
 
-/// What the coefficients divide by, so that it must not be 0.
+/// The divisors of the coefficients, which must not be 0.
 enum class Divisor {
     EdgeLengths,
     FaceAreas,
@@ -77,12 +76,12 @@ enum class Divisor {
     Nothing,
 };
 
-/// What the rest of the library has to know of a Laplacian.
+/// Properties of a Laplacian for the rest of the library.
 struct LaplacianTraits {
     Laplacian laplacian;
-    /// Small letters and hyphens.
+    /// Lower case and hyphens.
     std::string_view name;
-    /// That of the formulas: "Δ_F".
+    /// As in formulas: "Δ_F".
     std::string_view symbol;
     Reach reach;
     Divisor divisor;

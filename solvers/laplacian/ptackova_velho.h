@@ -16,7 +16,7 @@ struct PtackovaVelho {
     static constexpr LaplacianTraits traits{Laplacian::PtackovaVelho, "ptackova-velho",   "Δ_P",
                                             Reach::TwoRings,          Divisor::FaceAreas, false};
 
-    /// The half-edge whose flux counts at an edge of a face, and with which sign.
+    /// The half-edge whose flux counts at an edge of a face, and its sign.
     struct Across {
         Index halfedge;
         double sign;
@@ -40,7 +40,7 @@ struct PtackovaVelho {
         return sum / face_area;
     }
 
-    /// Φ_f / p, what each of the p corners of face f has of M Δ_P x.
+    /// Φ_f / p, the share of each of the p corners of f in M Δ_P x.
     /// @param flux_map_of the flux map of any face next to f, and of f itself on the boundary.
     template <class FluxMapOf>
     static Point corner_share(const PolygonMesh& mesh, const Topology& topology, const Points& positions, Index f,

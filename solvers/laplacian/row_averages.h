@@ -6,17 +6,17 @@
 
 namespace seamflow {
 
-/// What the rows of a Laplacian M⁻¹ K are like, on average.
+/// Averages over the rows of a Laplacian M⁻¹ K.
 struct RowAverages {
-    /// The number of coefficients beside that of the diagonal.
+    /// The number of off-diagonal coefficients.
     double length = 0.0;
-    /// K_vv / M_v, in 1/length². With dt times it, the equations M + dt K have a condition number of about twice as
-    /// much where they are preconditioned by their diagonal.
+    /// K_vv / M_v, in 1/length². Preconditioned by their diagonal, the equations M + dt K have a condition number of
+    /// about 2 dt times this.
     double stiffness = 0.0;
 };
 
 /// Of some thousand interior vertices that move, spread evenly; all 0 if there are none.
-/// @throws OptionError for a Laplacian without symmetry.
+/// @throws OptionError for an unsymmetric Laplacian.
 RowAverages average_rows(const PolygonMesh& mesh, const Topology& topology, const ScaledLaplacian& laplacian);
 
 }  // namespace seamflow

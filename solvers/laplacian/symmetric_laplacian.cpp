@@ -13,7 +13,7 @@ namespace seamflow {
 
 namespace {
 
-/// Calls assemble_with(add), where add(v, w, k, d) with k = factor · K_vw and d = V_w - V_v adds what the pair has of
+/// Calls assemble_with(add), where add(v, w, k, d) with k = factor · K_vw and d = V_w - V_v adds the pair's share of
 /// the product, if that is wanted.
 template <class AssembleWith>
 void with_product(const StiffnessProduct* product, AssembleWith&& assemble_with)
@@ -36,7 +36,7 @@ void with_product(const StiffnessProduct* product, AssembleWith&& assemble_with)
         add_with([](const Point& difference, const Point& increment) -> Point { return difference + increment; });
 }
 
-/// K from edges. Half of an edge on the boundary counts, as one of its two half-edges does.
+/// K from edges. An edge on the boundary counts half, like one of its two half-edges.
 template <EdgeKernel Kernel>
 class SymmetricEdges final : public SymmetricLaplacian {
   public:
@@ -117,7 +117,7 @@ class SymmetricEdges final : public SymmetricLaplacian {
     }
 
     Kernel kernel_;
-    /// First those that count whole, then those of which half counts.
+    /// First the edges that count fully, then those that count half.
     std::vector<VertexPair> edges_;
     std::size_t n_whole_ = 0;
     /// Per vertex: 1 / number of edges, those on the boundary counted half; 1 where M_v is a sum.

@@ -15,45 +15,45 @@ namespace seamflow {
 struct StiffnessProduct {
     /// #V by 3: X.
     const Points& increments;
-    /// #V by 3: receives factor · K (V + X), or factor · K X. The rows of K add up to zero: it is made of differences,
-    /// and has no rounding error of the size of V.
+    /// #V by 3: receives factor · K (V + X), or factor · K X. The rows of K sum to zero: computed from differences, it
+    /// has no rounding error of the size of V.
     Points& result;
     bool of_increments_alone = false;
 };
 
 /// A Laplacian that is M⁻¹ K with M diagonal and positive and K symmetric and positive semi-definite: Δ_F with M = Σ‖e‖
-/// / val, Δ_A and Δ_B with M the areas of the vertices, Δ_U with M their degrees. Assembled from faces, again and again
-/// as the mesh moves.
+/// / val, Δ_A and Δ_B with M the areas of the vertices, Δ_U with M their degrees. Assembled from faces, repeatedly as
+/// the mesh moves.
 class SymmetricLaplacian {
   public:
     virtual ~SymmetricLaplacian() = default;
 
-    /// Whether `assemble` looks at the faces.
+    /// Whether `assemble` uses the faces.
     [[nodiscard]] virtual bool uses_faces() const = 0;
 
-    /// The entries of K off the diagonal in the order in which `assemble` meets them, each standing for two;
-    /// repetitions are welcome.
+    /// The off-diagonal entries of K in the order in which `assemble` meets them, each standing for two, maybe
+    /// repeated.
     [[nodiscard]] virtual std::vector<VertexPair> pairs() const = 0;
 
     /// values[slots[i]] += factor · (contribution to the i-th of `pairs`), diagonal[v] = factor · K_vv, mass[v] = M_v.
     /// @param positions at least #V by 3.
-    /// @param slots one place per pair. Pairs that are not wanted all point to one place that nobody reads.
+    /// @param slots one place per pair. Unwanted pairs all point to one place that is never read.
     /// @param diagonal, mass #V.
     /// @param product may be nullptr.
     virtual void assemble(const Points& positions, double factor, std::span<const Index> slots,
                           std::span<double> values, std::span<double> diagonal, std::span<double> mass,
                           const StiffnessProduct* product = nullptr) = 0;
 
-    /// mass[v] = M_v, alone.
+    /// Only mass[v] = M_v.
     virtual void measure_mass(const Points& positions, std::span<double> mass) const = 0;
 };
 
-/// @param laplacian one that is symmetric.
+/// @param laplacian a symmetric one.
 /// @param faces the arrays of their lists must outlive the result if it uses them, the twins need not.
 std::unique_ptr<SymmetricLaplacian> make_symmetric_laplacian(const ScaledLaplacian& laplacian,
                                                              const FacesOnBothSides& faces);
 
-/// The same with the K of certain positions whatever the mesh does, which is assembled once; M follows the mesh.
+/// The same with the K of fixed positions, which is assembled once; M follows the mesh.
 /// @param n_vertices of all.
 /// @param positions at least n_vertices by 3; needed only during the call.
 std::unique_ptr<SymmetricLaplacian> keep_stiffness(std::unique_ptr<SymmetricLaplacian> laplacian, Index n_vertices,

@@ -56,7 +56,7 @@ class TwoRingAssembler final : public LaplacianAssembler {
     /// The face whose flux counts at half-edge h.
     [[nodiscard]] Index face_across(Index h) const { return face_of_[across(h).halfedge]; }
 
-    /// All vertices on which Φ_f depends, and where among them the corners of each face across are.
+    /// All vertices on which Φ_f depends, and the places of the corners of each face across among them.
     void list_stencil(Index f)
     {
         const std::size_t begin = stencil_.values.size();

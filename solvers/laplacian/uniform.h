@@ -11,7 +11,7 @@ struct Uniform {
     static constexpr LaplacianTraits traits{Laplacian::Uniform, "uniform", "Δ_U", Reach::Edges, Divisor::Nothing, true};
     static constexpr bool averages_mass = false;
 
-    /// What one edge contributes: see kernels.h.
+    /// Contribution of one edge: see kernels.h.
     class Edge {
       public:
         explicit Edge(double mass)
@@ -22,7 +22,7 @@ struct Uniform {
         /// factor · (-K) of its two ends.
         [[nodiscard]] static double weight(double factor) { return factor; }
 
-        /// Of which M_v is the sum, in length².
+        /// M_v is the sum of these, in length².
         [[nodiscard]] double mass() const { return mass_; }
 
       private:

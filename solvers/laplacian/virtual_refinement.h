@@ -63,10 +63,10 @@ struct VirtualRefinement {
         }
 
       private:
-        /// What of a polygon's extent counts as rounding: a flatter one is flat.
+        /// Relative extent that counts as rounding: a flatter polygon is flat.
         static constexpr double flat = 1e-8;
-        /// By how much the mean of the corners attracts x, in parts of what the areas do: where these leave x free, as
-        /// in a polygon without width, it is there.
+        /// Attraction of x by the mean of the corners, as a fraction of that by areas: where these leave x free, as in
+        /// a polygon without width, it is there.
         static constexpr double attraction = 1e-14;
 
         /// x - mean for which Σ |(x - xₖ) × dₖ|² is least, with dₖ = xₖ₊₁ - xₖ.
@@ -139,7 +139,7 @@ struct VirtualRefinement {
 
     static FanTriangle fan_triangle(const VirtualVertex& x, std::size_t k, std::size_t p)
     {
-        // The least height of a triangle in parts of its width: thinner ones are no stiffer.
+        // The least ratio of a triangle's height to its width: thinner ones are no stiffer.
         constexpr double thin = 1e-10;
         const Point here = x.position(k);
         const Point next = x.position(k + 1 == p ? 0 : k + 1);
@@ -153,7 +153,7 @@ struct VirtualRefinement {
                 scale * edges[2].dot(edges[0]), scale * edges[2].dot(edges[1])};
     }
 
-    /// What stands at a corner: its weight, and entries of F for it and itself, the next corner, the virtual vertex.
+    /// Data of a corner: its weight, and entries of F for it and itself, the next corner, the virtual vertex.
     struct Corner {
         double weight;
         double diagonal;
@@ -173,7 +173,7 @@ struct VirtualRefinement {
         return {0.0, scale * opposite_here.squaredNorm(), scale * opposite_here.dot(opposite_next), 0.0};
     }
 
-    /// The corners of a polygon, computed when they are asked for.
+    /// The corners of a polygon, computed on demand.
     struct ComputedCorners {
         VirtualVertex x;
         std::size_t size;
@@ -189,14 +189,14 @@ struct VirtualRefinement {
         }
     };
 
-    /// Those of a polygon of which all rows are wanted, computed once.
+    /// Those of a polygon whose rows are all needed, computed once.
     struct StoredCorners {
         const Corner* corners;
         const Corner& operator()(std::size_t k) const { return corners[k]; }
     };
     using Scratch = std::vector<Corner>;
 
-    /// What one face contributes: see kernels.h.
+    /// Contribution of one face: see kernels.h.
     template <class Corners>
     class Face {
       public:

@@ -6,7 +6,7 @@ namespace seamflow {
 
 namespace {
 
-/// Those of face f, until the next call with the same list.
+/// The neighbours of face f, until the next call with the same list.
 void list_neighbours(const PolygonMesh& mesh, const Topology& topology, Index f, std::vector<Index>& list)
 {
     list.clear();

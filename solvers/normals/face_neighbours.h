@@ -10,14 +10,14 @@
 
 namespace seamflow {
 
-/// The faces around each face: those that share a vertex with it. Through a vertex of more than most_at_vertex faces
-/// only those count that share an edge with it there, so that there are at most so many times as many as corners.
+/// The faces around each face: those that share a vertex with it. At a vertex of more than most_at_vertex faces, only
+/// those that share an edge with it there count, so that there are at most most_at_vertex per corner.
 struct FaceNeighbours {
     static constexpr std::size_t most_at_vertex = 24;
 
     /// #F + 1.
     std::vector<std::size_t> offsets;
-    /// Of each face ascending, none twice, not the face itself.
+    /// Per face: ascending, distinct, without the face itself.
     std::vector<Index> faces;
 
     [[nodiscard]] std::span<const Index> operator[](Index f) const
@@ -30,8 +30,8 @@ struct FaceNeighbours {
 FaceNeighbours make_face_neighbours(const PolygonMesh& mesh, const Topology& topology,
                                     const Executor& exec = run_serially);
 
-/// 1 or -1 for each face, so that vector areas times these point to the same side wherever faces share an edge; on a
-/// surface with one side alone they cannot everywhere. Empty where they do so as they are.
+/// 1 or -1 per face, so that vector areas times these point to the same side wherever faces share an edge; on a
+/// one-sided surface, not everywhere. Empty if they already do so.
 /// @param topology with twins.
 std::vector<std::int8_t> face_signs(const PolygonMesh& mesh, const Topology& topology);
 

@@ -9,9 +9,9 @@
 
 namespace seamflow {
 
-/// Edges of a mesh that are kept as they are. A vertex between two of them slides along the line that they make, as far
-/// as the middles of both; the ends of lines, and where more of them meet, stay. Faces on both sides of a line know
-/// nothing of each other there (see cut_open).
+/// Edges of a mesh that are kept as they are. A vertex between two of them slides along the line that they form, up to
+/// the midpoints of both; ends of lines and vertices where more of them meet stay. Faces on both sides of a line are
+/// not connected there (see cut_open).
 class FeatureLines {
   public:
     /// Without edges there is nothing to keep.
@@ -24,15 +24,15 @@ class FeatureLines {
 
     [[nodiscard]] bool empty() const { return edges_.empty(); }
 
-    /// The faces of the mesh with a further vertex for each side of the lines at a vertex, so that no edge and no
-    /// vertex joins the sides but at ends of lines. Positions are all 0.
+    /// The faces of the mesh with one vertex for each side of the lines at a vertex, so that no edge or vertex joins
+    /// the sides except at ends of lines. All positions are 0.
     [[nodiscard]] PolygonMesh cut_open(const PolygonMesh& mesh, const Topology& topology) const;
 
-    /// Where a vertex ends that would go to p: on its line, or p itself for a vertex on none.
+    /// Where a vertex that would move to p ends: on its line, or at p for a vertex on none.
     [[nodiscard]] Point on_line(Index v, const Point& p) const;
 
   private:
-    /// Halves of the two edges at a vertex; of no length where it stays.
+    /// Halves of the two edges at a vertex; of zero length if it stays.
     struct Place {
         Point here;
         Point before;

@@ -13,26 +13,26 @@ namespace seamflow {
 
 namespace {
 
-/// The weights follow the normals so often (measured, as what follows: see engine/accuracy.md).
+/// How often the weights follow the normals (measured, like the constants below: see engine/accuracy.md).
 constexpr int diffusion_rounds = 4;
-/// Chords longer than so many σ stop diffusion.
+/// Chords longer than this many σ stop diffusion.
 constexpr double sigmas_at_edges = 3.0;
-/// σ, and the width of what guides are means of, in chords of noise.
+/// σ, and the width over which guides are averaged, in chords of noise.
 constexpr double sigma_by_noise = 8.0;
 constexpr double width_by_noise = 7.0;
-/// More noise than that makes means of whole patches better guides than those of alike normals, where the patch
-/// disagrees by no more than so many times the square of the noise.
+/// Above this noise, means of whole patches are better guides than those of similar normals, where the patch disagrees
+/// by no more than this many times the square of the noise.
 constexpr double much_noise = 0.03;
 constexpr double most_disagreement = 8.0;
-/// The mean around another face is a better guide only where normals disagree so many times less.
+/// The mean around another face is a better guide only where normals disagree less by this factor.
 constexpr double clearly_less = 0.5;
-/// Chords below are rounding.
+/// Shorter chords are rounding errors.
 constexpr double least_sigma = 1e-6;
-/// Of the residual of a round, relative to that at its beginning; and most iterations.
+/// Of the residual of a round, relative to that at its beginning; and the most iterations.
 constexpr double diffusion_tolerance = 1e-2;
 constexpr int most_diffusion_iterations = 500;
-/// The height of a face over its longest side, relative to its coordinates, below which its normal is rounding of a
-/// file with floats.
+/// The height of a face over its longest side, relative to its coordinates, below which its normal is rounding error of
+/// a file with floats.
 constexpr double least_height = 4.0 * std::numeric_limits<float>::epsilon();
 /// Weights relative to the diagonal of A beyond which a face has the mean of its neighbours to all digits.
 constexpr double largest_diffusion_weight = 1e20;
@@ -51,7 +51,7 @@ void normalise_row(Points& normals, Index f)
         normals.row(f).setZero();
 }
 
-/// 0 where no normal can be told: such a face follows none, and holds no vertex.
+/// 0 where no normal can be determined: such a face follows none, and holds no vertex.
 double area_with_normal(std::span<const Index> corners, const Points& positions)
 {
     double farthest = 0.0;
@@ -141,8 +141,8 @@ void NormalDiffusion::measure(const Points& positions, double time_step, const E
     });
 }
 
-/// The median of the chords between each face and the neighbour across an edge that it is most alike, or the mean of
-/// these, which round parts are more alike. Those of sharper edges do not count.
+/// The median of the chords between each face and the neighbour across an edge that is most similar to it, or the mean
+/// of these, which is more similar in round parts. Those of sharper edges do not count.
 double NormalDiffusion::measure_noise(const Points& normals, double edge_chord, const Executor& exec) const
 {
     const Index n = mesh_->n_faces();
@@ -185,7 +185,7 @@ void NormalDiffusion::find_guides(const Points& normals, const Executor& exec)
     });
 }
 
-/// Takes the mean normal of a face and its neighbours, around the face or one of its neighbours, where that is of one
+/// Takes the mean normal of a face and its neighbours, around the face or one of its neighbours, where these are on one
 /// side of edges.
 void NormalDiffusion::find_patches(const Points& normals, const Executor& exec)
 {

@@ -15,21 +15,20 @@ namespace seamflow {
 ///     w_ij = 4 √(a_i a_j / (m_i m_j)) γ_ij (1 - |n_i - n_j| |g_i - g_j| / 9σ²)², 0 where that is below 0
 ///
 /// m_i = Σ_j γ_ij |c_i - c_j|², γ_ij = exp(-2 |c_i - c_j|² / r_i r_j), with c the centroids and r_i the root mean
-/// square distance of the neighbours: where nothing stops it, normals diffuse as by the Laplacian of the surface, so
+/// square distance of the neighbours: where nothing stops them, normals diffuse as by the Laplacian of the surface, so
 /// that τ is in length². The factor at the end, Tukey's diffusivity (Black et al., Robust anisotropic diffusion, 1998),
 /// stops it at edges. It takes the geometric mean of two chords, that of the normals n themselves and that of guides g,
 /// which noise moves less (Zhang et al., Guided mesh normal filtering, 2015): g_i is the mean normal of the face and
-/// its neighbours, those counting less that differ from it by more than noise does; where there is much noise, that of
-/// the face and all its neighbours, around i or a neighbour of i, which agrees best, if it agrees as far as noise lets
-/// it. σ is eight times the noise, and at most a third of the chord of the angle that counts as an edge: sharper edges
-/// stop all, and where there is no noise, planar faces alone have weights. The noise is measured: the median chord
-/// between a face and the one across an edge that it is most alike, or the mean of these. The system is symmetric and
-/// positive definite; conjugate gradients take all three columns together, so that results turn with the surface. Bits
-/// do not depend on how loops are run.
+/// its neighbours, where those that differ from it by more than noise count less; with much noise, that of a face and
+/// all its neighbours, around i or a neighbour of i, that agrees best, if it agrees as far as noise permits. σ is eight
+/// times the noise, and at most a third of the chord of the angle that counts as an edge: sharper edges stop all
+/// diffusion, and without noise only planar faces have weights. The noise is measured: the median chord between a face
+/// and the most similar one across an edge, or the mean of these. The system is symmetric and positive definite;
+/// conjugate gradients solve for all three columns together, so that results rotate with the surface. Bits do not
+/// depend on how loops are run.
 class NormalDiffusion {
   public:
-    /// @param mesh must outlive this; its vertices are not looked at. @param topology with twins; not needed
-    /// afterwards.
+    /// @param mesh must outlive this; its vertices are not used. @param topology with twins; not needed afterwards.
     NormalDiffusion(const PolygonMesh& mesh, const Topology& topology, const Executor& exec = run_serially)
         : NormalDiffusion(mesh, mesh, topology, exec)
     {
@@ -46,7 +45,7 @@ class NormalDiffusion {
     [[nodiscard]] Points smoothed(const Points& positions, double time_step, double angle,
                                   const Executor& exec = run_serially);
 
-    /// Of the normals smoothed last, before that: a chord of unit normals. 0 on planar faces.
+    /// Of the last normals, before smoothing: a chord of unit normals. 0 on planar faces.
     [[nodiscard]] double noise() const { return noise_; }
 
   private:
@@ -60,7 +59,7 @@ class NormalDiffusion {
     const PolygonMesh* mesh_;
     FaceNeighbours neighbours_;
     std::vector<std::int8_t> signs_;
-    /// Per half-edge: the face across, -1 where there is none.
+    /// Per half-edge: the face across, or -1 if there is none.
     std::vector<Index> across_;
     /// #F: in mean face areas.
     std::vector<double> areas_;
@@ -69,8 +68,8 @@ class NormalDiffusion {
     /// #F: r_i, in length, and 2 √(τ a_i / m_i) with the area in mean face areas.
     std::vector<double> reach_;
     std::vector<double> scale_;
-    /// #F by 3: guides; and the mean normals of each face and its neighbours, and how little these agree: 0 where all
-    /// are the same, 1 where they cancel out.
+    /// #F by 3: guides; and the mean normals of each face and its neighbours, and their disagreement: 0 if all are
+    /// equal, 1 if they cancel out.
     Points guides_;
     Points means_;
     std::vector<double> disagreement_;

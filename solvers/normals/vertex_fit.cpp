@@ -10,17 +10,17 @@ namespace seamflow {
 
 namespace {
 
-/// Iterations with and without relaxation along the surface, and how far that goes at once (measured: see
+/// Iterations with and without relaxation along the surface, and the most relaxation at once (measured: see
 /// engine/accuracy.md).
 constexpr int relaxing_fits = 10;
 constexpr int plain_fits = 20;
 constexpr double most_relaxation = 0.1;
 /// Of the step before, which makes the iterations worth several times as many (Polyak's heavy ball).
 constexpr double fit_momentum = 0.5;
-/// A direction is half free at a vertex where the mean of the squared cosines between it and the normals is so much.
+/// A direction is half free at a vertex where the mean of the squared cosines between it and the normals is this much.
 constexpr double half_free = 1e-3;
 
-/// What vertices are to fit.
+/// The faces to fit vertices to.
 struct WantedFaces {
     const PolygonMesh& mesh;
     const Topology& topology;
@@ -59,7 +59,7 @@ Point fitting_step(const WantedFaces& faces, const Points& positions, Index v, d
 void fit_vertices(const PolygonMesh& mesh, const Topology& topology, const FeatureLines& lines,
                   const NoisyNormals& wanted, Points& vertices, const Executor& exec)
 {
-    // Chords of noise up to here, which folds hardly any face, are as long as relaxation is to go.
+    // Relaxation goes as far as chords of noise are long, up to a limit that folds hardly any face.
     const double relaxation = std::min(wanted.noise, most_relaxation);
     WantedFaces faces{mesh, topology, wanted.normals, Points(mesh.n_faces(), 3)};
     Points before = vertices;

@@ -6,23 +6,22 @@
 
 namespace seamflow {
 
-/// Normals that faces are to get.
+/// Target normals of faces.
 struct NoisyNormals {
-    /// #F by 3: of length 1, to either side; or 0 for faces that any normal suits.
+    /// #F by 3: of length 1, to either side; or 0 for unconstrained faces.
     const Points& normals;
-    /// Of the normals, before they became these: a chord.
+    /// Of the normals before smoothing: a chord.
     double noise;
 };
 
-/// Moves vertices so that faces get the normals wanted (Sun et al., Fast and effective feature-preserving mesh
-/// denoising, 2007): again and again each vertex goes to where the mean of n_f ⟨n_f, c_f - v⟩ over its faces takes it,
-/// with c_f the centroid of the face, all at once. At first it also goes towards the mean of its neighbours, in those
-/// directions alone in which its faces leave it free, and by a part that is the noise, a tenth at most: faces that
-/// noise has folded over unfold so. Vertices on a boundary do not do that, so that a free boundary does not draw in.
-/// Vertices that the topology holds stay, and those on feature lines stay on these. Bits do not depend on how loops are
-/// run.
-/// @param topology twins are not looked at.
-/// @param lines of the mesh. @param vertices #V by 3: where they are, and then where they go.
+/// Moves vertices so that faces get the wanted normals (Sun et al., Fast and effective feature-preserving mesh
+/// denoising, 2007): repeatedly, and all at once, each vertex moves by the mean of n_f ⟨n_f, c_f - v⟩ over its faces,
+/// with c_f the centroid of the face. At first it also moves towards the mean of its neighbours, only in directions in
+/// which its faces leave it free, by a fraction equal to the noise, at most a tenth: this unfolds faces that noise has
+/// folded over. Vertices on a boundary do not, so that a free boundary does not shrink. Vertices fixed by the topology
+/// stay, and those on feature lines stay on them. Bits do not depend on how loops are run.
+/// @param topology twins are not used.
+/// @param lines of the mesh. @param vertices #V by 3: positions, replaced by the new ones.
 void fit_vertices(const PolygonMesh& mesh, const Topology& topology, const FeatureLines& lines,
                   const NoisyNormals& wanted, Points& vertices, const Executor& exec = run_serially);
 

@@ -16,13 +16,13 @@ namespace seamflow {
 
 namespace {
 
-/// What OpenBLAS takes for one caller, and a little more.
+/// The memory that OpenBLAS takes for one caller, and a little more.
 constexpr std::size_t area_bytes = std::size_t{130} << 20;
 
-/// Room for an area, and for whatever else is asked for until it is taken.
+/// Room for an area, and for anything else allocated until it is taken.
 constexpr std::size_t plenty = 4 * area_bytes;
 
-/// One for the whole process, as OpenBLAS has its areas.
+/// One for the whole process, like the areas of OpenBLAS.
 struct Callers {
     std::mutex mutex;
     std::condition_variable one_has_left;
@@ -36,7 +36,7 @@ Callers& callers()
     return callers;
 }
 
-/// Makes BLAS take what it keeps from then on.
+/// Makes BLAS allocate what it keeps from then on.
 void take_area()
 {
     try {

@@ -9,16 +9,16 @@ namespace seamflow {
 
 namespace {
 
-/// A function of a library that may or may not be loaded. Looked up by name, because which BLAS stands behind libblas,
-/// and whether OpenMP is there at all, is decided when the program starts.
+/// A function of a library that may or may not be loaded. Looked up by name, because which BLAS is behind libblas, and
+/// whether OpenMP is present at all, is only known when the program starts.
 template <class Function>
 Function* find_function(const char* name)
 {
     return reinterpret_cast<Function*>(dlsym(RTLD_DEFAULT, name));
 }
 
-/// How many SingleThreadedBlas there are, and what to go back to when the last one goes; empty: nothing was changed.
-/// OpenBLAS has one number of threads for the whole process, so this is one for the whole process, too.
+/// The number of SingleThreadedBlas, and the setting to restore when the last one is destroyed; empty: nothing was
+/// changed. OpenBLAS has one number of threads for the whole process, so this is one for the whole process, too.
 struct BlasThreads {
     std::mutex mutex;
     int users = 0;

@@ -2,12 +2,12 @@
 
 namespace seamflow {
 
-/// Ends the threads that BLAS has started when the program was loaded; it starts new ones when it needs them. For
-/// programs that set something which threads take over from the one that makes them, and so have to be first.
+/// Ends the threads that BLAS started when the program was loaded; it starts new ones when it needs them. For programs
+/// that set something that threads inherit from their creator, and must do so first.
 void end_threads_of_blas();
 
-/// Keeps BLAS on one thread for the whole process while at least one of these lives, and then gives it back the number
-/// of threads that it had. Does nothing for a BLAS that is not OpenBLAS.
+/// Keeps BLAS on one thread for the whole process while at least one of these exists, then restores its number of
+/// threads. Does nothing for a BLAS that is not OpenBLAS.
 class SingleThreadedBlas {
   public:
     SingleThreadedBlas();
@@ -16,8 +16,8 @@ class SingleThreadedBlas {
     SingleThreadedBlas& operator=(const SingleThreadedBlas&) = delete;
 };
 
-/// Keeps OpenMP regions that the calling thread starts on that one thread while it lives. To be destroyed in the same
-/// thread. Does nothing where there is no OpenMP.
+/// Keeps OpenMP regions that the calling thread starts on that one thread while this exists. Must be destroyed in the
+/// same thread. Does nothing without OpenMP.
 class SingleThreadedOpenMp {
   public:
     SingleThreadedOpenMp();

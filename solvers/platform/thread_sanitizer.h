@@ -10,11 +10,10 @@
 
 namespace seamflow {
 
-// oneTBB comes without ThreadSanitizer, which thus sees that its threads work, but not that one waits for another, and
-// would call all that they hand on a race. So it is told here what oneTBB guarantees at the few places where work is
-// handed to it, and no more than that: tasks that nothing orders stay unordered. These places, and with them what is
-// compiled of oneTBB's templates, are not looked at themselves (see CMakeLists.txt). Built otherwise, all of this is
-// empty.
+// oneTBB is built without ThreadSanitizer, which thus sees that its threads work, but not that one waits for another,
+// and would report all data handed over as races. So it is told here what oneTBB guarantees at the few places where
+// work is handed to it, and no more: tasks that nothing orders stay unordered. These places, and with them the compiled
+// part of oneTBB's templates, are not instrumented (see CMakeLists.txt). In other builds, all of this is empty.
 #ifdef SEAMFLOW_THREAD_SANITIZER
 inline constexpr bool under_thread_sanitizer = true;
 /// All that this thread did until now happened before what a thread does after a later `take_over` with this token.
@@ -32,8 +31,8 @@ inline void hand_over(const void* /*token*/) {}
 inline void take_over(const void* /*token*/) {}
 #endif
 
-/// Work that a thread hands to others and waits for, while this lives. Its parts come after the beginning and before
-/// the end, in no order among them.
+/// Work that a thread hands to others and waits for, while this exists. Its parts come after the beginning and before
+/// the end, mutually unordered.
 class SharedWork {
   public:
     SharedWork() { hand_over(&begun_); }
@@ -41,7 +40,7 @@ class SharedWork {
     SharedWork(const SharedWork&) = delete;
     SharedWork& operator=(const SharedWork&) = delete;
 
-    /// Lives in the thread that does the part, as long as it does.
+    /// Exists in the thread that does the part, while it does.
     class Part {
       public:
         explicit Part(const SharedWork& work)
@@ -89,7 +88,7 @@ class TaskOrder {
         hand_over(this);
     }
 
-    /// Called in the thread that lets a task begin which waits for something from outside, too.
+    /// Called in the thread that releases a task that also waits for an external event.
     void come(std::size_t task) const
     {
         if constexpr (under_thread_sanitizer)
@@ -101,7 +100,7 @@ class TaskOrder {
     void end_run() const { take_over(this); }
 
   private:
-    /// Per task, those that wait for it. The place of each is the token that it takes over.
+    /// Per task, those that wait for it. The address of its entry is its token.
     std::vector<std::vector<std::size_t>> waiting_;
 };
 

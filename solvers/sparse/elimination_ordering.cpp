@@ -23,7 +23,7 @@ void require_ok(int status, int ok)
         fail_for_memory();
 }
 
-/// What AMD says of unknowns that are eliminated together: they are named by one of them, their principal.
+/// The result of AMD for unknowns that are eliminated together: they are named by one of them, their principal.
 struct AmdResult {
     explicit AmdResult(SparsePattern neighbours);
 
@@ -35,17 +35,17 @@ struct AmdResult {
     std::vector<Index> width;
     /// Per principal, the number of rows on which its unknowns' columns have entries, those of its own among them.
     std::vector<Index> front;
-    /// Per principal, the next one that has to do with it, or -1; per other unknown, its principal, or -1 where AMD has
-    /// put it last without looking because it has very many neighbours.
+    /// Per principal, the next one that is related to it, or -1; per other unknown, its principal, or -1 where AMD has
+    /// put it last without analysis because it has very many neighbours.
     std::vector<Index> parent;
 };
 
-/// By AMD's inner routine, which says more than the outer one but destroys what it is given, and does not check it.
+/// Uses AMD's inner routine, which returns more than the outer one but destroys its input, and does not check it.
 AmdResult::AmdResult(SparsePattern neighbours)
 {
     const auto n = static_cast<std::size_t>(neighbours.n());
     const std::size_t n_entries = neighbours.rows.size();
-    // AMD's own measure of the room to work in.
+    // AMD's own choice of the workspace size.
     const std::size_t room = n_entries + n_entries / 5 + n;
     if (room > at(std::numeric_limits<Index>::max()))
         fail_for_memory();
@@ -66,11 +66,11 @@ AmdResult::AmdResult(SparsePattern neighbours)
           nullptr);
 }
 
-/// Nothing if some unknowns were not looked at.
+/// Empty if some unknowns were not analysed.
 EliminationTree tree_of(const AmdResult& amd)
 {
     const std::size_t n = amd.order.size();
-    // Not all at once: where memory lacks for a later member, GCC 12 destroys twice what it has made of {}.
+    // Not all at once: if memory runs out for a later member, GCC 12 destroys members made from {} twice.
     EliminationTree tree;
     tree.parent.resize(n);
     tree.count.resize(n);
@@ -114,7 +114,7 @@ std::vector<Index> elimination_ordering(const SparsePattern& upper)
 
 std::vector<Index> elimination_ordering(const SparsePattern& upper, const std::vector<bool>& is_last)
 {
-    // CAMD has as many groups as there are unknowns at most: a single one cannot be in the second.
+    // CAMD supports at most as many groups as there are unknowns: a single one cannot be in the second.
     if (is_last.size() < 2)
         return elimination_ordering(upper);
     std::vector<Index> order(is_last.size());

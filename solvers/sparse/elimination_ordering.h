@@ -7,9 +7,9 @@
 namespace seamflow {
 
 /// Per column of the factor L of a symmetric matrix whose unknowns are numbered in the elimination ordering: how many
-/// rows it has below the diagonal, and which column after it has all of them but itself, or -1 where there are none.
-/// Entries that stay zero may count, where that gives columns the same rows, and the parent need not have to do with
-/// the column: hardly ever in a mesh, but in graphs like stars.
+/// rows it has below the diagonal, and which later column has all of them except itself, or -1 if there are none.
+/// Entries that stay zero may count, where that gives columns the same rows, and the parent may be unrelated to the
+/// column: hardly ever in a mesh, but in graphs such as stars.
 struct EliminationTree {
     std::vector<Index> parent;
     std::vector<Index> count;
@@ -19,12 +19,12 @@ struct EliminationTree {
 struct EliminationOrdering {
     /// Entry i is the i-th unknown to be eliminated.
     std::vector<Index> order;
-    /// What is known of the factor then; empty where that is nothing.
+    /// The tree of the factor; empty if unknown.
     EliminationTree tree;
 };
 
-/// By approximate minimum degree, postordered. The tree is not known where unknowns with very many neighbours were put
-/// last without looking.
+/// By approximate minimum degree, postordered. The tree is unknown if unknowns with very many neighbours were put last
+/// unexamined.
 /// @param neighbours of a symmetric matrix, all entries off the diagonal; rows in any order.
 /// @throws ComputationError if there is too little memory for it.
 EliminationOrdering order_elimination(SparsePattern neighbours);

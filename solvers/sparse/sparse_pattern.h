@@ -13,12 +13,12 @@ struct MatrixEntry {
     friend auto operator<=>(const MatrixEntry&, const MatrixEntry&) = default;
 };
 
-/// Which entries of a square matrix may be different from zero, by columns. Values are kept apart, in an array with one
+/// The entries of a square matrix that may be nonzero, by columns. Values are kept separately, in an array with one
 /// number per entry in the same order.
 struct SparsePattern {
     /// n + 1.
     std::vector<Index> column_offsets{0};
-    /// The rows of each column's entries, ascending unless something else is said.
+    /// The rows of each column's entries, ascending unless stated otherwise.
     std::vector<Index> rows;
 
     [[nodiscard]] Index n() const { return static_cast<Index>(column_offsets.size()) - 1; }
@@ -29,7 +29,7 @@ struct SparsePattern {
     [[nodiscard]] Index slot(MatrixEntry entry) const;
 };
 
-/// The pattern of an n by n matrix with these entries, in any order and as often as they come.
+/// The pattern of an n by n matrix with these entries, in any order, maybe repeated.
 /// @throws ComputationError if 2³¹ or more entries are given.
 SparsePattern make_pattern(Index n, const std::vector<MatrixEntry>& entries);
 

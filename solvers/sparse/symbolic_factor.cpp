@@ -61,11 +61,11 @@ Index end_of_supernode(const EliminationTree& tree, Index first, Index n_last)
     return last;
 }
 
-/// Wider supernodes are not made of narrower ones.
+/// Narrower supernodes are merged up to this width.
 constexpr Index most_relaxed_columns = 32;
 
-/// Whether a supernode of so many columns, and rows below them, is worth having so many entries that stay zero: fewer
-/// and wider supernodes are faster (measured on triangle meshes; more zeros save no more time, but take memory).
+/// Whether a supernode of `width` columns, and `n_rows` rows below them, is worth that many entries that stay zero:
+/// fewer and wider supernodes are faster (measured on triangle meshes; more zeros save no more time, but take memory).
 bool is_worth(double zeros, Index width, Index n_rows)
 {
     const double size = 0.5 * width * (width + 1.0) + 1.0 * width * n_rows;
@@ -104,8 +104,8 @@ enum class Zeros {
 };
 
 /// Fills in the supernodes. Calls on_row(row, supernode, place) for each row that a supernode has outside itself, rows
-/// ascending; `place` is where the row stands among those of the supernode. Calls on_entry(slot, place) for each entry
-/// of the matrix in order; there `place` is where its column stands among the rows of the supernode of its row.
+/// ascending; `place` is the row's position among those of the supernode. Calls on_entry(slot, place) for each entry of
+/// the matrix in order; there `place` is that of its column among the rows of the supernode of its row.
 template <class OnRow, class OnEntry>
 void list_supernodes(const SparsePattern& upper, const EliminationTree& tree, Zeros zeros, Index n_last,
                      SymbolicFactor& factor, OnRow on_row, OnEntry on_entry)

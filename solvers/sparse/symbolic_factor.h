@@ -8,10 +8,10 @@
 
 namespace seamflow {
 
-/// Which entries of the factors L and U of a matrix may be different from zero if every pivot is taken from the
-/// diagonal, with the matrix's pattern made symmetric. Unknowns are numbered in the elimination ordering, and gathered
-/// into supernodes of consecutive ones, whose columns of L have the same rows except for each other. The rows of U
-/// are those columns, transposed.
+/// The entries of the factors L and U of a matrix that may be nonzero if every pivot is taken from the diagonal, with
+/// the matrix's pattern made symmetric. Unknowns are numbered in the elimination ordering, and gathered into supernodes
+/// of consecutive ones, whose columns of L have the same rows except for each other. The rows of U are those columns,
+/// transposed.
 struct SymbolicFactor {
     /// An update of one column of L, and one row of U, by a supernode of earlier ones.
     struct Update {
@@ -40,11 +40,11 @@ struct SymbolicFactor {
 SymbolicFactor make_symbolic_factor(const SparsePattern& pattern);
 
 /// For a symmetric matrix whose unknowns are in the elimination ordering, without `position` and `updates`. A few
-/// entries that stay zero are taken in for wider supernodes.
+/// entries that stay zero are included for wider supernodes.
 /// @param upper the entries on and above the diagonal, the whole diagonal among them.
-/// @param n_last the last unknowns, which are made one supernode in any case.
-/// @param tree where it is known already, as `order_elimination` makes it (without `n_last`); otherwise empty.
-/// @param places receives, per entry of the matrix, where its column stands among the rows of its row's supernode.
+/// @param n_last the last unknowns, which always form one supernode.
+/// @param tree if already known, as `order_elimination` returns it (without `n_last`); otherwise empty.
+/// @param places receives, per entry of the matrix, the place of its column among the rows of its row's supernode.
 SymbolicFactor make_symmetric_symbolic_factor(const SparsePattern& upper, Index n_last, const EliminationTree& tree,
                                               std::vector<Index>& places);
 

@@ -16,11 +16,11 @@ namespace seamflow {
 
 namespace {
 
-/// Of the sizes of a block's entries, positive ones that do not count.
+/// Up to this fraction of the sizes of a block's entries, positive ones do not count.
 constexpr double most_positive = 0.05;
-/// Of what is dropped, the part that is taken off the diagonal.
+/// The fraction of the dropped fill that is subtracted from the diagonal.
 constexpr float part_of_fill = 0.8F;
-/// Of the diagonal.
+/// Relative to the diagonal.
 constexpr float least_pivot = 0.1F;
 
 template <class Value>
@@ -29,7 +29,7 @@ void reserve(std::unique_ptr<Value[]>& buffer, Index n)
     buffer = std::make_unique_for_overwrite<Value[]>(n);
 }
 
-/// Where the denominator is not positive, 0.
+/// 0 where the denominator is not positive.
 Eigen::Array4f quotients(const Eigen::Array4d& numerators, const Eigen::Array4d& denominators)
 {
     return (denominators > 0.0).select(numerators / denominators, 0.0).cast<float>();
@@ -40,8 +40,8 @@ Eigen::Array4f quotients(const Eigen::Array4d& numerators, const Eigen::Array4d&
 BlockRowMatrix::BlockRowMatrix(std::vector<Index> blocks, const Pattern& pattern, const Executor& exec)
     : blocks_(std::move(blocks))
 {
-    // Of each block, the columns of all rows, and where those in the block begin, those above the diagonal, those
-    // behind the block.
+    // For each block, the columns of all rows, and where those in the block, those above the diagonal and those behind
+    // the block begin.
     struct Lists {
         IndexLists rows;
         std::vector<std::array<Index, 3>> parts;
@@ -63,7 +63,7 @@ BlockRowMatrix::BlockRowMatrix(std::vector<Index> blocks, const Pattern& pattern
     const auto reserve_entries = [&](auto& entries) {
         if (std::accumulate(entries.begin.begin(), entries.begin.end(), std::int64_t{0}) >
             std::numeric_limits<Index>::max())
-            throw ComputationError("the equations of the whole mesh have more than 2147483647 coefficients: take "
+            throw ComputationError("the equations of the whole mesh have more than 2147483647 coefficients: use "
                                    "sub-meshes instead of conjugate gradients");
         std::partial_sum(entries.begin.begin(), entries.begin.end(), entries.begin.begin());
         reserve(entries.columns, entries.begin.back());
@@ -86,7 +86,7 @@ BlockRowMatrix::BlockRowMatrix(std::vector<Index> blocks, const Pattern& pattern
             std::transform(columns + parts[1], columns + parts[2], upper_.columns.get() + upper_.begin[i], inner);
             const auto place = std::copy(columns, columns + parts[0], outer_.columns.get() + outer_.begin[i]);
             std::copy(columns + parts[2], of_block.rows[i - begin].end(), place);
-            // Until it is set, and where there are no columns, the row of the identity.
+            // The row of the identity, until it is set and where there are no columns.
             diagonal_[i] = 1.0F;
             residual_[i].setZero();
             product_[i].setZero();
@@ -103,10 +103,10 @@ float& BlockRowMatrix::entry(const Place& place, Index column)
     return *outer_.find(place.row, column);
 }
 
-/// With entries that are not positive, those that fill the factors are dropped and taken off the diagonal in part, as
-/// in a modified factorisation (Gustafsson, A class of first order factorization methods, 1978), which preserves the
-/// sums of rows; no pivot is less than what keeps solutions bounded. Blocks with positive entries that count keep the
-/// diagonal: symmetric Gauss–Seidel.
+/// If entries are not positive, the fill of the factors is dropped and partly subtracted from the diagonal, as in a
+/// modified factorisation (Gustafsson, A class of first order factorization methods, 1978), which preserves the sums of
+/// rows; no pivot is too small for bounded solutions. Blocks with positive entries that count keep the diagonal:
+/// symmetric Gauss–Seidel.
 void BlockRowMatrix::factorise(const Executor& exec)
 {
     const auto finish = [&](Index begin, Index end) {
@@ -127,7 +127,7 @@ void BlockRowMatrix::factorise(const Executor& exec)
             finish(begin, end);
             return;
         }
-        // Of each row so far, the sum of the entries above the diagonal.
+        // For each row so far, the sum of the entries above the diagonal.
         std::vector<float> above(end - begin);
         for (Index i = begin; i < end; ++i) {
             float pivot = diagonal_[i];

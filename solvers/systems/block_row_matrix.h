@@ -23,13 +23,12 @@ namespace seamflow {
 /// 2003, 9.2.2). Sums are taken in a fixed order: the bits do not depend on how loops are run.
 class BlockRowMatrix {
   public:
-    /// Three columns, and one that is zero, so that a row is a register.
+    /// Three columns and a zero one, so that a row fills a register.
     using Row = Eigen::Array4f;
     /// Most rows of a block.
     static constexpr Index most_rows = 1 << 16;
 
-    /// The columns of each row of a block: ascending, without that of the diagonal; none where the row is that of the
-    /// identity.
+    /// The columns of each row of a block: ascending, without the diagonal; none for rows of the identity.
     using Pattern = std::function<IndexLists(Index block)>;
 
     /// @param blocks #blocks + 1: the rows where they begin, and the number of rows.
@@ -45,13 +44,13 @@ class BlockRowMatrix {
         Index row;
     };
     /// Runs body(place) for the rows of a block, several blocks at a time.
-    /// @returns the sum of what it returns, of some matrix type.
+    /// @returns the sum of its results, of some matrix type.
     template <class Sum, class Body>
     Sum sum_of_rows(const Executor& exec, Body&& body) const;
-    /// Calls visit(column, value) for the entries of a row beside the diagonal.
+    /// Calls visit(column, value) for the off-diagonal entries of a row.
     template <class Visit>
     void for_each_entry(const Place& place, Visit&& visit);
-    /// That entry of a row, which it has.
+    /// An existing entry of a row.
     float& entry(const Place& place, Index column);
     void set_diagonal(Index i, float value) { diagonal_[i] = value; }
     [[nodiscard]] float diagonal(Index i) const { return diagonal_[i]; }
@@ -60,23 +59,23 @@ class BlockRowMatrix {
     /// Of row i, after the iteration.
     [[nodiscard]] const Row& increment(Index i) const { return increment_[i]; }
 
-    /// Makes the preconditioner, when all entries are set.
+    /// Builds the preconditioner once all entries are set.
     void factorise(const Executor& exec);
-    /// Turns the residual, times a scale, into what the iteration works on.
-    /// @returns of each column, the squared norm of the scaled residual, that of the inverse of the preconditioner.
+    /// Scales the residual and initialises the iteration.
+    /// @returns per column, the squared norm of the scaled residual, in the norm of the inverse preconditioner.
     Eigen::Array4d start(float scale, const Executor& exec);
 
     struct Result : IterationResult {
-        /// The largest distance that the last iteration moved a row of the increment.
+        /// The largest change of a row of the increment in the last iteration.
         double last_update = 0.0;
     };
     /// A increment = residual, from 0 (after start).
-    /// @param squared what start returned; of the residual about 1 in each row, so that single precision holds it.
+    /// @param squared the result of start, for a residual of about 1 per row, so that it fits in single precision.
     /// @param goal the part of the residual that may be left.
     Result iterate(const Eigen::Array4d& squared, double goal, int most_iterations, const Executor& exec);
 
   private:
-    /// What all threads fill, not the one that asks for the memory.
+    /// Filled by all threads, not by the one that allocates it.
     template <class Value>
     using Buffer = std::unique_ptr<Value[]>;
     /// Of a block, so that columns are short.
@@ -88,7 +87,7 @@ class BlockRowMatrix {
         Buffer<Column> columns;
         Buffer<float> values;
 
-        /// Multiplies by the entries. Has pointers, as a row that is written could be anything to the compiler.
+        /// Multiplies by the entries. Keeps pointers, as a written row may alias anything to the compiler.
         class Product {
           public:
             explicit Product(const Entries& entries)
@@ -146,7 +145,7 @@ class BlockRowMatrix {
     Eigen::Array4d update_residual(const Row& alpha, const Executor& exec);
 
     std::vector<Index> blocks_;
-    /// Below the diagonal and above it in the block; their columns count from where it begins.
+    /// Below and above the diagonal in the block; their columns count from its first one.
     Entries<Inner> lower_;
     Entries<Inner> upper_;
     /// In other blocks.

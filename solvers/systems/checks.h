@@ -8,7 +8,7 @@
 
 #include "partition/errors.h"
 
-/// What goes wrong with the equations of a sub-mesh, and what to do about it.
+/// Checks of the equations of a sub-mesh, whose errors advise what to do.
 namespace seamflow {
 
 /// @throws ComputationError where a number is not finite.
@@ -16,8 +16,7 @@ inline void require_finite_equations(std::span<const double> values)
 {
     if (!std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); }))
         throw ComputationError("the equations are not finite, because the time step is too large for the mesh or the "
-                               "flow has taken a face's area or an edge's length: use a smaller time step or fewer "
-                               "steps");
+                               "flow has collapsed a face or an edge: use a smaller time step or fewer steps");
 }
 
 /// @throws ComputationError if there is no factor.

@@ -63,7 +63,7 @@ SubMeshSystem::Assembled GeneralSystem::assemble(const Points& positions, const 
     time_step_ = time_step;
     pulls_ = screening_.exists();
     roles_.assign(roles.begin(), roles.end());
-    // (I + dt Δ + dt w) Vᵏ⁺¹ = Vᵏ + dt w V⁰, but on Γ and where vertices are fixed
+    // (I + dt Δ + dt w) Vᵏ⁺¹ = Vᵏ + dt w V⁰, except on Γ and where vertices are fixed
     const Assembled equations{matrix_->fill(positions, time_step)};
     for (Index v = 0; v < sub_mesh_->n_vertices; ++v) {
         if (row_of_[v] != Row::Interface)
@@ -79,7 +79,7 @@ SubMeshSystem::Assembled GeneralSystem::assemble(const Points& positions, const 
     return equations;
 }
 
-/// dt w V⁰: what the attachment adds to the right-hand side.
+/// dt w V⁰: the contribution of the attachment to the right-hand side.
 Point GeneralSystem::pull(Index v) const
 {
     return pulls_ ? Point(time_step_ * screening_.weight(v) * screening_.first.row(v)) : Point::Zero();
@@ -136,7 +136,7 @@ void GeneralSystem::solve(const Factor& factor, const Points&, Points& solution,
     solve_with(factor, solution, solution, workspace);
 }
 
-/// @param given #local by 3: Vᵏ⁺¹, or what stands for it, where the sub-mesh follows; may be the solution itself.
+/// @param given #local by 3: Vᵏ⁺¹, or its substitute, where the sub-mesh follows; may be the solution itself.
 void GeneralSystem::solve_with(const Factor& factor, const Points& given, Points& solution, SolverWorkspace& workspace)
 {
     const auto& vertices = sub_mesh_->interface.vertices;

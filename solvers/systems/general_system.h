@@ -16,7 +16,7 @@ namespace seamflow {
 /// in place.
 class GeneralSystem final : public SubMeshSystem {
   public:
-    /// @param condition what stands on Γ where the sub-mesh leads.
+    /// @param condition the rows on Γ where the sub-mesh leads.
     /// @throws ComputationError if the analysis fails.
     GeneralSystem(SystemParts parts, std::unique_ptr<TransmissionCondition> condition);
 
@@ -33,7 +33,7 @@ class GeneralSystem final : public SubMeshSystem {
     void solve(const Factor& factor, const Points& positions, Points& solution, SolverWorkspace& workspace) override;
 
   private:
-    /// What stands in the row of a vertex.
+    /// The kind of a vertex's row.
     enum class Row : std::uint8_t { Laplacian, Fixed, Interface };
 
     void make_rows();
@@ -54,7 +54,7 @@ class GeneralSystem final : public SubMeshSystem {
     Screening screening_;
     /// dt of this step.
     double time_step_ = 0.0;
-    /// Whether the right-hand side has what attaches to V⁰.
+    /// Whether the right-hand side attaches to V⁰.
     bool pulls_ = false;
     Columns right_hand_side_;
     Columns solution_;

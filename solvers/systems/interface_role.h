@@ -4,7 +4,7 @@
 
 namespace seamflow {
 
-/// What a sub-mesh does at a vertex of Γ in a sweep.
+/// Role of a sub-mesh at a vertex of Γ in a sweep.
 enum class InterfaceRole : std::uint8_t {
     /// Its row is a transmission condition against the complement fan: the sub-mesh is the first to solve there, or
     /// every sub-mesh keeps its own copy.

@@ -11,12 +11,12 @@
 
 namespace seamflow {
 
-/// A matrix without symmetry that is filled anew in each step, first with dt Δ, and factorised by LU. Its pattern is
-/// analysed once.
+/// An unsymmetric matrix that is refilled in each step, first with dt Δ, and factorised by LU. Its pattern is analysed
+/// once.
 class LuMatrix {
   public:
     /// @param slots per entry of the Laplacian: an entry of the pattern, one of the further values behind them, or the
-    ///        last value of all, which nobody reads.
+    ///        last value of all, which is unused.
     /// @throws ComputationError if the analysis fails.
     LuMatrix(std::unique_ptr<LaplacianAssembler> laplacian, SparsePattern pattern, std::vector<Index> slots,
              std::size_t n_further, Factorisation factorisation);
@@ -25,7 +25,7 @@ class LuMatrix {
 
     [[nodiscard]] Index n() const { return pattern_.n(); }
 
-    /// See DirectSolver; without unknowns there is none.
+    /// See DirectSolver; null without unknowns.
     [[nodiscard]] const DirectSolver* solver() const { return solver_.get(); }
 
     /// Sets the values to dt Δ.
@@ -36,7 +36,7 @@ class LuMatrix {
     [[nodiscard]] double& diagonal(Index unknown) { return values_[diagonal_slots_[unknown]]; }
     [[nodiscard]] const double* further() const { return values_.data() + pattern_.rows.size(); }
 
-    /// @param values what fill has returned, whatever has been added since.
+    /// @param values the result of fill, with later additions.
     /// @returns nothing where there are no unknowns.
     /// @throws ComputationError if a value is not finite, or the matrix is singular.
     [[nodiscard]] std::optional<DirectSolver::Factor> factorise(std::span<const double> values, FactorMemory& memory,
@@ -50,7 +50,7 @@ class LuMatrix {
     SparsePattern pattern_;
     std::vector<Index> slots_;
     std::vector<Index> diagonal_slots_;
-    /// One per entry of the pattern, the further ones, and one that nobody reads.
+    /// One per entry of the pattern, the further ones, and an unused one.
     std::vector<double> values_;
     std::unique_ptr<DirectSolver> solver_;
     Index n_nearly_singular_ = 0;

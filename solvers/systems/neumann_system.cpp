@@ -13,8 +13,7 @@ namespace seamflow {
 
 namespace {
 
-/// What a pivot in single precision has to be at least, relative to the matrix's diagonal: below it fewer than four
-/// digits may be left.
+/// The least pivot in single precision, relative to the matrix's diagonal: below it fewer than four digits may be left.
 constexpr float least_pivot_of_single = 1e-3F;
 
 }  // namespace
@@ -125,7 +124,7 @@ void NeumannSystem::take_schur_complement(const Factor& factor, const LdlWorkspa
         factor.numbers_);
 }
 
-/// What is left on Γ itself stays in double precision: sub-meshes' shares of it cancel each other almost wholly.
+/// The remainder on Γ itself stays in double precision: sub-meshes' shares of it cancel each other almost completely.
 void NeumannSystem::condense(const Assembled& equations, Factor& factor, Eigen::Ref<Points> on_interface) const
 {
     std::visit(

@@ -19,20 +19,20 @@ namespace seamflow {
 
 /// A sub-mesh's share A = M + dt K + dt M w of the whole backward Euler system, assembled from its own faces alone:
 /// summed over the sub-meshes, the shares are the whole. Factorised with Γ last, A = L D Lᵀ solves the interior with Γ
-/// given, and its last block is the sub-mesh's Schur complement on Γ. The unknowns are corrections X of Vᵏ⁺¹ - Vᵏ: what
-/// X leaves of the equations is measured in double precision, a factor may be in single precision. For symmetric
-/// Laplacians. One thread at a time.
+/// given, and its last block is the sub-mesh's Schur complement on Γ. The unknowns are corrections X of Vᵏ⁺¹ - Vᵏ: the
+/// residual of X is computed in double precision, a factor may be in single precision. For symmetric Laplacians. One
+/// thread at a time.
 class NeumannSystem {
   public:
     /// @param sub_mesh without overlap; needed only during the call.
-    /// @param faces its face_vertices: most of what Δ_A and Δ_B keep of it, while Δ_F has its edges.
+    /// @param faces its face_vertices: most of the data that Δ_A and Δ_B keep; Δ_F keeps edges.
     /// @throws ComputationError if the analysis fails.
     NeumannSystem(const SubMesh& sub_mesh, IndexLists faces, const ScaledLaplacian& laplacian,
                   const FlowTerms& terms = {});
     NeumannSystem(const NeumannSystem&) = delete;
     NeumannSystem& operator=(const NeumannSystem&) = delete;
 
-    /// A factor, and what has become of the right-hand side in it.
+    /// A factor, and the state of the right-hand side in it.
     class Factor;
 
     /// Number of vertices on Γ.
@@ -44,7 +44,7 @@ class NeumannSystem {
     /// The own vertices that may move, in the order of the unknowns: the interior, then Γ in its own order.
     [[nodiscard]] const std::vector<Index>& unknowns() const { return matrix_.vertex_of; }
 
-    /// What a factor takes, in bytes.
+    /// Size of a factor, in bytes.
     /// @tparam Number float or double.
     template <class Number>
     [[nodiscard]] std::size_t factor_bytes() const
@@ -58,7 +58,7 @@ class NeumannSystem {
         std::span<const double> matrix;
         /// #local by 3: -dt K Vᵏ - dt M w (Vᵏ - V⁰) - A X at the unknowns.
         const Points& residual;
-        /// A power of two near √dt: in this unit of length single precision has room for corrections.
+        /// A power of two near √dt: in this unit of length, corrections fit in single precision.
         double unit = 1.0;
     };
 
@@ -68,7 +68,7 @@ class NeumannSystem {
     [[nodiscard]] Assembled assemble(const Points& positions, const Points& increments, double time_step,
                                      SolverWorkspace& workspace) const;
 
-    /// The equations for what the step makes of D, A X = M D, without what attaches to V⁰.
+    /// The equations of the step applied to D, A X = M D, without the attachment to V⁰.
     /// @param data #own by 3: D. The residual is M D - A X.
     [[nodiscard]] Assembled assemble(const Points& positions, const Points& increments, const Points& data,
                                      double time_step, SolverWorkspace& workspace) const;
@@ -80,17 +80,17 @@ class NeumannSystem {
     [[nodiscard]] std::optional<Factor> factorise(const Assembled& equations, Precision precision, FactorMemory& memory,
                                                   LdlWorkspace& workspace) const;
 
-    /// The Schur complement of the matrix that was factorised last.
+    /// Takes the Schur complement of the last factorised matrix.
     /// @param factor of that matrix.
     void take_schur_complement(const Factor& factor, const LdlWorkspace& workspace, DenseFactor& complement) const;
 
     /// Eliminates the interior from the equations.
-    /// @param factor keeps what back_substitute needs.
+    /// @param factor keeps data for back_substitute.
     /// @param on_interface n_interface() by 3: receives this sub-mesh's share of the right-hand side on Γ.
     void condense(const Assembled& equations, Factor& factor, Eigen::Ref<Points> on_interface) const;
 
     /// Solves for the correction of the interior, with that of Γ given.
-    /// @param factor what condense left of it.
+    /// @param factor as condense left it.
     /// @param on_interface n_interface() by 3.
     /// @param increments #own by 3: the correction is added in the interior.
     /// @throws ComputationError if the result is not finite.
@@ -100,7 +100,7 @@ class NeumannSystem {
     SparsePattern number_unknowns(const SubMesh& sub_mesh);
 
     Index n_interface_;
-    /// Where the Laplacian uses them.
+    /// If the Laplacian uses them.
     IndexLists faces_;
     SymmetricMatrix matrix_;
     LdlSolver solver_;

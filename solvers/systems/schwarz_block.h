@@ -10,9 +10,9 @@
 
 namespace seamflow {
 
-/// Those equations (I + dt Δ) V^{k+1} = V^k of the whole mesh that stand at the vertices of a grown part, for any
-/// Laplacian: solved by an LU factorisation with all other vertices given (one block of an overlapping Schwarz method).
-/// The pattern is made and analysed once; each step refills the values in place.
+/// The equations (I + dt Δ) V^{k+1} = V^k of the whole mesh at the vertices of a grown part, for any Laplacian: solved
+/// by an LU factorisation with all other vertices given (one block of an overlapping Schwarz method). The pattern is
+/// made and analysed once; each step refills the values in place.
 class SchwarzBlock {
   public:
     /// Layers of faces beyond the equations that they depend on (see make_grown_part): Δ_P has the widest rows.
@@ -28,13 +28,13 @@ class SchwarzBlock {
 
     [[nodiscard]] const SubMesh& sub_mesh() const { return part_->sub_mesh; }
 
-    /// What a factor takes, in bytes; of UMFPACK's an estimate.
+    /// Size of a factor, in bytes; for UMFPACK an estimate.
     [[nodiscard]] std::size_t factor_bytes() const
     {
         return matrix_->solver() != nullptr ? matrix_->solver()->factor_bytes() : 0;
     }
 
-    /// Whose the factorisation is (see DirectSolver::kind); nothing without unknowns.
+    /// Kind of the factorisation (see DirectSolver::kind); empty without unknowns.
     [[nodiscard]] std::optional<Factorisation> factorisation() const
     {
         return matrix_->solver() != nullptr ? std::optional(matrix_->solver()->kind()) : std::nullopt;
@@ -44,10 +44,10 @@ class SchwarzBlock {
     struct Assembled {
         std::span<const double> values;
     };
-    /// Without unknowns there is none.
+    /// Empty without unknowns.
     using Factor = std::optional<DirectSolver::Factor>;
 
-    /// Fills in all that follows from Vᵏ.
+    /// Assembles the equations for Vᵏ.
     /// @param positions #local by 3: Vᵏ.
     [[nodiscard]] Assembled assemble(const Points& positions, double time_step);
 
@@ -61,11 +61,11 @@ class SchwarzBlock {
     /// How many factorisations so far were of equations that are nearly singular: three correct digits at most.
     [[nodiscard]] Index n_nearly_singular() const { return matrix_->n_nearly_singular(); }
 
-    /// Which right-hand side stands beside what the vertices beyond contribute.
+    /// The right-hand side besides the contribution of the vertices beyond.
     enum class RightHandSide {
         /// That of the step.
         Step,
-        /// None: the answer to what is beyond alone, which is linear in it.
+        /// None: the response to the vertices beyond alone, linear in them.
         Zero,
     };
 
@@ -77,7 +77,7 @@ class SchwarzBlock {
                SolverWorkspace& workspace) const;
 
   private:
-    /// Where a coefficient of an equation stands whose column is none of the unknowns.
+    /// Place of a coefficient of an equation whose column is not an unknown.
     struct Coupling {
         Index unknown = 0;
         /// Local; in `beyond_couplings_` its place in `beyond_`.
@@ -95,7 +95,7 @@ class SchwarzBlock {
     std::vector<Coupling> fixed_couplings_;
     /// Its further values are those of `beyond_couplings_`, then of `fixed_couplings_`.
     std::optional<LuMatrix> matrix_;
-    /// #unknowns by 3, what fixed vertices contribute included.
+    /// #unknowns by 3, with contributions of fixed vertices.
     Columns right_hand_side_;
 };
 

@@ -7,9 +7,9 @@
 
 namespace seamflow {
 
-/// What attaches a sub-mesh to V⁰: dt M w more on the diagonal of M + dt K, and dt M w V⁰ more on the right-hand side.
+/// Attachment of a sub-mesh to V⁰: adds dt M w to the diagonal of M + dt K, and dt M w V⁰ to the right-hand side.
 struct Screening {
-    /// Per own vertex: w, in 1/length². Empty: there is no attachment.
+    /// Per own vertex: w, in 1/length². Empty without attachment.
     std::vector<double> weights;
     /// #own by 3: V⁰.
     Points first = Points(0, 3);

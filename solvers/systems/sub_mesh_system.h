@@ -20,9 +20,9 @@ namespace seamflow {
 ///   Γ, leading           the transmission condition
 ///   all others           (I + dt Δ) V^{k+1} = V^k, Δ from the sub-mesh's own faces
 ///
-/// The last two have dt w more on the diagonal and dt w V⁰ more on the right-hand side where FlowTerms attach to V⁰.
-/// They are analysed once; each step fills in their values anew. The workspace may be another one in each call.
-/// Different systems may be used by different threads at the same time, each with a workspace of its own.
+/// In the last two, an attachment to V⁰ (FlowTerms) adds dt w to the diagonal and dt w V⁰ to the right-hand side. The
+/// equations are analysed once; each step refills their values. The workspace may differ between calls. Different
+/// systems may be used by different threads at the same time, each with a workspace of its own.
 class SubMeshSystem {
   public:
     virtual ~SubMeshSystem() = default;
@@ -33,10 +33,10 @@ class SubMeshSystem {
     };
     using Factor = DirectSolver::Factor;
 
-    /// Fills in all that follows from Vᵏ.
+    /// Assembles the equations for Vᵏ.
     /// @param positions #local by 3, the halo included: Vᵏ.
     /// @param other_side #local by 3: Vᵏ as the sub-meshes beyond Γ have it, on Γ and in the halo. The same as
-    ///        `positions` but where every sub-mesh has a copy of Γ of its own.
+    ///        `positions` unless every sub-mesh has its own copy of Γ.
     /// @param time_step dt, in length².
     /// @param p Robin parameter, in 1/length.
     /// @param roles one per vertex of Γ.
@@ -44,10 +44,10 @@ class SubMeshSystem {
                                              double p, std::span<const InterfaceRole> roles,
                                              SolverWorkspace& workspace) = 0;
 
-    /// What a factor takes, in bytes; where that is not known beforehand, an estimate.
+    /// Size of a factor, in bytes; an estimate if not known beforehand.
     [[nodiscard]] virtual std::size_t factor_bytes() const = 0;
 
-    /// Whose the factorisation is (see DirectSolver::kind).
+    /// Kind of the factorisation (see DirectSolver::kind).
     [[nodiscard]] virtual Factorisation factorisation() const = 0;
 
     /// @param memory must outlive the factor, as must the system.
@@ -58,12 +58,12 @@ class SubMeshSystem {
     /// How many factorisations so far were of equations that are nearly singular: three correct digits at most.
     [[nodiscard]] virtual Index n_nearly_singular() const { return 0; }
 
-    /// Puts D in the place of Vᵏ on the right-hand side, without what attaches to V⁰: what is solved for from here on,
-    /// with the same factor, is what the step makes of D. The functions below then get D where they say Vᵏ.
+    /// Puts D in place of Vᵏ on the right-hand side, without the attachment to V⁰: from here on, the result of the step
+    /// for D is solved for, with the same factor. The functions below then take D for Vᵏ.
     /// @param data #local by 3: D, which is 0 at fixed vertices.
     virtual void use_data(const Points& data) = 0;
 
-    /// Solves with Γ held at Vᵏ where the sub-mesh follows: what it would do if nobody around moved.
+    /// Solves with Γ held at Vᵏ where the sub-mesh follows: as if nothing around it moved.
     /// @param positions #local by 3: Vᵏ.
     /// @param prediction #local by 3; receives the result at own vertices.
     /// @throws ComputationError if the result is not finite.
@@ -78,12 +78,12 @@ class SubMeshSystem {
     /// Solves for Vᵏ⁺¹.
     /// @param positions #local by 3: Vᵏ.
     /// @param solution #local by 3. In: Vᵏ⁺¹ at those vertices of Γ where the sub-mesh follows. Out: Vᵏ⁺¹ at all own
-    ///        vertices; where it follows, and at fixed vertices, to the bit what was given.
+    ///        vertices; where it follows, and at fixed vertices, bitwise the given values.
     /// @throws ComputationError if the result is not finite.
     virtual void solve(const Factor& factor, const Points& positions, Points& solution, SolverWorkspace& workspace) = 0;
 };
 
-/// What a system is made of.
+/// The parts of a system.
 struct SystemParts {
     /// Must outlive the system.
     const SubMesh& sub_mesh;

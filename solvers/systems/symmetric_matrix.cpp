@@ -57,7 +57,7 @@ SparsePattern neighbours_of(const PairsOfUnknowns& pairs)
     return neighbours;
 }
 
-/// Row by row: those of each column come in ascending order.
+/// Row by row: the rows of each column come in ascending order.
 UpperPattern upper_pattern(const PairsOfUnknowns& pairs, const std::vector<Index>& order)
 {
     const Index n = pairs.n();
@@ -71,12 +71,12 @@ UpperPattern upper_pattern(const PairsOfUnknowns& pairs, const std::vector<Index
                 if (const Index column = number_of[other]; column > row)
                     action(row, column, pair, std::exchange(last_row_of[column], row) != row);
     };
-    // Not all at once: where memory lacks for a later member, GCC 12 destroys twice what it has made of {}.
+    // Not all at once: if memory runs out for a later member, GCC 12 destroys members made from {} twice.
     UpperPattern upper;
     upper.slots.assign(pairs.n_pairs, -1);
     std::vector<Index>& offsets = upper.pattern.column_offsets;
     std::vector<Index>& rows = upper.pattern.rows;
-    // Where columns begin stands one further, and moves on to where they end.
+    // The beginnings of columns are stored one place further, and advance to their ends.
     offsets.assign(at(n) + 2, 1);
     offsets[0] = offsets[1] = 0;
     for_each_entry_above_diagonal(

@@ -13,14 +13,14 @@
 
 namespace seamflow {
 
-/// Of each unknown the pairs that it makes with others, from either end.
+/// The pairs of each unknown with others, from either end.
 struct PairsOfUnknowns {
     struct Entry {
         Index other;
         Index pair;
     };
     Lists<Entry> of;
-    /// Number of all pairs, those among them of which not both are unknown.
+    /// Number of all pairs, including those of which not both are unknown.
     std::size_t n_pairs = 0;
 
     [[nodiscard]] Index n() const { return of.size(); }
@@ -28,23 +28,23 @@ struct PairsOfUnknowns {
 
 /// @param unknown_of per vertex, or -1; vertices beyond its end are not unknown.
 /// @param n number of unknowns.
-/// @throws ComputationError if there are 2³¹ numbers to be kept or more, two for each pair and one for each unknown.
+/// @throws ComputationError if 2³¹ numbers or more must be kept, two for each pair and one for each unknown.
 PairsOfUnknowns pairs_of_unknowns(const std::vector<VertexPair>& pairs, const std::vector<Index>& unknown_of, Index n);
 
 /// All entries off the diagonal of the symmetric matrix, each once; rows in any order.
 SparsePattern neighbours_of(const PairsOfUnknowns& pairs);
 
-/// The upper triangle of the symmetric matrix, its diagonal included, and where pairs of vertices stand in it.
+/// The upper triangle of the symmetric matrix with its diagonal, and the places of pairs of vertices in it.
 struct UpperPattern {
     SparsePattern pattern;
     /// Per pair: its entry; -1 where not both are unknown.
     std::vector<Index> slots;
 };
 
-/// @param order the unknowns in the order in which the matrix has them.
+/// @param order the unknowns in the order of the matrix.
 UpperPattern upper_pattern(const PairsOfUnknowns& pairs, const std::vector<Index>& order);
 
-/// The symmetric matrix M + dt K + dt M w of a sub-mesh at its unknowns, which is filled in anew in each step.
+/// The symmetric matrix M + dt K + dt M w of a sub-mesh at its unknowns, refilled in each step.
 struct SymmetricMatrix {
     std::unique_ptr<SymmetricLaplacian> laplacian;
     /// Of the sub-mesh, its halo included.
@@ -54,14 +54,14 @@ struct SymmetricMatrix {
     /// Of the pattern of the upper triangle, whose rows the solver has.
     std::vector<Index> column_offsets{};
     /// Per pair of the Laplacian: an entry of the pattern, one of the further values behind them, or the last value of
-    /// all, which nobody reads.
+    /// all, which is unused.
     std::vector<Index> slots{};
     Screening screening{};
 
     [[nodiscard]] Index n() const { return static_cast<Index>(vertex_of.size()); }
     [[nodiscard]] Index n_entries() const { return column_offsets.back(); }
 
-    /// The entry of an unknown on the diagonal, which is the last of its column.
+    /// The diagonal entry of an unknown, the last of its column.
     [[nodiscard]] Index diagonal_slot(Index unknown) const { return column_offsets[unknown + 1] - 1; }
 
     /// Fills in the values, and dt K's diagonal and M in the workspace.

@@ -36,7 +36,7 @@ SymmetricSystem::SymmetricSystem(const SystemParts& parts, SymmetricRows rows, S
 }
 
 /// In the order of the vertices.
-/// @param unknown_of receives one entry per own vertex, -1 where it is none.
+/// @param unknown_of receives one entry per own vertex, -1 where it is not an unknown.
 void SymmetricSystem::number_unknowns(SymmetricRows rows, std::vector<Index>& unknown_of)
 {
     unknown_of.assign(sub_mesh_->n_vertices, 0);
@@ -72,7 +72,7 @@ SparsePattern SymmetricSystem::list_entries(const std::vector<VertexPair>& pairs
     return std::move(upper.pattern);
 }
 
-/// What is no entry of the matrix; what is beyond Γ by the vertices of Γ.
+/// Couplings that are not in the matrix; those beyond Γ by the vertices of Γ.
 void SymmetricSystem::list_couplings(const std::vector<VertexPair>& pairs, const std::vector<Index>& unknown_of)
 {
     const auto is_unknown = [&](Index v) { return v < sub_mesh_->n_vertices && unknown_of[v] >= 0; };
@@ -106,7 +106,7 @@ void SymmetricSystem::list_couplings(const std::vector<VertexPair>& pairs, const
     std::replace(matrix_.slots.begin(), matrix_.slots.end(), Index{-1}, slot);
 }
 
-/// What belongs to each vertex of Γ, whose roles change.
+/// The coefficients of each vertex of Γ, whose roles change.
 void SymmetricSystem::list_interface(const SparsePattern& upper, const std::vector<Index>& unknown_of)
 {
     const auto& vertices = sub_mesh_->interface.vertices;
@@ -166,8 +166,8 @@ SubMeshSystem::Assembled SymmetricSystem::assemble(const Points& positions, cons
     return {values.first(matrix_.n_entries())};
 }
 
-/// Moves the coefficients at a vertex of Γ that is known in this step out of the matrix. Of two such vertices the
-/// second finds nothing any more.
+/// Moves the coefficients at a vertex of Γ that is known in this step out of the matrix. Of two such vertices, the
+/// second finds none left.
 void SymmetricSystem::make_dirichlet_row(std::size_t i, std::span<double> values)
 {
     for (Index e = rows_[i].first_entry; e < rows_[i + 1].first_entry; ++e) {

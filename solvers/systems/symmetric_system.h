@@ -10,7 +10,7 @@
 
 namespace seamflow {
 
-/// What stands on Γ where a sub-mesh leads.
+/// The rows on Γ where a sub-mesh leads.
 enum class SymmetricRows {
     /// Nothing: it follows everywhere.
     Dirichlet,
@@ -19,8 +19,8 @@ enum class SymmetricRows {
 };
 
 /// The equations of a sub-mesh where all of them, the rows on Γ included, are (M + dt K) V = M Vᵏ with the symmetric
-/// matrices of a SymmetricLaplacian over the faces on both sides of Γ, by L D Lᵀ or CHOLMOD. What is known goes
-/// to the right-hand side: fixed vertices, Γ where the sub-mesh follows, the other side as predicted.
+/// matrices of a SymmetricLaplacian over the faces on both sides of Γ, by L D Lᵀ or CHOLMOD. Known values go to the
+/// right-hand side: fixed vertices, Γ where the sub-mesh follows, the other side as predicted.
 class SymmetricSystem final : public SubMeshSystem {
   public:
     /// @param parts with a Laplacian that is symmetric; with SymmetricRows::Transmission, Alexa-Wardetzky where all
@@ -36,7 +36,7 @@ class SymmetricSystem final : public SubMeshSystem {
     void predict(const Factor& factor, const Points& positions, Points& prediction,
                  SolverWorkspace& workspace) override;
     void use_other_side(const Points& positions, const Points& other_side) override;
-    /// @param solution in: what is known of Γ; out: everything.
+    /// @param solution in: known values on Γ; out: all values.
     void solve(const Factor& factor, const Points& positions, Points& solution, SolverWorkspace& workspace) override;
 
   private:
@@ -55,13 +55,13 @@ class SymmetricSystem final : public SubMeshSystem {
     /// A vertex of Γ.
     struct InterfaceRow {
         Index unknown;
-        /// Where its entries of the matrix begin, and its part of `beyond_`; they end where those of the next row do.
+        /// Starts of its entries of the matrix and of its part of `beyond_`; they end where the next row's start.
         Index first_entry;
         Index first_beyond;
         InterfaceRole role = InterfaceRole::Follows;
-        /// What the other side adds to the diagonal by responding; 0 where it does not.
+        /// The response of the other side, added to the diagonal; 0 if there is none.
         double response = 0.0;
-        /// What the vertices beyond Γ add to the right-hand side.
+        /// Right-hand side from the vertices beyond Γ.
         Point beyond = Point::Zero();
     };
 
@@ -93,7 +93,7 @@ class SymmetricSystem final : public SubMeshSystem {
     std::vector<double> mass_;
     /// dt of this step.
     double time_step_ = 0.0;
-    /// Whether the right-hand side has what attaches to V⁰.
+    /// Whether the right-hand side attaches to V⁰.
     bool pulls_ = false;
 };
 

@@ -29,8 +29,8 @@ struct RowGeometry {
     BlockRowMatrix& matrix;
 };
 
-/// Calls entry(value, j, K_ij) for a row i, value() being the entry of the matrix, maybe several times for one j; the
-/// rows of K add up to zero.
+/// Calls entry(value, j, K_ij) for a row i, value() being the entry of the matrix, possibly several times for one j;
+/// the rows of K sum to zero.
 /// @returns M_i.
 template <class Kernel, class Entry>
 double visit_matrix_row(Kernel kernel, const RowGeometry& g, const BlockRowMatrix::Place& place, Entry&& entry)
@@ -81,7 +81,7 @@ class RowPattern {
     {
     }
 
-    /// Those of the row of v, ascending and without itself, until the next call.
+    /// The columns of the row of v, ascending and without v itself, until the next call.
     const std::vector<Index>& list(Index v)
     {
         columns_.clear();
@@ -116,13 +116,13 @@ class RowPattern {
     std::vector<Index> columns_;
 };
 
-/// Single precision is good for so much in one go; what may be left of a residual then without it being too little
+/// The most reduction in one pass of single precision; and the fraction of a residual that may then be left with enough
 /// progress.
 constexpr double most_reduction_at_once = 1e-4;
 constexpr double most_left = 0.5;
-/// The farthest vertex comes nearer more slowly than all on average.
+/// The farthest vertex converges more slowly than all on average.
 constexpr double slower_somewhere = 2.5;
-/// Passes that leave more of the residual say little of the rate at which updates become smaller.
+/// Passes that leave more of the residual say little about the rate at which updates decrease.
 constexpr double shortest_pass = 0.1;
 
 Eigen::Array4f to_row(const Point& point)
@@ -130,11 +130,11 @@ Eigen::Array4f to_row(const Point& point)
     return {static_cast<float>(point[0]), static_cast<float>(point[1]), static_cast<float>(point[2]), 0.0F};
 }
 
-/// So many blocks keep that many threads busy; smaller ones leave more out of the preconditioner.
+/// This many blocks keep as many threads busy; smaller ones leave more out of the preconditioner.
 constexpr Index most_blocks = 64;
 constexpr Index fewest_rows = 512;
 constexpr Index usual_rows = BlockRowMatrix::most_rows / 2;
-/// Of the edges.
+/// As a fraction of the edges.
 constexpr double most_between_blocks = 1.0 / 6.0;
 
 Index number_of_blocks(Index n_rows)
@@ -143,7 +143,7 @@ Index number_of_blocks(Index n_rows)
     return static_cast<Index>(std::bit_floor(static_cast<unsigned>(std::max(wanted, 1))));
 }
 
-/// The vertices as they are numbered.
+/// The vertices in the order of their numbers.
 IndexLists consecutive_blocks(Index n_rows, Index n_blocks)
 {
     IndexLists blocks;
@@ -154,7 +154,7 @@ IndexLists consecutive_blocks(Index n_rows, Index n_blocks)
     return blocks;
 }
 
-/// Of the edges of faces, the part whose ends such blocks part.
+/// The fraction of the edges of faces whose ends are in different blocks.
 double part_between(const PolygonMesh& mesh, const IndexLists& blocks, const Executor& exec)
 {
     std::vector<Index> block_of(at(mesh.n_vertices()));
@@ -170,7 +170,7 @@ double part_between(const PolygonMesh& mesh, const IndexLists& blocks, const Exe
     return n_between / static_cast<double>(std::max<std::size_t>(mesh.face_vertices.size(), 1));
 }
 
-/// Those of consecutive vertices need no set-up; but most scans have their vertices in an order that parts neighbours.
+/// Blocks of consecutive vertices need no set-up; but the order of the vertices in most scans separates neighbours.
 IndexLists make_blocks(const PolygonMesh& mesh, const Executor& exec)
 {
     const Index n = number_of_blocks(mesh.n_vertices());
@@ -255,7 +255,7 @@ WholeMeshSystem::Sizes WholeMeshSystem::assemble(const Points& before, const Exe
             const double mass = visit(place, [&](auto&& value, Index j, double k) {
                 const double entry = units_.stiffness * k;
                 const Point share = entry * (before_.row(j) - here);
-                // What stays has no equation.
+                // Vertices that stay have no equation.
                 if (moves_[j] != 0)
                     value() += static_cast<float>(entry);
                 diagonal -= entry;
@@ -282,9 +282,9 @@ WholeMeshSystem::Sizes WholeMeshSystem::assemble(const Points& before, const Exe
     return {.rounding = unit * unit * sums.head<4>(), .residual = sums.tail<4>()};
 }
 
-/// residual = -dt K V' - M (V' - D), and dt M w (V⁰ - V') if it is attached, of the solution V' so far, the weights
-/// being those of V.
-/// @param data D, by rows: V, or what else the step is applied to; then nothing pulls to V⁰, but to 0.
+/// residual = -dt K V' - M (V' - D), and dt M w (V⁰ - V') if it is attached, of the current solution V', with the
+/// weights of V.
+/// @param data D, by rows: V, or other data that the step is applied to; the pull is then not to V⁰, but to 0.
 /// @returns the sum of its squares, each over the diagonal.
 double WholeMeshSystem::measure(const Points& before, const Points& data, const Executor& exec)
 {
@@ -324,7 +324,7 @@ WholeMeshSystem::PassStart WholeMeshSystem::start_pass(double squared, const Exe
     return start;
 }
 
-/// The updates that would follow, if they became smaller at the rate that they have had, summed up.
+/// The sum of the updates that would follow if they kept decreasing at the same rate.
 double WholeMeshSystem::distance_after(const BlockRowMatrix::Result& pass)
 {
     const double rate = std::pow(pass.residual, 1.0 / pass.iterations);
@@ -371,8 +371,8 @@ WholeMeshSystem::Result WholeMeshSystem::apply(const Points& data, const Iterati
     return solve(squared.value(), data_, stop, result, exec);
 }
 
-/// Solves for what the step makes of V, or of data, from V or from 0 on.
-/// @param squared of the residual, each over the diagonal. @param data by rows: V, or what is there instead.
+/// Solves for the result of the step on V, or on data, starting from V or from 0.
+/// @param squared of the residual, each over the diagonal. @param data by rows: V, or what replaces it.
 WholeMeshSystem::Result WholeMeshSystem::solve(double squared, const Points& data, const IterationStop& stop,
                                                Points& after, const Executor& exec)
 {
@@ -382,7 +382,7 @@ WholeMeshSystem::Result WholeMeshSystem::solve(double squared, const Points& dat
     StoppingCriterion criterion(stop, most_left, 1.0);
     double left = 1.0;
     double distance = 0.0;
-    // By rows, where the solution is; nullptr where the result has been written.
+    // The current solution, by rows; nullptr once the result has been written.
     const Points* reached = &before_;
     if (&data != &before_) {
         after_.resize(matrix_.n_rows(), 3);
@@ -399,7 +399,7 @@ WholeMeshSystem::Result WholeMeshSystem::solve(double squared, const Points& dat
             start.squared, std::max(stop.tolerance / left, most_reduction_at_once), criterion.iterations_left(), exec);
         const double length = root / start.scale;
         const double before_pass = std::exchange(left, left * pass.residual);
-        // What the first pass leaves is known well enough; later ones begin near what rounding leaves.
+        // The residual after the first pass is known well enough; later ones begin near the rounding error.
         const bool is_first = before_pass == 1.0;
         const bool is_last = is_first && left <= stop.tolerance && pass.residual > most_reduction_at_once;
         const auto move = [&](const auto& from, auto&& to) {

@@ -17,16 +17,16 @@
 namespace seamflow {
 
 /// The backward Euler step of a whole mesh, (M + dt K)(Vᵏ⁺¹ - Vᵏ) = -dt K Vᵏ, by conjugate gradients: no sub-meshes, no
-/// factorisation. The matrix and the vectors of an iteration are in single precision; the residual is measured anew in
+/// factorisation. The matrix and the vectors of an iteration are in single precision; the residual is recomputed in
 /// double precision, from the geometry, so that rounding limits no tolerance. Three columns are iterated at once. Sums
-/// are taken in a fixed order: the bits do not depend on how loops are run. For symmetric Laplacians. With an
-/// attachment to V⁰ there is dt M w more on the diagonal, and dt M w (V⁰ - Vᵏ) on the right-hand side.
+/// are taken in a fixed order: the bits do not depend on how loops are run. For symmetric Laplacians. An attachment to
+/// V⁰ adds dt M w to the diagonal and dt M w (V⁰ - Vᵏ) to the right-hand side.
 class WholeMeshSystem {
   public:
     /// @param mesh, topology must outlive the system. Vertices that do not move have no row.
-    /// @param terms of which K must follow the surface.
+    /// @param terms with a K that follows the surface.
     /// @param is_applied_again whether `apply` will be called.
-    /// @throws ComputationError if there are 2³¹ coefficients or more; OptionError for a Laplacian without symmetry.
+    /// @throws ComputationError if there are 2³¹ coefficients or more; OptionError for an unsymmetric Laplacian.
     WholeMeshSystem(const PolygonMesh& mesh, const Topology& topology, const ScaledLaplacian& laplacian,
                     const FlowTerms& terms, const Executor& exec, bool is_applied_again = false);
     WholeMeshSystem(const WholeMeshSystem&) = delete;
@@ -34,24 +34,24 @@ class WholeMeshSystem {
 
     /// How a step ended.
     struct Result : IterationResult {
-        /// Estimated largest distance of a vertex from where the exact step has it, in units of length.
+        /// Estimated largest distance of a vertex from its place in the exact step, in units of length.
         double distance = 0.0;
     };
 
     /// Takes a step.
     /// @param before #V by 3: Vᵏ. @param time_step dt, in length².
     /// @param stop relative to the residual of Vᵏ⁺¹ = Vᵏ, in the norm of the inverse of the diagonal.
-    /// @param after #V by 3: receives Vᵏ⁺¹; what does not move stays.
+    /// @param after #V by 3: receives Vᵏ⁺¹; fixed vertices stay.
     Result step(const Points& before, double time_step, const IterationStop& stop, Points& after, const Executor& exec);
 
-    /// What the step taken last makes of other data, with the same matrix; nothing pulls to V⁰. Only of systems made
-    /// for that, and while what the step was given is there.
+    /// Applies the last step to other data, with the same matrix; nothing pulls to V⁰. Only for systems made for that,
+    /// and while the input of the step still exists.
     /// @param data #V by 3: D, which is 0 where vertices do not move.
     /// @param stop relative to the residual of 0. @param result #V by 3.
     Result apply(const Points& data, const IterationStop& stop, Points& result, const Executor& exec);
 
   private:
-    /// Factors that make numbers without dimension, near 1, which single precision can hold: √dt is the unit of length.
+    /// Factors that make numbers dimensionless and near 1, to fit in single precision: √dt is the unit of length.
     struct Units {
         double stiffness = 0.0;
         double mass = 0.0;
@@ -59,13 +59,13 @@ class WholeMeshSystem {
     };
     /// Of each column, the sum of the squares over the diagonal.
     struct Sizes {
-        /// Of what of the residual may be rounding.
+        /// Of rounding errors of the residual.
         Eigen::Array4d rounding;
         Eigen::Array4d residual;
     };
     /// Iterations in single precision from one residual.
     struct PassStart {
-        /// What residual and increment are multiplied by.
+        /// Scale of residual and increment.
         double scale = 1.0;
         /// Of each column of the scaled residual, in the norm of the inverse of the preconditioner.
         Eigen::Array4d squared = Eigen::Array4d::Zero();
@@ -98,7 +98,7 @@ class WholeMeshSystem {
     Points first_ = Points(0, 3);
     Points before_;
     Points after_;
-    /// Where `apply` is wanted: by rows, M in the unit of the matrix, and D; and V as the last step was given it.
+    /// For `apply`: by rows, M in the unit of the matrix, and D; and V as given to the last step.
     std::vector<double> masses_;
     Points data_ = Points(0, 3);
     const Points* before_step_ = nullptr;

@@ -281,7 +281,7 @@ TEST_CASE("inspect names what is wrong, and ends with 3 for a file that cannot b
     (void)w.directory.with("bad.obj", "v 0 0 0\nv 1 0 0\nv 0 1 nan\nv 0 1 0\nv 0 1 0\nf 1 2 4\nf 1 4 2\nf 1 2\n");
     CHECK(w.run(INSPECT " bad.obj") == 3);
     CHECK(w.said().find("bad.obj:8: the face has 2 corners") != std::string::npos);
-    CHECK(w.said().find("faces with the same vertices as one before them (1): 1") != std::string::npos);
+    CHECK(w.said().find("faces with the same vertices as an earlier face (1): 1") != std::string::npos);
     REQUIRE(w.run(INSPECT " bad.obj --json") == 3);
     const Json found = Json::parse(w.said());
     CHECK(found["faults"] == 2);

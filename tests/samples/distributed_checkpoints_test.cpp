@@ -61,7 +61,7 @@ TEST_CASE("a run continues from its checkpoint on any number of ranks, with the 
         CHECK(w.count_lines("said", "resumed    after step 2, from c/smooth-distributed.checkpoint") == 1);
         REQUIRE(on_ranks(w, 1, flow + "5 --checkpoint c --report r.json --every-step s%d.ply") == 0);
         CHECK(w.count_lines("said", "resumed    after step 4, ") == 1);
-        CHECK(w.count_lines("said", "remark     --every-step has no files of the steps up to 4, ") == 1);
+        CHECK(w.count_lines("said", "remark     --every-step wrote no files for the steps up to 4, ") == 1);
         CHECK((test::content_of(w.directory / result) == expected));
         const double area = w.json("r.json")["surface"]["after"]["area"];
         // Nothing is left to do, and nothing of earlier steps remains.
@@ -90,7 +90,7 @@ TEST_CASE("a checkpoint that belongs to another run of ranks, or is damaged, is 
         const auto said = messages(w, "smooth-distributed");
         REQUIRE(said.size() == 1);
         CHECK(said.front().find(what) != std::string::npos);
-        CHECK(said.front().find("to begin anew") != std::string::npos);
+        CHECK(said.front().find("to start over") != std::string::npos);
         CHECK((test::content_of(w.directory / "n.obj") == kept));
     };
     refused("mesh.obj n.obj --subdomains 5 --steps 2", 2, "is after step 3, but steps is 2");

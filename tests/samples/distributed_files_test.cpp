@@ -25,7 +25,7 @@ TEST_CASE("files that no rank reads as a whole are refused with what to do, befo
     CHECK(messages(w, "smooth-distributed").front().find("unpack it") != std::string::npos);
     CHECK(on_ranks(w, 2, "ball.ply n.obj --radius 1% --whole-up-to 1") == 2);
     REQUIRE(messages(w, "smooth-distributed").size() == 1);
-    CHECK(messages(w, "smooth-distributed").front().find("as a .ply file") != std::string::npos);
+    CHECK(messages(w, "smooth-distributed").front().find("an uncompressed .ply file") != std::string::npos);
     CHECK(!w.has("n.obj"));
 }
 

@@ -270,7 +270,7 @@ TEST_CASE("options of smooth that ranks do not know are refused by name")
     }
     CHECK(on_ranks(w, 2, "mesh.obj n.obj") == 2);
     REQUIRE(messages(w, "smooth-distributed").size() == 1);
-    CHECK(messages(w, "smooth-distributed").front().starts_with("say how much to smooth by --time-step"));
+    CHECK(messages(w, "smooth-distributed").front().starts_with("say how much to smooth with --time-step"));
     CHECK(!w.has("n.obj"));
 }
 

@@ -35,13 +35,12 @@ TEST_CASE("a remark says what a result in another format, or of separated sub-me
     const TemporaryDirectory folder;
     const MeshFile input = read_mesh(folder.with("a.obj", textured));
     CHECK(remarks_on_losses("b.obj", true, input).empty());
-    CHECK(
-        remarks_on_losses("b.ply", true, input) ==
-        List{"b.ply does not have what the input holds besides the surface: texture coordinates, groups; an output of "
-             "the input's format has"});
+    CHECK(remarks_on_losses("b.ply", true, input) ==
+          List{"b.ply lacks the input's data besides the surface: texture coordinates, groups; an output of the "
+               "input's format keeps them"});
     CHECK(remarks_on_losses("b.obj", false, input) ==
-          List{"b.obj does not have what the input holds besides the surface: texture coordinates, groups; joined "
-               "sub-meshes, in the input's format, have"});
+          List{"b.obj lacks the input's data besides the surface: texture coordinates, groups; joined sub-meshes, in "
+               "the input's format, keep them"});
     const MeshFile plain = read_mesh(folder.with("p.off", "OFF 3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"));
     CHECK(remarks_on_losses("b.ply", true, plain).empty());
 }

@@ -12,8 +12,8 @@ TEST_CASE("fields become options, where they are what a message is about and whe
           "--memory-limit is 3, but must be at least 4");
     CHECK(in_words_of_options("tolerance is 2, but must be below 1") == "--converge is 2, but must be below 1");
     CHECK(in_words_of_options("p is -1: leave p out") == "--p is -1: leave p out");
-    CHECK(in_words_of_options("raise it, or take sweeps (Approach::Sweep)") ==
-          "raise it, or take sweeps (--approach sweep)");
+    CHECK(in_words_of_options("raise it, or use sweeps (Approach::Sweep)") ==
+          "raise it, or use sweeps (--approach sweep)");
     CHECK(
         in_words_of_options("rescale moves every vertex, but fixed_vertices are to stay; Filter::LowPass lets them") ==
         "--rescale moves every vertex, but --fix are to stay; --filter low-pass lets them");

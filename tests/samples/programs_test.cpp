@@ -105,10 +105,10 @@ TEST_CASE("faces that are none take no part, stay in the file and are told of; -
     REQUIRE(w.smooth("bad.obj out.obj --time-step 1e-2") == 0);
     CHECK(w.count_lines("said", "remark     1 face names a vertex twice or has fewer than three corners") == 1);
     CHECK(w.said().find("bad.obj:6: the face names vertex 1 twice") != std::string::npos);
-    CHECK(w.said().find("the result has all that as it was") != std::string::npos);
+    CHECK(w.said().find("the result keeps all this unchanged") != std::string::npos);
     CHECK(test::content_of(w.directory / "out.obj").find(faces) != std::string::npos);
     REQUIRE(w.smooth("bad.obj out.ply --time-step 1e-2") == 0);
-    CHECK(w.said().find("the result is written without") != std::string::npos);
+    CHECK(w.said().find("the result leaves all this out") != std::string::npos);
     CHECK(read_mesh(w.directory / "out.ply").mesh.n_faces() == 2);
     CHECK(w.smooth("bad.obj out.obj --time-step 1e-2 --strict") == 3);
     CHECK(w.run(COMPARE " bad.obj out.obj") == 0);
@@ -248,7 +248,7 @@ TEST_CASE("a file without faces that can flow is refused by all programs in one 
     const Workshop w;
     std::ofstream(w.directory / "points.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
     std::ofstream(w.directory / "lines.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 2\nf 3 3 3 1\n";
-    const std::string points = "points.obj: has no faces: vertices alone are no surface";
+    const std::string points = "points.obj: has no faces: vertices alone are not a surface";
     const std::string lines = "lines.obj: has no faces: 2 faces cannot be used (the first: lines.obj:4: the face names "
                               "vertex 2 twice";
     for (const std::string options : {"", " --radius 1%", " --time-step 1", " --time-step-edges 1", " --preset cad",
@@ -372,7 +372,7 @@ TEST_CASE("smooth keeps what a file holds besides positions, over the file itsel
     REQUIRE(w.smooth("a.obj a.obj --time-step-edges 1") == 0);
     CHECK(w.run("cmp a.obj b.obj") == 0);
     REQUIRE(w.smooth("a.obj c.off --time-step-edges 1 --report report.json") == 0);
-    CHECK(w.said().find("c.off does not have what the input holds besides the surface: texture coordinates, groups") !=
+    CHECK(w.said().find("c.off lacks the input's data besides the surface: texture coordinates, groups") !=
           std::string::npos);
     CHECK(w.json("report.json")["remarks"].dump().find("texture coordinates, groups") != std::string::npos);
 }

@@ -173,7 +173,7 @@ class WrongInput(unittest.TestCase):
         for error, sentence, arguments, keywords in (
             (ValueError, r'^radius: "wide" is neither a positive length', (V, SIDES), {"radius": "wide"}),
             (ValueError, r'^steps: "-1" is not a whole number', (V, SIDES), {"steps": -1}),
-            (ValueError, r'"cubic" is none of fujiwara', (V, SIDES), {"laplacian": "cubic"}),
+            (ValueError, r'"cubic" is not one of fujiwara', (V, SIDES), {"laplacian": "cubic"}),
             (ValueError, "radius", (V, SIDES), {"radius": 1, "time_step": 1}),
             (ValueError, "^overlap is for conditions schwarz", (V, SIDES), {"overlap": 2, "radius": 1}),
             (ValueError, "fix holds some", (V, SIDES), {"fixed": [0], "rescale": "area", "radius": 1}),

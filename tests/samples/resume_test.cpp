@@ -102,7 +102,7 @@ TEST_CASE("a checkpoint of another run, or a damaged one, is refused with what t
         CAPTURE(w.said());
         CHECK(w.said().find("kept/smooth.checkpoint: ") != std::string::npos);
         CHECK(w.said().find(reason) != std::string::npos);
-        CHECK(w.said().find("remove it to begin anew") != std::string::npos);
+        CHECK(w.said().find("remove it to start over") != std::string::npos);
         CHECK_FALSE(w.has("out.obj"));
     };
     refused("mesh.obj out.obj --time-step 2e-3 --steps 3 --checkpoint kept", 2, "--time-step was 0.001 ");
@@ -114,7 +114,7 @@ TEST_CASE("a checkpoint of another run, or a damaged one, is refused with what t
     static_cast<void>(w.directory.with("kept/smooth.checkpoint", content.substr(0, content.size() / 2)));
     refused(flow, 3, "is damaged");
     static_cast<void>(w.directory.with("kept/smooth.checkpoint", ""));
-    refused(flow, 3, "is no checkpoint");
+    refused(flow, 3, "is not a checkpoint");
     CHECK(w.smooth("mesh.obj out.obj --time-step 1e-3 --checkpoint mesh.obj") == 5);
     CHECK(w.smooth("mesh.obj out.obj --time-step 1e-3 --checkpoint-every 3") == 2);
     CHECK(w.smooth(flow + "--checkpoint-every often") == 2);

@@ -15,7 +15,7 @@ namespace {
 
 using Number = std::int64_t;
 
-/// Numbers with wide gaps between them, often asked for others.
+/// Sparse numbers, often queried for others.
 class SparseNumbers {
   public:
     /// @param numbers ascending; must outlive this.
@@ -47,7 +47,7 @@ class SparseNumbers {
     std::vector<bool> may_have_;
 };
 
-/// A face on its way.
+/// A face as it is sent.
 struct FaceHeader {
     Number number;
     Index label;
@@ -133,7 +133,7 @@ Band gather_band(Communicator& comm, const RankSlice& slice, const SliceBounds& 
 {
     ArrivedFaces arrived;
     std::vector<std::uint8_t> is_sent(at(slice.n_faces()), 0);
-    // At rank 0, ascending: those around which all faces are there, and those around which they are to come.
+    // At rank 0, ascending: vertices whose faces have all arrived, and those whose faces are still to come.
     std::vector<Number> inner;
     std::vector<Number> next = vertices;
     for (int layer = 0; layer < layers; ++layer) {

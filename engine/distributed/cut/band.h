@@ -14,7 +14,7 @@ struct SlicedCut {
     /// Labelled with the parts.
     RankSlice& slice;
     const SliceBounds& bounds;
-    /// One entry per corner of the range: whether its half-edge has one of another face beside it (see Topology).
+    /// One entry per corner of the range: whether its half-edge has a twin of another face (see Topology).
     const std::vector<std::uint8_t>& has_twin;
 };
 
@@ -25,8 +25,8 @@ struct Band {
     std::vector<std::uint8_t> is_whole;
 };
 
-/// Gathers so many layers of faces around vertices at rank 0: the first are all faces around them, the next those
-/// around the corners of these. All ranks call this together.
+/// Gathers `layers` layers of faces around vertices at rank 0: first all faces around them, then those around the
+/// corners of these. All ranks call this together.
 /// @param slice with labels. @param vertices of rank 0, ascending; others give none.
 /// @returns the band at rank 0, nothing at the others.
 Band gather_band(Communicator& comm, const RankSlice& slice, const SliceBounds& bounds,

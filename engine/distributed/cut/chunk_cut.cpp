@@ -19,7 +19,7 @@ namespace {
 
 using Number = std::int64_t;
 
-/// Of all ranks, numbered chunk by chunk.
+/// Clusters of all ranks, numbered chunk by chunk.
 struct Clusters {
     std::vector<FaceClusters> of_chunk;
     /// One entry per chunk of this rank: the number of its first cluster.
@@ -63,7 +63,7 @@ ClusterContact contact(Index one, Index other)
     return {std::min(one, other), std::max(one, other), 1};
 }
 
-/// Adds up what is between the same clusters.
+/// Adds up the contacts between the same clusters.
 void add_up(std::vector<ClusterContact>& contacts)
 {
     const auto key = [](const ClusterContact& c) { return std::pair(c.low, c.high); };
@@ -77,7 +77,7 @@ void add_up(std::vector<ClusterContact>& contacts)
     contacts.resize(n);
 }
 
-/// Between the clusters of each chunk.
+/// Contacts between the clusters of each chunk.
 std::vector<ClusterContact> contacts_within(const std::vector<Chunk>& chunks, const Clusters& clusters)
 {
     std::vector<ClusterContact> all;
@@ -100,7 +100,7 @@ std::vector<ClusterContact> contacts_within(const std::vector<Chunk>& chunks, co
     return all;
 }
 
-/// Between clusters of different chunks, at the homes of the lower ends of their edges.
+/// Contacts between clusters of different chunks, at the homes of the lower ends of their edges.
 std::vector<ClusterContact> contacts_across(Communicator& comm, const SliceBounds& bounds,
                                             const std::vector<Chunk>& chunks, const Clusters& clusters)
 {
@@ -131,7 +131,7 @@ std::vector<ClusterContact> contacts_across(Communicator& comm, const SliceBound
     return contacts;
 }
 
-/// @returns the parts of which faces have moved.
+/// @returns the parts whose faces have moved.
 std::vector<Index> shorten_within(Chunk& chunk, const std::vector<std::int64_t>& weights)
 {
     const PolygonMesh& mesh = chunk.part.mesh;

@@ -18,12 +18,12 @@ struct ChunkCut {
     std::vector<Index> suspects = {};
 };
 
-/// Cuts a mesh by the clusters of its chunks, whose graph METIS divides, and shortens the seams within chunks. Chunks
-/// one behind the other are a block, all clusters of which come to one rank; parts do not cross blocks. All ranks call
+/// Cuts a mesh by the clusters of its chunks, whose graph METIS divides, and shortens the seams within chunks.
+/// Consecutive chunks form a block, all clusters of which go to one rank; parts do not cross blocks. All ranks call
 /// this together.
 /// @param chunks those of this rank; their labels become the parts of their faces.
 /// @param total_weight of all faces (see face_weight). @param k the number of parts, at least 2.
-/// @param chunks_of_block at most so many are one, at least 1.
+/// @param chunks_of_block the most chunks in a block, at least 1.
 /// @throws ComputationError if METIS fails.
 ChunkCut cut_chunks(Communicator& comm, const SliceBounds& bounds, std::vector<Chunk>& chunks, double total_weight,
                     Index k, Index chunks_of_block);

@@ -24,7 +24,7 @@ Points centroids_of(const RankSlice& slice, const CornerPositions& positions)
 {
     Points centroids(slice.n_faces(), 3);
     for_each(run_in_parallel, slice.n_faces(), [&](Index f) {
-        // In one order, so that faces that repeat each other come to one place.
+        // Sorted, so that faces that repeat each other have the same centroid.
         const auto begin = slice.corners.begin() + slice.face_offsets[f];
         std::vector<Number> corners(begin, slice.corners.begin() + slice.face_offsets[f + 1]);
         std::ranges::sort(corners);
@@ -75,7 +75,7 @@ std::vector<std::uint64_t> hilbert_codes(Communicator& comm, const Points& centr
     return codes;
 }
 
-/// For each number of faces the largest code below which no more of them are, of all ranks.
+/// For each number, the largest code below which all ranks have at most that many faces.
 /// @param sorted the codes of this rank.
 std::vector<std::uint64_t> codes_at(Communicator& comm, const std::vector<std::uint64_t>& sorted,
                                     const std::vector<Number>& numbers)
@@ -97,9 +97,9 @@ std::vector<std::uint64_t> codes_at(Communicator& comm, const std::vector<std::u
     return codes;
 }
 
-/// Sends numbers to their homes, those whose ranges they lie in, and gets an answer to each.
+/// Sends numbers to their homes, the ranks whose ranges contain them, and gets an answer to each.
 /// @param numbers #numbers; each with a home. @param home_of the home of a question.
-/// @param answer called at each home with all questions that have come there, and to fill in one answer to each.
+/// @param answer called at each home with all questions that arrived there; returns one answer to each.
 template <class Question, class HomeOf, class Answer>
 std::vector<std::uint8_t> ask_homes(Communicator& comm, const std::vector<Question>& questions, HomeOf&& home_of,
                                     Answer&& answer)

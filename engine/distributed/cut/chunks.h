@@ -19,11 +19,11 @@ void label_chunks(Communicator& comm, RankSlice& slice, const SliceBounds& bound
 struct Chunk {
     /// Its label is the number of the chunk.
     MeshPart part;
-    /// Edges of three faces or more in the whole mesh have no twins; nor have edges to other chunks.
+    /// Edges of three faces or more in the whole mesh have no twins; nor do edges to other chunks.
     Topology topology;
     /// #V of the chunk: whether other chunks have faces there, too.
     std::vector<std::uint8_t> is_shared;
-    /// The half-edges of edges of two faces of which the other one lies in another chunk, ascending.
+    /// The half-edges of edges of two faces, the other of which is in another chunk, ascending.
     std::vector<Index> crossing;
 };
 

@@ -17,12 +17,12 @@ namespace seamflow {
 namespace {
 
 struct Block {
-    /// Who divides it: the rank that has its first chunk.
+    /// The rank that divides it: the one that has its first chunk.
     int rank = 0;
     /// The first of its clusters and the one behind the last.
     Index begin = 0;
     Index end = 0;
-    /// Into so many parts.
+    /// The number of its parts.
     Index n_parts = 0;
 
     [[nodiscard]] bool has(Index cluster) const { return cluster >= begin && cluster < end; }
@@ -34,7 +34,7 @@ struct ChunkSize {
     std::int32_t rank;
 };
 
-/// Of all chunks.
+/// Sizes of all chunks.
 std::vector<ChunkSize> gather_sizes(Communicator& comm, const ClusterShare& clusters)
 {
     std::vector<ChunkSize> own;
@@ -72,7 +72,7 @@ std::vector<Block> make_blocks(const std::vector<ChunkSize>& chunks, Index k, In
     return blocks;
 }
 
-/// Gives contacts to the ranks that divide one of both clusters.
+/// Sends contacts to the ranks that divide one of their two clusters.
 std::vector<ClusterContact> deal_contacts(Communicator& comm, const std::vector<Block>& blocks,
                                           const std::vector<ClusterContact>& own)
 {
@@ -116,7 +116,7 @@ BlockGraph graph_of(const Block& block, std::span<const std::int64_t> weights,
     return graph;
 }
 
-/// Components that are much smaller than a part and go on in other blocks, except for the heaviest of the block.
+/// Components that are much smaller than a part and continue in other blocks, except for the heaviest of the block.
 /// @returns one entry per cluster: 1 where it is in one of them, else 0.
 std::vector<Index> find_shards(const BlockGraph& block, const Components& components, Index k)
 {

@@ -17,14 +17,14 @@ struct ClusterShare {
     std::vector<Index> of_chunk;
     /// #ranks + 1: the first cluster of each rank.
     std::vector<std::int64_t> bounds;
-    /// Between any clusters; what several entries and ranks have of the same two is added up.
+    /// Between any clusters; entries for the same two, of one or several ranks, are added up.
     std::vector<ClusterContact> contacts;
 };
 
 struct DividedClusters {
     /// One entry per cluster of this rank: its part.
     std::vector<Index> labels;
-    /// One entry per part of all ranks, without what has to be joined to neighbours.
+    /// One entry per part of all ranks, without pieces to be joined to neighbours.
     std::vector<std::int64_t> weights;
     /// The connected components of the blocks of all ranks.
     Index n_components = 0;
@@ -32,11 +32,11 @@ struct DividedClusters {
     std::vector<Index> loose_parts;
 };
 
-/// Divides clusters into parts of about equal weight with short boundaries (METIS). Chunks one behind the other are a
-/// block, whose clusters one rank divides; no part lies in two blocks. All ranks call this together; what comes of it
-/// does not depend on their number.
-/// @param k at least 2; about so many parts, more where there are more components.
-/// @param chunks_of_block at most so many chunks are a block, at least 1.
+/// Divides clusters into parts of about equal weight with short boundaries (METIS). Consecutive chunks form a block,
+/// whose clusters one rank divides; no part lies in two blocks. All ranks call this together; the result does not
+/// depend on their number.
+/// @param k at least 2; about this many parts, more if there are more components.
+/// @param chunks_of_block the most chunks in a block, at least 1.
 /// @throws ComputationError if METIS fails.
 DividedClusters divide_together(Communicator& comm, const ClusterShare& clusters, Index k, Index chunks_of_block);
 

@@ -36,7 +36,7 @@ std::string get_text(Unpacker& unpacker)
     return {text.begin(), text.end()};
 }
 
-/// Tells all ranks what one of them found.
+/// Broadcasts the cut that one rank found.
 DistributedCut broadcast(Communicator& comm, const DistributedCut& found, bool is_own)
 {
     Packer packer;
@@ -61,7 +61,7 @@ DistributedCut broadcast(Communicator& comm, const DistributedCut& found, bool i
     return cut;
 }
 
-/// One number of each rank, added up.
+/// The sum of one number of each rank.
 Number sum_of(Communicator& comm, Number own)
 {
     Number sum = 0;
@@ -71,7 +71,7 @@ Number sum_of(Communicator& comm, Number own)
 }
 
 /// Adds the ends of half-edges without twins.
-/// @param crossing ascending: those whose twins are elsewhere.
+/// @param crossing ascending: those whose twins are in other chunks.
 void add_boundary(const MeshPart& part, const Topology& topology, std::span<const Index> crossing,
                   std::vector<Number>& vertices)
 {
@@ -82,7 +82,7 @@ void add_boundary(const MeshPart& part, const Topology& topology, std::span<cons
             vertices.push_back(part.vertex_numbers[v]);
 }
 
-/// A cut on its way through all ranks.
+/// A cut that all ranks make together.
 class TogetherCut {
   public:
     /// @param given the labels of the range; empty: the options say how to cut.
@@ -102,7 +102,7 @@ class TogetherCut {
     DistributedCut run()
     {
         std::optional<DistributedCut> cut;
-        // Again where seams were joined, or faces had to be left out.
+        // Repeated if seams were joined or faces had to be left out.
         while (!cut && bounds_.faces.back() > 0)
             cut = bounds_.faces.back() <= units_.faces_of_chunk ? by_one_rank() : by_all_ranks();
         if (!cut)
@@ -117,7 +117,7 @@ class TogetherCut {
     }
 
   private:
-    /// How many parts are asked for, or the number that suits the mesh.
+    /// The number of parts asked for, or the one that suits the mesh.
     Index number_of_parts(double area, std::string& reason) const
     {
         if (options_.cut.subdomains > 0)
@@ -192,7 +192,7 @@ class TogetherCut {
                 return {};
         }
         if (std::vector<Repetition> repeated; may_repeat_) {
-            // Those with the same corners are in the same chunk.
+            // Faces with the same corners are in the same chunk.
             for (const Chunk& chunk : chunks)
                 find_repetitions(chunk.part, chunk.topology, repeated);
             may_repeat_ = false;
@@ -236,7 +236,7 @@ class TogetherCut {
         return found;
     }
 
-    /// Adds up chunk after chunk, however many ranks have them.
+    /// Sums chunk by chunk, independently of the number of ranks.
     double area_of(const std::vector<Chunk>& chunks)
     {
         std::vector<double> areas;
@@ -267,7 +267,7 @@ class TogetherCut {
                 chunk.part.labels[f] = found[place_in(faces, chunk.part.face_numbers[f])];
     }
 
-    /// @param chunks with their labels, which come into the ranges.
+    /// @param chunks with their labels, which are sent to the ranges.
     void mend(std::vector<Chunk> chunks, SlicedDefects defects, Index n_parts, DistributedCut& found)
     {
         std::vector<const MeshPart*> parts;

@@ -14,44 +14,44 @@ namespace seamflow {
 
 /// How a mesh is taken apart to be cut. It decides the cut, together with the mesh and the options.
 struct CutUnits {
-    /// A rank looks at so many faces at once, about; at least 1.
+    /// About how many faces a rank handles at once; at least 1.
     Index faces_of_chunk = 1 << 18;
-    /// METIS divides the clusters of so many chunks at once, at most; at least 1. So many of the size above are a mesh
-    /// of 10⁸ vertices.
+    /// The most chunks whose clusters METIS divides at once; at least 1. This many of the size above make a mesh of 10⁸
+    /// vertices.
     Index chunks_of_block = 768;
 };
 
-/// What became of a cut of a mesh that no rank has as a whole.
+/// The result of cutting a mesh that no rank has as a whole.
 struct DistributedCut {
     Index n_parts = 0;
     /// How many faces had to be moved to other parts to make every part a manifold.
     std::int64_t repaired_faces = 0;
-    /// Why there are so many parts, a sentence; empty where the options say how many.
+    /// A sentence on the choice of n_parts; empty if the options give the number.
     std::string choice = {};
     /// What the user should know about the cut, one sentence each.
     std::vector<std::string> remarks = {};
-    /// What the range does not have any more.
+    /// What the range no longer has.
     RepeatedFaces left_out = {};
-    /// Which of the vertices along seams have no faces any more, as others move for them.
+    /// Which of the vertices along seams no longer have faces, as others move for them.
     JoinedSeams seams = {};
 };
 
 /// Cuts a mesh as its options say: into CutOptions::subdomains, or as many as suit its size and the step. Meshes of no
 /// more faces than a chunk are cut by one rank as cut_into does. Larger ones are sorted along Hilbert's curve and
 /// divided into chunks, in which clusters of faces grow; METIS divides the graphs of their clusters, each block of
-/// chunks at one rank, and what has to be mended comes to rank 0 with the faces around it. All ranks call this
-/// together; the cut does not depend on their number.
+/// chunks at one rank, and what must be mended goes to rank 0 with the faces around it. All ranks call this together;
+/// the cut does not depend on their number.
 /// @param slice its seams are joined (see MotionOptions::weld), it loses the faces that repeat others (see
 /// FlowingMesh),
 ///        and gets labels, from 0 to n_parts - 1.
-/// @returns the same at all ranks, but what their ranges have lost.
-/// @throws InputError naming a face with a corner that is none of the mesh's vertices; OptionError;
-///         ComputationError if METIS fails.
+/// @returns the same at all ranks, except what their ranges lost.
+/// @throws InputError naming a face with a corner that is not a vertex of the mesh; OptionError; ComputationError if
+///         METIS fails.
 DistributedCut cut_together(Communicator& comm, RankSlice& slice, const FlowOptions& options,
                             const CutUnits& units = {});
 
 /// Cuts a mesh as given (see cut_by_labels).
-/// @param slice its labels, at least 0, are closed up and mended.
+/// @param slice its labels, at least 0, are compacted and mended.
 DistributedCut cut_together_by_labels(Communicator& comm, RankSlice& slice, const FlowOptions& options,
                                       const CutUnits& units = {});
 

@@ -11,7 +11,7 @@
 
 namespace seamflow {
 
-/// The labels of faces, asked for where they were read. All ranks call this together.
+/// Fetches face labels from the ranks that read them. All ranks call this together.
 /// @param labels of the range of this rank. @param bounds those of its faces. @param faces ascending, in the whole
 /// mesh.
 /// @returns one label per face.
@@ -20,7 +20,7 @@ std::vector<Index> fetch_labels(Communicator& comm, std::span<const Index> label
 
 /// Sends the labels of parts to the ranges that have their faces, and which of their half-edges have twins. All
 /// ranks call this together; each face is in one part.
-/// @param has_twin called with the number of a part among these, and a half-edge.
+/// @param has_twin called with the index of a part in `parts` and a half-edge.
 /// @param twins_of_slice gets one entry per corner of the range.
 void send_home(Communicator& comm, const SliceBounds& bounds, std::span<const MeshPart* const> parts,
                const std::function<bool(std::size_t, Index)>& has_twin, RankSlice& slice,

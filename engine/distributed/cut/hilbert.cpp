@@ -6,7 +6,7 @@ std::uint64_t hilbert_code(std::array<std::uint32_t, 3> cell)
 {
     constexpr std::uint32_t highest = std::uint32_t{1} << (hilbert_bits - 1);
     auto& [x, y, z] = cell;
-    // From large cubes to small ones: what the curve does within an octant is turned back to what it does in the first.
+    // From large cubes to small ones: the curve within an octant is transformed back to that within the first.
     for (std::uint32_t bit = highest; bit > 1; bit /= 2) {
         const std::uint32_t below = bit - 1;
         for (std::uint32_t* const axis : {&x, &y, &z}) {

@@ -14,7 +14,7 @@ namespace seamflow {
 
 namespace {
 
-/// What is joined, and in how many pairs of edges.
+/// Joined vertices, and the number of pairs of edges.
 struct Found {
     std::vector<SeamVertex> vertices;
     Index n_vertices = 0;
@@ -25,7 +25,7 @@ struct Found {
 Found weld_band(const Band& band, double distance)
 {
     Topology topology = make_topology(band.part.mesh, run_in_parallel);
-    // It ends where the mesh does not.
+    // The band ends where the mesh does not.
     for (std::size_t v = 0; v < band.is_whole.size(); ++v)
         if (band.is_whole[v] == 0)
             topology.kind[v] = VertexKind::NonManifold;

@@ -13,32 +13,32 @@ namespace seamflow {
 /// A vertex along a seam (see weld), as numbered in the whole mesh.
 struct SeamVertex {
     std::int64_t vertex;
-    /// The lowest of those that it moves as one with; maybe itself.
+    /// The lowest of the vertices joined with it; maybe itself.
     std::int64_t first;
-    /// Where it was, and where that one is after joining.
+    /// Where it was, and where `first` is after joining.
     double own[3];
     double joined[3];
 };
 
-/// What has become one along seams of a mesh that no rank has as a whole.
+/// The vertices joined along seams of a mesh that no rank has as a whole.
 struct JoinedSeams {
     /// Ascending; the same at all ranks.
     std::vector<SeamVertex> vertices = {};
-    /// How many of them stand for none any more.
+    /// How many of them no longer have faces.
     std::int64_t n_copies = 0;
-    /// For the user, a sentence; empty where there are no seams.
+    /// A sentence for the user; empty if there are no seams.
     std::string remark = {};
 };
 
-/// Joins the seams of a mesh, as weld does: the faces along the boundary come to rank 0. All ranks call this together.
-/// @param slice gets corners at the first vertices alone, and those in the middle of what they were.
+/// Joins the seams of a mesh, as weld does: the faces along the boundary go to rank 0. All ranks call this together.
+/// @param slice gets corners only at first vertices, placed in the middle of what they join.
 /// @param boundary of this rank: vertices on edges of one face. Those of all ranks are all there are.
 JoinedSeams join_seams(Communicator& comm, RankSlice& slice, const SliceBounds& bounds,
                        const std::vector<std::int64_t>& boundary, double distance);
 
-/// Puts what has moved as one where it belongs. All ranks call this together.
-/// @param slice with the vertices after the flow, or after some steps of it; gets the others, too. What has not moved
-///        is where it was.
+/// Puts joined vertices where they belong. All ranks call this together.
+/// @param slice with the vertices after the flow, or after some of its steps; gets the others, too. Unmoved ones are
+///        where they were.
 void bring_back(Communicator& comm, const JoinedSeams& seams, RankSlice& slice);
 
 }  // namespace seamflow

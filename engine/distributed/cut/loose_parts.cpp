@@ -56,12 +56,12 @@ WholeParts deal_parts(Communicator& comm, const SlicedCut& cut, const std::vecto
     sort_unique(whole.part.vertex_numbers);
     for (const std::int64_t corner : corners)
         whole.part.mesh.face_vertices.push_back(place_in(whole.part.vertex_numbers, corner));
-    // Nobody asks where they are.
+    // Their positions are not needed.
     whole.part.mesh.vertices = Points::Zero(std::ssize(whole.part.vertex_numbers), 3);
     return whole;
 }
 
-/// The components of parts, all but the largest of each (of equals the one with the lowest face).
+/// The components of parts except the largest of each (of equals, the one with the lowest face).
 LooseFaces find_loose(const WholeParts& whole)
 {
     LooseFaces loose;

@@ -17,18 +17,18 @@ namespace {
 
 using Number = std::int64_t;
 
-/// After so many rounds pinched parts are merged.
+/// Rounds after which pinched parts are merged.
 constexpr int max_rounds = 12;
 /// Mending at a vertex looks at the second layer around it, and at vertices of the first there may be more to mend.
 constexpr int layers_around_pinches = 4;
 
-/// A face and the part to which it goes.
+/// A face and the part that it moves to.
 struct Moved {
     Number face;
     Index label;
 };
 
-/// Mends a cut round by round. Every function is called by all ranks together; what rank 0 alone has is empty at the
+/// Mends a cut round by round. Every function is called by all ranks together; data of rank 0 alone is empty at the
 /// others.
 class Mender {
   public:
@@ -94,7 +94,7 @@ class Mender {
         sort_unique(queue_);
     }
 
-    /// Empties the queue. @returns the vertices of it at which a part is pinched, ascending.
+    /// Empties the queue. @returns its vertices at which a part is pinched, ascending.
     std::vector<Number> keep_pinched()
     {
         if (!anywhere(!queue_.empty()))
@@ -123,7 +123,7 @@ class Mender {
         apply(moved);
     }
 
-    /// @param moved gets the faces that have other labels then, @param touched the labels they had, ascending.
+    /// @param moved receives the faces whose labels change, @param touched their previous labels, ascending.
     void mend_within(const Band& band, const std::vector<Number>& pinched, std::vector<Moved>& moved,
                      std::vector<Index>& touched);
     void merge_pinched_at(const std::vector<Number>& pinched);
@@ -144,7 +144,7 @@ class Mender {
 
     Communicator& comm_;
     SlicedCut cut_;
-    /// Those that may not be connected, at all ranks.
+    /// Parts that may not be connected, at all ranks.
     std::vector<Index> parts_;
     /// Vertices to look at, ascending; at rank 0.
     std::vector<Number> queue_;
@@ -162,7 +162,7 @@ void Mender::mend_within(const Band& band, const std::vector<Number>& pinched, s
     PinchMender mender(mesh, topology, labels, compact_labels(labels));
     mender.count_faces();
     const std::vector<Index> before = labels;
-    // What mending at a vertex looks at.
+    // Whether the band covers mending at a vertex.
     const auto is_in_sight = [&](Index v) {
         const auto is_whole = [&](Index corner) { return band.is_whole[corner] != 0; };
         return std::ranges::all_of(topology.corners_at(v), [&](Index corner) {
@@ -196,7 +196,7 @@ void Mender::mend_within(const Band& band, const std::vector<Number>& pinched, s
     sort_unique(touched);
 }
 
-/// Each pinched part and one of those between its fans become one.
+/// Merges each pinched part with one of those between its fans.
 void Mender::merge_pinched_at(const std::vector<Number>& pinched)
 {
     const Band band = band_around(pinched, 1);

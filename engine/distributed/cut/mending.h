@@ -17,11 +17,10 @@ struct SlicedDefects {
     std::vector<std::int64_t> vertices;
 };
 
-/// Makes every part a manifold with boundary, as repair does: what is doubtful comes to rank 0 with the faces around
-/// it. All ranks call this together; what comes of it does not depend on their number.
-/// @param n_parts all labels are below it. Labels of parts that are used up do not occur any more, and parts that had
-/// to
-///        be divided get new ones after the largest.
+/// Makes every part a manifold with boundary, as repair does: doubtful places go to rank 0 with the faces around them.
+/// All ranks call this together; the result does not depend on their number.
+/// @param n_parts all labels are below it. Labels of parts that are used up no longer occur, and parts that had to be
+///        divided get new ones after the largest.
 void mend_together(Communicator& comm, SlicedCut cut, SlicedDefects defects, Index n_parts);
 
 /// Renumbers the labels of all ranks to 0, 1, 2 … without gaps, keeping their order. All ranks call this together.

@@ -17,7 +17,7 @@ struct Repetition {
     std::int64_t first;
 };
 
-/// Adds those of a part to `found`: places alone are searched at which the mesh is not manifold (see FlowingMesh).
+/// Adds those of a part to `found`: only places where the mesh is not manifold are searched (see FlowingMesh).
 /// @param part has each face together with all that repeat it.
 void find_repetitions(const MeshPart& part, const Topology& topology, std::vector<Repetition>& found);
 
@@ -30,7 +30,7 @@ struct RepeatedFaces {
 };
 
 /// Takes the faces that repeat others out of the ranges of all ranks. All ranks call this together.
-/// @param own what this rank has found. @param labels of the range, if there are any, lose the same.
+/// @param own what this rank has found. @param labels of the range, if any, lose the same faces.
 /// @param left_out gets what the range of this rank has lost.
 /// @returns whether there were any, at any rank.
 bool leave_out_repeated(Communicator& comm, const std::vector<Repetition>& own, RankSlice& slice,

@@ -83,12 +83,12 @@ class WholeMeshFile final : public SharedMeshFile {
     std::filesystem::path path_;
     FileSharing sharing_;
     Executor exec_;
-    /// Of rank 0.
+    /// At rank 0.
     MeshFile file_;
     bool is_read_ = false;
 };
 
-/// 0 for what is no file of that name: whoever reads it says so.
+/// 0 if it is not a file: whoever reads it reports that.
 std::uint64_t bytes_in(const std::filesystem::path& path)
 {
     std::error_code error;
@@ -96,7 +96,7 @@ std::uint64_t bytes_in(const std::filesystem::path& path)
     return error ? 0 : size;
 }
 
-/// Whatever its name is.
+/// Regardless of its name.
 bool is_packed(const std::filesystem::path& path)
 {
     std::array<char, 2> bytes{};
@@ -119,8 +119,8 @@ bool is_text(const std::filesystem::path& path, FileFormat format)
     TextScanner scanner(path, input.content(), ply_syntax);
     const PlyHeader header = read_ply_header(scanner);
     if (const PlyElement* const strips = header.element("tristrips"); strips != nullptr && strips->count > 0)
-        throw InputError(fmt::format("{}: triangle strips are nothing that ranks can share; let one process smooth the "
-                                     "mesh, or export it with faces instead of strips",
+        throw InputError(fmt::format("{}: ranks cannot share triangle strips; smooth the mesh in a single process, or "
+                                     "export it with faces instead of strips",
                                      scanner.position_of(strips->line)));
     return header.encoding == Encoding::Ascii;
 }

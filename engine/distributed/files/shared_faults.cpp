@@ -12,7 +12,7 @@ namespace seamflow {
 
 namespace {
 
-/// How much there is of it on one rank.
+/// The numbers of faults on one rank.
 struct LogCounts {
     std::uint64_t all = 0;
     std::uint64_t harmless = 0;

@@ -16,9 +16,9 @@ namespace seamflow {
 
 /// How ranks share the work on a file. What they read and write does not depend on it.
 struct FileSharing {
-    /// Rank 0 alone reads and writes files of up to so many bytes, in any format.
+    /// Rank 0 alone reads and writes files up to this many bytes, in any format.
     std::uint64_t whole_up_to = std::uint64_t{16} << 20;
-    /// The ranges of ranks begin at multiples of so many vertices and faces.
+    /// Ranges of ranks begin at multiples of this many vertices and faces.
     Index block = block_size;
 };
 
@@ -54,7 +54,7 @@ class SharedMeshFile {
     /// On rank 0, if it has read all of the file: the mesh, with the positions read or written last. Else null.
     [[nodiscard]] virtual const MeshFile* whole() const { return nullptr; }
 
-    /// Which faces of the file have been left out. Of rank 0.
+    /// The faces of the file that were left out. On rank 0.
     [[nodiscard]] const FaultLog& faults() const { return faults_; }
 
   protected:

@@ -49,9 +49,9 @@ void write_labelled_range(const SharedOutput& output, const PolygonMesh& mesh, c
 void require_slices_of(FileFormat format, const std::filesystem::path& path)
 {
     if (is_standard_stream(path) || is_gzip_name(path) || format_of(path) != format)
-        throw OptionError(fmt::format("{}: ranks that each have a slice of the mesh write it as a {} file, not packed; "
-                                      "convert that afterwards",
-                                      path.string(), extension_of(format)));
+        throw OptionError(fmt::format(
+            "{}: ranks that each have a slice of the mesh write an uncompressed {} file; convert it afterwards",
+            path.string(), extension_of(format)));
 }
 
 void write_together(Communicator& comm, const std::filesystem::path& path,
@@ -65,7 +65,7 @@ void write_together(Communicator& comm, const std::filesystem::path& path,
         output.emplace(path, std::string(name.begin(), name.end()));
     write_own(*output);
     output->finish();
-    // All of them have written.
+    // All ranks have written.
     static_cast<void>(comm.gather_all(std::vector<char>{}));
     comm.at_first_rank([&] { output->commit(); });
 }

@@ -26,13 +26,13 @@ void require_slices_of(FileFormat format, const std::filesystem::path& path);
 void write_together(Communicator& comm, const std::filesystem::path& path,
                     const std::function<void(const SharedOutput&)>& write_own);
 
-/// Throws on all ranks what is wrong with a result: the OutputError of the lowest rank that has any.
+/// Throws on all ranks if a result is wrong on any: the OutputError of the lowest such rank.
 void check_together(Communicator& comm, const std::function<void()>& check);
 
 /// Whether the types of a file can hold the coordinates x, y and z of all ranks. @param own those of this rank.
 std::array<bool, 3> fit_all(Communicator& comm, const std::array<bool, 3>& own);
 
-/// What this rank writes of a file: pieces that follow each other, and those of the ranks before it.
+/// This rank's share of a file: consecutive pieces, which follow those of the ranks before it.
 struct FilePieces {
     /// In bytes, each.
     std::vector<std::size_t> sizes;
@@ -43,7 +43,7 @@ struct FilePieces {
 /// Makes each of n pieces once to see how long it is, so that none has to be kept until all are known.
 FilePieces measure_pieces(Index n, std::function<void(Index piece, ByteWriter& file)> make, const Executor& exec);
 
-/// As write_together, with `begin` before the pieces of all ranks and `end` behind them, which rank 0 writes.
+/// As write_together, with `begin` before the pieces of all ranks and `end` after them, which rank 0 writes.
 void write_pieces_together(Communicator& comm, const std::filesystem::path& path, std::string_view begin,
                            const FilePieces& own, std::string_view end, const Executor& exec);
 

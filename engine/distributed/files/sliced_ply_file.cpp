@@ -29,7 +29,7 @@ namespace {
 
 constexpr std::size_t nowhere = std::numeric_limits<std::size_t>::max();
 
-/// The bytes of a file from one to another.
+/// A range of bytes of a file.
 struct ByteRange {
     std::size_t begin = 0;
     std::size_t end = 0;
@@ -41,7 +41,7 @@ struct ByteRange {
     }
 };
 
-/// What a rank has of n elements.
+/// A rank's range of n elements.
 struct ElementRange {
     Index begin = 0;
     Index end = 0;
@@ -63,9 +63,9 @@ std::size_t end_of_faces(const PlyRanges& ply, std::size_t byte, const ElementRa
     }
 }
 
-/// Where the faces of this rank stand. If every rank's end where the next rank's begin, all of them do where they seem
-/// to: it is so if all are triangles. If not, one rank after another goes past its faces.
-/// @returns an end that is nowhere if that is not in the file, and the same for the begin on all ranks behind.
+/// Where the faces of this rank are. If every rank's end where the next rank's begin, all are where they seem to be, as
+/// is the case if all are triangles. If not, one rank after another passes over its faces.
+/// @returns an end that is nowhere if it is not in the file, and the same for the begin on all later ranks.
 ByteRange find_faces(Communicator& comm, const PlyRanges& ply, const ElementRange& faces)
 {
     ByteRange own{ply.likely_begin(faces.begin), 0};
@@ -166,7 +166,7 @@ class SlicedPlyFile final : public SharedMeshFile {
     }
 
   private:
-    /// So many elements are made at once, and written.
+    /// Elements that are made and written at once.
     static constexpr Index at_once = 1 << 14;
 
     [[nodiscard]] std::unique_ptr<PlyRanges> ranges_of(std::string_view content) const
@@ -204,7 +204,7 @@ class SlicedPlyFile final : public SharedMeshFile {
         comm.look_together([&] { refuse_binary_off(file_.path(), content, offset); });
     }
 
-    /// Whether the data end where the counts say.
+    /// Whether the data end where the counts imply.
     bool fits(Communicator& comm, std::string_view content) const
     {
         std::unique_ptr<PlyRanges> off;
@@ -295,7 +295,7 @@ class SlicedPlyFile final : public SharedMeshFile {
 
     OpenFile file_;
     FileFormat format_;
-    /// Of a binary OFF file.
+    /// Layout of a binary OFF file.
     PlyHeader layout_;
     std::size_t elements_begin_ = 0;
     FileSharing sharing_;

@@ -8,8 +8,8 @@
 
 namespace seamflow {
 
-/// A binary file of PLY or OFF of which every rank reads and writes a slice: a binary OFF file has elements such as PLY
-/// has them. All ranks have to see the file under this path.
+/// A binary PLY or OFF file of which every rank reads and writes a slice: a binary OFF file has elements as in PLY. All
+/// ranks must see the file under this path.
 /// @throws InputError naming the file; also for one that cannot be cut into slices (see PlyRanges).
 std::unique_ptr<SharedMeshFile> open_sliced_ply(const std::filesystem::path& path, FileFormat format,
                                                 const FileSharing& sharing);

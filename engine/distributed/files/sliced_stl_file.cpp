@@ -97,7 +97,7 @@ class SlicedStlFile final : public SharedMeshFile {
         return {positions[corners[0]], positions[corners[1]], positions[corners[2]]};
     }
 
-    /// Of what this rank has read.
+    /// Checksum of what this rank has read.
     /// @param content of a file that may be shorter by now.
     [[nodiscard]] XXH64_hash_t checksum(std::string_view content) const
     {
@@ -105,7 +105,7 @@ class SlicedStlFile final : public SharedMeshFile {
         return XXH3_64bits_withSeed(own.data(), own.size(), content.size());
     }
 
-    /// With the faces of this rank's share.
+    /// A slice with the faces of this rank's share.
     /// @param faults receives what is left out, at rank 0.
     RankSlice read_share(Communicator& comm, const StlShare& share, FaultLog& faults) const
     {
@@ -139,7 +139,7 @@ class SlicedStlFile final : public SharedMeshFile {
         });
     }
 
-    /// The same as was read, except for the positions.
+    /// The slice as it was read, except for the positions.
     RankSlice read_again(Communicator& comm, const Points& vertices) const
     {
         const InputFile input(file_);
@@ -155,7 +155,7 @@ class SlicedStlFile final : public SharedMeshFile {
     Encoding encoding_;
     FileSharing sharing_;
     Executor exec_;
-    /// What this rank has read of it.
+    /// The bytes that this rank has read.
     std::size_t own_begin_ = 0;
     std::size_t n_own_ = 0;
     XXH64_hash_t checksum_ = 0;

@@ -9,7 +9,7 @@
 
 namespace seamflow {
 
-/// An STL file of which every rank reads and writes a slice. All ranks have to see the file under this path. It is read
+/// An STL file of which every rank reads and writes a slice. All ranks must see the file under this path. It is read
 /// once more when it is written: the vertices of its facets are not kept.
 /// @param encoding of the file. @param exec runs what is done piece by piece.
 /// @throws InputError naming the file.

@@ -29,7 +29,7 @@ namespace {
 struct TextShare {
     std::unique_ptr<SlicedText> file;
     std::string_view header;
-    /// From the end of a line to the end of another; perhaps empty.
+    /// From the end of a line to the end of another; may be empty.
     std::string_view own;
     /// In pieces for threads, at least one.
     std::vector<std::string_view> pieces;
@@ -50,7 +50,7 @@ struct TextShare {
     }
 };
 
-/// Where a part of a file stands in it.
+/// The place of a part within a file.
 struct BytePlace {
     std::size_t begin = 0;
     std::size_t n = 0;
@@ -149,14 +149,14 @@ class SlicedTextFile final : public SharedMeshFile {
             fmt::format("{}: more than {} {}; divide the mesh into several files", file_.path().string(), most, what));
     }
 
-    /// All ranks have found the same.
+    /// All ranks have found the same error.
     [[noreturn]] static void refuse(Communicator& comm, const InputError& error)
     {
         comm.look_together([&] { throw error; });
         throw error;
     }
 
-    /// Counts what stands before each piece.
+    /// Counts what precedes each piece.
     void count(Communicator& comm, const TextShare& share)
     {
         comm.look_together([&] {
@@ -205,8 +205,8 @@ class SlicedTextFile final : public SharedMeshFile {
         return move_to_ranges(comm, std::move(found), sharing_.block);
     }
 
-    /// Reads the share in one go, and notes what is left out. Throws on all ranks what a reader of the whole file would
-    /// complain about first.
+    /// Reads the share in one go, and notes what is left out. Throws on all ranks the error that a reader of the whole
+    /// file would report first.
     CheckedSlice check(Communicator& comm, const TextShare& share) const
     {
         const TextScanner& whole = share.file->after_header();
@@ -241,10 +241,10 @@ class SlicedTextFile final : public SharedMeshFile {
     TextSlicer slicer_;
     FileSharing sharing_;
     Executor exec_;
-    /// What stands before each piece of this rank's share, and behind it; and all of the file.
+    /// Counts before each piece of this rank's share, and behind it; and those of the whole file.
     std::vector<TextCounts> counts_;
     TextCounts all_;
-    /// What has been read.
+    /// The bytes that were read.
     BytePlace header_;
     BytePlace own_;
     XXH64_hash_t checksum_ = 0;

@@ -10,11 +10,11 @@
 
 namespace seamflow {
 
-/// Looks at the header of a text file (see slice_obj_text and its like).
+/// Reads the header of a text file (see slice_obj_text and similar).
 using TextSlicer = std::unique_ptr<SlicedText> (*)(const std::filesystem::path& path, std::string_view text);
 
 /// An OBJ, OFF or PLY file that is text, of which every rank reads and writes about as many bytes, up to the end of a
-/// line. All ranks have to see the file under this path. Normals stay as they are.
+/// line. All ranks must see the file under this path. Normals stay as they are.
 /// @param exec runs what is done piece by piece.
 /// @throws InputError naming the file.
 std::unique_ptr<SharedMeshFile> open_sliced_text(const std::filesystem::path& path, TextSlicer slicer,

@@ -83,7 +83,7 @@ class TextStlShare final : public StlShare {
     }
 
   private:
-    /// Reads as if each share began within a solid, but the first. Where that is not so in the end, after a share
+    /// Reads as if each share except for the first began within a solid. If that turns out to be wrong, after a share
     /// without fault, the next one begins with a fault.
     PointNumbers check(Communicator& comm, PolygonMesh& faces, FaultLog& faults) const
     {
@@ -117,7 +117,7 @@ class TextStlShare final : public StlShare {
 
     StlText text_;
     Executor exec_;
-    /// Perhaps empty.
+    /// May be empty.
     std::string_view own_;
 };
 

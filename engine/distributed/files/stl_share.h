@@ -14,7 +14,7 @@
 
 namespace seamflow {
 
-/// The facets of an STL file that are for one rank to read: about as many as for each other.
+/// One rank's share of the facets of an STL file: about as many as every other rank's.
 class StlShare {
   public:
     StlShare() = default;
@@ -37,7 +37,7 @@ class StlShare {
 };
 
 /// All ranks call this together.
-/// @param content has to outlive the result.
+/// @param content must outlive the result.
 /// @throws InputError as read_stl.
 std::unique_ptr<StlShare> share_stl(Communicator& comm, const std::filesystem::path& path, std::string_view content,
                                     Encoding encoding, const Executor& exec);

@@ -16,7 +16,7 @@ namespace seamflow {
 
 namespace {
 
-/// So many corners have the faces of a sub-mesh in some range.
+/// How many corners the faces of a sub-mesh have in some range.
 struct SubMeshCost {
     Index label;
     std::int64_t corners;
@@ -30,7 +30,7 @@ void require_labels(const RankSlice& slice, std::int64_t first_face)
                                          first_face + f, slice.labels[f]));
 }
 
-/// Adds up what has the same label, ascending.
+/// Adds up the costs of each label, ascending.
 std::vector<SubMeshCost> summed(std::vector<SubMeshCost> costs)
 {
     std::ranges::stable_sort(costs, {}, &SubMeshCost::label);
@@ -43,7 +43,7 @@ std::vector<SubMeshCost> summed(std::vector<SubMeshCost> costs)
     return sums;
 }
 
-/// Whose the sub-meshes are: the first label of each rank, ascending.
+/// The owners of the sub-meshes: the first label of each rank, ascending.
 class Owners {
   public:
     Owners(Communicator& comm, const RankSlice& slice)
@@ -75,8 +75,8 @@ class Owners {
     std::vector<int> ranks_;
 };
 
-/// Gives the faces of a range to their ranks.
-/// @tparam Number holds all numbers of the whole mesh.
+/// Packs the faces of a range for their ranks.
+/// @tparam Number can hold all numbers of the whole mesh.
 template <class Number>
 std::vector<Bytes> pack_faces(const RankSlice& slice, const Owners& owners, std::int64_t first_face, int n_ranks)
 {
@@ -110,7 +110,7 @@ std::vector<Bytes> pack_faces(const RankSlice& slice, const Owners& owners, std:
     return packed_faces;
 }
 
-/// Faces come from the ranks in ascending order of their numbers.
+/// Faces arrive from the ranks in ascending order of their numbers.
 /// @returns their corners, numbered in the whole mesh.
 template <class Number>
 std::vector<Number> unpack_faces(std::vector<Bytes> packed_faces, MeshPart& part)
@@ -133,7 +133,7 @@ std::vector<Number> unpack_faces(std::vector<Bytes> packed_faces, MeshPart& part
     return corners;
 }
 
-/// Lets corners be vertices of the part.
+/// Renumbers corners as vertices of the part.
 void number_corners(const std::vector<std::int64_t>& corners, const NumberSet<std::int64_t>& vertices,
                     std::vector<Index>& face_vertices)
 {
@@ -189,7 +189,7 @@ void fetch_rows(Communicator& comm, const RowsOfRange& rows, std::span<const std
     const std::int64_t first = bounds[comm.rank()];
     const auto row_of = [&](std::int64_t number) { return rows.numbers.data() + rows.width * (number - first); };
     std::vector<Bytes> questions;
-    // Where the answer of each rank belongs.
+    // Where the answer of each rank is stored.
     std::vector<double*> places;
     for (auto begin = numbers.begin(); const std::int64_t bound : bounds.subspan(1)) {
         const auto end = std::lower_bound(begin, numbers.end(), bound);
@@ -246,7 +246,7 @@ MeshPart deal(Communicator& comm, const RankSlice& slice, std::int64_t short_up_
     const SliceBounds bounds = gather_bounds(comm, slice);
     require_corners(slice, bounds, comm.rank());
     require_labels(slice, bounds.faces[comm.rank()]);
-    // Numbers are most of what a rank holds and sends meanwhile.
+    // Meanwhile, most of what a rank holds and sends is numbers.
     MeshPart part = std::max(bounds.vertices.back(), bounds.faces.back()) <= short_up_to
                         ? deal_faces<Index>(comm, slice, bounds)
                         : deal_faces<std::int64_t>(comm, slice, bounds);

@@ -36,7 +36,7 @@ struct SliceBounds {
 SliceBounds gather_bounds(Communicator& comm, const RankSlice& slice);
 
 /// Checks that the corners of a range are vertices of the mesh.
-/// @throws InputError naming the first face of this rank that has another.
+/// @throws InputError naming the first face of this rank that fails.
 void require_corners(const RankSlice& slice, const SliceBounds& bounds, int rank);
 
 /// The range in which a number lies.
@@ -50,7 +50,7 @@ struct RowsOfRange {
     std::ptrdiff_t width = 1;
 };
 
-/// Asks the ranks that have them for the rows of vertices. All ranks call this together.
+/// Fetches rows of vertices from the ranks that have them. All ranks call this together.
 /// @param numbers ascending, in the whole mesh. @param bounds those of vertices.
 /// @param fetched receives the rows, one after the other.
 void fetch_rows(Communicator& comm, const RowsOfRange& rows, std::span<const std::int64_t> numbers,
@@ -62,11 +62,10 @@ Points fetch_positions(Communicator& comm, const RankSlice& slice, std::span<con
                        std::span<const std::int64_t> bounds);
 
 /// Gives every face to the rank that has its sub-mesh, with the positions of its corners. Sub-meshes are dealt in
-/// ascending order, so that all ranks get about as many corners. All ranks call this together; no rank needs room for
-/// more than its slice and its part.
-/// @param short_up_to where there are no more vertices and faces than that, their numbers are told in 32 bits, which
-///        they must fit.
-/// @throws InputError naming the face with a corner that is none of the mesh's vertices, or with a negative label.
+/// ascending order, so that all ranks get about equally many corners. All ranks call this together; no rank holds more
+/// than its slice and its part.
+/// @param short_up_to up to this many vertices and faces, their numbers are sent in 32 bits, which they must fit.
+/// @throws InputError naming the face with a corner that is not a vertex of the mesh, or with a negative label.
 MeshPart deal(Communicator& comm, const RankSlice& slice, std::int64_t short_up_to = std::numeric_limits<Index>::max());
 
 /// Puts the positions of all parts into the ranges of vertices to which they belong. All ranks call this together.

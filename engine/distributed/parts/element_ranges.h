@@ -9,11 +9,11 @@
 #include "engine/distributed/ranks/communicator.h"
 #include "partition/polygon_mesh.h"
 
-/// Which elements of a mesh each rank has, and how they move where that changes. Bounds are #ranks + 1: the first
-/// element of each rank and, at the end, how many there are. All ranks call these functions together.
+/// Which elements of a mesh each rank has, and how they move when that changes. Bounds are #ranks + 1: the first
+/// element of each rank and, at the end, the total number. All ranks call these functions together.
 namespace seamflow {
 
-/// The bounds if all ranks in their order have so many.
+/// Bounds if each rank, in order, has n_own elements.
 std::vector<std::int64_t> gather_bounds_of(Communicator& comm, std::int64_t n_own);
 
 /// See begin_of_range.
@@ -21,9 +21,9 @@ std::vector<std::int64_t> bounds_of_ranges(std::int64_t n, int n_ranks, std::int
 
 /// Gives elements to the ranks that are to have them.
 /// @param from, to bounds: which this rank has, and which it is to have.
-/// @param pack called with the first of some elements that go to the same rank and the one behind the last, both from 0
-///        among those of this rank.
-/// @returns what comes from each rank; empty: nothing does.
+/// @param pack called with the begin and the end of some elements that go to the same rank, numbered from 0 among those
+///        of this rank.
+/// @returns what comes from each rank; empty if nothing does.
 std::vector<Bytes> move_elements(Communicator& comm, const std::vector<std::int64_t>& from,
                                  const std::vector<std::int64_t>& to,
                                  const std::function<Bytes(Index begin, Index end)>& pack);
@@ -51,7 +51,7 @@ std::vector<Value> move_values(Communicator& comm, const std::vector<Value>& own
 Points move_rows(Communicator& comm, const Points& own, const std::vector<std::int64_t>& from,
                  const std::vector<std::int64_t>& to);
 
-/// Makes ranges as SharedMeshFile::read gives them of what ranks have found in slices of a file.
+/// Converts what ranks found in slices of a file to ranges as SharedMeshFile::read gives them.
 /// @param found without labels; its corners are numbered in the whole mesh.
 RankSlice move_to_ranges(Communicator& comm, RankSlice found, Index block);
 

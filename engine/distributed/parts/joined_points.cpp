@@ -11,9 +11,9 @@ namespace seamflow {
 
 namespace {
 
-/// Where a point has been asked for first.
+/// The first question for a point.
 struct FirstQuestion {
-    /// Who has asked, and whom: the point's home.
+    /// The rank that asked, and the point's home.
     int rank = 0;
     int home = 0;
     /// The number of the question among those from the one to the other.
@@ -28,7 +28,7 @@ std::size_t home_of_point(PointNumbers::Place point, int n_ranks)
     return static_cast<std::size_t>(XXH3_64bits(point.data(), sizeof point) % static_cast<std::uint64_t>(n_ranks));
 }
 
-/// The answers to questions: those to a rank in the order in which it has asked.
+/// The answers to questions: those to a rank in the order in which it asked.
 template <class Question, class Answer, class Find>
 std::vector<std::vector<Answer>> ask(Communicator& comm, const std::vector<std::vector<Question>>& questions,
                                      Find&& find)
@@ -69,7 +69,7 @@ struct PointsByHome {
     }
 };
 
-/// Of each point, by its home, the first question for it, which the lowest rank that has it has asked.
+/// For each point, by its home, the first question for it, asked by the lowest rank that has it.
 std::vector<std::vector<FirstQuestion>> find_firsts(Communicator& comm, const PointsByHome& own)
 {
     PointNumbers known;

@@ -9,7 +9,7 @@
 
 namespace seamflow {
 
-/// The points of all ranks, equal ones made one.
+/// Points of all ranks, with equal ones merged.
 struct JoinedPoints {
     /// Those of this rank that no rank before it has, in their order.
     Points firsts;
@@ -18,8 +18,8 @@ struct JoinedPoints {
     std::vector<std::int64_t> numbers;
 };
 
-/// Finds equal points (see PointNumbers) of several ranks. Each point is looked for on one rank, which its hash tells,
-/// so that none has all of them. All ranks call this together.
+/// Finds equal points (see PointNumbers) of several ranks. Each point is looked for on one rank, given by its hash, so
+/// that no rank has all of them. All ranks call this together.
 /// @param own of this rank, all different.
 JoinedPoints join_points(Communicator& comm, const std::vector<PointNumbers::Place>& own);
 

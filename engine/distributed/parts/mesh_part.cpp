@@ -18,14 +18,14 @@ namespace {
 
 using Number = std::int64_t;
 
-/// A vertex and a rank that has faces there, or wants to know of them.
+/// A vertex and a rank that has faces there, or asks for them.
 struct VertexAtRank {
     Number vertex;
     std::int32_t rank;
     friend auto operator<=>(const VertexAtRank&, const VertexAtRank&) = default;
 };
 
-/// The rank that knows who has a vertex.
+/// The rank that knows the owners of a vertex.
 int home_of(Number vertex, int n_ranks)
 {
     return static_cast<int>(vertex % n_ranks);
@@ -43,14 +43,14 @@ std::vector<std::vector<Value>> exchange_lists(Communicator& comm, const std::ve
     return from_each;
 }
 
-/// A vertex that a rank has met, but not all faces around it.
+/// A vertex that a rank has met without all faces around it.
 struct MetVertex {
     Number vertex;
-    /// One that has it.
+    /// A rank that has it.
     std::int32_t rank;
 };
 
-/// Who has which vertex; each rank is the home of some of them.
+/// Which ranks have which vertex; each rank is the home of some.
 class VertexDirectory {
   public:
     /// @param own ascending.
@@ -61,7 +61,7 @@ class VertexDirectory {
         for (const Number vertex : own)
             to_homes[home_of(vertex, comm.size())].push_back(vertex);
         const auto from_each = exchange_lists(comm, to_homes);
-        // The vertices that are at home here are numbered as multiples of the number of ranks are.
+        // The number of a vertex at home here, divided by the number of ranks, is its place.
         std::vector<std::uint8_t> n_owners;
         for (const std::vector<Number>& vertices : from_each)
             for (const Number vertex : vertices) {
@@ -87,8 +87,8 @@ class VertexDirectory {
         return by_rank(to_owners);
     }
 
-    /// For each rank, those of this rank's vertices that it has met, ascending.
-    /// @param met what this rank has met: none of its own.
+    /// For each rank, this rank's vertices that the former has met, ascending.
+    /// @param met vertices met by this rank: none of its own.
     std::vector<std::vector<Number>> met_by_each(std::span<const MetVertex> met)
     {
         std::vector<std::vector<MetVertex>> to_homes(comm_->size());
@@ -108,7 +108,7 @@ class VertexDirectory {
     }
 
   private:
-    /// All ranks that have a vertex at home here; nothing if it is only one.
+    /// All ranks that have a vertex at home here; nothing if there is only one.
     [[nodiscard]] std::span<const VertexAtRank> owners_of(Number vertex) const
     {
         return {std::ranges::lower_bound(owners_, vertex, {}, &VertexAtRank::vertex),
@@ -128,7 +128,7 @@ class VertexDirectory {
     }
 
     Communicator* comm_;
-    /// Of those vertices at home here that several ranks have, ascending.
+    /// Owners of vertices at home here that several ranks have, ascending.
     std::vector<VertexAtRank> owners_;
 };
 
@@ -163,14 +163,14 @@ MeshPart unpacked_part(const Bytes& bytes)
     return part;
 }
 
-/// Where something is: in which of several parts, and its number there.
+/// Where an element is: in which of several parts, and its index there.
 struct Place {
     Number number;
     std::size_t part;
     Index index;
 };
 
-/// What has a number in some parts, but not in the own one: ascending, each number once.
+/// Elements with a number in some parts, but not in the own one: ascending, each number once.
 std::vector<Place> places_of_new(std::span<const Number> own, std::span<const MeshPart> parts,
                                  std::vector<Number> MeshPart::*numbers)
 {
@@ -185,7 +185,7 @@ std::vector<Place> places_of_new(std::span<const Number> own, std::span<const Me
     return places;
 }
 
-/// Goes through what is own and what is new in ascending order of the numbers.
+/// Visits own and new elements in ascending order of their numbers.
 template <class TakeOwn, class TakeNew>
 void merge(std::span<const Number> own, std::span<const Place> places, TakeOwn&& take_own, TakeNew&& take_new)
 {
@@ -268,9 +268,9 @@ void require_ascending(std::span<const Number> numbers, Index expected, const ch
                                      numbers.size(), expected, what));
     for (std::size_t i = 0; i < numbers.size(); ++i)
         if (numbers[i] < 0 || (i > 0 && numbers[i] <= numbers[i - 1]))
-            throw InputError(fmt::format("the numbers of a part of a mesh have to ascend from 0 or more, but {} {} "
-                                         "stands at place {}",
-                                         what, numbers[i], i));
+            throw InputError(
+                fmt::format("the numbers of a part of a mesh must ascend from 0 or more, but {} {} is at place {}",
+                            what, numbers[i], i));
 }
 
 }  // namespace
@@ -288,9 +288,9 @@ void require_valid(const MeshPart& part)
                                      part.face_numbers[static_cast<std::size_t>(negative - part.labels.begin())],
                                      *negative));
     if (!part.fixed.empty() && part.fixed.size() != part.vertex_numbers.size())
-        throw InputError("a part of a mesh does not say of each vertex whether it is fixed");
+        throw InputError("a part of a mesh does not say for each vertex whether it is fixed");
     if (!part.attachment_weights.empty() && part.attachment_weights.size() != part.vertex_numbers.size())
-        throw InputError("a part of a mesh does not say of each vertex how it is attached");
+        throw InputError("a part of a mesh does not say for each vertex how it is attached");
     const auto wrong = std::ranges::find_if_not(part.attachment_weights,
                                                 [](double weight) { return weight >= 0.0 && std::isfinite(weight); });
     if (wrong != part.attachment_weights.end())

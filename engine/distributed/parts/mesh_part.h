@@ -9,8 +9,8 @@
 
 namespace seamflow {
 
-/// The part of a mesh that a rank knows. In a whole mesh vertices, faces and sub-meshes have numbers that all ranks
-/// agree on; the part has its own ones, in the same order.
+/// The part of a mesh that a rank knows. In a whole mesh, vertices, faces and sub-meshes have numbers that all ranks
+/// agree on; the part has its own, in the same order.
 struct MeshPart {
     PolygonMesh mesh;
     /// #V and #F, ascending: the numbers in the whole mesh.
@@ -33,8 +33,8 @@ void require_valid(const MeshPart& part);
 /// @param faces as indices into the part, ascending.
 MeshPart some_faces(const MeshPart& part, std::span<const Index> faces);
 
-/// The part with faces that other ranks have around it, as many layers of them: a layer is all faces around the
-/// vertices of those that are there. All ranks call this together.
+/// The part with `layers` layers of other ranks' faces around it: a layer is all faces around the vertices of those
+/// already there. All ranks call this together.
 /// @param own the faces that are the rank's own: every face of the mesh is that of one rank.
 MeshPart grown_by_layers(Communicator& comm, const MeshPart& own, int layers);
 

@@ -10,12 +10,12 @@
 
 namespace seamflow {
 
-/// Some whole numbers, each once, and the places that they have in ascending order. It takes three bits for every
-/// number between the least and the largest of them.
+/// A set of integers, and their places in ascending order. It takes three bits for every number between the least and
+/// the largest of them.
 template <class Number>
 class NumberSet {
   public:
-    /// @param numbers in any order, as often as they come.
+    /// @param numbers in any order, possibly repeated.
     explicit NumberSet(const std::vector<Number>& numbers)
     {
         if (numbers.empty())
@@ -62,7 +62,7 @@ class NumberSet {
 
     Number least_ = 0;
     std::vector<std::uint64_t> words_;
-    /// Of the numbers that stand in lower words.
+    /// The count of numbers in lower words.
     std::vector<Index> n_before_;
     Index size_ = 0;
 };

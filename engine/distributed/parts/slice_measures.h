@@ -6,11 +6,11 @@
 #include "engine/distributed/ranks/communicator.h"
 #include "partition/metrics/length_statistics.h"
 
-/// What is measured of a mesh that no rank has as a whole. The bits are those of one machine, for any number of ranks
-/// whose ranges begin at multiples of block_size. All ranks call these functions together.
+/// Measures of a mesh that no rank has as a whole. The bits are those of one machine, for any number of ranks whose
+/// ranges begin at multiples of block_size. All ranks call these functions together.
 namespace seamflow {
 
-/// The sizes of a mesh by which sub-meshes and time steps are measured, as MeshSize and extent_of have them.
+/// The sizes of a mesh by which sub-meshes and time steps are measured, as in MeshSize and extent_of.
 struct SharedMeshSize {
     std::int64_t vertices = 0;
     std::int64_t faces = 0;
@@ -22,7 +22,7 @@ struct SharedMeshSize {
     double diagonal = 0.0;
 };
 
-/// @throws InputError naming the face with a corner that is none of the mesh's vertices.
+/// @throws InputError naming the face with a corner that is not a vertex of the mesh.
 SharedMeshSize measure(Communicator& comm, const RankSlice& slice);
 
 /// How far vertices have moved.

@@ -10,8 +10,8 @@
 #include "engine/distributed/ranks/packing.h"
 #include "partition/polygon_mesh.h"
 
-/// From a mesh that rank 0 has as a whole to the ranges of all ranks, and back: for small meshes, and for what is
-/// done in one go. All ranks call these functions together.
+/// Converts a whole mesh on rank 0 to the ranges of all ranks, and back: for small meshes, and for what is done in one
+/// go. All ranks call these functions together.
 namespace seamflow {
 
 /// The first of n elements that belong to a rank's range, if ranges are of about the same length and begin at
@@ -22,7 +22,7 @@ std::int64_t begin_of_range(std::int64_t n, int rank, int n_ranks, std::int64_t 
 /// @param mesh of rank 0; what others give is ignored. @param block see begin_of_range.
 RankSlice hand_out(Communicator& comm, const PolygonMesh& mesh, Index block);
 
-/// A number of each vertex or face to the ranks in whose ranges they are.
+/// Sends a number per vertex or face to the rank in whose range it is.
 /// @param numbers of rank 0, of the whole mesh; what others give is ignored.
 /// @param bounds of vertices or faces (see SliceBounds).
 /// @returns those of the range.

@@ -21,7 +21,7 @@ class Interruption : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// Until it is looked at what else has happened.
+/// How long to wait before checking for other events.
 constexpr std::chrono::milliseconds patience_of_wait{100};
 
 using Kind = WorkOutcome::Kind;
@@ -178,7 +178,7 @@ Bytes Communicator::next_collective(int from)
     while (collective_[from].empty()) {
         require_all_well();
         if (ended_[from])
-            throw std::logic_error(fmt::format("rank {} has ended before its time", from));
+            throw std::logic_error(fmt::format("rank {} has ended too early", from));
         take_in(patience_of_wait);
     }
     Bytes bytes = std::move(collective_[from].front());
@@ -211,7 +211,7 @@ std::vector<Bytes> Communicator::exchange_with(std::span<const int> others, std:
 
 std::vector<Bytes> Communicator::allgather(Bytes own)
 {
-    // Every rank passes on what it knows: of itself and of the ranks before it, in each round of twice as many.
+    // Every rank passes on the data of itself and of the ranks before it, of twice as many in each round.
     std::vector<Bytes> known{std::move(own)};
     const auto after = [&](int n) { return (rank() + n) % size(); };
     for (int n = 1; n < size(); n *= 2) {
@@ -243,7 +243,7 @@ std::vector<Bytes> Communicator::bytes_at_first(Bytes own)
     return of_ranks;
 }
 
-/// If any rank has failed, all throw what the lowest of them has said.
+/// If any rank has failed, all throw the error of the lowest of them.
 void Communicator::agree_on(const WorkOutcome& own)
 {
     for (const Bytes& bytes : allgather(own.kind == Kind::Done ? Bytes() : packed_outcome(own))) {
@@ -286,7 +286,7 @@ std::optional<Message> Communicator::next_arrival(std::chrono::microseconds pati
     return message;
 }
 
-/// What is still on the way from a rank arrives before its end, and is forgotten. What arrives after it belongs to the
+/// Messages still in transit from a rank arrive before its end, and are discarded. Messages after its end belong to the
 /// next work, which others may have begun.
 std::vector<WorkOutcome> Communicator::part(const WorkOutcome& own)
 {

@@ -24,7 +24,7 @@ struct WorkOutcome {
         Done,
         /// Another rank has failed.
         Interrupted,
-        /// What it has thrown, all of errors.h.
+        /// It has thrown an error of errors.h.
         InputError,
         OptionError,
         ComputationError,
@@ -38,12 +38,11 @@ struct WorkOutcome {
     std::string message = {};
     /// The machine.
     std::string host = {};
-    /// Whether all ranks have agreed on it: then it is about none of them.
+    /// Whether all ranks agreed on it: then it concerns no single one.
     bool is_agreed = false;
 };
 
-/// Does what other ranks wait for, again and again where memory lacks for it: what a rank that fails has had is free by
-/// then.
+/// Does what other ranks wait for, retrying while memory is lacking: what a failing rank had is freed meanwhile.
 /// @throws what the action throws, std::bad_alloc after some seconds.
 template <class Action>
 void retry(Action&& action)
@@ -61,9 +60,8 @@ void retry(Action&& action)
     }
 }
 
-/// What the ranks say to each other while they work together (see run_together): each rank calls the collective
-/// functions in the same order as the others. All of them, and next_arrival, throw if another rank fails in the
-/// meantime.
+/// Communication of ranks that work together (see run_together): each rank calls the collective functions in the same
+/// order as the others. All of them, and next_arrival, throw if another rank fails in the meantime.
 class Communicator {
   public:
     /// @param transport must outlive this.
@@ -95,18 +93,18 @@ class Communicator {
         return all;
     }
 
-    /// What rank 0 gives; what the others give is passed over.
+    /// What rank 0 gives; what the others give is ignored.
     template <class Value>
     std::vector<Value> broadcast(const std::vector<Value>& of_first)
     {
         return gather_all(rank() == 0 ? of_first : std::vector<Value>{});
     }
 
-    /// Gives bytes to each rank, and takes what each has for this one.
+    /// Sends bytes to each rank, and receives those for this one.
     /// @param to_each #ranks. @returns #ranks, in their order.
     std::vector<Bytes> exchange(std::vector<Bytes> to_each);
 
-    /// Does on rank 0 what is for all ranks, which wait for it; what it throws all throw alike.
+    /// Does work for all ranks on rank 0, while they wait; what it throws, all ranks throw.
     void at_first_rank(const std::function<void()>& action);
 
     /// The same among some of the ranks.
@@ -114,15 +112,15 @@ class Communicator {
     /// same.
     std::vector<Bytes> exchange_with(std::span<const int> others, std::vector<Bytes> to_each);
 
-    /// Every rank does its part in looking at an input. If any finds fault with that all throw the same, the InputError
-    /// or OptionError of the lowest of those ranks.
+    /// Every rank does its part in checking an input. If any finds a fault, all throw the InputError or OptionError of
+    /// the lowest such rank.
     void look_together(const std::function<void()>& look);
 
     /// Sends something that no collective function waits for. Any thread may do so, at any time.
     /// @param to another rank.
     void send(int to, Bytes bytes);
 
-    /// The next of these to arrive; nothing if none does in time.
+    /// The next of these to arrive; empty if none does in time.
     std::optional<Message> next_arrival(std::chrono::microseconds patience);
 
     /// What has been sent so far, collective functions included.
@@ -132,7 +130,7 @@ class Communicator {
   private:
     friend void run_work_together(Transport& transport, const std::function<void(Communicator&)>& work);
 
-    /// Tells all ranks how the work has ended here, and waits until all have said so.
+    /// Tells all ranks how the work has ended here, and waits until all have done so.
     std::vector<WorkOutcome> part(const WorkOutcome& own);
     bool take_in(std::chrono::microseconds patience);
     void sort_in(Message message);
@@ -159,16 +157,15 @@ class Communicator {
 void run_work_together(Transport& transport, const std::function<void(Communicator&)>& work);
 
 /// Runs `work` on this rank, as every rank does, and waits until all ranks are at its end. If it throws on one rank, it
-/// ends on all of them, as soon as each waits for another: then all throw the same, what the lowest rank has thrown of
-/// those that have failed by themselves, with the number and the machine of this rank before it, but where all have
-/// failed alike, or have agreed on it (see Communicator::at_first_rank). What may fail on one rank alone belongs into
-/// `work`.
-/// @throws the errors of errors.h as what they are; std::bad_alloc and all others as ComputationError.
+/// ends on all of them, as soon as each waits for another: then all throw what the lowest rank that failed by itself
+/// has thrown, with the number and the machine of that rank before it, except if all have failed alike, or have agreed
+/// on it (see Communicator::at_first_rank). What may fail on one rank alone belongs in `work`.
+/// @throws the errors of errors.h as they are; std::bad_alloc and all others as ComputationError.
 /// @param work called with the Communicator of this rank.
 template <class Work>
 void run_together(Transport& transport, Work&& work)
 {
-    // By reference, which takes no memory: where that lacked others would wait for this rank.
+    // By reference, which takes no memory: without any, others would wait for this rank.
     run_work_together(transport, std::ref(work));
 }
 

@@ -14,7 +14,7 @@ namespace seamflow {
 
 namespace {
 
-/// Tags of pieces that others follow lie above the tags of messages.
+/// Tags of pieces with successors lie above the tags of messages.
 constexpr int more_follows = 256;
 
 class MpiTransport final : public Transport {
@@ -34,10 +34,10 @@ class MpiTransport final : public Transport {
         if (level < MPI_THREAD_SERIALIZED) {
             if (owns_)
                 ::MPI_Finalize();
-            throw ComputationError("this MPI lets only one thread speak: it has to be built with support of threads "
-                                   "(MPI_THREAD_SERIALIZED)");
+            throw ComputationError(
+                "this MPI lets only one thread call it: it must be built with thread support (MPI_THREAD_SERIALIZED)");
         }
-        // Messages of others who use MPI in this program do not come between ours.
+        // Messages of other users of MPI in this program are not mixed with ours.
         ::MPI_Comm_dup(MPI_COMM_WORLD, &world_);
         ::MPI_Comm_rank(world_, &rank_);
         ::MPI_Comm_size(world_, &size_);
@@ -79,7 +79,7 @@ class MpiTransport final : public Transport {
         } while (begin < shared->size());
     }
 
-    /// Looks again and again, the less often the longer nothing comes: MPI cannot wait for two things at once.
+    /// Polls, less often the longer nothing arrives: MPI cannot wait for two things at once.
     [[nodiscard]] std::optional<Message> fetch(std::chrono::microseconds patience) override
     {
         const auto end = std::chrono::steady_clock::now() + patience;
@@ -95,7 +95,7 @@ class MpiTransport final : public Transport {
   private:
     static constexpr std::chrono::microseconds longest_pause{200};
 
-    /// What MPI reads until the request is complete.
+    /// Bytes that MPI reads until the request is complete.
     struct Outgoing {
         Outgoing(std::shared_ptr<const Bytes> of_message, MPI_Request of_piece)
             : bytes(std::move(of_message))
@@ -106,7 +106,7 @@ class MpiTransport final : public Transport {
         MPI_Request request;
     };
 
-    /// Takes pieces that are there until a message is complete.
+    /// Takes available pieces until a message is complete.
     std::optional<Message> look()
     {
         const std::scoped_lock lock(mutex_);
@@ -125,7 +125,7 @@ class MpiTransport final : public Transport {
             ::MPI_Get_count(&status_, MPI_BYTE, &size);
             Bytes& bytes = incomplete_[status_.MPI_SOURCE];
             const std::size_t begin = bytes.size();
-            // The piece waits where memory lacks.
+            // The piece waits if memory is lacking.
             bytes.resize(begin + static_cast<std::size_t>(size));
             ::MPI_Mrecv(bytes.data() + begin, size, MPI_BYTE, &piece_, MPI_STATUS_IGNORE);
             if (status_.MPI_TAG < more_follows)
@@ -141,10 +141,10 @@ class MpiTransport final : public Transport {
     /// MPI is called by one thread at a time.
     std::mutex mutex_;
     std::vector<Outgoing> outgoing_;
-    /// What has been found and not been taken yet.
+    /// Found, but not yet taken.
     MPI_Message piece_ = MPI_MESSAGE_NULL;
     MPI_Status status_{};
-    /// Per rank, the pieces of its message that have come.
+    /// Per rank, the pieces of its message that have arrived.
     std::vector<Bytes> incomplete_;
 };
 

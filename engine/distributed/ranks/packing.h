@@ -9,7 +9,7 @@
 
 #include "engine/distributed/ranks/transport.h"
 
-/// Values as bytes and back. All ranks have the same byte order: those of one run are of one kind of machine.
+/// Converts values to bytes and back. All ranks have the same byte order: one run uses one kind of machine.
 namespace seamflow {
 
 /// Appends values.
@@ -31,7 +31,7 @@ class Packer {
     /// Three coordinates.
     void put_row(const double* coordinates) { put_bytes(coordinates, 3 * sizeof(double)); }
 
-    /// What was put, which this no longer has.
+    /// Moves out what was put.
     [[nodiscard]] Bytes take() { return std::move(bytes_); }
 
     void reserve(std::size_t n_bytes) { bytes_.reserve(n_bytes); }
@@ -112,7 +112,7 @@ Bytes packed(const std::vector<Value>& values)
     return packed(std::span<const Value>(values));
 }
 
-/// The list of values that packed() has made bytes of.
+/// The list of values that packed() was given.
 template <class Value>
 std::vector<Value> unpacked(const Bytes& bytes)
 {

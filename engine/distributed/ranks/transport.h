@@ -16,13 +16,13 @@ using Bytes = std::vector<std::byte>;
 struct Message {
     /// The rank that has sent it.
     int from = -1;
-    /// What it is about: 0 to 255.
+    /// Its kind: 0 to 255.
     int tag = 0;
     Bytes bytes;
 };
 
-/// One of the ranks that work on a mesh together, each with memory of its own: processes of MPI, or threads of one
-/// process. What is said here is all that a rank learns of the others.
+/// One of the ranks that work on a mesh together, each with its own memory: MPI processes, or threads of one process.
+/// What is sent here is all that a rank learns of the others.
 class Transport {
   public:
     Transport() = default;
@@ -37,12 +37,12 @@ class Transport {
     /// The name of the machine.
     [[nodiscard]] virtual std::string host() const = 0;
 
-    /// Hands bytes over and does not wait until they arrive. May be called by any thread. What one rank sends to
-    /// another arrives in the order in which it was sent.
+    /// Sends bytes without waiting until they arrive. May be called by any thread. What one rank sends to another
+    /// arrives in the order in which it was sent.
     /// @param to another rank.
     virtual void send(int to, int tag, Bytes bytes) = 0;
 
-    /// The next message, from whoever it is; nothing if none arrives in time. One thread at a time may call it.
+    /// The next message, from any rank; empty if none arrives in time. One thread at a time may call it.
     [[nodiscard]] std::optional<Message> receive(std::chrono::microseconds patience)
     {
         if (put_back_.empty())
@@ -52,7 +52,7 @@ class Transport {
         return message;
     }
 
-    /// Puts messages that came too early before all that come from now on; all, or none where it throws.
+    /// Puts messages that came too early before all later ones; all, or none if it throws.
     void put_back(const std::vector<Message>& messages)
     {
         std::deque<Message> all(messages.begin(), messages.end());
@@ -61,7 +61,7 @@ class Transport {
     }
 
   private:
-    /// As receive, of what has not been received yet.
+    /// As receive, for messages not yet received.
     [[nodiscard]] virtual std::optional<Message> fetch(std::chrono::microseconds patience) = 0;
 
     std::deque<Message> put_back_;

@@ -18,7 +18,7 @@ namespace {
 
 constexpr HYPRE_Int most_cycles = 1'000;
 
-/// hypre wants MPI, even for one process.
+/// hypre requires MPI, even for one process.
 class MpiSession {
   public:
     MpiSession()

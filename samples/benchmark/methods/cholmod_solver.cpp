@@ -77,7 +77,7 @@ class WholeCholmod final : public PeerSolver {
     }
 
   private:
-    /// The lower triangle counts; the upper one is passed over.
+    /// The lower triangle counts; the upper one is ignored.
     cholmod_sparse view(const WholeSystem& system)
     {
         cholmod_sparse matrix{};

@@ -23,7 +23,7 @@ namespace seamflow {
 
 namespace {
 
-/// What of a residual single precision leaves at most until it is renewed, so that it stays the true one.
+/// The most that single precision leaves of a residual until it is renewed, so that it stays the true one.
 constexpr double least_left = 1e-4;
 constexpr int most_iterations = 20'000;
 
@@ -35,17 +35,17 @@ using Sums = Eigen::Array4d;
 struct Equations {
     std::vector<Index> offsets;
     std::vector<Index> columns;
-    /// Off the diagonal, which is 1.
+    /// Off-diagonal entries; the diagonal is 1.
     std::vector<float> values;
-    /// What a row was multiplied by; 0 where a vertex stays.
+    /// The factor of a row; 0 where a vertex stays.
     std::vector<double> scale;
     std::vector<Row> residual;
-    /// Of each column.
+    /// Per column.
     Sums squared_residual = Sums::Zero();
     Sums squared_right_hand_side = Sums::Zero();
 };
 
-/// One mesh, and the Laplacian and dt of a task.
+/// A mesh, and the Laplacian and dt of a task.
 struct Flow {
     const PolygonMesh& mesh;
     Topology topology;
@@ -97,7 +97,7 @@ Equations analyse(const Flow& flow)
     return equations;
 }
 
-/// Calls entry(i, K_vw) for w the i-th column of row v, maybe several times.
+/// Calls entry(i, K_vw) for w the i-th column of row v, possibly several times.
 /// @returns M_v.
 template <class Entry>
 double visit_row(const Flow& flow, const Equations& equations, const Points& positions, Index v, Entry&& entry)
@@ -196,7 +196,7 @@ void renew_residual(const Flow& flow, const Points& before, const Points& after,
     });
 }
 
-/// What conjugate gradients work on, each thread on its own range of the rows.
+/// The vectors of conjugate gradients, each thread on its own range of the rows.
 class Iteration {
   public:
     Iteration(Index n, int n_threads)
@@ -210,7 +210,7 @@ class Iteration {
 
     [[nodiscard]] const Row& solution(Index v) const { return solution_[v]; }
 
-    /// Conjugate gradients from 0 for the residual, which is changed.
+    /// Conjugate gradients from 0 for the residual, which is overwritten.
     /// @param goal squared norms of the columns that suffice.
     /// @returns the number of iterations.
     int run(Equations& equations, const Sums& goal)
@@ -302,7 +302,7 @@ int solve(const Flow& flow, const Points& before, double tolerance, Equations& e
     after = before;
     int iterations = 0;
     while ((equations.squared_residual > goal).any()) {
-        // So that the residual is about 1 at each vertex.
+        // Makes the residual about 1 at each vertex.
         const double unit = std::sqrt(equations.squared_residual.sum() / n);
         for_each(run_in_parallel, n, [&](Index v) { equations.residual[v] /= static_cast<float>(unit); });
         equations.squared_residual /= unit * unit;

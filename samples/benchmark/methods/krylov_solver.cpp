@@ -10,7 +10,7 @@ namespace seamflow {
 
 namespace {
 
-/// Eigen multiplies matrices that are stored by rows, both triangles of them, with all threads.
+/// Eigen uses all threads to multiply matrices that are stored by rows, with both triangles.
 using Matrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 constexpr int both_triangles = Eigen::Lower | Eigen::Upper;
 

@@ -13,11 +13,11 @@
 
 namespace seamflow {
 
-/// Who takes the steps.
+/// The method that takes the steps.
 enum class Method {
     /// mean_curvature_flow.
     Ours,
-    /// The same by an approach that is named: one sweep, converged, by conjugate gradients; and in a single sub-mesh.
+    /// The same by a given approach: one sweep, converged, by conjugate gradients; and in a single sub-mesh.
     OurSweep,
     OurConverged,
     OurCg,
@@ -44,26 +44,26 @@ bool is_iterative(Method method);
 /// Why a method cannot take steps of that Laplacian; empty: it can.
 std::string why_not(Method method, Laplacian laplacian);
 
-/// How a row of the table is called: "ours", "sweep", "converged", "our-cg", "undecomposed", "cholmod", "umfpack",
-/// "cg", "cg-ic", "bicgstab", "bicgstab-ilut", "amg" or "cgal".
+/// The name of a row of the table: "ours", "sweep", "converged", "our-cg", "undecomposed", "cholmod", "umfpack", "cg",
+/// "cg-ic", "bicgstab", "bicgstab-ilut", "amg" or "cgal".
 std::string_view title_of(Method method, Laplacian laplacian);
 
-/// Everything that decides about the steps of one method.
+/// Everything that determines the steps of one method.
 struct MethodTask {
     Method method = Method::Ours;
-    /// Laplacian, time step, number of steps, threads (at least 1). All else is for ours.
+    /// Laplacian, time step, number of steps, threads (at least 1). All other options are for ours.
     FlowOptions options;
-    /// Of an iterative method: the largest residual of a coordinate, in the length of its right-hand side, as libraries
-    /// measure it; with coordinates from the centroid of the mesh, so that it does not matter where that lies.
+    /// Of an iterative method: the largest residual of a coordinate, relative to the length of its right-hand side, as
+    /// libraries measure it; coordinates are relative to the centroid of the mesh, so that its place does not matter.
     double tolerance = 0.0;
     /// Of Ours: numbers of threads to replay the median step with (see simulate).
     std::vector<int> simulated_threads;
-    /// Where not empty: the mesh is read from one file, and the result written to the other.
+    /// If not empty: the mesh is read from one file, and the result written to the other.
     std::filesystem::path input = {};
     std::filesystem::path output = {};
 };
 
-/// Wall-clock time of one step, and where it goes.
+/// Wall-clock time of one step and of its phases.
 struct StepSeconds {
     double assemble = 0.0;
     /// Factorisation or preconditioner.
@@ -72,13 +72,13 @@ struct StepSeconds {
     double total = 0.0;
 };
 
-/// What a method did.
+/// The result of a method.
 struct MethodResult {
-    /// Why it did not; empty: it did.
+    /// Why it failed; empty: it succeeded.
     std::string error;
     /// Once, before the first step.
     double setup_seconds = 0.0;
-    /// One per step. Of Ours only `total`, for its tasks overlap.
+    /// One per step. Of Ours only `total`, because its tasks overlap.
     std::vector<StepSeconds> steps;
     /// Of Ours: per step, summed over all threads; `solve` includes the correction. Of others: of the median step.
     StepSeconds phases;
@@ -95,7 +95,7 @@ struct MethodResult {
     /// Of the process that took the steps, the mesh included.
     std::int64_t peak_memory_bytes = 0;
     std::vector<std::string> remarks;
-    /// #V by 3, after the last step; empty where the method solves other equations than the task's.
+    /// #V by 3, after the last step; empty if the method solves other equations than the task's.
     Points positions = Points(0, 3);
 
     /// Median time of the steps after the first, which warms up (of the first if there is no other).
@@ -104,7 +104,7 @@ struct MethodResult {
     [[nodiscard]] double total_seconds() const;
 };
 
-/// The result of a method that did not.
+/// The result of a method that failed.
 MethodResult failed(std::string error);
 
 /// The step, numbered from 0, whose time is the median of those after the first.

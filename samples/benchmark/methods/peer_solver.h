@@ -7,17 +7,17 @@
 
 namespace seamflow {
 
-/// A solver by others for the equations of the whole mesh, step after step. All functions throw ComputationError where
+/// A third-party solver for the equations of the whole mesh, step after step. All functions throw ComputationError if
 /// the library fails.
 class PeerSolver {
   public:
     virtual ~PeerSolver() = default;
 
-    /// What it wants to solve.
+    /// The form in which it takes the equations.
     [[nodiscard]] virtual SystemForm form() const = 0;
     [[nodiscard]] virtual StorageOrder order() const = 0;
 
-    /// Once, before the values are known.
+    /// Called once, before the values are known.
     /// @param system must outlive the solver.
     virtual void analyse(const WholeSystem& system) = 0;
 
@@ -25,7 +25,7 @@ class PeerSolver {
     virtual void prepare(const WholeSystem& system) = 0;
 
     /// Solves for all three columns.
-    /// @param solution n by 3. In: where an iteration may start. Out: the solution.
+    /// @param solution n by 3. In: a start for iterations. Out: the solution.
     /// @returns iterations of all columns; 0 for direct solvers.
     virtual int solve(const WholeSystem& system, Columns& solution) = 0;
 };
@@ -40,7 +40,7 @@ std::unique_ptr<PeerSolver> make_umfpack_solver();
 std::unique_ptr<PeerSolver> make_krylov_solver(Method method, Laplacian laplacian, double tolerance, int threads);
 std::unique_ptr<PeerSolver> make_amg_solver(double tolerance);
 
-/// Whether make_amg_solver can make anything.
+/// Whether make_amg_solver is available.
 bool has_amg();
 
 }  // namespace seamflow

@@ -17,8 +17,8 @@ FaceView faces_of(const PolygonMesh& mesh, const Topology& topology)
     return {mesh.face_offsets, mesh.face_vertices, topology.twin, mesh.n_vertices()};
 }
 
-/// The same as make_pattern, sorted line by line instead of all at once: faster for a whole mesh.
-/// @param entries may repeat; those with a negative index are none.
+/// The same as make_pattern, but sorted line by line: faster for a whole mesh.
+/// @param entries may repeat; those with a negative index are ignored.
 SparsePattern make_large_pattern(Index n, const std::vector<MatrixEntry>& entries)
 {
     std::vector<std::size_t> begin(at(n) + 1, 0);

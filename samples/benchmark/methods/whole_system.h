@@ -11,7 +11,7 @@
 
 namespace seamflow {
 
-/// In which of its equivalent forms the equations of a step are written down.
+/// The form of the equations of a step; all forms are equivalent.
 enum class SystemForm {
     /// (I + dt Δ) V^{k+1} = V^k with one row per vertex; V^{k+1} = V^k in the rows of vertices that stay.
     AsTheyStand,
@@ -20,7 +20,7 @@ enum class SystemForm {
     Symmetric,
 };
 
-/// In which order the entries of the matrix are stored.
+/// The order in which the entries of the matrix are stored.
 enum class StorageOrder { ByColumns, ByRows };
 
 /// The equations of one backward Euler step on the whole mesh: a fixed pattern, and values that are filled in anew for
@@ -50,7 +50,7 @@ class WholeSystem {
 
     /// The unknowns at given positions, n by 3.
     [[nodiscard]] Columns unknowns_at(const Points& positions) const;
-    /// Moves the vertices that may move to where a solution, n by 3, says.
+    /// Moves the vertices that may move to the positions in a solution, n by 3.
     void move(const Columns& solution, Points& positions) const;
 
   private:
@@ -69,8 +69,8 @@ class WholeSystem {
     std::unique_ptr<LaplacianAssembler> assembler_;
     std::vector<Index> vertices_;
     SparsePattern pattern_;
-    /// Where the Laplacian's contributions go: into the pattern, behind it into the couplings, or, one past those,
-    /// where nobody reads them.
+    /// The slots of the Laplacian's contributions: in the pattern, after it in the couplings, or, one past those, in
+    /// one that is never read.
     std::vector<Index> slots_;
     std::vector<Index> diagonal_slots_;
     std::vector<Coupling> couplings_;

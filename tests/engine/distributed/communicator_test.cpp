@@ -109,7 +109,7 @@ TEST_CASE("a rank that ends too early is noticed")
         if (comm.rank() == 1)
             wait_in_vain(comm);
     });
-    CHECK(all_are(thrown, "computation: rank 1 on this process: rank 0 has ended before its time"));
+    CHECK(all_are(thrown, "computation: rank 1 on this process: rank 0 has ended too early"));
 }
 
 TEST_CASE("bytes that are too few are refused")

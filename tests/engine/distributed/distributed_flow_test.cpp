@@ -372,7 +372,7 @@ TEST_CASE("a failure on one rank ends all with one message")
     check_refusal<OptionError>(flow(converged, labels), 3, "approach has to be sweep");
     converged.accuracy.approach = Approach::Converged;
     converged.laplacian = Laplacian::PtackovaVelho;
-    check_refusal<OptionError>(flow(converged, labels), 3, "take sweeps");
+    check_refusal<OptionError>(flow(converged, labels), 3, "use sweeps");
     // What one rank alone has wrong.
     const auto spoil = [](MeshPart& part, int rank) {
         if (rank == 1)
@@ -400,7 +400,7 @@ TEST_CASE("a failure on one rank ends all with one message")
     const auto last = std::find(torn.rbegin(), torn.rend(), 3);
     *first = 3;
     *last = 2;
-    check_refusal<InputError>(flow(options, torn), 3, "take the labels that a flow of the same mesh reports");
+    check_refusal<InputError>(flow(options, torn), 3, "use the mended labels that a flow of the same mesh reports");
     // Weights of one rank alone.
     const auto attach = [](MeshPart& part, int rank) {
         if (rank == 1)

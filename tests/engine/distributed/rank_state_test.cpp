@@ -180,8 +180,8 @@ TEST_CASE("a state of other steps, or of another mesh, is refused by all ranks a
     RankFlowState short_of_vertices = share_of(state, 0, 2);
     check_refused(short_of_vertices, "the state to resume from has fewer vertices than the mesh");
     example.options = by_sweeps(Laplacian::Fujiwara, 1e-2, 5);
-    check_refused(state, "the state to resume from is that of steps of another kind");
+    check_refused(state, "the state to resume from belongs to steps of another kind");
     state.numbers.resize(1);
     example.options = converged(Laplacian::Fujiwara, 1e-2);
-    check_refused(state, "the state to resume from is that of steps of another kind");
+    check_refused(state, "the state to resume from belongs to steps of another kind");
 }

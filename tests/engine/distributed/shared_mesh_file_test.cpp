@@ -334,7 +334,7 @@ TEST_CASE("files that cannot be read in slices are refused with what to do")
     std::filesystem::rename(directory / "in.obj.gz", directory / "in.obj");
     CHECK(test::contains(fault("in.obj"), "unpack it, so that every rank can read a slice"));
     write_file(directory / "in.txt", "OFF\n");
-    CHECK(test::contains(fault("in.txt"), "is none of .obj, .off, .ply or .stl"));
+    CHECK(test::contains(fault("in.txt"), "is not one of .obj, .off, .ply or .stl"));
 }
 
 TEST_CASE("sizes of a mesh that ranks have are those of one machine, bit for bit")

@@ -50,8 +50,9 @@ std::string complaint(double diagonals, Index vertex, const Point& update)
 TEST_CASE("updates up to the diagonal of the faces' bounding box pass, others are told with sub-mesh and vertex")
 {
     CHECK(complaint(1.0, 3, {1.0, 1.0, 0.0}).empty());
-    CHECK(complaint(1.0, 3, {1.0, 1.0, 0.1}) == "sub-mesh 7, vertex 3 would move by 1.42, but the mesh is 1.41 across: "
-                                                "use a smaller time step, another Laplacian, or repair the mesh there");
+    CHECK(complaint(1.0, 3, {1.0, 1.0, 0.1}) ==
+          "sub-mesh 7, vertex 3 would move by 1.42, but the mesh is 1.41 across: use a smaller time step or another "
+          "Laplacian, or repair the mesh there");
     CHECK(complaint(1.0, 1, {0.0, -3.0, 0.0}).starts_with("sub-mesh 4, vertex 1 would move by 3,"));
     CHECK(complaint(2.0, 3, {2.0, 1.0, 0.0}).empty());
     CHECK(complaint(0.5, 3, {1.0, 0.0, 0.0}).find("would move by 1, but largest_update allows 0.707 at most") !=

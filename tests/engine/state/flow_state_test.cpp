@@ -167,7 +167,7 @@ TEST_CASE("a state of another flow is refused by what differs")
     CHECK(names(refused(mesh, [](FlowOptions& o) { o.interface.sweep = Sweep::Fixed; }), "sweep"));
     CHECK(names(refused(mesh, [](FlowOptions& o) { o.report.reference = true; }), "reference"));
     CHECK(names(refused(mesh, [](FlowOptions& o) { o.motion.fixed_vertices = {5}; }), "fixed_vertices was none"));
-    CHECK(names(refused(mesh, [](FlowOptions& o) { o.steps = 1; }), "after step 2 already"));
+    CHECK(names(refused(mesh, [](FlowOptions& o) { o.steps = 1; }), "already after step 2"));
     CHECK(refused(mesh, [](FlowOptions& o) {
               o.resources.threads = 2, o.steps = 9, o.report.record_schedule = true;
           }).empty());

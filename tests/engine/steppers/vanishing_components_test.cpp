@@ -85,8 +85,8 @@ TEST_CASE("components a million times smaller stay where they are, whatever the 
                     CHECK(test::largest_difference(after, before) <= 1e-12 * size);
             }
             const auto n_remarks = std::ranges::count(
-                report.remarks, "2 components are so small beside the amount that a point is left of each: less "
-                                "smoothing keeps them, and the rest of the surface has gone on.");
+                report.remarks, "2 components are so small compared with the amount that a point is left of each: less "
+                                "smoothing keeps them, and the rest of the surface continued.");
             CHECK(n_remarks == 1);
             // The large one goes on as if it were alone.
             CHECK(test::largest_difference(mesh.vertices.topRows(n_large), begun.topRows(n_large)) > 1e-3);

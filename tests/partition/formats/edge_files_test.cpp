@@ -52,7 +52,7 @@ TEST_CASE("what is no edge is refused with the line and what to do")
               .starts_with("a.txt:2: there is no vertex 6: the mesh has 6, numbered from 0"));
     CHECK(refusal_of("a.txt", "-1 1\n").starts_with("a.txt:1: there is no vertex -1"));
     CHECK(refusal_of("a.txt", "3 3\n").starts_with("a.txt:1: names vertex 3 twice"));
-    CHECK(refusal_of("a.txt", "0 1 2\n").starts_with("a.txt:1: the line goes on"));
+    CHECK(refusal_of("a.txt", "0 1 2\n").starts_with("a.txt:1: the line continues"));
     CHECK(refusal_of("a.txt", "0\n").starts_with("a.txt:1: "));
     CHECK(refusal_of("a.txt", "0 x\n").starts_with("a.txt:1: "));
     CHECK(refusal_of("a.obj", "l 1 7\n").starts_with("a.obj:1: there is no vertex 7: the mesh has 6, numbered from 1"));
@@ -61,7 +61,8 @@ TEST_CASE("what is no edge is refused with the line and what to do")
     CHECK(refusal_of("a.off", "OFF\n").starts_with("a.off: the format has no edges"));
     CHECK(refusal_of("a.stl", "solid\n").starts_with("a.stl: the format has no edges"));
     const std::string ply = "ply\nformat ascii 1.0\nelement edge 1\nproperty int vertex1\n";
-    CHECK(refusal_of("a.ply", ply + "end_header\n1\n").starts_with("a.ply:3: the edges have no whole number vertex2"));
+    CHECK(refusal_of("a.ply", ply + "end_header\n1\n")
+              .starts_with("a.ply:3: the edges have no integer property vertex2"));
     CHECK(
         refusal_of("a.ply", ply + "property float vertex2\nend_header\n1 2\n").starts_with("a.ply:3: the edges have"));
     CHECK(refusal_of("a.ply", ply + "property int vertex2\nend_header\n1 9\n")

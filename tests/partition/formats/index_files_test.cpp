@@ -159,10 +159,10 @@ TEST_CASE("weights of vertices come one a line, or as a property of a .ply")
         }
         return "";
     };
-    CHECK(refusal("a.txt", "1\n-2\n", 2).starts_with(":2: '-2' is no weight: "));
-    CHECK(refusal("a.txt", "inf\n", 1).starts_with(":1: 'inf' is no weight: "));
+    CHECK(refusal("a.txt", "1\n-2\n", 2).starts_with(":2: '-2' is not a weight: "));
+    CHECK(refusal("a.txt", "inf\n", 1).starts_with(":1: 'inf' is not a weight: "));
     CHECK(refusal("a.txt", "1\n2\n3\n", 2).starts_with(":3: more weights than the mesh has vertices (2): "));
     CHECK(refusal("a.txt", "1\n2\n", 3).starts_with(":2: the file ends after 2 of 3 weights: "));
     CHECK(refusal("a.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty float weight\nend_header\n-1\n", 1)
-              .find("is no weight") != std::string::npos);
+              .find("is not a weight") != std::string::npos);
 }

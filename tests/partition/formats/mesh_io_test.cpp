@@ -157,8 +157,8 @@ TEST_CASE("Files that cannot be opened")
     CHECK(contains(message_of_reading(folder.path() / "folder.obj"), "cannot be read: Is a directory"));
     CHECK(contains(complaint_about("empty.obj", ""), "empty.obj: the file is empty"));
     CHECK(contains(complaint_about("a.xyz", "v 0 0 0\n"),
-                   "a.xyz: the extension '.xyz' is none of .obj, .off, .ply or .stl"));
-    CHECK(contains(complaint_about("a", "v 0 0 0\n"), "the extension '' is none of"));
+                   "a.xyz: the extension '.xyz' is not one of .obj, .off, .ply or .stl"));
+    CHECK(contains(complaint_about("a", "v 0 0 0\n"), "the extension '' is not one of"));
 }
 
 TEST_CASE("The extension may be in upper case")
@@ -183,7 +183,7 @@ TEST_CASE("The kind of an output follows its extension, and its source where the
     CHECK(kind_for_writing("b.ply", obj) == FileKind{FileFormat::Ply, Encoding::BinaryLittleEndian});
     CHECK_THROWS_WITH_AS(
         kind_for_writing("b.vtk", obj),
-        "b.vtk: the extension '.vtk' is none of .obj, .off, .ply or .stl; give the file the extension of "
+        "b.vtk: the extension '.vtk' is not one of .obj, .off, .ply or .stl; give the file the extension of "
         "its format",
         OptionError);
 }

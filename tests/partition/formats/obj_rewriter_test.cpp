@@ -67,7 +67,7 @@ TEST_CASE("OBJ in its own form: normals that cannot be made new stay, and a rema
     const Rewritten after = rewritten("a.obj", before, raise_ridge);
     CHECK(contains(after.content, "vn 0 0 1\nvn 0 0 9\nf"));
     CHECK(after.remarks ==
-          std::vector<std::string>{"of the 2 normals (vn) of a.obj, 2 could not be made new and stay as they were: 1 "
+          std::vector<std::string>{"of the 2 normals (vn) of a.obj, 2 could not be recomputed and stay as they were: 1 "
                                    "belong to several vertices of several faces, 1 to no face"});
 }
 

@@ -82,7 +82,7 @@ TEST_CASE("OFF: every complaint names the line")
     CHECK(contains(off_complaint("OFF\n3 2 0\n" + triangle_body), "a.off:6: the file ends after 1 of 2 faces"));
     CHECK(contains(off_complaint("OFF\n5 1 0\n" + triangle_body), "a.off:6: the file ends after 4 of 5 vertices"));
     CHECK(contains(off_complaint("OFF\n3 1 0\n" + triangle_body + "3 0 1 2\n"),
-                   "a.off:7: the file goes on after the 3 vertices"));
+                   "a.off:7: the file continues after the 3 vertices"));
     CHECK(contains(off_complaint("OFF\n3 1 0\n0 0\n1 0 0\n0 1 0\n3 0 1 2\n"), "a.off:3: expected coordinate z"));
     CHECK(contains(off_complaint("OFF\n3 1 0\n0 0 0\n1 0 inf\n0 1 0\n3 0 1 2\n"), "a.off:4: expected coordinate z"));
     const std::string vertices = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n";

@@ -252,18 +252,20 @@ TEST_CASE("PLY: complaints about text name the line")
     CHECK(contains(ply_complaint(header + "0 0\n1 0 0\n0 1 0\n3 0 1 2\n"),
                    "a.ply:10: expected a coordinate, but the line ends"));
     CHECK(contains(ply_complaint(header + "0 0 inf\n1 0 0\n0 1 0\n3 0 1 2\n"), "a.ply:10: expected a coordinate"));
-    CHECK(contains(ply_complaint(header + "0 0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"), "a.ply:10: the line goes on with '0'"));
+    CHECK(
+        contains(ply_complaint(header + "0 0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"), "a.ply:10: the line continues with '0'"));
     CHECK(contains(ply_complaint(header + three_ply_vertices), "a.ply:12: the file ends after 0 of 1 elements 'face'"));
     CHECK(contains(ply_complaint(header + three_ply_vertices + "3 0 1\n"),
                    "a.ply:13: expected a whole number, but the line ends"));
-    CHECK(contains(ply_complaint(header + three_ply_vertices + "3 0 1 2 0\n"), "a.ply:13: the line goes on with '0'"));
+    CHECK(
+        contains(ply_complaint(header + three_ply_vertices + "3 0 1 2 0\n"), "a.ply:13: the line continues with '0'"));
     CHECK(contains(ply_complaint(header + three_ply_vertices + "3 0 1 3\n"), "a.ply:13: names vertex 3"));
     CHECK(
         contains(ply_complaint(header + three_ply_vertices + "3 0 1 1\n"), "a.ply:13: the face names vertex 1 twice"));
     CHECK(contains(ply_complaint(header + three_ply_vertices + "2 0 1\n"), "a.ply:13: the face has 2 corners"));
     CHECK(contains(ply_complaint(header + three_ply_vertices + "-3 0 1\n"),
                    "a.ply:13: the length of the list 'vertex_indices' is -3"));
-    CHECK(contains(ply_complaint(header + three_ply_vertices + "3 0 1 2\n3 0 1 2\n"), "a.ply:14: the file goes on"));
+    CHECK(contains(ply_complaint(header + three_ply_vertices + "3 0 1 2\n3 0 1 2\n"), "a.ply:14: the file continues"));
     CHECK(contains(ply_complaint(ascii + "element vertex 1\n" + xyz + "property float w\nend_header\n00000 00000 0\n"),
                    "a.ply:9: the line has fewer numbers"));
     CHECK(contains(
@@ -277,10 +279,9 @@ TEST_CASE("PLY: complaints about binary data name element and byte")
     REQUIRE(identical(read_text("a.ply", whole).mesh, make_triangle()));
     CHECK(identical(read_text("a.ply", whole + std::string(3, '\0') + "\n").mesh, make_triangle()));
     const auto data = whole.size() - 49;
-    CHECK(ply_complaint(whole + "x") ==
-          std::string("a.ply: byte ") + std::to_string(whole.size()) +
-              ": the file goes on where, by its header, it should end; correct the counts in "
-              "the header or export the mesh again");
+    CHECK(ply_complaint(whole + "x") == std::string("a.ply: byte ") + std::to_string(whole.size()) +
+                                            ": the file continues where its header says it should end; correct the "
+                                            "counts in the header or export the mesh again");
     for (std::size_t n = 1; n < whole.size(); ++n)
         CHECK(!ply_complaint(whole.substr(0, n)).empty());
     CHECK(contains(ply_complaint(whole.substr(0, whole.size() - 1)),

@@ -89,7 +89,7 @@ TEST_CASE("STL: only padding may follow the facets of a binary file")
 {
     const std::string padding("\0\0 \n", 4);
     CHECK(identical(read_text("a.stl", binary(one_facet, "solid") + padding).mesh, make_triangle()));
-    CHECK(contains(stl_complaint(binary(one_facet) + padding + "x"), "a.stl: byte 138: the file goes on"));
+    CHECK(contains(stl_complaint(binary(one_facet) + padding + "x"), "a.stl: byte 138: the file continues"));
 }
 
 TEST_CASE("STL: complaints about text name the line")

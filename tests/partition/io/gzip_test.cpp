@@ -136,7 +136,7 @@ TEST_CASE("what is compressed is recognised by its content, and an empty one is 
     CHECK(test::read_text("a.obj.gz", "v 0 0 0\n").mesh.n_vertices() == 1);
     CHECK(contains(test::complaint_about("a.obj.gz", packed({})), "a.obj.gz: there is nothing in it"));
     CHECK(contains(test::complaint_about("a.obj.gz", packed({"v 0 0\n"})), "a.obj.gz:1: expected coordinate z"));
-    CHECK(contains(test::complaint_about("a.gz", packed({"v 0 0 0\n"})), "the extension '.gz' is none of"));
+    CHECK(contains(test::complaint_about("a.gz", packed({"v 0 0 0\n"})), "the extension '.gz' is not one of"));
 }
 
 TEST_CASE("extensions with and without .gz")

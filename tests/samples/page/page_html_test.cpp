@@ -161,8 +161,7 @@ TEST_CASE("meshes that no browser shows are refused before the work")
     mesh.vertices = Points::Zero(3, 3);
     CHECK_NOTHROW(require_showable(mesh, "page.html"));
     mesh.face_offsets.resize(6'000'001, 0);
-    CHECK_THROWS_WITH_AS(require_showable(mesh, "page.html"),
-                         "page.html: cannot be written, for a browser shows at most 5000000 faces, and the mesh has "
-                         "6000000",
-                         OutputError);
+    CHECK_THROWS_WITH_AS(
+        require_showable(mesh, "page.html"),
+        "page.html: cannot be written: a browser shows at most 5000000 faces, and the mesh has 6000000", OutputError);
 }
