@@ -145,17 +145,18 @@ using WithinOneRing = std::conditional_t<Kernel::traits.reach == Reach::TwoRings
 ErrorRow error_row(const SubMesh& sub_mesh, const ScaledLaplacian& laplacian, Index i, std::span<const Index> kinds,
                    const SolvedStep& step, std::span<double> couplings)
 {
-    const auto& [before, after, stiffness_at, time_step] = step;
+    const Points& before = step.before;
+    const Points& after = step.after;
     const auto& interface = sub_mesh.interface;
     const Index v = interface.vertices[i];
     std::fill(couplings.begin(), couplings.end(), 0.0);
-    Draft draft{before, after, stiffness_at, v, sub_mesh.corrected.neighbours[i], couplings, {}};
+    Draft draft{before, after, step.stiffness_at, v, sub_mesh.corrected.neighbours[i], couplings, {}};
     draft.along = unit(before.row(interface.after[i]) - before.row(interface.before[i]));
     with_kernel(laplacian, [&]<class Given>(Given given) {
         using Kernel = WithinOneRing<Given>;
         const auto visit = [&](std::span<const Index> corners, std::size_t k) {
             if constexpr (FaceKernel<Kernel>)
-                add_face<Kernel>(corners, k, time_step, draft);
+                add_face<Kernel>(corners, k, step.time_step, draft);
             const std::size_t p = corners.size();
             const Index next = corners[k + 1 == p ? 0 : k + 1];
             const Index previous = corners[k == 0 ? p - 1 : k - 1];
@@ -165,11 +166,11 @@ ErrorRow error_row(const SubMesh& sub_mesh, const ScaledLaplacian& laplacian, In
         if constexpr (FaceKernel<Kernel>)
             for_each_face(interface.complement_faces[i], interface.halo_faces, v, visit);
         else
-            add_edges(given, time_step, draft);
+            add_edges(given, step.time_step, draft);
     });
     draft.row.normal = unit(draft.row.normal);
     draft.row.residual += draft.row.mass * (after.row(v) - before.row(v));
-    close_row(kinds, spread(draft, time_step), draft);
+    close_row(kinds, spread(draft, step.time_step), draft);
     return draft.row;
 }
 

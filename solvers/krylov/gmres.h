@@ -12,7 +12,7 @@ namespace seamflow {
 /// Vectors of GMRES.
 struct GmresVectors {
     /// Its memory is reused.
-    KrylovBasis& V;
+    KrylovBasis& basis;
     /// In: where to start. Out: the solution.
     Points& x;
     /// B - A X.
@@ -40,7 +40,7 @@ template <class Multiply>
 GmresCycle gmres_cycle(const Multiply& multiply, double goal, int most, const GmresVectors& vectors,
                        const Executor& exec)
 {
-    KrylovBasis& V = vectors.V;
+    KrylovBasis& V = vectors.basis;
     HessenbergLeastSquares least_squares(V.begin(vectors.residual, exec));
     int iterations = 0;
     for (; iterations < most && !least_squares.has_reached(goal); ++iterations) {

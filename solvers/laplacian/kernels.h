@@ -69,18 +69,18 @@ using Kernels = std::tuple<Fujiwara, AlexaWardetzky, VirtualRefinement, Ptackova
 
 /// Calls action with the formula of a Laplacian.
 /// @throws OptionError for an unknown Laplacian.
-template <std::size_t i = 0, class Action>
+template <std::size_t First = 0, class Action>
 auto with_kernel(const ScaledLaplacian& laplacian, Action&& action)
 {
-    using Kernel = std::tuple_element_t<i, Kernels>;
+    using Kernel = std::tuple_element_t<First, Kernels>;
     if (laplacian.kind == Kernel::traits.laplacian) {
         if constexpr (requires { Kernel{laplacian.edge_length}; })
             return action(Kernel{laplacian.edge_length});
         else
             return action(Kernel{});
     }
-    if constexpr (i + 1 < std::tuple_size_v<Kernels>)
-        return with_kernel<i + 1>(laplacian, std::forward<Action>(action));
+    if constexpr (First + 1 < std::tuple_size_v<Kernels>)
+        return with_kernel<First + 1>(laplacian, std::forward<Action>(action));
     else
         throw OptionError("no such Laplacian");
 }
