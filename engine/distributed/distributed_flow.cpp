@@ -58,10 +58,14 @@ void require_for_ranks(const FlowOptions& options)
              interface.conditions != Conditions::AdaptedVentcell)
         unknown = "conditions except the adapted ones";
     else
-        unknown = first_set(options, concern::one_process | concern::part);
+        unknown = first_set(options, concern::one_process);
     if (unknown.empty() && options.laplacian == Laplacian::Uniform && options.uniform_edge == 0.0)
         throw OptionError("uniform_edge is 0, but ranks do not know the mean edge length of the whole mesh: set it to "
                           "that length (measure in engine/distributed/parts/slice_measures.h finds it)");
+    if (const std::string_view of_part = first_set(options, concern::part); unknown.empty() && !of_part.empty())
+        throw OptionError(fmt::format("{} is given, but distributed flows take it from the parts of the mesh: leave it "
+                                      "out of the options",
+                                      of_part));
     if (!unknown.empty())
         throw OptionError(
             fmt::format("distributed flows do not support {}: leave that out, or use a single process", unknown));

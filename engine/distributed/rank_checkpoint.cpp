@@ -176,6 +176,9 @@ std::optional<RankFlowState> RankCheckpoint::find(Communicator& comm, std::span<
                 continue;
             const auto kept = read_archive<RankFlowState>(file_of(state.step, i), line_of_ranges, one.checksum);
             const auto kept_arrays = arrays_of(kept);
+            if (kept_arrays.size() != arrays_of(state).size() ||
+                !std::ranges::all_of(kept_arrays, [&](const Points* rows) { return rows->rows() == one.n_vertices; }))
+                refuse_archive(file_of(state.step, i), "does not hold what the list of the checkpoint says");
             for (std::size_t k = 0; Points* const array : arrays_of(state))
                 array->middleRows(from - begin, to - from) = kept_arrays[k++]->middleRows(from - one.begin, to - from);
         }

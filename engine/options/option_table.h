@@ -42,7 +42,8 @@ struct Limits {
     /// Whether the limits themselves are refused.
     bool above_least = false;
     bool below_most = true;
-    /// For messages: what a number must be, and its unit.
+    /// For messages: what a number must be, and its unit. Empty: the limits depend on other options (see
+    /// require_valid).
     std::string_view text = {};
 
     [[nodiscard]] bool hold(double value) const
@@ -95,7 +96,7 @@ auto option_table(Options& options)
         row("laplacian", "--laplacian", 0, laplacian),
         row("flow", "--flow", 0, flow),
         row("filter", "--filter", 0, filter),
-        row("order", "--order", 0, order, at_least(1, "at least 1 (see orders_of)")),
+        row("order", "--order", 0, order, at_least(1, "")),
         row("time_step", "--time-step", 0, time_step, positive("positive and finite (length²)")),
         row("radius", "--radius", no_result, radius,
             positive("positive and finite (a length, or a part of the bounding box's diagonal)")),

@@ -1,12 +1,15 @@
 // smooth-distributed continues from checkpoints.
 
 #include <algorithm>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <span>
 #include <sstream>
 #include <string>
 
+#include "engine/state/checksum.h"
 #include "tests/samples/running_ranks.h"
 #include "tests/samples/workshop.h"
 #include "tests/support/relative.h"
@@ -110,6 +113,15 @@ TEST_CASE("a checkpoint that belongs to another run of ranks, or is damaged, is 
     changed[changed.find('\n') + 1] = static_cast<char>(changed[changed.find('\n') + 1] ^ 1);
     std::ofstream(folder / "smooth-distributed.checkpoint") << changed;
     refused("mesh.obj n.obj --subdomains 5 --steps 4", 3, "was written by another version");
+    // One array more than there is, in a list that is whole: its number follows the line, the format and the step.
+    changed = list.substr(0, list.size() - sizeof(std::uint64_t));
+    ++changed[changed.find('\n') + 1 + 4 + 8];
+    Checksum checksum;
+    checksum.add(std::as_bytes(std::span(changed)));
+    const std::uint64_t value = checksum.value();
+    changed.append(reinterpret_cast<const char*>(&value), sizeof value);
+    std::ofstream(folder / "smooth-distributed.checkpoint", std::ios::binary) << changed;
+    refused("mesh.obj n.obj --subdomains 5 --steps 4", 3, "does not hold what the list of the checkpoint says");
     std::ofstream(folder / "smooth-distributed.checkpoint") << list;
     std::string positions = test::content_of(folder / "smooth-distributed.step-3.1");
     if (positions.empty())
