@@ -60,16 +60,6 @@ void in_mean_edges(std::optional<double>& estimate, const PolygonMesh& mesh, con
         estimate.reset();
 }
 
-/// Adds the time spent in tasks.
-void add_task_seconds(PhaseSeconds& seconds, const PhaseSeconds& further)
-{
-    seconds.assemble += further.assemble;
-    seconds.factorise += further.factorise;
-    seconds.solve += further.solve;
-    seconds.correct += further.correct;
-    seconds.interface += further.interface;
-}
-
 /// Whether a step begins with the rescaled result of the previous one, not with that itself. The weights of the
 /// conformalized flow do not depend on the size of the surface: it becomes a sphere instead of vanishing.
 bool goes_on_scaled(const FlowOptions& options)
@@ -242,7 +232,7 @@ FlowState FlowRun::capture(const FlowState* resume) const
                                 .total = report_.seconds.total - report_.seconds.cut - report_.seconds.analyse},
                     .displacement = prepared_->meter ? prepared_->meter->sums() : DisplacementSums{}};
     if (resume != nullptr)
-        add_task_seconds(state.seconds, resume->seconds);
+        state.seconds.add_tasks(resume->seconds);
     stepper_->add_seconds(state.seconds);
     stepper_->save(state.flow);
     if (reference_)
@@ -369,7 +359,7 @@ void FlowRun::finish(double extent_before, const FlowState* resume)
         report_.separated = *stepper_->separated();
     stepper_->describe(report_);
     if (resume != nullptr)
-        add_task_seconds(report_.seconds, resume->seconds);
+        report_.seconds.add_tasks(resume->seconds);
     mesh_.complete(report_);
     progress_.finish();
 }

@@ -20,7 +20,6 @@
 #include "engine/distributed/parts/deal.h"
 #include "engine/distributed/parts/slice_measures.h"
 #include "engine/distributed/parts/whole_mesh.h"
-#include "engine/distributed/rank_checkpoint.h"
 #include "engine/distributed/ranks/mpi_transport.h"
 #include "engine/distributed/ranks/packing.h"
 #include "engine/setup/presets.h"
@@ -33,10 +32,10 @@
 #include "samples/files/mesh_results.h"
 #include "samples/files/output_files.h"
 #include "samples/process/peak_memory.h"
-#include "samples/report/rank_report.h"
 #include "samples/report/rank_roughness.h"
 #include "samples/report/report_json.h"
 #include "samples/report/report_text.h"
+#include "samples/runs/rank_checkpoints.h"
 #include "samples/runs/rank_inputs.h"
 #include "samples/runs/smoothing_run.h"
 
@@ -71,11 +70,11 @@ int threads_of_rank(Communicator& comm, const std::string& host, const SmoothCom
 class RankRun {
   public:
     /// @param out where rank 0 prints, unlike the others.
-    RankRun(Transport& ranks, DistributedCommand& command, DistributedRecord& record, std::ostream& out)
+    RankRun(Transport& ranks, DistributedCommand& command, RunRecord& run, std::ostream& out)
         : ranks_(ranks)
         , command_(command.flow)
         , sharing_(command.sharing)
-        , record_(record)
+        , run_(run)
         , out_(out)
     {
     }
@@ -89,10 +88,9 @@ class RankRun {
         options.motion.weld.reset();
         options.report.measures = tells_measures();
         about_file(command_.input, [&] {
-            record_.report =
+            report_ =
                 distributed_mean_curvature_flow(ranks_, part_, options, observer(), resume_ ? &*resume_ : nullptr);
         });
-        record_.setup_seconds += record_.report.setup_seconds;
         run_together(ranks_, [&](Communicator& comm) { end(comm, whole); });
         return require_converged();
     }
@@ -112,97 +110,67 @@ class RankRun {
         const Stopwatch reading;
         file_ = open_together(comm, command_.input, sharing_, workers_->exec());
         RankSlice slice = file_->read(comm);
-        about_file(command_.input, [&] { record_.size = measure(comm, slice); });
-        comm.at_first_rank([&] { require_faces(command_.input, record_.size.faces, file_->faults()); });
+        about_file(command_.input, [&] { inputs_.size = measure(comm, slice); });
+        comm.at_first_rank([&] { require_faces(command_.input, inputs_.size.faces, file_->faults()); });
         comm.look_together([&] { settle_amount(); });
         const SliceBounds bounds = gather_bounds(comm, slice);
         if (!command_.labels.empty())
             slice.labels = read_labels(comm, command_, file_->faults(), bounds.faces);
-        const std::uint64_t mesh = command_.checkpoint.empty() ? 0 : checksum_of_mesh(comm, slice);
-        std::vector<std::int64_t> fixed = read_fixed(comm, command_, record_.size.vertices);
-        const std::vector<double> weights = read_weights(comm, command_, record_.size.vertices);
-        record_.run.read_seconds = reading.seconds();
-        print_input(out_, record_.run, record_.size.vertices, record_.size.faces);
-        print_preset(out_, record_.run, command_.chosen);
-        print_amount(out_, record_.run.scale, command_.options);
+        if (!command_.checkpoint.empty())
+            inputs_.mesh = checksum_of_mesh(comm, slice);
+        inputs_.fixed = read_fixed(comm, command_, inputs_.size.vertices);
+        inputs_.weights = read_weights(comm, command_, inputs_.size.vertices);
+        run_.read_seconds = reading.seconds();
+        print_input(out_, run_, inputs_.size.vertices, inputs_.size.faces);
+        print_preset(out_, run_, command_.chosen);
+        print_amount(out_, run_.scale, command_.options);
         comm.at_first_rank([&] { look_at_results(); });
 
         const Stopwatch setting_up;
         cut(comm, slice);
         about_file(command_.input, [&] { part_ = deal(comm, slice); });
-        move_with_seams(fixed);
+        move_with_seams(inputs_.fixed);
         part_.fixed.resize(part_.vertex_numbers.size());
-        std::ranges::transform(part_.vertex_numbers, part_.fixed.begin(),
-                               [&](std::int64_t number) { return std::ranges::binary_search(fixed, number) ? 1 : 0; });
+        std::ranges::transform(part_.vertex_numbers, part_.fixed.begin(), [&](std::int64_t number) {
+            return std::ranges::binary_search(inputs_.fixed, number) ? 1 : 0;
+        });
         if (!command_.checkpoint.empty())
-            find_checkpoint(comm, mesh, slice, bounds, fixed, weights);
-        part_.attachment_weights = deal_weights(comm, weights, seams_, part_.vertex_numbers, bounds.vertices);
+            find_checkpoint(comm, slice, bounds);
+        part_.attachment_weights =
+            deal_weights(comm, std::move(inputs_.weights), seams_, part_.vertex_numbers, bounds.vertices);
         bring_back(comm, seams_, slice);
         slice_vertices_ = std::move(slice.vertices);
         if (tells_measures())
-            record_.run.surface.before.roughness = roughness_.emplace(part_, record_.size.vertices).measure(comm);
-        record_.setup_seconds = setting_up.seconds();
+            run_.surface.before.roughness = roughness_.emplace(part_, inputs_.size.vertices).measure(comm);
+        cut_seconds_ = setting_up.seconds();
     }
 
     /// Converts amounts given in sizes of the mesh to numbers.
     void settle_amount()
     {
-        record_.run.scale = {record_.size.mean_edge, record_.size.diagonal};
+        run_.scale = {inputs_.size.mean_edge, inputs_.size.diagonal};
         about_file(command_.input, [&] {
-            MotionOptions& motion = command_.options.motion;
-            motion.weld =
-                command_.weld ? std::optional(length_of(*command_.weld, record_.size.diagonal)) : std::nullopt;
-            motion.within =
-                command_.within ? std::optional(length_of(*command_.within, record_.size.diagonal)) : std::nullopt;
-            if (command_.attach)
-                motion.attachment = attachment_of(*command_.attach, record_.size.diagonal);
-            if (motion.attachment > 0.0)
-                record_.run.attachment = motion.attachment;
-            record_.run.has_attachment_weights = !command_.attach_weights.empty();
-            if (command_.options.laplacian == Laplacian::Uniform && std::isnormal(record_.size.mean_edge))
-                command_.options.uniform_edge = record_.size.mean_edge;
+            resolve_lengths(command_, run_);
+            run_.has_attachment_weights = !command_.attach_weights.empty();
+            if (command_.options.laplacian == Laplacian::Uniform && std::isnormal(run_.scale.mean_edge))
+                command_.options.uniform_edge = run_.scale.mean_edge;
             command_.options.time_step =
-                time_step_of(command_.amount, record_.run.scale, command_.options.steps, filter_of(command_.options));
+                time_step_of(command_.amount, run_.scale, command_.options.steps, filter_of(command_.options));
         });
-        record_.time_step = command_.options.time_step;
     }
 
     /// Finds an earlier run, if there was one.
-    /// @param mesh checksum of the input. @param slice with the labels of the cut. @param weights at rank 0.
-    void find_checkpoint(Communicator& comm, std::uint64_t mesh, const RankSlice& slice, const SliceBounds& bounds,
-                         const std::vector<std::int64_t>& fixed, const std::vector<double>& weights)
+    /// @param slice with the labels of the cut.
+    void find_checkpoint(Communicator& comm, const RankSlice& slice, const SliceBounds& bounds)
     {
-        FlowOptions options = command_.options;
-        options.motion.fixed_vertices.assign(fixed.begin(), fixed.end());
-        options.motion.attachment_weights = weights;
-        // These do not change the result.
-        options.report = {};
-        FlowIdentity identity = identify(PolygonMesh{}, options);
-        for (FlowIdentity::Entry& entry : identity.entries)
-            if (entry.name == "mesh")
-                entry.value = fmt::format("{} vertices and {} faces with checksum {:x}", record_.size.vertices,
-                                          record_.size.faces, mesh);
-        identity.entries.push_back({"cut", fmt::format("that with checksum {:x}", checksum_of_labels(comm, slice))});
-        checkpoint_.emplace(command_.checkpoint, std::move(identity));
-        resume_ = checkpoint_->find(comm, bounds.vertices, command_.options.steps);
+        checkpoints_.emplace(comm, command_, inputs_, slice);
+        resume_ = checkpoints_->find(comm, bounds.vertices);
         if (!resume_)
             return;
-        out_ << "resumed    after step " << resume_->step << ", from " << checkpoint_->file().string() << std::endl;
+        out_ << "resumed    after step " << resume_->step << ", from " << checkpoints_->file().string() << std::endl;
         if (command_.every_step)
-            record_.remarks.push_back(fmt::format(
+            remarks_.push_back(fmt::format(
                 "--every-step wrote no files for the steps up to {}, which an earlier run took.", resume_->step));
-    }
-
-    /// Keeps the state after a step where the period or the end of the run asks for it.
-    void keep_checkpoint(const RankStepState& state)
-    {
-        const CheckpointPeriod& period = command_.checkpoint_period;
-        const std::uint8_t is_due = since_kept_.seconds() >= period.seconds ? 1 : 0;
-        const bool is_kept = state.comm.broadcast(std::vector<std::uint8_t>{is_due}).front() != 0;
-        if (state.step != command_.options.steps && (state.step % period.steps != 0 || !is_kept))
-            return;
-        checkpoint_->keep(state.comm, state.capture(slice_vertices_));
-        since_kept_.lap();
     }
 
     /// Whether results can hold the mesh, and what of the input they will lack. On rank 0.
@@ -219,21 +187,20 @@ class RankRun {
         }
         const MeshFile* const whole = file_->whole();
         if (whole != nullptr)
-            record_.remarks = remarks_on_losses(command_.output, true, *whole);
+            remarks_ = remarks_on_losses(command_.output, true, *whole);
         if (file_->faults().count > 0)
-            record_.remarks.push_back(
-                remark_on_faces(file_->faults(), command_.output, true,
-                                whole != nullptr ? whole->kind : FileKind{*format_of(command_.input)}));
+            remarks_.push_back(remark_on_faces(file_->faults(), command_.output, true,
+                                               whole != nullptr ? whole->kind : FileKind{*format_of(command_.input)}));
         if (std::filesystem::equivalent(command_.input, command_.output, ignored))
-            record_.remarks.push_back("The result has replaced the input, in one go when it was complete.");
+            remarks_.push_back("The result has replaced the input, in one go when it was complete.");
     }
 
     void cut(Communicator& comm, RankSlice& slice)
     {
         DistributedCut found = command_.labels.empty() ? cut_together(comm, slice, command_.options)
                                                        : cut_together_by_labels(comm, slice, command_.options);
-        if (!found.choice.empty())
-            record_.choices.push_back(found.choice);
+        choice_ = found.choice;
+        repaired_faces_ = static_cast<Index>(found.repaired_faces);
         if (!command_.parts.empty())
             labels_ = labels_of_all_faces(comm, slice, found.left_out);
         of_cut_ = std::move(found.remarks);
@@ -254,19 +221,19 @@ class RankRun {
     /// Prints every step, and writes it where --every-step or --checkpoint asks for that.
     RankObserver observer()
     {
-        if (!command_.verbose && !command_.every_step && !checkpoint_)
+        if (!command_.verbose && !command_.every_step && !checkpoints_)
             return {};
         return [this](const RankStepState& state) {
             if (command_.verbose)
-                print_rank_step(out_, state, command_.options.steps, record_.size.mean_edge);
+                print_step(out_, state.report, state.step, command_.options.steps, run_.scale.mean_edge);
             if (command_.every_step) {
                 const Stopwatch watch;
                 file_->write(state.comm, command_.every_step->path(state.step),
                              vertices_of_range(state.comm, state.part));
-                record_.run.write_seconds += watch.seconds();
+                run_.write_seconds += watch.seconds();
             }
-            if (checkpoint_)
-                keep_checkpoint(state);
+            if (checkpoints_)
+                checkpoints_->keep(state, slice_vertices_);
         };
     }
 
@@ -280,30 +247,39 @@ class RankRun {
         return std::move(slice.vertices);
     }
 
-    /// Notes the measures and the remarks: of cut, flow and files, each once.
-    void note_flow()
+    /// Adds to the report of the flow what only the run knows: the cut, and the remarks of cut, flow and files, each
+    /// once.
+    void complete_report()
     {
+        FlowReport& flow = report_.flow;
+        flow.seconds.cut = cut_seconds_;
+        flow.seconds.total += cut_seconds_;
+        flow.cut.repaired_faces = repaired_faces_;
+        flow.mesh.vertices = inputs_.size.vertices;
+        flow.mesh.faces = inputs_.size.faces;
+        if (!choice_.empty())
+            flow.choices.push_back(choice_);
         std::vector<std::string> all = of_cut_;
-        for (const auto& remarks : {record_.run.remarks, record_.report.remarks, record_.remarks})
+        for (const auto& remarks : {run_.remarks, flow.remarks, remarks_})
             for (const std::string& remark : remarks)
                 if (std::ranges::find(all, remark) == all.end())
                     all.push_back(remark);
-        record_.remarks = std::move(all);
-        if (!record_.report.before)
+        flow.remarks = std::move(all);
+        if (!report_.before)
             return;
         const auto note = [](const RankMeasures& measures, SurfaceLook& look) {
             look.area = measures.area;
             if (measures.volume)
                 look.volume = std::abs(*measures.volume);
         };
-        note(*record_.report.before, record_.run.surface.before);
-        note(*record_.report.after, record_.run.surface.after);
+        note(*report_.before, run_.surface.before);
+        note(*report_.after, run_.surface.after);
     }
 
     /// If steps have missed their tolerance, the results are not what was asked for.
     ExitStatus require_converged() const
     {
-        const std::string missed = missed_tolerance(command_, record_.report.convergence);
+        const std::string missed = missed_tolerance(command_, report_.flow.convergence);
         if (missed.empty())
             return ExitStatus::Success;
         if (ranks_.rank() == 0)
@@ -318,40 +294,44 @@ class RankRun {
         const Stopwatch writing;
         const Points vertices = vertices_of_range(comm, part_);
         if (roughness_)
-            record_.run.surface.after.roughness = roughness_->measure(comm);
+            run_.surface.after.roughness = roughness_->measure(comm);
         part_ = {};
-        note_flow();
-        record_.run.surface.moved = measure_moves(comm, slice_vertices_, vertices);
+        complete_report();
+        FlowReport& flow = report_.flow;
+        run_.surface.moved = measure_moves(comm, slice_vertices_, vertices);
         const auto remarks = file_->write(comm, command_.output, vertices);
-        record_.remarks.insert(record_.remarks.end(), remarks.begin(), remarks.end());
-        remark_on_loss(command_.options, record_.run.surface, record_.remarks, false);
+        flow.remarks.insert(flow.remarks.end(), remarks.begin(), remarks.end());
+        remark_on_loss(command_.options, run_.surface, flow.remarks, false);
         if (!command_.parts.empty())
             file_->write_labelled(comm, command_.parts, vertices, labels_);
-        record_.run.write_seconds += writing.seconds();
-        record_.run.seconds = whole.seconds();
-        RankRecord own{.vertices = record_.report.vertices,
-                       .foreign_vertices = record_.report.foreign_vertices,
+        run_.write_seconds += writing.seconds();
+        run_.seconds = whole.seconds();
+        RankRecord own{.vertices = report_.vertices,
+                       .foreign_vertices = report_.foreign_vertices,
                        .peak_memory_bytes = peak_memory_bytes(),
                        .threads = command_.options.resources.threads};
-        for (const RankStepReport& step : record_.report.steps) {
+        for (const RankTraffic& step : report_.traffic) {
             own.messages += step.messages;
             own.bytes += step.bytes;
         }
-        record_.ranks = comm.gather_all(std::vector<RankRecord>{own});
+        run_.ranks = comm.gather_all(std::vector<RankRecord>{own});
         comm.at_first_rank([&] {
-            const std::string report = distributed_report_json(record_, command_.options);
+            const std::string report = smooth_report_json(run_, flow);
             if (!command_.report.empty())
                 write_text(command_.report, report);
             if (!command_.csv.empty())
                 write_text(command_.csv, steps_csv(report));
         });
-        print_distributed_result(out_, record_);
+        if (command_.verbose)
+            print_details(out_, run_, flow);
+        print_ranks(out_, run_);
+        print_result(out_, run_, flow);
     }
 
     Transport& ranks_;
     SmoothCommand& command_;
     FileSharing sharing_;
-    DistributedRecord& record_;
+    RunRecord& run_;
     std::ostream& out_;
     std::optional<Workers> workers_;
     std::unique_ptr<SharedMeshFile> file_;
@@ -361,10 +341,16 @@ class RankRun {
     Points slice_vertices_ = Points(0, 3);
     std::vector<Index> labels_;
     JoinedSeams seams_;
+    RankRunInputs inputs_;
+    /// Of the cut, and of the files of the run.
+    std::string choice_;
+    Index repaired_faces_ = 0;
+    double cut_seconds_ = 0.0;
     std::vector<std::string> of_cut_;
-    std::optional<RankCheckpoint> checkpoint_;
+    std::vector<std::string> remarks_;
+    std::optional<RankCheckpoints> checkpoints_;
     std::optional<RankFlowState> resume_;
-    Stopwatch since_kept_;
+    RankReport report_;
 };
 
 /// Rank 0 parses for all.
@@ -387,18 +373,17 @@ ExitStatus smooth_distributed(Transport& ranks, int argc, char** argv)
     DistributedCommand command;
     if (const auto end = parse_together(ranks, argc, argv, command))
         return *end;
-    DistributedRecord record;
-    record.run = begin_record(command.flow);
+    RunRecord run = begin_record(command.flow);
     std::ostream silence(nullptr);
     const bool is_taken = is_standard_stream(command.flow.output) || is_standard_stream(command.flow.report);
     std::ostream& out = command.flow.quiet || ranks.rank() > 0 ? silence : is_taken ? std::cerr : std::cout;
     try {
-        return RankRun(ranks, command, record, out).run();
+        return RankRun(ranks, command, run, out).run();
     } catch (...) {
         // The report has the message of standard error, if it can be written.
         try {
             if (ranks.rank() == 0 && !command.flow.report.empty())
-                write_text(command.flow.report, smooth_failure_json(record.run, current_failure()));
+                write_text(command.flow.report, smooth_failure_json(run, current_failure()));
         } catch (const OutputError&) {
         }
         throw;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -130,7 +131,6 @@ class RankFlow {
         Decomposition decomposition = decompose_rank_mesh(mesh);
         const std::int64_t n_interface_vertices = decomposition.n_interface_vertices;
         std::optional<RankExchange> exchange;
-        std::vector<Index> stage_of_all(mesh.all.size(), 0);
         std::unique_ptr<Stepper> stepper;
         if (options_.accuracy.tolerance) {
             stepper = std::make_unique<SchurStepper>(
@@ -138,12 +138,10 @@ class RankFlow {
         } else {
             exchange.emplace(comm_, mesh.part, mesh.known);
             stepper = std::make_unique<SweepStepper>(
-                mesh.part.mesh,
-                make_rank_sub_meshes(comm_, mesh, std::move(decomposition), options_, *exchange, stage_of_all),
+                mesh.part.mesh, make_rank_sub_meshes(comm_, mesh, std::move(decomposition), options_, *exchange),
                 options_, progress_);
         }
         const UpdateLimit limit(mesh.part.mesh, (box.high - box.low).stableNorm(), options_.accuracy.largest_update);
-        describe(mesh, stage_of_all, n_interface_vertices, report);
         if (options_.report.measures) {
             meter_.emplace(comm_, mesh);
             report.before = meter_->measure(mesh.part.mesh.vertices, mesh.part.mesh.vertices);
@@ -151,29 +149,28 @@ class RankFlow {
         if (options_.motion.within)
             bound_.emplace(make_bound(mesh));
         vanishing_.emplace(options_, mesh.part.mesh.vertices, find_small_components(comm_, mesh));
-        report.setup_seconds = watch.seconds();
         result_ = mesh.part.mesh.vertices;
         if (resume_ != nullptr)
-            go_on(mesh, *stepper);
+            resume(mesh, *stepper);
+        report.after = report.before;
         if (meter_ && resume_ != nullptr)
             report.after = meter_->measure(result_, result_);
-        else
-            report.after = report.before;
+        report.flow.seconds.analyse = watch.seconds();
         for (int step = resume_ != nullptr ? resume_->step + 1 : 1; step <= options_.steps; ++step) {
-            report.steps.push_back(take_step(step, mesh, limit, *stepper));
-            report.after = report.steps.back().measures;
+            take_step(step, mesh, limit, *stepper, report);
             if (on_step_)
-                show(step, report.steps.back(), mesh, offset, *stepper);
+                show(step, report.flow.steps.back(), mesh, offset, *stepper);
         }
-        describe_convergence(*stepper, report);
-        if (!vanishing_->remark().empty())
-            report.remarks.push_back(vanishing_->remark());
+        report.flow.seconds.total = watch.seconds();
+        report.vertices = part_.mesh.n_vertices();
+        report.foreign_vertices = std::max(mesh.part.mesh.n_vertices() - report.vertices, 0);
+        describe(mesh, n_interface_vertices, *stepper, report.flow);
         return positions_of_part(mesh, result_, offset);
     }
 
   private:
     /// Moves the vertices that this rank knows to where they were after a step.
-    void go_on(RankMesh& mesh, Stepper& stepper)
+    void resume(RankMesh& mesh, Stepper& stepper)
     {
         restore_memory(comm_, mesh, *resume_, stepper);
         mesh.part.mesh.vertices = stepper.positions();
@@ -181,7 +178,7 @@ class RankFlow {
     }
 
     /// Shows the part as it is now. Its initial positions are restored even if the observer throws.
-    void show(int step, const RankStepReport& report, const RankMesh& mesh, const Point& offset, const Stepper& stepper)
+    void show(int step, const StepReport& report, const RankMesh& mesh, const Point& offset, const Stepper& stepper)
     {
         Points positions = positions_of_part(mesh, result_, offset);
         part_.mesh.vertices.swap(positions);
@@ -207,7 +204,8 @@ class RankFlow {
         return state;
     }
 
-    RankStepReport take_step(int step, RankMesh& mesh, const UpdateLimit& limit, Stepper& stepper)
+    /// Adds the step to the report.
+    void take_step(int step, RankMesh& mesh, const UpdateLimit& limit, Stepper& stepper, RankReport& report)
     {
         const Stopwatch watch;
         const std::uint64_t messages = comm_.n_messages();
@@ -218,23 +216,30 @@ class RankFlow {
         });
         StepReport of_step;
         stepper.describe(of_step);
-        RankStepReport report{.seconds = watch.seconds(),
-                              .messages = comm_.n_messages() - messages,
-                              .bytes = comm_.n_bytes() - bytes,
-                              .iterations = of_step.iterations,
-                              .residual = of_step.residual};
+        of_step.seconds = watch.seconds();
+        report.flow.seconds.step += of_step.seconds;
+        report.traffic.push_back({.messages = comm_.n_messages() - messages, .bytes = comm_.n_bytes() - bytes});
         const Points before = meter_ ? result_ : Points();
         mesh.part.mesh.vertices = stepper.positions();
         make_result(mesh);
         if (meter_) {
-            report.measures = meter_->measure(before, result_);
-            // In mean edges of the flow.
-            const Points& flowing = mesh.part.mesh.vertices;
-            const double edge = bound_ ? meter_->measure(flowing, flowing).mean_edge : report.measures->mean_edge;
-            if (of_step.estimated_v_max && edge > 0.0)
-                report.estimated_v_max = *of_step.estimated_v_max / edge;
+            report.after = meter_->measure(before, result_);
+            of_step.moved = report.after->displacement;
         }
-        return report;
+        if (of_step.estimated_v_max)
+            of_step.estimated_v_max = in_mean_edges(*of_step.estimated_v_max, mesh, report);
+        report.flow.steps.push_back(of_step);
+    }
+
+    /// Mean edges of the flow; empty without measures.
+    /// @param length the same on all ranks, which call this together.
+    std::optional<double> in_mean_edges(double length, const RankMesh& mesh, const RankReport& report)
+    {
+        if (!meter_)
+            return {};
+        const Points& flowing = mesh.part.mesh.vertices;
+        const double edge = bound_ ? meter_->measure(flowing, flowing).mean_edge : report.after->mean_edge;
+        return edge > 0.0 ? std::optional(length / edge) : std::nullopt;
     }
 
     /// Derives the result from the positions from which the flow continues.
@@ -273,36 +278,55 @@ class RankFlow {
         return {mesh.part.mesh, mesh.topology, *options_.motion.within, std::move(elsewhere)};
     }
 
-    void describe(const RankMesh& mesh, const std::vector<Index>& stage_of_all, std::int64_t n_interface_vertices,
-                  RankReport& report)
+    /// All ranks call this together.
+    void describe(const RankMesh& mesh, std::int64_t n_interface_vertices, const Stepper& stepper, FlowReport& report)
     {
-        report.sub_meshes = static_cast<Index>(stage_of_all.size());
-        for (const Index stage : stage_of_all)
-            report.colours = std::max(report.colours, stage + 1);
-        for (const std::int64_t n : comm_.gather_all(std::vector<std::int64_t>{n_interface_vertices}))
-            report.interface_vertices += n;
-        report.vertices = part_.mesh.n_vertices();
-        report.foreign_vertices = std::max(mesh.part.mesh.n_vertices() - report.vertices, 0);
-        report.non_manifold_vertices = mesh.n_non_manifold;
-        report.repeated_faces = mesh.n_repeated;
+        report.mesh.vertices = mesh.n_vertices;
+        report.mesh.faces = mesh.n_faces;
+        report.mesh.non_manifold_vertices = mesh.n_non_manifold;
+        report.time_step = options_.time_step;
         report.remarks = mesh.remarks;
-    }
-
-    /// How well converged steps have met their tolerance, and the estimate, which is the same on all ranks.
-    void describe_convergence(const Stepper& stepper, RankReport& report) const
-    {
-        report.convergence.approach = options_.accuracy.approach;
         FlowReport own;
-        if (options_.accuracy.tolerance) {
-            stepper.describe(own);
-            report.convergence.tolerance = options_.accuracy.tolerance;
-            report.convergence.steps_short_of_tolerance = own.convergence.steps_short_of_tolerance;
-            report.convergence.steps_stagnated = own.convergence.steps_stagnated;
-        }
-        if (!report.steps.empty())
-            own.steps.emplace_back().estimated_v_max = report.steps.back().estimated_v_max;
+        own.convergence = {.approach = options_.accuracy.approach, .tolerance = options_.accuracy.tolerance};
+        stepper.describe(own);
+        add_up(mesh, n_interface_vertices, own, report);
+        // The remarks of sweeps are of this rank's sub-meshes alone.
+        if (!options_.accuracy.tolerance)
+            own.remarks.clear();
+        report.convergence = own.convergence;
+        own.steps = report.steps;
         remark_on_drift(options_, own);
         report.remarks.insert(report.remarks.end(), own.remarks.begin(), own.remarks.end());
+        if (!vanishing_->remark().empty())
+            report.remarks.push_back(vanishing_->remark());
+    }
+
+    /// Puts the reports of all ranks on their sub-meshes, resources and tasks together, and on those of Γ.
+    void add_up(const RankMesh& mesh, std::int64_t n_interface_vertices, const FlowReport& own, FlowReport& report)
+    {
+        struct Share {
+            std::int64_t n_interface_vertices;
+            ResourceReport resources;
+            PhaseSeconds seconds;
+        };
+        ResourceReport of_rank = own.resources;
+        of_rank.threads = options_.resources.threads;
+        for (const Share& share : comm_.gather_all(std::vector{Share{n_interface_vertices, of_rank, own.seconds}})) {
+            report.cut.interface_vertices += share.n_interface_vertices;
+            report.resources.threads += share.resources.threads;
+            report.resources.live_factors += share.resources.live_factors;
+            report.resources.factor_memory_bytes += share.resources.factor_memory_bytes;
+            report.resources.single_factors += share.resources.single_factors;
+            report.seconds.add_tasks(share.seconds);
+        }
+        report.seconds.interface = own.seconds.interface;
+        // Each rank describes its sub-meshes in the order of their numbers.
+        const std::vector<std::int64_t> counts = comm_.gather_all(std::vector{std::ssize(own.cut.sub_meshes)});
+        const std::vector<SubMeshReport> all = comm_.gather_all(own.cut.sub_meshes);
+        std::vector<std::size_t> next(counts.size(), 0);
+        std::exclusive_scan(counts.begin(), counts.end(), next.begin(), std::size_t{0});
+        for (const OwnedSubMesh& sub_mesh : mesh.all)
+            report.cut.sub_meshes.push_back(all[next[sub_mesh.rank]++]);
     }
 
     /// All ranks call this together.

@@ -20,7 +20,7 @@ namespace seamflow {
 struct RankStepState {
     /// Number of the step, from 1.
     int step = 0;
-    const RankStepReport& report;
+    const StepReport& report;
     /// The part of this rank that the flow was given, with the positions after the step. If the flow fails, it is as
     /// before the first.
     const MeshPart& part;
@@ -41,10 +41,10 @@ using RankObserver = std::function<void(const RankStepState&)>;
 ///
 /// Not yet supported: approaches other than Approach::Sweep and Approach::Converged, and the latter with Δ_P, whose
 /// equations are not symmetric; sweeps with conditions other than the adapted ones; Scheme::ExplicitEuler; keep_edges;
-/// rescale; strict; ReportOptions other than `measures`, and of these the curvature; FlowOptions::radius. Vertices
-/// along seams stay as they are, as with an empty MotionOptions::weld (see cut_together). Labels, fixed vertices and
-/// attachment weights are those of the part. Faces that repeat others at places where the mesh is not manifold take no
-/// part.
+/// rescale; strict; ReportOptions other than `measures`, and of these the curvature and the parts of displacements;
+/// FlowOptions::radius. Vertices along seams stay as they are, as with an empty MotionOptions::weld (see cut_together).
+/// Labels, fixed vertices and attachment weights are those of the part. Faces that repeat others at places where the
+/// mesh is not manifold take no part.
 /// @param part its vertices are moved when the flow has succeeded on all ranks; those without faces never are.
 /// @param on_step may be empty; on all ranks or on none.
 /// @param resume null, or the state after a step: the flow continues from there, on any number of ranks, with the same

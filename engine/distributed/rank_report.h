@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "engine/measure/flow_report.h"
@@ -23,47 +22,27 @@ struct RankMeasures {
     LengthStatistics displacement = {};
 };
 
-/// One step as a rank sees it.
-struct RankStepReport {
-    /// Wall-clock time.
-    double seconds = 0.0;
-    /// What the rank has sent to others.
+/// What a rank has sent to others during a step.
+struct RankTraffic {
     std::uint64_t messages = 0;
     std::uint64_t bytes = 0;
-    /// Of a converged step, of all ranks: its iterations, and the remaining residual.
-    std::optional<int> iterations = {};
-    std::optional<double> residual = {};
-    /// With `measures`: as StepReport::estimated_v_max, by the mean edge of the whole mesh.
-    std::optional<double> estimated_v_max = {};
-    /// With ReportOptions::measures: the mesh after the step.
-    std::optional<RankMeasures> measures = {};
 };
 
 /// What a distributed flow did.
 struct RankReport {
-    /// Of the whole mesh.
-    Index sub_meshes = 0;
-    Index colours = 0;
-    std::int64_t interface_vertices = 0;
-    /// Of the whole mesh: vertices held because the mesh is not manifold there, and faces that repeat others, which
-    /// take no part in the flow.
-    std::int64_t non_manifold_vertices = 0;
-    std::int64_t repeated_faces = 0;
+    /// Of the whole mesh, as of one process: sub-meshes in ascending order of their numbers, resources and seconds of
+    /// tasks added up over all ranks, wall-clock times as this rank sees them. Its vertices are those of faces.
+    /// Labels, fixed_vertices, moved_with, and the displacement of all steps together are left out. Steps are those of
+    /// this flow, not those before the state that it resumed from.
+    FlowReport flow;
     /// Of this rank: the vertices of its sub-meshes, and those that it knows of others.
     Index vertices = 0;
     Index foreign_vertices = 0;
-    /// All that is done before the first step, wall-clock time.
-    double setup_seconds = 0.0;
-    /// With ReportOptions::measures: the mesh before the first step.
+    /// Of this rank, for each step.
+    std::vector<RankTraffic> traffic;
+    /// With ReportOptions::measures: the mesh before the first step, and after all.
     std::optional<RankMeasures> before = {};
-    /// The steps of this flow: not those before the state that it resumed from.
-    std::vector<RankStepReport> steps;
-    /// With ReportOptions::measures: the mesh after all steps.
     std::optional<RankMeasures> after = {};
-    /// As that of FlowReport.
-    ConvergenceReport convergence = {};
-    /// As those of FlowReport, of the whole mesh.
-    std::vector<std::string> remarks;
 };
 
 /// What ranks need to resume after a complete step as if they had not ended: see RankStepState::capture. It belongs to

@@ -106,6 +106,7 @@ void grow(Communicator& comm, const MeshPart& own, RankMesh& mesh)
     };
     grow_from(own);
     const std::vector<Index> left = faces_left(own, mesh.part, mesh.topology);
+    mesh.n_faces = sum_of_all(comm, own.mesh.n_faces());
     mesh.n_repeated = sum_of_all(comm, own.mesh.n_faces() - static_cast<std::int64_t>(left.size()));
     if (mesh.n_repeated == 0) {
         mesh.all = gather_sub_meshes(comm, own);
@@ -333,6 +334,7 @@ RankMesh make_rank_mesh(Communicator& comm, const MeshPart& own, const Point& of
         });
     const auto is_not_manifold = [&](Index v) { return mesh.topology.kind[v] == VertexKind::NonManifold; };
     mesh.n_non_manifold = count_vertices(comm, mesh, is_not_manifold).n;
+    mesh.n_vertices = count_vertices(comm, mesh, [](Index /*v*/) { return true; }).n;
     if (mesh.n_non_manifold > 0)
         mesh.remarks.push_back(remark_on_non_manifold_vertices(mesh.n_non_manifold));
     return mesh;
@@ -348,8 +350,7 @@ Decomposition decompose_rank_mesh(RankMesh& mesh)
 }
 
 RankSubMeshes make_rank_sub_meshes(Communicator& comm, const RankMesh& mesh, Decomposition decomposition,
-                                   const FlowOptions& options, ForeignSubMeshes& foreign,
-                                   std::vector<Index>& stage_of_all)
+                                   const FlowOptions& options, ForeignSubMeshes& foreign)
 {
     const std::vector<OwnedSubMesh>& all = mesh.all;
     const std::vector<Index> places = places_among(all, mesh.known);
@@ -361,7 +362,7 @@ RankSubMeshes make_rank_sub_meshes(Communicator& comm, const RankMesh& mesh, Dec
     result.peers = make_rank_peers(comm, mesh);
     const auto adjacency = gather_adjacency(comm, mesh, places, result.decomposition, all.size());
     const auto curvatures = gather_curvatures(comm, mesh, places, result.decomposition, options, all.size());
-    stage_of_all = assign_stages(adjacency, options.interface.colouring, curvatures);
+    const std::vector<Index> stage_of_all = assign_stages(adjacency, options.interface.colouring, curvatures);
     for (const Index place : places)
         result.stage.push_back(stage_of_all[place]);
     const std::vector<Index> order = reverse_cuthill_mckee(adjacency);

@@ -39,7 +39,10 @@ struct RankMesh {
     /// Of all ranks: faces that were left out, and vertices held because they are not manifold.
     std::int64_t n_repeated = 0;
     std::int64_t n_non_manifold = 0;
-    /// A sentence on each of those.
+    /// Of all ranks: all faces, and their vertices.
+    std::int64_t n_faces = 0;
+    std::int64_t n_vertices = 0;
+    /// A sentence on faces and vertices that were left out or held.
     std::vector<std::string> remarks;
 
     /// Whether a known vertex has faces of this rank.
@@ -57,10 +60,8 @@ Decomposition decompose_rank_mesh(RankMesh& mesh);
 
 /// Agrees with the other ranks on the order of the sweep.
 /// @param comm, mesh must outlive the result. @param foreign is put into it.
-/// @param stage_of_all receives the place of each of them in the sweep.
 RankSubMeshes make_rank_sub_meshes(Communicator& comm, const RankMesh& mesh, Decomposition decomposition,
-                                   const FlowOptions& options, ForeignSubMeshes& foreign,
-                                   std::vector<Index>& stage_of_all);
+                                   const FlowOptions& options, ForeignSubMeshes& foreign);
 
 /// The ranks as peers that work on all sub-meshes together.
 /// @param comm must outlive the result.

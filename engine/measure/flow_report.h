@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
@@ -30,6 +31,16 @@ struct PhaseSeconds {
     double step = 0.0;
     /// The whole call, without the undecomposed flow that ReportOptions::reference asks for.
     double total = 0.0;
+
+    /// Adds the time spent in tasks, and on the equation on Γ.
+    void add_tasks(const PhaseSeconds& further)
+    {
+        assemble += further.assemble;
+        factorise += further.factorise;
+        solve += further.solve;
+        correct += further.correct;
+        interface += further.interface;
+    }
 };
 
 /// How far a flow carried the vertices along the surface and out of it, in units of length. Only the former deforms a
@@ -52,6 +63,9 @@ struct StepReport {
     double max_mean_curvature_after = 0.0;
     /// How far the vertices moved in this step, in units of length (see split_displacement).
     DisplacementStatistics displacement;
+    /// Where ranks share the mesh, instead of the curvature and the parts of displacements: how far the vertices of
+    /// faces moved in this step, in units of length.
+    std::optional<LengthStatistics> moved;
     /// With the classical conditions, how far apart the copies of Γ are after this step: over the vertices of Γ, the
     /// largest distance between two copies, in units of length.
     std::optional<LengthStatistics> gap;
@@ -73,12 +87,12 @@ struct StepReport {
 
 /// The mesh that flowed.
 struct MeshReport {
-    Index vertices = 0;
-    Index faces = 0;
+    std::int64_t vertices = 0;
+    std::int64_t faces = 0;
     /// Vertices that stay where they are, for whatever reason: boundary, not manifold, without faces, or asked for.
-    Index fixed_vertices = 0;
+    std::int64_t fixed_vertices = 0;
     /// Those held fixed because they lie on an edge of three or more faces, or where two fans of faces touch.
-    Index non_manifold_vertices = 0;
+    std::int64_t non_manifold_vertices = 0;
     /// #V: the lowest of the vertices joined with each along seams (see MotionOptions::weld), its own number if there
     /// are no others. Empty if none were joined.
     std::vector<Index> moved_with;
@@ -101,7 +115,7 @@ struct CutReport {
     /// Sub-mesh of every face after repair.
     std::vector<Index> labels;
     /// Number of vertices on the interface Γ.
-    Index interface_vertices = 0;
+    std::int64_t interface_vertices = 0;
     /// Faces moved to another sub-mesh so that each is connected and has one fan of faces around each of its vertices.
     Index repaired_faces = 0;
 
@@ -148,7 +162,8 @@ struct FlowReport {
     ResourceReport resources;
     PhaseSeconds seconds;
     std::vector<StepReport> steps;
-    TotalDisplacement displacement;
+    /// With ReportOptions::measures; empty where ranks share the mesh.
+    std::optional<TotalDisplacement> displacement;
     /// The sub-meshes at the end, none sharing a vertex with another, with ReportOptions::keep_gaps: the faces in the
     /// order of the mesh; its vertices first, then the further copies.
     std::optional<PolygonMesh> separated;

@@ -53,13 +53,13 @@ RankCounts counts_of(const RunOnRanks& run, const Points& expected)
 {
     RankCounts counts;
     counts.ranks = static_cast<int>(run.reports.size());
-    counts.sub_meshes = run.reports.front().sub_meshes;
+    counts.sub_meshes = run.reports.front().flow.cut.n_sub_meshes();
     for (const RankReport& rank : run.reports) {
         counts.most_vertices = std::max(counts.most_vertices, rank.vertices);
         counts.mean_vertices += static_cast<double>(rank.vertices) / counts.ranks;
-        counts.messages = std::max(counts.messages, rank.steps.back().messages);
-        counts.bytes = std::max(counts.bytes, rank.steps.back().bytes);
-        counts.iterations = rank.steps.back().iterations;
+        counts.messages = std::max(counts.messages, rank.traffic.back().messages);
+        counts.bytes = std::max(counts.bytes, rank.traffic.back().bytes);
+        counts.iterations = rank.flow.steps.back().iterations;
     }
     counts.same_bits = (run.positions.array() == expected.array()).all();
     return counts;
@@ -106,7 +106,7 @@ SimulatedRanks simulate_ranks(const PolygonMesh& mesh, const FlowOptions& flow, 
     SimulatedRanks simulated;
     const RunOnRanks alone = run_on_ranks(mesh, flow, 1);
     std::vector<double> seconds;
-    for (const RankStepReport& step : alone.reports.front().steps)
+    for (const StepReport& step : alone.reports.front().flow.steps)
         seconds.push_back(step.seconds);
     std::ranges::sort(seconds);
     simulated.seconds_per_vertex = seconds[seconds.size() / 2] / mesh.n_vertices();

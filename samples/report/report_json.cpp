@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include "engine/options/option_names.h"
-#include "samples/process/peak_memory.h"
 #include "samples/report/json_parts.h"
 #include "samples/report/smoothing_request.h"
 
@@ -79,10 +78,14 @@ Json steps_json(const std::vector<StepReport>& steps, double mean_edge)
 {
     Json list = Json::array();
     for (const StepReport& step : steps) {
-        Json json{{"seconds", json_number(step.seconds)},
-                  {"max_mean_curvature_before", json_number(step.max_mean_curvature_before)},
-                  {"max_mean_curvature_after", json_number(step.max_mean_curvature_after)}};
-        add_displacement(json, step.displacement, mean_edge);
+        Json json{{"seconds", json_number(step.seconds)}};
+        if (step.moved) {
+            add_statistics(json, "moved", *step.moved, mean_edge);
+        } else {
+            json["max_mean_curvature_before"] = json_number(step.max_mean_curvature_before);
+            json["max_mean_curvature_after"] = json_number(step.max_mean_curvature_after);
+            add_displacement(json, step.displacement, mean_edge);
+        }
         if (step.iterations)
             json["iterations"] = *step.iterations;
         if (step.residual)
@@ -106,11 +109,26 @@ Json surface_json(const RunRecord& run)
 {
     Json json{{"before", look_json(run.surface.before)}, {"after", look_json(run.surface.after)}};
     add_statistics(json, "moved", run.surface.moved, run.scale.mean_edge);
-    json["flipped_faces"] = run.surface.flipped_faces;
-    json["folded_faces"] = run.surface.folded_faces;
+    if (run.surface.flipped_faces)
+        json["flipped_faces"] = *run.surface.flipped_faces;
+    if (run.surface.folded_faces)
+        json["folded_faces"] = *run.surface.folded_faces;
     if (run.surface.new_self_intersections)
         json["new_self_intersections"] = *run.surface.new_self_intersections;
     return json;
+}
+
+Json ranks_json(const std::vector<RankRecord>& ranks)
+{
+    Json list = Json::array();
+    for (const RankRecord& rank : ranks)
+        list.push_back({{"vertices", rank.vertices},
+                        {"foreign_vertices", rank.foreign_vertices},
+                        {"messages", rank.messages},
+                        {"bytes", rank.bytes},
+                        {"threads", rank.threads},
+                        {"peak_memory_bytes", rank.peak_memory_bytes}});
+    return list;
 }
 
 /// Empty if missing or not a number.
@@ -136,7 +154,8 @@ std::string smooth_report_json(const RunRecord& run, const FlowReport& report)
     json["interface_vertices"] = report.cut.interface_vertices;
     json["repaired_faces"] = report.cut.repaired_faces;
     json["non_manifold_vertices"] = report.mesh.non_manifold_vertices;
-    json["fixed_vertices"] = report.mesh.fixed_vertices;
+    if (run.ranks.empty())
+        json["fixed_vertices"] = report.mesh.fixed_vertices;
     json["laplacian"] = run.laplacian;
     json["flow"] = option_name(run.flow);
     json["filter"] = option_name(run.filter.kind);
@@ -169,11 +188,14 @@ std::string smooth_report_json(const RunRecord& run, const FlowReport& report)
     json["single_factors"] = report.resources.single_factors;
     json["seconds"] = seconds_json(run, report.seconds);
     json["steps"] = steps_json(report.steps, run.scale.mean_edge);
-    json["displacement"] = total_json(report.displacement, run.scale.mean_edge);
+    if (report.displacement)
+        json["displacement"] = total_json(*report.displacement, run.scale.mean_edge);
     json["surface"] = surface_json(run);
     json["choices"] = report.choices;
     json["remarks"] = report.remarks;
-    json["peak_memory_bytes"] = peak_memory_bytes();
+    json["peak_memory_bytes"] = peak_memory_of(run);
+    if (!run.ranks.empty())
+        json["ranks"] = ranks_json(run.ranks);
     return text_of(json);
 }
 

@@ -12,9 +12,9 @@
 
 namespace seamflow {
 
-/// REPORT.json of `smooth`. All numbers read back to the same double; a number that is not finite becomes null.
-/// v_mean, v_rms and v_max are in mean edge lengths of the undecomposed flow's mesh, v_mean_absolute and so on in units
-/// of length; displacements are in mean edge lengths of the input.
+/// REPORT.json of `smooth` and `smooth-distributed`. All numbers read back to the same double; a number that is not
+/// finite becomes null. v_mean, v_rms and v_max are in mean edge lengths of the undecomposed flow's mesh,
+/// v_mean_absolute and so on in units of length; displacements are in mean edge lengths of the input.
 std::string smooth_report_json(const RunRecord& run, const FlowReport& report);
 
 /// STEPS.csv of --csv: one row per step, with all keys of steps in the report, and the smallest and the largest Robin

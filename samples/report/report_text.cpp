@@ -9,7 +9,6 @@
 
 #include "engine/options/option_names.h"
 #include "partition/io/input_position.h"
-#include "samples/process/peak_memory.h"
 #include "samples/report/smoothing_request.h"
 
 namespace seamflow {
@@ -142,9 +141,12 @@ void print_amount(std::ostream& out, const MeshScale& scale, const FlowOptions& 
 void print_step(std::ostream& out, const StepReport& report, int step, int steps, double mean_edge)
 {
     const double edge = mean_edge > 0.0 ? mean_edge : 1.0;
-    out << fmt::format("step {} of {}  {:.3f} s  moved {:.3g} normally, {:.3g} tangentially", step, steps,
-                       report.seconds, report.displacement.normal.mean / edge,
-                       report.displacement.tangential.mean / edge);
+    out << fmt::format("step {} of {}  {:.3f} s  moved ", step, steps, report.seconds);
+    if (report.moved)
+        out << fmt::format("{:.3g}", report.moved->mean / edge);
+    else
+        out << fmt::format("{:.3g} normally, {:.3g} tangentially", report.displacement.normal.mean / edge,
+                           report.displacement.tangential.mean / edge);
     if (report.iterations)
         out << fmt::format("  iterations {}, residual {:.2g}", *report.iterations, report.residual.value_or(0.0));
     if (report.gap)
@@ -181,7 +183,19 @@ void print_details(std::ostream& out, const RunRecord& run, const FlowReport& re
     out << fmt::format(
         "in tasks   assemble {:.3f} s, factorise {:.3f} s, solve {:.3f} s, correct {:.3f} s (summed over threads)\n",
         report.seconds.assemble, report.seconds.factorise, report.seconds.solve, report.seconds.correct);
-    print_total(out, report.displacement, run.scale.mean_edge);
+    if (report.displacement)
+        print_total(out, *report.displacement, run.scale.mean_edge);
+}
+
+void print_ranks(std::ostream& out, const RunRecord& run)
+{
+    if (run.ranks.empty())
+        return;
+    const auto [least, most] = std::ranges::minmax(run.ranks, {}, &RankRecord::vertices);
+    out << "ranks      " << run.ranks.size() << ": " << least.vertices;
+    if (most.vertices != least.vertices)
+        out << " to " << most.vertices;
+    out << " vertices" << (run.ranks.size() > 1 ? " each" : "") << '\n';
 }
 
 void print_result(std::ostream& out, const RunRecord& run, const FlowReport& report)
@@ -189,10 +203,11 @@ void print_result(std::ostream& out, const RunRecord& run, const FlowReport& rep
     for (std::size_t i = 0; i < report.choices.size(); ++i)
         out << (i == 0 ? "chosen     " : " ") << report.choices[i] << (i + 1 == report.choices.size() ? "\n" : "");
     const PhaseSeconds& phases = report.seconds;
-    out << fmt::format("time       {:.3g} s: read {:.3f}, set-up {:.3f}, steps {:.3f}, write {:.3f}; {}, {} MB\n",
+    out << fmt::format("time       {:.3g} s: read {:.3f}, set-up {:.3f}, steps {:.3f}, write {:.3f}; {}, {} MB{}\n",
                        run.seconds, run.read_seconds, phases.cut + phases.analyse, phases.step, run.write_seconds,
                        counted(report.resources.threads, "thread", "threads"),
-                       digits(static_cast<double>(peak_memory_bytes()) / 1e6, 4));
+                       digits(static_cast<double>(peak_memory_of(run)) / 1e6, 4),
+                       run.ranks.size() > 1 ? " of a rank at most" : "");
     for (const std::string& remark : report.remarks)
         out << "remark     " << remark << '\n';
     if (!report.steps.empty() && report.steps.back().distance) {

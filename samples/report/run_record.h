@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,7 +11,18 @@
 
 namespace seamflow {
 
-/// The data of a run of `smooth` beyond the FlowReport.
+/// What one rank of `smooth-distributed` did.
+struct RankRecord {
+    std::int64_t vertices = 0;
+    std::int64_t foreign_vertices = 0;
+    /// In all steps together.
+    std::uint64_t messages = 0;
+    std::uint64_t bytes = 0;
+    std::int64_t peak_memory_bytes = 0;
+    std::int64_t threads = 0;
+};
+
+/// The data of a run of `smooth` or `smooth-distributed` beyond the FlowReport.
 struct RunRecord {
     std::string input;
     std::string output;
@@ -43,6 +55,11 @@ struct RunRecord {
     double seconds = 0.0;
     /// The change from the input to the result.
     SurfaceChange surface = {};
+    /// Of `smooth-distributed`.
+    std::vector<RankRecord> ranks = {};
 };
+
+/// The most memory that the process has held until now, of ranks the one that held most, in bytes.
+std::int64_t peak_memory_of(const RunRecord& run);
 
 }  // namespace seamflow

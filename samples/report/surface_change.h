@@ -30,9 +30,9 @@ struct SurfaceChange {
     /// Of the distances of vertices from their earlier positions, in units of length.
     LengthStatistics moved;
     /// The number of faces that have turned by more than 90° (see flipped_faces), and how many of these the surface has
-    /// folded over (see folded_faces).
-    std::size_t flipped_faces = 0;
-    std::size_t folded_faces = 0;
+    /// folded over (see folded_faces). Empty where ranks share the mesh.
+    std::optional<std::size_t> flipped_faces = std::nullopt;
+    std::optional<std::size_t> folded_faces = std::nullopt;
     /// The number of pairs of faces that cross each other but did not before, if requested.
     std::optional<std::size_t> new_self_intersections = std::nullopt;
 };

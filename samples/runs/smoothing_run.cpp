@@ -49,22 +49,27 @@ RunRecord begin_record(const SmoothCommand& command)
             .remarks = command.remarks};
 }
 
-void resolve_amount(SmoothCommand& command, const PolygonMesh& mesh, const Executor& exec, RunRecord& run)
+void resolve_lengths(SmoothCommand& command, RunRecord& run)
 {
-    run.scale = measure_scale(mesh, exec);
     MotionOptions& motion = command.options.motion;
     motion.weld = command.weld ? std::optional(length_of(*command.weld, run.scale.diagonal)) : std::nullopt;
     motion.within = command.within ? std::optional(length_of(*command.within, run.scale.diagonal)) : std::nullopt;
     if (command.attach)
         motion.attachment = attachment_of(*command.attach, run.scale.diagonal);
+    if (motion.attachment > 0.0)
+        run.attachment = motion.attachment;
+}
+
+void resolve_amount(SmoothCommand& command, const PolygonMesh& mesh, const Executor& exec, RunRecord& run)
+{
+    run.scale = measure_scale(mesh, exec);
+    resolve_lengths(command, run);
     if (command.chooses_amount)
         choose_amount(command, mesh, exec, run);
     else
         command.options.time_step =
             time_step_of(command.amount, run.scale, command.options.steps, filter_of(command.options));
-    if (motion.attachment > 0.0)
-        run.attachment = motion.attachment;
-    run.has_attachment_weights = !motion.attachment_weights.empty();
+    run.has_attachment_weights = !command.options.motion.attachment_weights.empty();
 }
 
 void remark_on_loss(const FlowOptions& options, const SurfaceChange& change, std::vector<std::string>& remarks,
@@ -91,9 +96,9 @@ void remark_on_loss(const FlowOptions& options, const SurfaceChange& change, std
 void remark_on_folds(const FlowOptions& options, const SurfaceChange& change, std::vector<std::string>& remarks)
 {
     std::string what;
-    if (change.folded_faces > 0)
+    if (const std::size_t n = change.folded_faces.value_or(0); n > 0)
         what = fmt::format("{} turned over against neighbouring faces",
-                           change.folded_faces == 1 ? "1 face has" : fmt::format("{} faces have", change.folded_faces));
+                           n == 1 ? "1 face has" : fmt::format("{} faces have", n));
     if (const std::size_t n = change.new_self_intersections.value_or(0); n > 0)
         what += fmt::format("{}{} of faces cross{} now that did not before", what.empty() ? "" : ", and ",
                             n == 1 ? "1 pair" : fmt::format("{} pairs", n), n == 1 ? "es" : "");

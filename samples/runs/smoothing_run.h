@@ -14,6 +14,10 @@ namespace seamflow {
 /// The record of a run before its mesh is known.
 RunRecord begin_record(const SmoothCommand& command);
 
+/// Computes the values of `command` that depend on the sizes in `run`: lengths, and an attachment, which it records in
+/// `run`.
+void resolve_lengths(SmoothCommand& command, RunRecord& run);
+
 /// Computes the values of `command` that depend on the mesh: an amount that depends on its size or noise, and an
 /// attachment; records them in `run`.
 /// @param mesh valid (see require_valid).

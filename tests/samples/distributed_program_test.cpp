@@ -126,8 +126,10 @@ TEST_CASE("what ranks measure is what smooth measures, and remarks come once")
         CHECK(w.said().find(", volume ") != std::string::npos);
         CHECK(w.said().find("; by estimate ") != std::string::npos);
         const test::Json report = w.json("n.json");
-        for (const std::string name : {"tolerance", "steps_short_of_tolerance", "steps_stagnated",
-                                       "non_manifold_vertices", "attachment_weights"})
+        for (const std::string name :
+             {"tolerance", "steps_short_of_tolerance", "steps_stagnated", "non_manifold_vertices", "attachment_weights",
+              "subdomain_vertices", "subdomain_faces", "subdomain_colours", "interface_vertices", "vertices",
+              "repaired_faces"})
             CHECK(report[name] == expected[name]);
         for (const std::string when : {"before", "after"}) {
             for (const std::string name : {"area", "volume"})

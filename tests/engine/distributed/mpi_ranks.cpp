@@ -45,8 +45,8 @@ TEST_CASE("ranks of MPI find the bits of one machine")
         MeshPart part =
             test::part_of(mesh, report.cut.labels, report.cut.n_sub_meshes(), transport->rank(), transport->size());
         const RankReport own = distributed_mean_curvature_flow(*transport, part, options);
-        CHECK(own.colours == report.cut.n_colours());
-        for (const RankStepReport& step : own.steps)
+        CHECK(own.flow.cut.n_colours() == report.cut.n_colours());
+        for (const RankTraffic& step : own.traffic)
             CHECK((step.messages > 0) == (transport->size() > 1));
         const std::vector<Index> numbers(part.vertex_numbers.begin(), part.vertex_numbers.end());
         CHECK(test::same_bits(part.mesh.vertices, expected.vertices(numbers, Eigen::all)));

@@ -103,16 +103,16 @@ void check_going_on(Example example, int subdomains)
         CAPTURE(n);
         example.options.steps = 3;
         const Run going_on = run_on_ranks(example, expected.cut, n, &begun.last);
-        CHECK(going_on.report.steps.size() == 1);
+        CHECK(going_on.report.flow.steps.size() == 1);
         CHECK(going_on.last.step == 3);
         example.options.steps = steps;
         const Run ended = run_on_ranks(example, expected.cut, 6 - n, &going_on.last);
         CHECK(test::same_bits(ended.positions, mesh.vertices));
-        CHECK(ended.report.steps.back().iterations == expected.steps.back().iterations);
-        CHECK(ended.report.steps.back().residual == expected.steps.back().residual);
-        CHECK(ended.report.steps.back().estimated_v_max.value() ==
+        CHECK(ended.report.flow.steps.back().iterations == expected.steps.back().iterations);
+        CHECK(ended.report.flow.steps.back().residual == expected.steps.back().residual);
+        CHECK(ended.report.flow.steps.back().estimated_v_max.value() ==
               test::relative(expected.steps.back().estimated_v_max.value(), 1e-12));
-        CHECK(ended.report.convergence.steps_short_of_tolerance == expected.convergence.steps_short_of_tolerance);
+        CHECK(ended.report.flow.convergence.steps_short_of_tolerance == expected.convergence.steps_short_of_tolerance);
     }
 }
 

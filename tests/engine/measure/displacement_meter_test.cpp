@@ -25,7 +25,7 @@ FlowReport run(const PolygonMesh& mesh, Laplacian laplacian, double time_step, i
 
 double drag(const PolygonMesh& mesh, Laplacian laplacian, double time_step, int subdomains = 1)
 {
-    return run(mesh, laplacian, time_step, subdomains).displacement.path.tangential.mean;
+    return run(mesh, laplacian, time_step, subdomains).displacement->path.tangential.mean;
 }
 
 }  // namespace
@@ -64,9 +64,9 @@ TEST_CASE("the steps of a flow add up")
         normal += step.displacement.normal.mean;
     }
     CHECK(tangential > 0.0);
-    CHECK(report.displacement.path.tangential.mean == test::relative(tangential, 1e-5));
-    CHECK(report.displacement.path.normal.mean == test::relative(normal, 1e-5));
-    CHECK(report.displacement.drift.mean <= report.displacement.path.tangential.mean);
+    CHECK(report.displacement->path.tangential.mean == test::relative(tangential, 1e-5));
+    CHECK(report.displacement->path.normal.mean == test::relative(normal, 1e-5));
+    CHECK(report.displacement->drift.mean <= report.displacement->path.tangential.mean);
 }
 
 TEST_CASE("Fujiwara's Laplacian drags the texture, the others hardly do")
@@ -101,7 +101,7 @@ TEST_CASE("displacements do not depend on the number of threads")
         options.resources.threads = 4;
         flowing = mesh;
         const FlowReport four = mean_curvature_flow(flowing, options);
-        CHECK(one.displacement.drift.rms == four.displacement.drift.rms);
+        CHECK(one.displacement->drift.rms == four.displacement->drift.rms);
         CHECK(one.steps[0].displacement.tangential.mean == four.steps[0].displacement.tangential.mean);
         CHECK(one.steps[0].displacement.normal.rms == four.steps[0].displacement.normal.rms);
     }

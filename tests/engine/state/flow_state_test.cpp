@@ -77,8 +77,8 @@ void check_resumed(const PolygonMesh& mesh, const FlowOptions& options)
         REQUIRE(resumed.report.steps.size() == whole.report.steps.size());
         for (std::size_t i = 0; i < whole.report.steps.size(); ++i)
             check_same(resumed.report.steps[i], whole.report.steps[i]);
-        check_same(resumed.report.displacement.path.tangential, whole.report.displacement.path.tangential);
-        check_same(resumed.report.displacement.drift, whole.report.displacement.drift);
+        check_same(resumed.report.displacement->path.tangential, whole.report.displacement->path.tangential);
+        check_same(resumed.report.displacement->drift, whole.report.displacement->drift);
         CHECK(resumed.report.choices == whole.report.choices);
         CHECK(resumed.report.remarks == whole.report.remarks);
         CHECK(resumed.report.convergence.steps_short_of_tolerance == whole.report.convergence.steps_short_of_tolerance);
