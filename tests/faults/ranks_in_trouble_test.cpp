@@ -41,7 +41,7 @@ struct SharedFlow {
         const FlowReport report = mean_curvature_flow(cut, options);
         options.cut.subdomains = 0;
         for (int rank = 0; rank < 2; ++rank)
-            before.push_back(test::part_of(mesh, report.cut.labels, report.cut.n_sub_meshes(), rank, 2));
+            before.push_back(test::part_of(mesh, report.cut.labels, rank, 2));
         parts = before;
     }
 

@@ -181,7 +181,7 @@ TEST_CASE("ranks find the bits of one machine in sweeps with a free boundary, wh
     CHECK_THROWS_AS(mean_curvature_flow(mesh, options), OptionError);
     check_refusal<OptionError>(
         [&](Transport& transport) {
-            MeshPart part = test::part_of(example.mesh, example.labels, 9, transport.rank(), 3);
+            MeshPart part = test::part_of(example.mesh, example.labels, transport.rank(), 3);
             distributed_mean_curvature_flow(transport, part, example.options);
         },
         3, "boundary is free and shared by several sub-meshes, which need converged steps");
@@ -197,7 +197,7 @@ TEST_CASE("an estimate that is far off is told of as by one machine")
     const auto says_so = [](const std::string& remark) { return remark.find("by estimate") != std::string::npos; };
     const auto expected = std::ranges::find_if(report.remarks, says_so);
     REQUIRE(expected != report.remarks.end());
-    for (const RankReport& rank : flowed_on_ranks(example, report.cut.labels, report.cut.n_sub_meshes(), 3).reports)
+    for (const RankReport& rank : flowed_on_ranks(example, report.cut.labels, 3).reports)
         CHECK(std::ranges::count(rank.flow.remarks, *expected) == 1);
 }
 
@@ -229,7 +229,7 @@ TEST_CASE("faces that repeat others are left out, wherever they are")
             labels[f] = (labels[f] + f) % report.cut.n_sub_meshes();
         for (const int n : {1, 3, 5}) {
             CAPTURE(n);
-            const Result result = flowed_on_ranks(example, labels, report.cut.n_sub_meshes(), n);
+            const Result result = flowed_on_ranks(example, labels, n);
             CHECK(test::same_bits(result.positions, mesh.vertices));
             for (const RankReport& rank : result.reports) {
                 CHECK(rank.flow.mesh.faces == example.mesh.n_faces());
@@ -269,7 +269,7 @@ TEST_CASE("what is measured is that of the whole mesh, and the same for any numb
         std::vector<RankReport> first;
         for (const int n : {1, 2, 5}) {
             CAPTURE(n);
-            const Result result = flowed_on_ranks(example, report.cut.labels, report.cut.n_sub_meshes(), n);
+            const Result result = flowed_on_ranks(example, report.cut.labels, n);
             if (first.empty())
                 first = result.reports;
             for (const RankReport& rank : result.reports) {
@@ -309,8 +309,7 @@ TEST_CASE("observers see each step on all ranks, and can work together")
     const FlowReport report =
         mean_curvature_flow(moved, options, [&](const StepState& state) { expected.push_back(state.positions); });
     options.cut.subdomains = 0;
-    const Index n_sub_meshes = report.cut.n_sub_meshes();
-    const auto part_at = [&](int rank) { return test::part_of(mesh, report.cut.labels, n_sub_meshes, rank, 3); };
+    const auto part_at = [&](int rank) { return test::part_of(mesh, report.cut.labels, rank, 3); };
     run_on_threads(3, [&](Transport& transport) {
         MeshPart part = part_at(transport.rank());
         int steps = 0;
@@ -352,7 +351,7 @@ TEST_CASE("a failure on one rank ends all with one message")
     const auto flow = [&](const FlowOptions& with, const std::vector<Index>& from,
                           const std::function<void(MeshPart&, int)>& change = {}) {
         return [&mesh, with, from, change](Transport& transport) {
-            MeshPart part = test::part_of(mesh, from, 6, transport.rank(), 3);
+            MeshPart part = test::part_of(mesh, from, transport.rank(), 3);
             if (change)
                 change(part, transport.rank());
             const Points before = part.mesh.vertices;

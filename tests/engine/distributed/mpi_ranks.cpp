@@ -42,8 +42,7 @@ TEST_CASE("ranks of MPI find the bits of one machine")
         PolygonMesh expected = mesh;
         const FlowReport report = mean_curvature_flow(expected, options);
         options.cut.subdomains = 0;
-        MeshPart part =
-            test::part_of(mesh, report.cut.labels, report.cut.n_sub_meshes(), transport->rank(), transport->size());
+        MeshPart part = test::part_of(mesh, report.cut.labels, transport->rank(), transport->size());
         const RankReport own = distributed_mean_curvature_flow(*transport, part, options);
         CHECK(own.flow.cut.n_colours() == report.cut.n_colours());
         for (const RankTraffic& step : own.traffic)

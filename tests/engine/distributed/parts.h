@@ -10,13 +10,13 @@
 
 namespace seamflow::test {
 
-/// The part of a mesh that a rank of n has when sub-meshes are dealt contiguously: some of them with all their faces.
-/// @param labels #F, from 0 to n_sub_meshes - 1.
+/// The part of a mesh that a rank of n has when sub-meshes are dealt in turns: some of them with all their faces.
+/// @param labels #F.
 /// @param fixed vertices that stay.
-inline MeshPart part_of(const PolygonMesh& mesh, const std::vector<Index>& labels, Index n_sub_meshes, int rank, int n,
+inline MeshPart part_of(const PolygonMesh& mesh, const std::vector<Index>& labels, int rank, int n,
                         const std::vector<Index>& fixed = {})
 {
-    const auto is_own = [&](Index label) { return static_cast<std::int64_t>(label) * n / n_sub_meshes == rank; };
+    const auto is_own = [&](Index label) { return label % n == rank; };
     std::vector<Index> vertices;
     for (Index f = 0; f < mesh.n_faces(); ++f)
         if (is_own(labels[f]))

@@ -35,13 +35,13 @@ struct Result {
 };
 
 /// The mesh after a flow on n ranks with these labels. Vertices that several ranks have are the same at all of them.
-inline Result flowed_on_ranks(const Example& example, const std::vector<Index>& labels, Index n_sub_meshes, int n)
+inline Result flowed_on_ranks(const Example& example, const std::vector<Index>& labels, int n)
 {
     Result result{example.mesh.vertices, std::vector<RankReport>(n)};
     std::vector<std::uint8_t> is_written(example.mesh.n_vertices(), 0);
     std::mutex mutex;
     run_on_threads(n, [&](Transport& transport) {
-        MeshPart part = part_of(example.mesh, labels, n_sub_meshes, transport.rank(), n, example.fixed);
+        MeshPart part = part_of(example.mesh, labels, transport.rank(), n, example.fixed);
         for (const std::int64_t number : part.vertex_numbers)
             if (!example.weights.empty())
                 part.attachment_weights.push_back(example.weights[static_cast<std::size_t>(number)]);
@@ -109,11 +109,10 @@ inline void check_bits(const Example& example, int subdomains, const std::vector
     options.motion.fixed_vertices = example.fixed;
     options.motion.attachment_weights = example.weights;
     const FlowReport report = mean_curvature_flow(mesh, options);
-    const Index n_sub_meshes = report.cut.n_sub_meshes();
-    REQUIRE(n_sub_meshes > 1);
+    REQUIRE(report.cut.n_sub_meshes() > 1);
     for (const int n : n_ranks) {
         CAPTURE(n);
-        const Result result = flowed_on_ranks(example, report.cut.labels, n_sub_meshes, n);
+        const Result result = flowed_on_ranks(example, report.cut.labels, n);
         CHECK(same_bits(result.positions, mesh.vertices));
         for (const RankReport& rank : result.reports) {
             check_report(rank.flow, report);

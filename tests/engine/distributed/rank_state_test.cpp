@@ -67,7 +67,7 @@ Run run_on_ranks(const Example& example, const CutReport& cut, int n, const Rank
     std::mutex mutex;
     run_on_threads(n, [&](Transport& transport) {
         const int rank = transport.rank();
-        MeshPart part = test::part_of(example.mesh, cut.labels, cut.n_sub_meshes(), rank, n, example.fixed);
+        MeshPart part = test::part_of(example.mesh, cut.labels, rank, n, example.fixed);
         RankFlowState share;
         if (from != nullptr)
             share = share_of(*from, rank, n);
@@ -165,7 +165,7 @@ TEST_CASE("a state of other steps, or of another mesh, is refused by all ranks a
     const auto check_refused = [&](const RankFlowState& from, const std::string& expected) {
         CAPTURE(expected);
         run_on_threads(3, [&](Transport& transport) {
-            MeshPart part = test::part_of(example.mesh, cut.labels, cut.n_sub_meshes(), transport.rank(), 3);
+            MeshPart part = test::part_of(example.mesh, cut.labels, transport.rank(), 3);
             const RankFlowState share = share_of(from, transport.rank(), 3);
             CHECK_THROWS_WITH_AS(distributed_mean_curvature_flow(transport, part, example.options, {}, &share),
                                  expected.c_str(), InputError);
