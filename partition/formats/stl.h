@@ -15,7 +15,6 @@
 #include "partition/io/output_file.h"
 #include "partition/io/slices.h"
 #include "partition/io/text_scanner.h"
-#include "partition/point_numbers.h"
 #include "partition/polygon_mesh.h"
 #include "partition/vector_area.h"
 
@@ -50,10 +49,10 @@ class StlRanges {
     [[nodiscard]] std::string_view bytes(Index begin, Index end) const;
 
     /// Appends the facets from `begin` to `end` - 1.
-    /// @param faces without vertices; corners are numbers of the points that are returned.
+    /// @param faces without vertices; corners are numbers of the points that are returned, #V by 3.
     /// @param faults collects the facets left out, numbered from 0 for `begin`.
     /// @throws InputError naming facet and byte.
-    PointNumbers facets(Index begin, Index end, PolygonMesh& faces, FaultLog& faults) const;
+    Points facets(Index begin, Index end, PolygonMesh& faces, FaultLog& faults) const;
 
     /// Checks what follows the last facet.
     /// @throws InputError naming the byte.
@@ -82,16 +81,16 @@ class StlText {
     [[nodiscard]] std::vector<std::string_view> shares(std::size_t n) const;
 
     /// Appends the facets of a share.
-    /// @param faces without vertices; corners are numbers of the points that are returned.
+    /// @param faces without vertices; corners are numbers of the points that are returned, #V by 3.
     /// @throws InputError if there is any fault, not necessarily naming it (see `check`).
-    PointNumbers facets(std::string_view share, PolygonMesh& faces, const Slicing& slicing) const;
+    Points facets(std::string_view share, PolygonMesh& faces, const Slicing& slicing) const;
 
     /// The same as in reading the whole file while noting which facets are left out.
     /// @param lines_before number of lines before the share. @param in_solid whether the share begins within a solid;
     /// receives the same for what follows. @param faults see StlRanges::facets.
     /// @throws InputError naming the line.
-    PointNumbers check(std::string_view share, std::size_t lines_before, bool& in_solid, PolygonMesh& faces,
-                       FaultLog& faults) const;
+    Points check(std::string_view share, std::size_t lines_before, bool& in_solid, PolygonMesh& faces,
+                 FaultLog& faults) const;
 
     [[nodiscard]] std::size_t lines_of(std::string_view share) const;
 

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <functional>
+#include <limits>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "partition/executor.h"
 #include "partition/io/input_position.h"
@@ -49,11 +51,13 @@ class FacetCollector {
             position_.leave_out_face(number);
             return;
         }
-        const std::array<Index, 3> corners = {numbers_(points[0]), numbers_(points[1]), numbers_(points[2])};
+        const std::array<Index, 3> corners = {number_of(points[0]), number_of(points[1]), number_of(points[2])};
         builder_.add_face(corners);
+        last_points_ = points;
+        last_corners_ = corners;
     }
 
-    [[nodiscard]] PointNumbers take_points() { return std::move(numbers_); }
+    [[nodiscard]] std::vector<Corner> take_points() { return numbers_.take_points(); }
 
     PolygonMesh finish()
     {
@@ -62,22 +66,43 @@ class FacetCollector {
         return builder_.finish();
     }
 
+    /// Makes room for so many more points.
+    void expect_points(std::size_t n) { numbers_.reserve(n); }
+
   private:
+    static constexpr double no_place = std::numeric_limits<double>::quiet_NaN();
+
+    /// Most facets share corners with the one before them.
+    Index number_of(const Corner& point)
+    {
+        for (std::size_t i = 0; i < last_points_.size(); ++i)
+            if (last_points_[i] == point)
+                return last_corners_[i];
+        return numbers_(point);
+    }
+
     const InputPosition& position_;
     MeshBuilder builder_;
     PointNumbers numbers_;
+    /// Of the last facet; at first equal to nothing.
+    std::array<Corner, 3> last_points_ = {Corner{no_place}, Corner{no_place}, Corner{no_place}};
+    std::array<Index, 3> last_corners_ = {};
     Index n_facets_ = 0;
 };
 
 /// Reads slices, several at a time. Points are numbered within each slice, and then for all slices.
 /// @param read called with a slice and where its faces go; returns its points.
 /// @param faces gets the faces of all slices.
-PointNumbers join_facets(Index n_slices, const Executor& exec,
-                         const std::function<PointNumbers(Index slice, const MeshSlice& place)>& read,
-                         PolygonMesh& faces);
+/// @returns #V by 3: the points.
+Points join_facets(Index n_slices, const Executor& exec,
+                   const std::function<std::vector<PointNumbers::Place>(Index slice, const MeshSlice& place)>& read,
+                   PolygonMesh& faces);
+
+/// #V by 3.
+Points points_of(const std::vector<PointNumbers::Place>& places);
 
 /// Sets the mesh's vertices.
 /// @throws InputError with no useful message if there are none.
-void set_vertices(PolygonMesh& mesh, const PointNumbers& points);
+void set_vertices(PolygonMesh& mesh, Points points);
 
 }  // namespace seamflow

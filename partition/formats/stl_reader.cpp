@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <numeric>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,6 +17,7 @@
 #include "partition/formats/stl_facets.h"
 #include "partition/io/byte_scanner.h"
 #include "partition/io/mesh_builder.h"
+#include "partition/io/numbered_points.h"
 #include "partition/io/slices.h"
 #include "partition/io/text_scanner.h"
 #include "partition/point_numbers.h"
@@ -52,6 +55,21 @@ Corner read_point(ByteScanner& scanner)
     return {x, y, z};
 }
 
+/// The corners of a facet that is known to be there; empty if a coordinate is not finite.
+std::optional<std::array<Corner, 3>> corners_of(std::string_view facet)
+{
+    std::array<Corner, 3> corners;
+    double sum = 0.0;
+    const char* bytes = facet.data() + normal_bytes;
+    for (Corner& corner : corners)
+        for (double& x : corner) {
+            x = from_bytes<float>(bytes, std::endian::little);
+            sum += std::abs(x);
+            bytes += sizeof(float);
+        }
+    return std::isfinite(sum) ? std::optional(corners) : std::nullopt;
+}
+
 void require_room_for_facets(ByteScanner& scanner, std::string_view file)
 {
     if (file.size() < header_bytes)
@@ -69,6 +87,12 @@ void read_facets(ByteScanner& scanner, std::uint64_t begin, std::uint64_t end, F
 {
     for (std::uint64_t f = begin; f < end; ++f) {
         scanner.enter("facet", f);
+        if (scanner.remaining() >= facet_bytes)
+            if (const auto corners = corners_of(scanner.peek(facet_bytes))) {
+                scanner.take(facet_bytes);
+                collector.add(*corners);
+                continue;
+            }
         scanner.take(normal_bytes);
         const Corner a = read_point(scanner);
         const Corner b = read_point(scanner);
@@ -101,6 +125,7 @@ PolygonMesh read_binary_slices(const std::filesystem::path& path, std::string_vi
         const std::uint64_t begin = at(i) * per_slice;
         ByteScanner scanner(path, file, header_bytes + facet_bytes * begin, std::endian::little);
         FacetCollector collector(scanner, place);
+        collector.expect_points(per_slice);
         read_facets(scanner, begin, std::min<std::uint64_t>(begin + per_slice, n), collector);
         return collector.take_points();
     };
@@ -116,36 +141,42 @@ bool has_size_of_binary(std::string_view file)
 
 }  // namespace
 
-PointNumbers join_facets(Index n_slices, const Executor& exec,
-                         const std::function<PointNumbers(Index slice, const MeshSlice& place)>& read,
-                         PolygonMesh& faces)
+Points join_facets(Index n_slices, const Executor& exec,
+                   const std::function<std::vector<PointNumbers::Place>(Index slice, const MeshSlice& place)>& read,
+                   PolygonMesh& faces)
 {
-    PointNumbers numbers;
-    std::vector<PointNumbers> of_slice(at(n_slices));
+    std::vector<std::vector<PointNumbers::Place>> of_slice(at(n_slices));
+    std::vector<Index> corners(at(n_slices) + 1, 0);
     Points none(0, 3);
-    append_faces(
-        faces, n_slices, exec,
-        [&](Index i, PolygonMesh& part) {
-            of_slice[i] = read(i, {none, 0, part});
-        },
-        [&](Index i, PolygonMesh& part) {
-            std::vector<Index> number_of;
-            for (const PointNumbers::Place& point : of_slice[i].points())
-                number_of.push_back(numbers(point));
-            for (Index& v : part.face_vertices)
-                v = number_of[v];
-            of_slice[i] = {};
-        });
-    return numbers;
+    append_faces(faces, n_slices, exec, [&](Index i, PolygonMesh& part) {
+        of_slice[i] = read(i, {none, 0, part});
+        corners[i + 1] = part.n_corners();
+    });
+    std::partial_sum(corners.begin(), corners.end(), corners.begin());
+    NumberedPoints all = number_together(of_slice, exec);
+    for_each(exec, n_slices, [&](Index i) {
+        for (Index corner = corners[i]; corner < corners[i + 1]; ++corner) {
+            Index& v = faces.face_vertices[corner];
+            v = all.numbers[all.begin[i] + v];
+        }
+    });
+    return std::move(all.points);
 }
 
-void set_vertices(PolygonMesh& mesh, const PointNumbers& points)
+Points points_of(const std::vector<PointNumbers::Place>& places)
 {
-    const auto n = static_cast<Index>(points.points().size());
-    if (n == 0)
+    const auto n = static_cast<Index>(places.size());
+    Points points = uninitialised_points(n);
+    if (n > 0)
+        points = Eigen::Map<const Points>(places.data()->data(), n, 3);
+    return points;
+}
+
+void set_vertices(PolygonMesh& mesh, Points points)
+{
+    if (points.rows() == 0)
         throw InputError("no vertices");
-    mesh.vertices = uninitialised_points(n);
-    mesh.vertices = Eigen::Map<const Points>(points.points().data()->data(), n, 3);
+    mesh.vertices = std::move(points);
 }
 
 bool is_text_stl(std::string_view file)
@@ -175,14 +206,14 @@ std::string_view StlRanges::bytes(Index begin, Index end) const
     return content_.substr(header_bytes + facet_bytes * at(begin), facet_bytes * at(end - begin));
 }
 
-PointNumbers StlRanges::facets(Index begin, Index end, PolygonMesh& faces, FaultLog& faults) const
+Points StlRanges::facets(Index begin, Index end, PolygonMesh& faces, FaultLog& faults) const
 {
     ByteScanner scanner(path_, content_, header_bytes + facet_bytes * at(begin), std::endian::little);
     scanner.note_faults_in(&faults);
     Points none(0, 3);
     FacetCollector collector(scanner, {none, 0, faces});
     read_facets(scanner, at(begin), at(end), collector);
-    return collector.take_points();
+    return points_of(collector.take_points());
 }
 
 void StlRanges::require_end() const

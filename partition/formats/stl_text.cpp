@@ -180,7 +180,7 @@ std::vector<std::string_view> StlText::shares(std::size_t n) const
     return stl_slices_at_facets(whole_, (whole_.rest().size() + n - 1) / n);
 }
 
-PointNumbers StlText::facets(std::string_view share, PolygonMesh& faces, const Slicing& slicing) const
+Points StlText::facets(std::string_view share, PolygonMesh& faces, const Slicing& slicing) const
 {
     const std::vector<std::string_view> slices = stl_slices_at_facets(TextScanner(whole_, share), slicing.bytes);
     const auto read = [&](Index i, const MeshSlice& place) {
@@ -193,8 +193,8 @@ PointNumbers StlText::facets(std::string_view share, PolygonMesh& faces, const S
     return join_facets(static_cast<Index>(slices.size()), slicing.exec, read, faces);
 }
 
-PointNumbers StlText::check(std::string_view share, std::size_t lines_before, bool& in_solid, PolygonMesh& faces,
-                            FaultLog& faults) const
+Points StlText::check(std::string_view share, std::size_t lines_before, bool& in_solid, PolygonMesh& faces,
+                      FaultLog& faults) const
 {
     const std::string_view rest(share.data(), static_cast<std::size_t>(end_of(whole_.rest()) - share.data()));
     Points none(0, 3);
@@ -202,7 +202,7 @@ PointNumbers StlText::check(std::string_view share, std::size_t lines_before, bo
     in_solid = reader.read(in_solid, end_of(share));
     if (is_last(share))
         reader.require_end(in_solid);
-    return reader.collector().take_points();
+    return points_of(reader.collector().take_points());
 }
 
 std::size_t StlText::lines_of(std::string_view share) const

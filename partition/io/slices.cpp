@@ -84,8 +84,7 @@ Points uninitialised_points(Index n)
 }
 
 void append_faces(PolygonMesh& mesh, Index n, const Executor& exec,
-                  const std::function<void(Index slice, PolygonMesh& faces)>& read,
-                  const std::function<void(Index slice, PolygonMesh& faces)>& finish)
+                  const std::function<void(Index slice, PolygonMesh& faces)>& read)
 {
     // Enough that few threads wait, and few enough that they need little memory.
     constexpr Index at_once = 64;
@@ -100,11 +99,8 @@ void append_faces(PolygonMesh& mesh, Index n, const Executor& exec,
         const Index n_to_follow = n - begin - static_cast<Index>(parts.size());
         make_room(mesh.face_offsets, parts, n_to_follow, &PolygonMesh::face_offsets);
         make_room(mesh.face_vertices, parts, n_to_follow, &PolygonMesh::face_vertices);
-        for (std::size_t i = 0; i < parts.size(); ++i) {
-            if (finish)
-                finish(begin + static_cast<Index>(i), parts[i]);
-            append(mesh, parts[i]);
-        }
+        for (const PolygonMesh& part : parts)
+            append(mesh, part);
     }
 }
 

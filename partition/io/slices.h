@@ -56,11 +56,9 @@ Points uninitialised_points(Index n);
 
 /// Reads the faces of n slices, several at a time, and appends them to those of the mesh.
 /// @param read called with a slice and an empty mesh, which gets the faces of the slice.
-/// @param finish called with the same, one slice after another, before its faces are appended.
 /// @throws InputError if there are more than 2^31 - 1 corners.
 void append_faces(PolygonMesh& mesh, Index n, const Executor& exec,
-                  const std::function<void(Index slice, PolygonMesh& faces)>& read,
-                  const std::function<void(Index slice, PolygonMesh& faces)>& finish = {});
+                  const std::function<void(Index slice, PolygonMesh& faces)>& read);
 
 /// For faults of slices, which nobody gets to read (see read_in_slices_if_faultless).
 class NoPosition final : public InputPosition {

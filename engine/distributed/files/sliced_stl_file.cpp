@@ -111,10 +111,10 @@ class SlicedStlFile final : public SharedMeshFile {
     {
         PolygonMesh faces;
         FaultLog own{.of_faces_alone = true};
-        PointNumbers points = share.read(comm, faces, own);
+        Points points = share.read(comm, faces, own);
         faults = join_faults(comm, own, faces.n_faces() + static_cast<Index>(own.faces_left_out.size()));
-        const JoinedPoints joined = join_points(comm, points.points());
-        points = {};
+        const JoinedPoints joined = join_points(comm, points);
+        points = Points(0, 3);
         const auto bounds = gather_bounds_of(comm, joined.firsts.rows());
         if (bounds.back() == 0)
             share.refuse_empty(comm);

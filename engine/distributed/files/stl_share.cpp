@@ -27,9 +27,9 @@ class BinaryStlShare final : public StlShare {
 
     [[nodiscard]] std::string_view bytes() const override { return stl_->bytes(begin_, end_); }
 
-    PointNumbers read(Communicator& comm, PolygonMesh& faces, FaultLog& faults) const override
+    Points read(Communicator& comm, PolygonMesh& faces, FaultLog& faults) const override
     {
-        PointNumbers points;
+        Points points(0, 3);
         comm.look_together([&] { points = stl_->facets(begin_, end_, faces, faults); });
         comm.look_together([&] { stl_->require_end(); });
         return points;
@@ -60,9 +60,9 @@ class TextStlShare final : public StlShare {
 
     [[nodiscard]] std::string_view bytes() const override { return own_; }
 
-    PointNumbers read(Communicator& comm, PolygonMesh& faces, FaultLog& faults) const override
+    Points read(Communicator& comm, PolygonMesh& faces, FaultLog& faults) const override
     {
-        PointNumbers points;
+        Points points(0, 3);
         std::uint8_t is_faultless = 1;
         try {
             points = text_.facets(own_, faces, {exec_});
@@ -85,13 +85,13 @@ class TextStlShare final : public StlShare {
   private:
     /// Reads as if each share except for the first began within a solid. If that turns out to be wrong, after a share
     /// without fault, the next one begins with a fault.
-    PointNumbers check(Communicator& comm, PolygonMesh& faces, FaultLog& faults) const
+    Points check(Communicator& comm, PolygonMesh& faces, FaultLog& faults) const
     {
         const auto lines = gather_bounds_of(comm, static_cast<std::int64_t>(text_.lines_of(own_)));
         const auto lines_before = static_cast<std::size_t>(lines[comm.rank()]);
         const bool begins_in_solid = comm.rank() > 0;
         bool in_solid = begins_in_solid;
-        PointNumbers points;
+        Points points(0, 3);
         std::string fault;
         try {
             faces = {};

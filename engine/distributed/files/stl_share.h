@@ -9,7 +9,6 @@
 #include "partition/executor.h"
 #include "partition/formats/mesh_io.h"
 #include "partition/io/fault_log.h"
-#include "partition/point_numbers.h"
 #include "partition/polygon_mesh.h"
 
 namespace seamflow {
@@ -29,7 +28,7 @@ class StlShare {
     /// @param faces without vertices; receives them, with numbers of the points that are returned as corners.
     /// @param faults receives what is left out, numbered from 0 in this share.
     /// @throws InputError as read_stl.
-    virtual PointNumbers read(Communicator& comm, PolygonMesh& faces, FaultLog& faults) const = 0;
+    virtual Points read(Communicator& comm, PolygonMesh& faces, FaultLog& faults) const = 0;
 
     /// Says that all facets together have no vertices. All ranks call this together.
     /// @throws InputError

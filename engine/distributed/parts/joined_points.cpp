@@ -57,14 +57,15 @@ struct PointsByHome {
     /// Their numbers on this rank.
     std::vector<std::vector<Index>> numbers;
 
-    PointsByHome(const std::vector<PointNumbers::Place>& own, int n_ranks)
+    PointsByHome(const Points& own, int n_ranks)
         : points(static_cast<std::size_t>(n_ranks))
         , numbers(static_cast<std::size_t>(n_ranks))
     {
-        for (std::size_t i = 0; i < own.size(); ++i) {
-            const std::size_t home = home_of_point(own[i], n_ranks);
-            points[home].push_back(own[i]);
-            numbers[home].push_back(static_cast<Index>(i));
+        for (Index i = 0; i < static_cast<Index>(own.rows()); ++i) {
+            const PointNumbers::Place point{own(i, 0), own(i, 1), own(i, 2)};
+            const std::size_t home = home_of_point(point, n_ranks);
+            points[home].push_back(point);
+            numbers[home].push_back(i);
         }
     }
 };
@@ -85,26 +86,28 @@ std::vector<std::vector<FirstQuestion>> find_firsts(Communicator& comm, const Po
 
 }  // namespace
 
-JoinedPoints join_points(Communicator& comm, const std::vector<PointNumbers::Place>& own)
+JoinedPoints join_points(Communicator& comm, const Points& own)
 {
+    const std::size_t n = at(static_cast<Index>(own.rows()));
     const PointsByHome by_home(own, comm.size());
-    std::vector<FirstQuestion> first_of(own.size());
+    std::vector<FirstQuestion> first_of(n);
     const auto found = find_firsts(comm, by_home);
     for (std::size_t home = 0; home < found.size(); ++home)
         for (std::size_t k = 0; k < found[home].size(); ++k)
             first_of[by_home.numbers[home][k]] = found[home][k];
 
     JoinedPoints joined;
-    joined.numbers.resize(own.size());
+    joined.numbers.resize(n);
     std::vector<std::vector<FirstQuestion>> of_others(static_cast<std::size_t>(comm.size()));
     std::vector<double> firsts;
-    for (std::size_t i = 0; i < own.size(); ++i) {
+    for (std::size_t i = 0; i < n; ++i) {
         if (first_of[i].rank != comm.rank()) {
             of_others[first_of[i].rank].push_back(first_of[i]);
             continue;
         }
         joined.numbers[i] = static_cast<std::int64_t>(firsts.size() / 3);
-        firsts.insert(firsts.end(), own[i].begin(), own[i].end());
+        const Point point = own.row(static_cast<Index>(i));
+        firsts.insert(firsts.end(), {point[0], point[1], point[2]});
     }
     const auto n_firsts = static_cast<Index>(firsts.size() / 3);
     joined.firsts = Eigen::Map<const Points>(firsts.data(), n_firsts, 3);
@@ -114,7 +117,7 @@ JoinedPoints join_points(Communicator& comm, const std::vector<PointNumbers::Pla
             return before + joined.numbers[by_home.numbers[question.home][question.number]];
         });
     std::vector<std::size_t> next(numbers.size(), 0);
-    for (std::size_t i = 0; i < own.size(); ++i) {
+    for (std::size_t i = 0; i < n; ++i) {
         const auto rank = static_cast<std::size_t>(first_of[i].rank);
         if (first_of[i].rank == comm.rank())
             joined.numbers[i] += before;

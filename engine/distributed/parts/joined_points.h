@@ -20,7 +20,7 @@ struct JoinedPoints {
 
 /// Finds equal points (see PointNumbers) of several ranks. Each point is looked for on one rank, given by its hash, so
 /// that no rank has all of them. All ranks call this together.
-/// @param own of this rank, all different.
-JoinedPoints join_points(Communicator& comm, const std::vector<PointNumbers::Place>& own);
+/// @param own #V by 3: of this rank, all different.
+JoinedPoints join_points(Communicator& comm, const Points& own);
 
 }  // namespace seamflow
