@@ -62,12 +62,13 @@ const std::vector<float> one_facet = {0, 0, 0, 1, 0, 0, 0, 1, 0};
 
 TEST_CASE("STL: equal corners become one vertex in order of appearance, of several solids too")
 {
-    const auto file =
-        read_text("a.stl", "solid one\n" + facet(three) + "endsolid one\n  SOLID two\r\n" +
-                               facet("  vertex 1 -0 0\n\tVERTEX 0 1.0 0\n vertex 1e0 1 0\n") + "endsolid two");
+    const auto file = read_text("a.stl", "solid one\n" + facet(three) + "endsolid one\n  SOLID two\r\n" +
+                                             facet("  vertex 1 -0 0\n\tVERTEX 0 1.0 0\n vertex 1e0 1 0\n") +
+                                             facet("vertex 5 5 5\nvertex 0 1 0\nvertex 1 1 0\n") +
+                                             facet("vertex 5 5 5\nvertex 1 1 0\nvertex 1 0 -0\n") + "endsolid two");
     CHECK(file.kind == text_stl);
-    CHECK(file.mesh.n_vertices() == 4);
-    CHECK(file.mesh.face_vertices == std::vector<Index>{0, 1, 2, 1, 2, 3});
+    CHECK(file.mesh.n_vertices() == 5);
+    CHECK(file.mesh.face_vertices == std::vector<Index>{0, 1, 2, 1, 2, 3, 4, 2, 3, 4, 3, 1});
 }
 
 TEST_CASE("STL: normals and names are passed over, whatever they are")
