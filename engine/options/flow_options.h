@@ -57,6 +57,10 @@ enum class FlowEquation {
     /// Non-Singular?, 2012): (M(Vⁿ) + dt K(V⁰)) Vⁿ⁺¹ = M(Vⁿ) Vⁿ. Necks do not pinch; a closed surface
     /// without handles tends to a sphere. K is assembled once. For symmetric Laplacians and backward Euler steps.
     Conformalized,
+    /// The heat equation on the first surface, applied to its coordinates: (M(V⁰) + dt K(V⁰)) Vⁿ⁺¹ = M(V⁰) Vⁿ. The
+    /// matrix is factorised once: every step after the first is one solution. For symmetric Laplacians and backward
+    /// Euler steps that are converged (Approach::Converged) or undecomposed.
+    Linear,
 };
 
 /// The η in p* = ((k_min² + η)(k_max² + η))^¼ (paper, eq. 26).
@@ -295,7 +299,7 @@ struct FlowOptions {
 
     /// The discrete Laplacian.
     Laplacian laplacian = Laplacian::Fujiwara;
-    /// The flow: whether K of the Laplacian follows the surface.
+    /// The flow: whether K and M of the Laplacian follow the surface.
     FlowEquation flow = FlowEquation::MeanCurvature;
     /// A filter other than Diffusion of order 1 takes several solutions a step, with one factorisation: 8 and 11 for
     /// Diffusion of order 2 and 3, to a hundredth, m for LowPass of order m. For symmetric Laplacians and backward

@@ -34,7 +34,8 @@ struct OptionNames<Conditions> {
 template <>
 struct OptionNames<FlowEquation> {
     static constexpr NamedOption<FlowEquation> list[]{{"mean-curvature", FlowEquation::MeanCurvature},
-                                                      {"conformalized", FlowEquation::Conformalized}};
+                                                      {"conformalized", FlowEquation::Conformalized},
+                                                      {"linear", FlowEquation::Linear}};
 };
 
 template <>

@@ -188,6 +188,12 @@ void require_valid_flow(const FlowOptions& options)
     if (options.accuracy.approach == Approach::ConjugateGradients && options.flow != FlowEquation::MeanCurvature)
         throw OptionError(asked + ", but approach is by conjugate gradients, which support only mean curvature flow: "
                                   "leave the approach automatic");
+    if (options.flow == FlowEquation::Linear)
+        if (const std::string_view set = first_set(options, concern::sweeps);
+            !set.empty() || (options.accuracy.approach == Approach::Sweep && !options.accuracy.tolerance))
+            throw OptionError(fmt::format("{}, whose steps are converged or undecomposed, but {} is for sweeps: leave "
+                                          "that out",
+                                          asked, set.empty() ? "the approach" : set));
     if (!filter_of(options).is_plain() && !predicts(options))
         throw OptionError(asked + ", which sweeps support only with adapted Robin conditions and predicted "
                                   "transmission: leave out other conditions, the derivatives, and p");

@@ -44,6 +44,8 @@ namespace {
 /// Leaves a few hundredths of a mean edge length on most meshes, and took one to four iterations with Δ_F on regular
 /// ones, up to 19 on a scan with slivers (measured: see engine/accuracy.md).
 constexpr double loose_tolerance = 1e-2;
+/// Of steps that cost little more than their iterations.
+constexpr double tolerance_of_linear_flow = 1e-4;
 /// In squared mean edge lengths: with longer steps, the error of a sweep approaches a mean edge length.
 constexpr double longest_step_of_sweeps = 16.0;
 /// For conjugate gradients, whose residual is that of all vertices. They leave no more than sweeps do, and with long
@@ -110,6 +112,8 @@ ToleranceChoice choose_tolerance(const PolygonMesh& mesh, const MeshSize& size, 
         return {loose_tolerance, ""};
     if (options.accuracy.approach == Approach::Undecomposed)
         return {};
+    if (options.flow == FlowEquation::Linear)
+        return {tolerance_of_linear_flow, "its matrix is factorised once"};
     if (boundary_moves && !speaks_of_sweeps(options) && (options.cut.subdomains != 1 || !options.cut.labels.empty()))
         return {loose_tolerance, "sub-meshes that share a free boundary need it"};
     if (speaks_of_sweeps(options) || mesh.n_faces() == 0)

@@ -13,7 +13,8 @@ namespace seamflow {
 FlowTerms terms_of(const FlowOptions& options, const Points& first)
 {
     return {.first = &first,
-            .keeps_stiffness = options.flow == FlowEquation::Conformalized,
+            .keeps_stiffness = options.flow != FlowEquation::MeanCurvature,
+            .keeps_mass = options.flow == FlowEquation::Linear,
             .weights = options.motion.attachment_weights,
             .uniform_weight = options.motion.attachment};
 }

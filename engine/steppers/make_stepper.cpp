@@ -10,6 +10,18 @@
 
 namespace seamflow {
 
+namespace {
+
+/// For a mesh that is not cut: without Γ, a converged step is exact, whatever its tolerance.
+std::unique_ptr<Stepper> make_factor_once(const PolygonMesh& mesh, const Topology& topology, const Cut& cut,
+                                          FlowOptions options, Progress& progress)
+{
+    options.accuracy.tolerance = 1e-10;
+    return std::make_unique<SchurStepper>(mesh, topology, cut, options, progress);
+}
+
+}  // namespace
+
 std::unique_ptr<Stepper> make_stepper(const PolygonMesh& mesh, const Topology& topology, const Cut& cut,
                                       const FlowOptions& options, const std::vector<double>& curvature,
                                       Progress& progress)
@@ -24,6 +36,8 @@ std::unique_ptr<Stepper> make_stepper(const PolygonMesh& mesh, const Topology& t
         return std::make_unique<SchurStepper>(mesh, topology, cut, options, progress);
     if (options.accuracy.tolerance)
         return std::make_unique<SchwarzGmresStepper>(mesh, topology, cut, options, progress);
+    if (options.flow == FlowEquation::Linear)
+        return make_factor_once(mesh, topology, cut, options, progress);
     return std::make_unique<SweepStepper>(mesh, topology, cut, options, curvature, progress);
 }
 
@@ -34,6 +48,8 @@ std::unique_ptr<Stepper> make_undecomposed_stepper(const PolygonMesh& mesh, cons
     // The whole mesh is one factor, which no limit for sub-meshes suits.
     FlowOptions undecomposed = options;
     undecomposed.resources.memory_limit.reset();
+    if (options.flow == FlowEquation::Linear)
+        return make_factor_once(mesh, topology, cut_into(mesh, topology, 1), undecomposed, progress);
     return std::make_unique<SweepStepper>(mesh, topology, cut_into(mesh, topology, 1), undecomposed, curvature,
                                           progress);
 }

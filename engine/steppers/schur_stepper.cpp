@@ -69,6 +69,7 @@ SchurStepper::SchurStepper(const PolygonMesh& mesh, PeerSubMeshes sub_meshes, co
                 *peers_)
 {
     Decomposition& decomposition = sub_meshes.decomposition;
+    keeps_matrix_ = options.flow == FlowEquation::Linear;
     factors_.precision = options.resources.precision;
     interface_.n_vertices = decomposition.n_interface_vertices;
     interface_.complements.resize(sub_meshes_.size());
@@ -201,7 +202,7 @@ CondensedStep SchurStepper::shared_step()
 
 void SchurStepper::condense(Index s)
 {
-    if (data_ != nullptr)
+    if (has_matrix())
         return sub_meshes_[s]->condense_again(shared_step(), workspaces_.local());
     // Without Γ there is no iteration: one solution is exact.
     const bool is_exact = factors_.precision == Precision::Automatic && equation_.copies().n_in(s) == 0;
@@ -281,13 +282,13 @@ std::array<bool, 3> SchurStepper::at_rest(const Executor& exec) const
 }
 
 /// @returns stagnation also if refinement of the interiors stagnates.
-InterfaceResult SchurStepper::solve_on_interface(const IterationStop& stop, const Executor& exec)
+InterfaceResult SchurStepper::solve_on_interface(bool has_matrix, const IterationStop& stop, const Executor& exec)
 {
     interface_.reached.setZero(equation_.copies().n_vertices(), 3);
     const Point first = interior_residual();
     // Σ S x_Γ = Σ g_Γ over the sub-meshes
     InterfaceResult result = equation_.solve(
-        interface_.complements, interface_.condensed,
+        interface_.complements, has_matrix, interface_.condensed,
         [&](const Points& update) -> Points& { return refine_all(update, exec); },
         interface_.has_guess ? &interface_.guess : nullptr, stop, interface_.update, exec);
     const std::array<bool, 3> rests = at_rest(exec);
@@ -311,18 +312,22 @@ InterfaceResult SchurStepper::solve_equation(const IterationStop& stop, const Ex
 {
     interface_.guess.swap(interface_.update);
     interface_.has_guess = std::exchange(interface_.has_update, true);
-    const InterfaceResult result = solve_on_interface(stop, exec);
+    const InterfaceResult result = solve_on_interface(has_matrix(), stop, exec);
+    interface_.has_complements = keeps_matrix_;
     if (!result.stagnated || !has_single() || factors_.precision == Precision::Single)
         return result;
+    // A resumed flow would begin its steps in single precision, too.
+    interface_.has_complements = false;
     for_each_sub_mesh(exec, [&](Index s) {
         sub_meshes_[s]->condense(shared_step(), Precision::Double, workspaces_.local(), interface_.complements[s]);
     });
-    return solve_on_interface(stop, exec);
+    return solve_on_interface(false, stop, exec);
 }
 
 void SchurStepper::back_substitute(Index s)
 {
-    sub_meshes_[s]->back_substitute(shared_step(), interface_.update, !filter_.is_plain(), workspaces_.local());
+    sub_meshes_[s]->back_substitute(shared_step(), interface_.update, keeps_matrix_ || !filter_.is_plain(),
+                                    workspaces_.local());
 }
 
 void SchurStepper::save(StepMemory& memory) const

@@ -77,6 +77,8 @@ class SchurStepper final : public ConvergedStepper {
         Points update;
         Points guess;
         bool has_update = false;
+        /// Whether the complements are also those of the next step.
+        bool has_complements = false;
         bool has_guess = false;
         /// The update that interiors and `condensed` belong to.
         Points reached;
@@ -93,6 +95,8 @@ class SchurStepper final : public ConvergedStepper {
     template <class Action>
     void for_each_sub_mesh(const Executor& exec, Action&& action);
     CondensedStep shared_step();
+    /// Whether the matrix is that of the last solution, with its factors.
+    [[nodiscard]] bool has_matrix() const { return data_ != nullptr || interface_.has_complements; }
     void condense(Index s);
     void back_substitute(Index s);
     Points& refine_all(const Points& update, const Executor& exec);
@@ -100,12 +104,14 @@ class SchurStepper final : public ConvergedStepper {
     [[nodiscard]] Point interior_residual() const;
     [[nodiscard]] std::array<bool, 3> at_rest(const Executor& exec) const;
     bool refine_interiors(double tolerance, const Point& first, const Executor& exec);
-    InterfaceResult solve_on_interface(const IterationStop& stop, const Executor& exec);
+    InterfaceResult solve_on_interface(bool has_matrix, const IterationStop& stop, const Executor& exec);
     InterfaceResult solve_equation(const IterationStop& stop, const Executor& exec) override;
     void restore_further(StepMemoryReader& memory) override;
 
     std::unique_ptr<InterfacePeers> peers_;
     std::function<void(Index, const std::function<void()>&)> run_for_;
+    /// Whether all steps have the same matrix.
+    bool keeps_matrix_ = false;
     FactorStore factors_;
     /// Null for foreign sub-meshes, for which nothing is done.
     std::vector<std::unique_ptr<CondensedSubMesh>> sub_meshes_;

@@ -130,7 +130,9 @@ VanishingComponents::VanishingComponents(const FlowOptions& options, const Point
     , find_(std::move(find))
 {
     // The Laplacian with uniform weights does not depend on any size.
-    if (options.scheme == Scheme::BackwardEuler && !options.keep_edges && options.laplacian != Laplacian::Uniform)
+    // That of a linear flow depends on those of the first surface alone.
+    if (options.scheme == Scheme::BackwardEuler && !options.keep_edges && options.laplacian != Laplacian::Uniform &&
+        options.flow != FlowEquation::Linear)
         extent_ = std::sqrt(options.time_step / small_by_steps);
     is_attached_ = options.motion.attachment > 0.0 || !options.motion.attachment_weights.empty();
     has_kept_lengths_ =

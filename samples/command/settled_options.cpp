@@ -82,6 +82,8 @@ void require_effective(const CLI::App& app, const SmoothCommand& command)
     const std::string of_sweeps = first_given(app, concern::sweeps);
     if (command.options.accuracy.tolerance && !of_sweeps.empty())
         throw OptionError(of_sweeps + " is about sweeps, but --converge takes converged steps: leave one of them out");
+    if (command.options.flow == FlowEquation::Linear && !of_sweeps.empty())
+        throw OptionError(of_sweeps + " is about sweeps, but --flow linear takes none: leave one of them out");
     require_consistent_approach(app, command, of_sweeps);
     if (app.count("--converge") > 0 && command.options.accuracy.approach == Approach::Sweep)
         if (const std::string of_converged = first_given(app, concern::converged_steps); !of_converged.empty())

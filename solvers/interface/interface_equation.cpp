@@ -31,14 +31,16 @@ InterfaceEquation::InterfaceEquation(const Decomposition& decomposition, Balanci
         coarse_.emplace(copies_, peers);
 }
 
-InterfaceResult InterfaceEquation::solve(std::span<const DenseFactor> complements, Points& right_hand_sides,
-                                         const Residuals& residuals, const Points* guess, const IterationStop& stop,
-                                         Points& x, const Executor& exec)
+InterfaceResult InterfaceEquation::solve(std::span<const DenseFactor> complements, bool are_known,
+                                         Points& right_hand_sides, const Residuals& residuals, const Points* guess,
+                                         const IterationStop& stop, Points& x, const Executor& exec)
 {
     x.setZero(copies_.n_vertices(), 3);
-    weigh_copies(complements, exec);
-    if (coarse_)
-        coarse_->prepare(complements, weights_, exec);
+    if (!are_known) {
+        weigh_copies(complements, exec);
+        if (coarse_)
+            coarse_->prepare(complements, weights_, exec);
+    }
     sum_copies(right_hand_sides, right_hand_side_, exec);
     const Point unit = measure_right_hand_side();
     vectors_.begin(right_hand_side_, exec);

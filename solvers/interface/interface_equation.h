@@ -52,6 +52,7 @@ class InterfaceEquation {
 
     /// Solves; all peers call this together.
     /// @param complements one per sub-mesh; those of foreign ones are not used.
+    /// @param are_known whether the complements are those of the last solution.
     /// @param right_hand_sides one row per copy: each own sub-mesh's share g_i. The other rows are filled in.
     /// @param residuals is called now and then.
     /// @param stop residual relative to that of x = 0, in the Euclidean norm, for each of x, y and z.
@@ -60,7 +61,7 @@ class InterfaceEquation {
     /// @returns the largest residual of x, y and z; as distance the largest row of the preconditioned residual, scaled
     ///          like the last iteration.
     /// @throws ComputationError if the right-hand side or the result is not finite.
-    InterfaceResult solve(std::span<const DenseFactor> complements, Points& right_hand_sides,
+    InterfaceResult solve(std::span<const DenseFactor> complements, bool are_known, Points& right_hand_sides,
                           const Residuals& residuals, const Points* guess, const IterationStop& stop, Points& x,
                           const Executor& exec);
 

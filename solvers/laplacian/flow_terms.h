@@ -13,6 +13,8 @@ struct FlowTerms {
     const Points* first = nullptr;
     /// Whether K is that of V⁰ in all steps: the conformalized flow (Kazhdan, Solomon, Ben-Chen 2012).
     bool keeps_stiffness = false;
+    /// Whether M is, too: the linear flow, which keeps K. Not for sweeps.
+    bool keeps_mass = false;
     /// w of the attachment to V⁰, (M + dt K + dt M w) Vᵏ⁺¹ = M Vᵏ + dt M w V⁰, in 1/length²: that of each vertex (#V),
     /// or if empty, one for all.
     std::span<const double> weights = {};

@@ -194,10 +194,11 @@ class SymmetricFaces final : public SymmetricLaplacian {
     typename Kernel::Scratch scratch_;
 };
 
-/// K of certain positions, M of any.
+/// K of certain positions, M of the same or of any.
 class KeptStiffness final : public SymmetricLaplacian {
   public:
-    KeptStiffness(std::unique_ptr<SymmetricLaplacian> laplacian, Index n_vertices, const Points& positions)
+    KeptStiffness(std::unique_ptr<SymmetricLaplacian> laplacian, Index n_vertices, const Points& positions,
+                  bool keeps_mass)
         : laplacian_(std::move(laplacian))
         , pairs_(laplacian_->pairs())
         , entries_(pairs_.size(), 0.0)
@@ -207,6 +208,8 @@ class KeptStiffness final : public SymmetricLaplacian {
         std::iota(slots.begin(), slots.end(), 0);
         std::vector<double> mass(n_vertices);
         laplacian_->assemble(positions, 1.0, slots, entries_, diagonal_, mass);
+        if (keeps_mass)
+            mass_ = std::move(mass);
     }
 
     [[nodiscard]] bool uses_faces() const override { return laplacian_->uses_faces(); }
@@ -215,7 +218,7 @@ class KeptStiffness final : public SymmetricLaplacian {
     void assemble(const Points& positions, double factor, std::span<const Index> slots, std::span<double> values,
                   std::span<double> diagonal, std::span<double> mass, const StiffnessProduct* product) override
     {
-        laplacian_->measure_mass(positions, mass);
+        measure_mass(positions, mass);
         for (std::size_t v = 0; v < diagonal_.size(); ++v)
             diagonal[v] = factor * diagonal_[v];
         with_product(product, [&](auto&& add_to_product) {
@@ -230,7 +233,10 @@ class KeptStiffness final : public SymmetricLaplacian {
 
     void measure_mass(const Points& positions, std::span<double> mass) const override
     {
-        laplacian_->measure_mass(positions, mass);
+        if (mass_.empty())
+            laplacian_->measure_mass(positions, mass);
+        else
+            std::ranges::copy(mass_, mass.begin());
     }
 
   private:
@@ -238,16 +244,17 @@ class KeptStiffness final : public SymmetricLaplacian {
     std::vector<VertexPair> pairs_;
     /// Per pair.
     std::vector<double> entries_;
-    /// Per vertex.
+    /// Per vertex; M is empty if it follows the mesh.
     std::vector<double> diagonal_;
+    std::vector<double> mass_;
 };
 
 }  // namespace
 
 std::unique_ptr<SymmetricLaplacian> keep_stiffness(std::unique_ptr<SymmetricLaplacian> laplacian, Index n_vertices,
-                                                   const Points& positions)
+                                                   const Points& positions, bool keeps_mass)
 {
-    return std::make_unique<KeptStiffness>(std::move(laplacian), n_vertices, positions);
+    return std::make_unique<KeptStiffness>(std::move(laplacian), n_vertices, positions, keeps_mass);
 }
 
 std::unique_ptr<SymmetricLaplacian> make_symmetric_laplacian(const ScaledLaplacian& laplacian,

@@ -53,10 +53,11 @@ class SymmetricLaplacian {
 std::unique_ptr<SymmetricLaplacian> make_symmetric_laplacian(const ScaledLaplacian& laplacian,
                                                              const FacesOnBothSides& faces);
 
-/// The same with the K of fixed positions, which is assembled once; M follows the mesh.
+/// The same with the K of fixed positions, which is assembled once.
 /// @param n_vertices of all.
 /// @param positions at least n_vertices by 3; needed only during the call.
+/// @param keeps_mass whether M is that of these positions, too, or follows the mesh.
 std::unique_ptr<SymmetricLaplacian> keep_stiffness(std::unique_ptr<SymmetricLaplacian> laplacian, Index n_vertices,
-                                                   const Points& positions);
+                                                   const Points& positions, bool keeps_mass = false);
 
 }  // namespace seamflow

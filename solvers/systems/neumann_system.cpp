@@ -31,7 +31,7 @@ NeumannSystem::NeumannSystem(const SubMesh& sub_mesh, IndexLists faces, const Sc
     matrix_.screening = make_screening(terms, local_to_global.first(at(sub_mesh.n_vertices)));
     if (terms.keeps_stiffness)
         matrix_.laplacian = keep_stiffness(std::move(matrix_.laplacian), matrix_.n_vertices,
-                                           rows_of(*terms.first, sub_mesh.local_to_global));
+                                           rows_of(*terms.first, sub_mesh.local_to_global), terms.keeps_mass);
     if (!matrix_.laplacian->uses_faces())
         faces_ = {};
 }

@@ -20,8 +20,9 @@ SymmetricSystem::SymmetricSystem(const SystemParts& parts, SymmetricRows rows, S
     const std::span<const Index> local_to_global = sub_mesh_->local_to_global;
     matrix_.screening = make_screening(parts.terms, local_to_global.first(at(sub_mesh_->n_vertices)));
     if (parts.terms.keeps_stiffness)
-        matrix_.laplacian = keep_stiffness(std::move(matrix_.laplacian), matrix_.n_vertices,
-                                           rows_of(*parts.terms.first, sub_mesh_->local_to_global));
+        matrix_.laplacian =
+            keep_stiffness(std::move(matrix_.laplacian), matrix_.n_vertices,
+                           rows_of(*parts.terms.first, sub_mesh_->local_to_global), parts.terms.keeps_mass);
     std::vector<Index> unknown_of;
     number_unknowns(rows, unknown_of);
     const std::vector<VertexPair> pairs = matrix_.laplacian->pairs();

@@ -50,6 +50,9 @@ std::vector<FurtherFlow> further_flows(Laplacian laplacian)
     add("low-pass, conformalized and attached", [](FlowOptions& o) {
         o.filter = Filter::LowPass, o.flow = FlowEquation::Conformalized, o.motion.attachment = 150.0;
     });
+    add("linear", [](FlowOptions& o) { o.flow = FlowEquation::Linear; });
+    add("low-pass, linear and attached",
+        [](FlowOptions& o) { o.filter = Filter::LowPass, o.flow = FlowEquation::Linear, o.motion.attachment = 150.0; });
     return flows;
 }
 
@@ -58,9 +61,11 @@ std::vector<FurtherFlow> all_further_flows()
     std::vector<FurtherFlow> all;
     for (const Laplacian laplacian : symmetric_laplacians)
         for (FurtherFlow& flow : further_flows(laplacian)) {
-            all.push_back(flow);
-            all.back().name += ", by sweeps";
-            all.back().options.accuracy.approach = Approach::Sweep;
+            if (flow.options.flow != FlowEquation::Linear) {
+                all.push_back(flow);
+                all.back().name += ", by sweeps";
+                all.back().options.accuracy.approach = Approach::Sweep;
+            }
             flow.name += ", converged";
             flow.options.accuracy.tolerance = 1e-11;
             all.push_back(std::move(flow));
@@ -149,6 +154,42 @@ TEST_CASE("with more sub-meshes further flows are the same converged, and near b
                 CHECK(largest_difference(result, expected) <= 1e-7 * edge);
             else
                 CHECK(mean_distance(result, expected) <= 0.25 * mean_distance(mesh.vertices, flowed(mesh, plain)));
+        }
+}
+
+TEST_CASE("every step of the linear flow has the matrix of the first surface")
+{
+    for (const PolygonMesh& mesh : {make_mixed_polygons(300), make_noisy_sphere(300)})
+        for (const Laplacian laplacian : symmetric_laplacians) {
+            CAPTURE(name_of(laplacian));
+            FlowOptions options;
+            options.laplacian = laplacian;
+            options.time_step = 0.01;
+            options.steps = 4;
+            options.flow = FlowEquation::Linear;
+            options.uniform_edge = 1.0;
+            const Topology topology = make_topology(mesh);
+            const Index n = mesh.n_vertices();
+            Eigen::MatrixXd matrix = Eigen::MatrixXd::Identity(n, n);
+            const Eigen::MatrixXd delta = dense_laplacian(laplacian, mesh, topology);
+            for (Index v = 0; v < n; ++v)
+                if (topology.moves(v))
+                    matrix.row(v) += options.time_step * delta.row(v);
+            const Eigen::PartialPivLU<Eigen::MatrixXd> factor(matrix);
+            Points expected = mesh.vertices;
+            std::vector<Points> after{expected};
+            for (int step = 0; step < options.steps; ++step)
+                after.emplace_back(expected = factor.solve(expected));
+            for (const bool is_cut : {false, true}) {
+                FlowOptions own = is_cut ? options : undecomposed(options);
+                if (is_cut)
+                    own.cut.subdomains = 7, own.accuracy.tolerance = 1e-12;
+                PolygonMesh flowing = mesh;
+                const FlowReport report = mean_curvature_flow(flowing, own, [&](const StepState& state) {
+                    CHECK(largest_difference(state.positions, after[at(state.step)]) <= 1e-10);
+                });
+                CHECK(report.convergence.steps_short_of_tolerance == 0);
+            }
         }
 }
 
@@ -368,4 +409,10 @@ TEST_CASE("options that further flows exclude are refused with what to do")
     CHECK(with([](FlowOptions& o) { o.scheme = Scheme::ExplicitEuler; }).find("backward Euler") != std::string::npos);
     CHECK(with([](FlowOptions& o) { o.accuracy.approach = Approach::ConjugateGradients; }).find("leave the approach") !=
           std::string::npos);
+    options.flow = FlowEquation::Linear;
+    CHECK(with([](FlowOptions&) {}).empty());
+    CHECK(with([](FlowOptions& o) { o.accuracy.approach = Approach::Sweep; }) ==
+          "flow is linear, whose steps are converged or undecomposed, but the approach is for sweeps: leave that out");
+    CHECK(
+        with([](FlowOptions& o) { o.interface.conditions = Conditions::Robin; }).starts_with("flow is linear, whose"));
 }

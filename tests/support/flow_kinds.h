@@ -86,6 +86,12 @@ inline std::vector<FlowKind> flow_kinds(double edge)
         o.flow = FlowEquation::Conformalized, o.accuracy.tolerance = 1e-3, o.report.reference = true;
         o.motion.boundary = Boundary::Free, o.motion.rescale = Rescale::Area;
     });
+    add("linear", [](FlowOptions& o) { o.flow = FlowEquation::Linear, o.accuracy.tolerance = 1e-3; });
+    // Single precision goes no further.
+    add("linear, tight", [](FlowOptions& o) { o.flow = FlowEquation::Linear, o.accuracy.tolerance = 1e-14; });
+    add("linear, undecomposed", [](FlowOptions& o) {
+        o.flow = FlowEquation::Linear, o.cut.subdomains = 0, o.accuracy.approach = Approach::Undecomposed;
+    });
     add("bounded", [&](FlowOptions& o) { o.motion.within = 0.2 * edge; });
     add("limited", [&](FlowOptions& o) { o.motion.limits = {.volume = 0.01, .move = 0.2 * edge}; });
     add("held", [](FlowOptions& o) { o.motion.fixed_vertices = {3, 100, 101, 102, 250}; });

@@ -32,7 +32,7 @@ export function summary(mesh, report) {
     return [
         `${counted(mesh.vertices, "vertex", "vertices")}, ${counted(mesh.faces, "face", "faces")}`,
         keepsEdges(report) ? `edges sharper than ${digits(report.keep_edges)}° kept` : `Laplacian ${laplacians[report.laplacian] ?? report.laplacian}`,
-        ...(report.flow === "conformalized" ? ["conformalized"] : []),
+        ...(report.flow && report.flow !== "mean-curvature" ? [report.flow] : []),
         ...(report.filter === "low-pass" ? ["low-pass"] : []),
         ...(report.attachment ? [`attached, ${digits(report.attachment)} / length²`] : []),
         ...(report.attachment_weights ? ["attached by weights"] : []),

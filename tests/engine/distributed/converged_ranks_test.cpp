@@ -51,6 +51,14 @@ TEST_CASE("ranks find the bits of one machine in converged steps: what else ther
     options.flow = FlowEquation::Conformalized;
     options.accuracy.tolerance = {};
     check_bits({"conformalized, loose", mesh, options}, 10, {1, 3, 5});
+    options = defaults;
+    options.flow = FlowEquation::Linear;
+    check_bits({"linear", mesh, options}, 10, {1, 3, 5});
+    options.accuracy.tolerance = 1e-14;
+    check_bits({"linear, tight", mesh, options}, 10, {1, 3});
+    options.accuracy.tolerance = {};
+    options.resources.memory_limit = 150'000;
+    check_bits({"linear, scarce", mesh, options}, 20, {1, 3});
     // Single precision goes no further, and steps are taken again in double precision.
     options = defaults;
     options.accuracy.tolerance = 1e-14;

@@ -107,7 +107,8 @@ struct Equation {
             condense(s, shares);
         }
         return equation.solve(
-            complements, right_hand_sides, [&](const Points& at_x) -> Points& { return shares = residuals(at_x); },
+            complements, false, right_hand_sides,
+            [&](const Points& at_x) -> Points& { return shares = residuals(at_x); },
             guess.size() > 0 ? &guess : nullptr, stop, x, run_serially);
     }
 
