@@ -78,8 +78,8 @@ void require_positions(const StepMemory& memory, const PolygonMesh& mesh)
 
 }  // namespace
 
-/// Where the parts of the steps begin and end within a whole flow. All steps take equally long; a step is divided as
-/// the time of the previous one was.
+/// Where the parts of the steps begin and end within a whole flow, which ends with the steps that were expected, however
+/// many follow. All steps take equally long; a step is divided as the time of the previous one was.
 class FlowRun::StepFractions {
   public:
     /// @param begin the fraction of the whole that is done before the first step.
@@ -94,10 +94,10 @@ class FlowRun::StepFractions {
 
     /// Fractions of the whole: the beginning of the step, the end of its tasks, the beginning of its reference step,
     /// and its end.
-    [[nodiscard]] double begin() const { return begin_ + n_done_ * length_; }
-    [[nodiscard]] double end_of_tasks() const { return begin() + tasks_ * length_; }
+    [[nodiscard]] double begin() const { return std::min(begin_ + n_done_ * length_, 1.0); }
+    [[nodiscard]] double end_of_tasks() const { return std::min(begin() + tasks_ * length_, 1.0); }
     [[nodiscard]] double begin_of_reference() const { return end() - reference_ * length_; }
-    [[nodiscard]] double end() const { return begin_ + (n_done_ + 1) * length_; }
+    [[nodiscard]] double end() const { return std::min(begin_ + (n_done_ + 1) * length_, 1.0); }
 
     /// Continues with the next step.
     void end_step(double task_seconds, double measuring_seconds, double reference_seconds)
@@ -171,35 +171,55 @@ struct FlowRun::StepTools {
 };
 
 FlowRun::FlowRun(FlowingMesh& mesh, std::unique_ptr<PreparedFlow> prepared, Progress& progress, double setup,
-                 FlowReport& report)
+                 FlowReport& report, const FlowState* resume)
     : mesh_(mesh)
     , prepared_(std::move(prepared))
     , progress_(progress)
     , report_(report)
     , setup_(setup)
     , curvature_before_(largest_curvature(prepared_->curvature))
+    , extent_before_(extent_of(mesh.mesh().vertices))
+    , resume_(resume)
 {
+    make_steppers();
+    tools_ = std::make_unique<StepTools>(mesh.mesh(), prepared_->topology, options());
+    // Mean curvature is measured across edges, except for that of Δ_P.
+    if (traits_of(options().laplacian).reach != Reach::TwoRings)
+        prepared_->topology.twin = std::vector<Index>();
+    if (resume != nullptr)
+        restore(*resume);
+    const auto n_taken = static_cast<int>(report.steps.size());
+    if (n_taken > 0)
+        curvature_before_ = report.steps.back().max_mean_curvature_after;
+    fractions_ = std::make_unique<StepFractions>(setup, std::max(options().steps - n_taken, 1), reference_ != nullptr);
+    if (tools_->has_results_apart())
+        of_flow_ = stepper_->positions();
+}
+
+FlowRun::~FlowRun() = default;
+
+void FlowRun::make_steppers()
+{
+    const PolygonMesh& mesh = mesh_.mesh();
     Stopwatch watch;
     if (prepared_->curvature.empty() && options().report.measures)
         curvature_before_ =
-            measure_largest_curvature(mesh.mesh(), prepared_->topology, mesh.mesh().vertices, laplacian_of(options()));
-    describe(*prepared_, mesh, report);
-    progress.enter(FlowPhase::Analyse, 0, 0.6 * setup, options().report.reference ? 0.8 * setup : setup);
-    stepper_ =
-        make_stepper(mesh.mesh(), prepared_->topology, prepared_->cut, options(), prepared_->curvature, progress);
-    report.cut.labels = std::move(prepared_->cut.labels);
-    report.seconds.analyse = watch.lap();
-    report.seconds.total = report.seconds.cut + report.seconds.analyse;
+            measure_largest_curvature(mesh, prepared_->topology, mesh.vertices, laplacian_of(options()));
+    describe(*prepared_, mesh_, report_);
+    progress_.enter(FlowPhase::Analyse, 0, 0.6 * setup_, options().report.reference ? 0.8 * setup_ : setup_);
+    stepper_ = make_stepper(mesh, prepared_->topology, prepared_->cut, options(), prepared_->curvature, progress_);
+    report_.cut.labels = std::move(prepared_->cut.labels);
+    report_.seconds.analyse = watch.lap();
+    report_.seconds.total = report_.seconds.cut + report_.seconds.analyse;
     if (options().report.reference) {
-        progress.enter(FlowPhase::Analyse, 0, 0.8 * setup, setup);
-        reference_ =
-            make_undecomposed_stepper(mesh.mesh(), prepared_->topology, options(), prepared_->curvature, progress);
+        progress_.enter(FlowPhase::Analyse, 0, 0.8 * setup_, setup_);
+        reference_ = make_undecomposed_stepper(mesh, prepared_->topology, options(), prepared_->curvature, progress_);
     }
     prepared_->curvature = std::vector<double>();
 }
 
 /// Restores everything to its state after a step.
-void FlowRun::restore(const FlowState& state, StepTools& tools)
+void FlowRun::restore(const FlowState& state)
 {
     if (state.cut != checksum_of(report_.cut.labels))
         throw InputError("the state to resume from belongs to another cut of the same mesh: another version of the "
@@ -213,7 +233,7 @@ void FlowRun::restore(const FlowState& state, StepTools& tools)
     if (reference_)
         reference_->restore(*state.reference);
     Points positions = stepper_->positions();
-    tools.make_result(positions);
+    tools_->make_result(positions);
     mesh_.move_to(positions);
     if (prepared_->meter)
         prepared_->meter->restore(state.displacement, mesh_.mesh().vertices);
@@ -222,7 +242,7 @@ void FlowRun::restore(const FlowState& state, StepTools& tools)
     report_.seconds.total += state.seconds.total;
 }
 
-FlowState FlowRun::capture(const FlowState* resume) const
+FlowState FlowRun::capture() const
 {
     FlowState state{.identity = prepared_->identity,
                     .approach = options().accuracy.approach,
@@ -231,8 +251,8 @@ FlowState FlowRun::capture(const FlowState* resume) const
                     .seconds = {.step = report_.seconds.step,
                                 .total = report_.seconds.total - report_.seconds.cut - report_.seconds.analyse},
                     .displacement = prepared_->meter ? prepared_->meter->sums() : DisplacementSums{}};
-    if (resume != nullptr)
-        state.seconds.add_tasks(resume->seconds);
+    if (resume_ != nullptr)
+        state.seconds.add_tasks(resume_->seconds);
     stepper_->add_seconds(state.seconds);
     stepper_->save(state.flow);
     if (reference_)
@@ -240,13 +260,13 @@ FlowState FlowRun::capture(const FlowState* resume) const
     return state;
 }
 
-void FlowRun::compare_with_reference(int step, StepTools& tools, const StepFractions& fractions, StepReport& of_step)
+void FlowRun::compare_with_reference(int step, StepReport& of_step)
 {
-    progress_.enter(FlowPhase::Reference, step, fractions.begin_of_reference(), fractions.end());
+    progress_.enter(FlowPhase::Reference, step, fractions_->begin_of_reference(), fractions_->end());
     Stopwatch watch;
     named("step " + std::to_string(step) + " of the undecomposed flow", [&] {
-        tools.vanishing.step(*reference_, reference_->positions());
-        tools.rescale(*reference_);
+        tools_->vanishing.step(*reference_, reference_->positions());
+        tools_->rescale(*reference_);
     });
     of_step.reference_seconds = watch.lap();
     PolygonMesh undecomposed = mesh_.mesh();
@@ -260,8 +280,7 @@ void FlowRun::compare_with_reference(int step, StepTools& tools, const StepFract
 }
 
 /// An observer sees everything where the given mesh lies.
-void FlowRun::tell(const StepObserver& on_step, int step, const StepReport& of_step, const Points* undecomposed,
-                   const FlowState* resume) const
+void FlowRun::tell(const StepObserver& on_step, int step, const StepReport& of_step, const Points* undecomposed) const
 {
     const PolygonMesh* separated = stepper_->separated();
     std::optional<Points> undecomposed_there;
@@ -274,7 +293,7 @@ void FlowRun::tell(const StepObserver& on_step, int step, const StepReport& of_s
         mesh_.bring_back(separated_there.emplace(*separated));
         separated = &*separated_there;
     }
-    on_step({step, mesh_.given_positions(), of_step, separated, undecomposed, [&] { return capture(resume); }});
+    on_step({step, mesh_.given_positions(), of_step, separated, undecomposed, [&] { return capture(); }});
 }
 
 void FlowRun::measure(const Points& after, StepReport& of_step)
@@ -287,81 +306,62 @@ void FlowRun::measure(const Points& after, StepReport& of_step)
         measure_largest_curvature(mesh_.mesh(), prepared_->topology, after, laplacian_of(options()));
 }
 
-void FlowRun::take_steps(const StepObserver& on_step, const FlowState* resume)
+void FlowRun::take_step(const StepObserver& on_step)
 {
     const PolygonMesh& mesh = mesh_.mesh();
-    const double extent = extent_of(mesh.vertices);
-    StepTools tools(mesh, prepared_->topology, options());
-    // Mean curvature is measured across edges, except for that of Δ_P.
-    if (traits_of(options().laplacian).reach != Reach::TwoRings)
-        prepared_->topology.twin = std::vector<Index>();
-    if (resume != nullptr)
-        restore(*resume, tools);
-    const auto first = static_cast<int>(report_.steps.size()) + 1;
-    if (!report_.steps.empty())
-        curvature_before_ = report_.steps.back().max_mean_curvature_after;
-    StepFractions fractions(setup_, std::max(options().steps - first + 1, 1), reference_ != nullptr);
-    // The flow continues from its own positions, not from results.
-    const bool is_apart = tools.has_results_apart();
-    Points of_flow = is_apart ? stepper_->positions() : Points();
-    const Points& before = is_apart ? of_flow : mesh.vertices;
-    Points result;
-    Points undecomposed;
-    for (int step = first; step <= options().steps; ++step) {
-        const std::string name = "step " + std::to_string(step);
-        progress_.enter(FlowPhase::Step, step, fractions.begin(), fractions.end_of_tasks());
-        Stopwatch watch;
-        named(name, [&] { tools.vanishing.step(*stepper_, before); });
-        StepReport of_step;
-        of_step.seconds = watch.lap();
-        stepper_->describe(of_step);
-        in_mean_edges(of_step.estimated_v_max, mesh, stepper_->positions());
-        // Scaling could hide that vertices have been thrown away, or shrink what is left too much.
-        named(name, [&] {
-            tools.limit.require(before, stepper_->positions(), report_.cut.labels);
-            tools.rescale(*stepper_);
-            if (is_apart) {
-                of_flow = result = stepper_->positions();
-                tools.make_result(result);
-            }
-        });
-        const Points& after = is_apart ? result : stepper_->positions();
-        measure(after, of_step);
-        const double measuring = watch.lap();
-        if (reference_) {
-            compare_with_reference(step, tools, fractions, of_step);
-            undecomposed = reference_->positions();
-            named(name + " of the undecomposed flow", [&] { tools.make_result(undecomposed); });
+    const bool is_apart = tools_->has_results_apart();
+    const Points& before = is_apart ? of_flow_ : mesh.vertices;
+    const int step = static_cast<int>(report_.steps.size()) + 1;
+    const std::string name = "step " + std::to_string(step);
+    progress_.enter(FlowPhase::Step, step, fractions_->begin(), fractions_->end_of_tasks());
+    Stopwatch watch;
+    named(name, [&] { tools_->vanishing.step(*stepper_, before); });
+    StepReport of_step;
+    of_step.seconds = watch.lap();
+    stepper_->describe(of_step);
+    in_mean_edges(of_step.estimated_v_max, mesh, stepper_->positions());
+    // Scaling could hide that vertices have been thrown away, or shrink what is left too much.
+    named(name, [&] {
+        tools_->limit.require(before, stepper_->positions(), report_.cut.labels);
+        tools_->rescale(*stepper_);
+        if (is_apart) {
+            of_flow_ = result_ = stepper_->positions();
+            tools_->make_result(result_);
         }
-        fractions.end_step(of_step.seconds, measuring, of_step.reference_seconds.value_or(0.0));
-
-        // Memory is allocated first: the mesh moves only when nothing but the observer can still fail.
-        report_.steps.push_back(of_step);
-        report_.seconds.step += of_step.seconds;
-        report_.seconds.total += of_step.seconds + measuring;
-        mesh_.move_to(after);
-        if (on_step)
-            tell(on_step, step, of_step, reference_ ? &undecomposed : nullptr, resume);
+    });
+    const Points& after = is_apart ? result_ : stepper_->positions();
+    measure(after, of_step);
+    const double measuring = watch.lap();
+    if (reference_) {
+        compare_with_reference(step, of_step);
+        undecomposed_ = reference_->positions();
+        named(name + " of the undecomposed flow", [&] { tools_->make_result(undecomposed_); });
     }
-    if (const std::string remark = tools.remark(); !remark.empty())
-        report_.remarks.push_back(remark);
-    finish(extent, resume);
+    fractions_->end_step(of_step.seconds, measuring, of_step.reference_seconds.value_or(0.0));
+
+    // Memory is allocated first: the mesh moves only when nothing but the observer can still fail.
+    report_.steps.push_back(of_step);
+    report_.seconds.step += of_step.seconds;
+    report_.seconds.total += of_step.seconds + measuring;
+    mesh_.move_to(after);
+    if (on_step)
+        tell(on_step, step, of_step, reference_ ? &undecomposed_ : nullptr);
 }
 
-/// Completes the report on the flow as a whole.
-void FlowRun::finish(double extent_before, const FlowState* resume)
+void FlowRun::complete(FlowReport& report) const
 {
-    remark_on_drift(options(), report_);
-    remark_on_collapse(extent_before, mesh_.mesh().vertices, report_);
+    if (const std::string remark = tools_->remark(); !remark.empty())
+        report.remarks.push_back(remark);
+    remark_on_drift(options(), report);
+    remark_on_collapse(extent_before_, mesh_.mesh().vertices, report);
     if (prepared_->meter)
-        report_.displacement = prepared_->meter->total();
+        report.displacement = prepared_->meter->total();
     if (stepper_->separated() != nullptr)
-        report_.separated = *stepper_->separated();
-    stepper_->describe(report_);
-    if (resume != nullptr)
-        report_.seconds.add_tasks(resume->seconds);
-    mesh_.complete(report_);
-    progress_.finish();
+        report.separated = *stepper_->separated();
+    stepper_->describe(report);
+    if (resume_ != nullptr)
+        report.seconds.add_tasks(resume_->seconds);
+    mesh_.complete(report);
 }
 
 }  // namespace seamflow

@@ -16,28 +16,33 @@ class FlowRun {
   public:
     /// Makes the stepper, and that of the undecomposed flow if it is asked for.
     /// @param mesh, progress, report must outlive the run; the mesh moves with each step.
-    /// @param setup the fraction of the whole call that setup takes.
-    /// @throws as make_stepper.
+    /// @param setup the fraction of the whole flow that setup takes.
+    /// @param resume the state to resume from, which must outlive the run; nullptr: from the beginning.
+    /// @throws as make_stepper; InputError for a state that does not fit.
     FlowRun(FlowingMesh& mesh, std::unique_ptr<PreparedFlow> prepared, Progress& progress, double setup,
-            FlowReport& report);
+            FlowReport& report, const FlowState* resume);
+    FlowRun(const FlowRun&) = delete;
+    FlowRun& operator=(const FlowRun&) = delete;
+    ~FlowRun();
 
-    /// Takes all steps. The mesh moves after each complete step, including the undecomposed one.
-    /// @param resume the state to resume from; nullptr: from the beginning.
-    /// @throws ComputationError naming the step; InputError for a state that does not fit; Cancelled.
-    void take_steps(const StepObserver& on_step, const FlowState* resume);
+    /// Takes one step. The mesh moves when it is complete, including the undecomposed one.
+    /// @throws ComputationError naming the step; Cancelled. Afterwards no further step can be taken.
+    void take_step(const StepObserver& on_step);
+
+    /// Completes the report, or a copy of it, on the flow as a whole.
+    void complete(FlowReport& report) const;
 
   private:
     class StepFractions;
     struct StepTools;
 
     [[nodiscard]] const FlowOptions& options() const { return prepared_->options; }
-    void restore(const FlowState& state, StepTools& tools);
-    [[nodiscard]] FlowState capture(const FlowState* resume) const;
-    void compare_with_reference(int step, StepTools& tools, const StepFractions& fractions, StepReport& of_step);
+    void make_steppers();
+    void restore(const FlowState& state);
+    [[nodiscard]] FlowState capture() const;
+    void compare_with_reference(int step, StepReport& of_step);
     void measure(const Points& after, StepReport& of_step);
-    void tell(const StepObserver& on_step, int step, const StepReport& of_step, const Points* undecomposed,
-              const FlowState* resume) const;
-    void finish(double extent_before, const FlowState* resume);
+    void tell(const StepObserver& on_step, int step, const StepReport& of_step, const Points* undecomposed) const;
 
     FlowingMesh& mesh_;
     std::unique_ptr<PreparedFlow> prepared_;
@@ -49,6 +54,15 @@ class FlowRun {
     std::unique_ptr<Stepper> stepper_;
     /// Of the undecomposed flow, with ReportOptions::reference.
     std::unique_ptr<Stepper> reference_;
+    /// Before the first step (see extent_of).
+    double extent_before_;
+    const FlowState* resume_;
+    std::unique_ptr<StepTools> tools_;
+    std::unique_ptr<StepFractions> fractions_;
+    /// #V by 3. The flow continues from its own positions: empty if they are its results, too.
+    Points of_flow_ = Points(0, 3);
+    Points result_ = Points(0, 3);
+    Points undecomposed_ = Points(0, 3);
 };
 
 }  // namespace seamflow

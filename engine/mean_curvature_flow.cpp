@@ -1,10 +1,12 @@
 #include "engine/mean_curvature_flow.h"
 
-#include <string>
+#include <memory>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "engine/flow.h"
 #include "engine/flow_run.h"
 #include "engine/options/valid_options.h"
 #include "engine/setup/flowing_mesh.h"
@@ -39,34 +41,105 @@ void require_ahead(const FlowOptions& options, const FlowState& state)
 
 }  // namespace
 
-FlowReport mean_curvature_flow(PolygonMesh& mesh, const FlowOptions& asked, const StepObserver& on_step,
+/// What a flow works with, on its threads.
+class Flow::Session {
+  public:
+    Session(PolygonMesh& mesh, const FlowOptions& options, const FlowControl& control, bool is_observed,
+            FlowReport& report)
+        : workers_(options.resources.threads)
+        , progress_(control)
+    {
+        workers_.execute([&] { set_up(mesh, options, control.resume.get(), is_observed, report); });
+    }
+    Session(const Session&) = delete;
+    Session& operator=(const Session&) = delete;
+
+    /// Where they were made, since each thread has memory of its own.
+    ~Session()
+    {
+        workers_.execute([&] { run_.reset(); });
+    }
+
+    void step(int n, const StepObserver& on_step)
+    {
+        if (has_failed_)
+            throw ComputationError(
+                "an earlier step has failed, which leaves nothing to continue from: begin a new flow");
+        has_failed_ = true;
+        workers_.execute([&] {
+            for (int i = 0; i < n; ++i)
+                run_->take_step(on_step);
+        });
+        has_failed_ = false;
+    }
+
+    void complete(FlowReport& report)
+    {
+        workers_.execute([&] { run_->complete(report); });
+    }
+
+    /// Tells the observer of progress that all is done.
+    void finish() { progress_.finish(); }
+
+  private:
+    void set_up(PolygonMesh& mesh, const FlowOptions& options, const FlowState* resume, bool is_observed,
+                FlowReport& report)
+    {
+        Stopwatch watch;
+        progress_.set_steps(options.steps);
+        const double setup = fraction_of_setup(options, resume);
+        progress_.enter(FlowPhase::Cut, 0, 0.0, 0.6 * setup);
+        progress_.expect(8.0);
+        flowing_.emplace(mesh);
+        auto prepared = prepare(*flowing_, options, is_observed, resume, progress_);
+        report.resources.threads = workers_.threads();
+        report.seconds.cut = watch.lap();
+        run_.emplace(*flowing_, std::move(prepared), progress_, setup, report, resume);
+    }
+
+    Workers workers_;
+    Progress progress_;
+    std::optional<FlowingMesh> flowing_;
+    std::optional<FlowRun> run_;
+    bool has_failed_ = false;
+};
+
+Flow::Flow(PolygonMesh& mesh, const FlowOptions& options, StepObserver on_step, FlowControl control)
+    : on_step_(std::move(on_step))
+    , control_(std::move(control))
+{
+    require_valid(options);
+    FlowOptions own = options;
+    own.time_step = time_step_of(options, mesh);
+    own.radius.reset();
+    own.uniform_edge = uniform_edge_of(options, mesh);
+    if (control_.resume != nullptr)
+        require_ahead(own, *control_.resume);
+    session_ = std::make_unique<Session>(mesh, own, control_, static_cast<bool>(on_step_), report_);
+}
+
+Flow::~Flow() = default;
+
+void Flow::step(int n)
+{
+    session_->step(n, on_step_);
+}
+
+FlowReport Flow::report() const
+{
+    FlowReport report = report_;
+    session_->complete(report);
+    return report;
+}
+
+FlowReport mean_curvature_flow(PolygonMesh& mesh, const FlowOptions& options, const StepObserver& on_step,
                                const FlowControl& control)
 {
-    require_valid(asked);
-    FlowOptions options = asked;
-    options.time_step = time_step_of(asked, mesh);
-    options.radius.reset();
-    options.uniform_edge = uniform_edge_of(asked, mesh);
-    const FlowState* const resume = control.resume.get();
-    if (resume != nullptr)
-        require_ahead(options, *resume);
-    FlowReport report;
-    Workers workers(options.resources.threads);
-    workers.execute([&] {
-        Stopwatch watch;
-        Progress progress(control);
-        progress.set_steps(options.steps);
-        const double setup = fraction_of_setup(options, resume);
-        progress.enter(FlowPhase::Cut, 0, 0.0, 0.6 * setup);
-        progress.expect(8.0);
-        FlowingMesh flowing(mesh);
-        auto prepared = prepare(flowing, options, static_cast<bool>(on_step), resume, progress);
-        report.resources.threads = workers.threads();
-        report.seconds.cut = watch.lap();
-        FlowRun run(flowing, std::move(prepared), progress, setup, report);
-        run.take_steps(on_step, resume);
-    });
-    return report;
+    Flow flow(mesh, options, on_step, control);
+    flow.step(options.steps - flow.n_steps());
+    flow.session_->complete(flow.report_);
+    flow.session_->finish();
+    return std::move(flow.report_);
 }
 
 }  // namespace seamflow

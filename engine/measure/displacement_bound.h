@@ -7,6 +7,7 @@
 #include "partition/index_lists.h"
 #include "partition/polygon_mesh.h"
 #include "partition/topology.h"
+#include "partition/vector_area.h"
 
 namespace seamflow {
 

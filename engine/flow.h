@@ -1,0 +1,52 @@
+#pragma once
+
+#include <memory>
+
+#include "engine/measure/flow_report.h"
+#include "engine/options/flow_control.h"
+#include "engine/options/flow_options.h"
+#include "partition/polygon_mesh.h"
+
+namespace seamflow {
+
+/// The flow of mean_curvature_flow, taken step by step, by programs that look at each result before they go on. Between
+/// steps it keeps the cut, the analyses of sub-meshes, and what else the next step can use: a step of the linear flow
+/// after the first is one solution with the factors of the first. After FlowOptions::steps steps the positions are
+/// those of mean_curvature_flow, bit for bit. While a flow exists, the BLAS of the process runs single-threaded (see
+/// Workers).
+class Flow {
+  public:
+    /// Checks the mesh and sets up.
+    /// @param mesh must outlive the flow, which alone may move it.
+    /// @param options the solver is chosen for FlowOptions::steps steps; more or fewer may be taken.
+    /// @param on_step, control see mean_curvature_flow.
+    /// @throws as mean_curvature_flow.
+    Flow(PolygonMesh& mesh, const FlowOptions& options, StepObserver on_step = {}, FlowControl control = {});
+    Flow(const Flow&) = delete;
+    Flow& operator=(const Flow&) = delete;
+    ~Flow();
+
+    /// Takes steps; the mesh moves with each.
+    /// @param n at least 0.
+    /// @throws as mean_curvature_flow; the positions are then those of the last complete step, and no further one can
+    ///         be taken: ComputationError.
+    void step(int n = 1);
+
+    /// How many steps were taken, those before the state to resume from included.
+    [[nodiscard]] int n_steps() const { return static_cast<int>(report_.steps.size()); }
+
+    /// On all steps so far.
+    [[nodiscard]] FlowReport report() const;
+
+  private:
+    friend FlowReport mean_curvature_flow(PolygonMesh& mesh, const FlowOptions& options, const StepObserver& on_step,
+                                          const FlowControl& control);
+    class Session;
+
+    StepObserver on_step_;
+    FlowControl control_;
+    FlowReport report_;
+    std::unique_ptr<Session> session_;
+};
+
+}  // namespace seamflow
