@@ -20,6 +20,7 @@ set(SEAMFLOW_HEADERS
     engine/distributed/ranks/packing.h
     engine/distributed/ranks/thread_transport.h
     engine/eigen.h
+    engine/flow.h
     engine/mean_curvature_flow.h
     engine/measure/displacement_meter.h
     engine/openmesh.h

@@ -46,7 +46,8 @@ class Flow::Session {
   public:
     Session(PolygonMesh& mesh, const FlowOptions& options, const FlowControl& control, bool is_observed,
             FlowReport& report)
-        : workers_(options.resources.threads)
+        : n_expected_(options.steps)
+        , workers_(options.resources.threads)
         , progress_(control)
     {
         workers_.execute([&] { set_up(mesh, options, control.resume.get(), is_observed, report); });
@@ -60,7 +61,7 @@ class Flow::Session {
         workers_.execute([&] { run_.reset(); });
     }
 
-    void step(int n, const StepObserver& on_step)
+    void step(int n, const StepObserver& on_step, const FlowReport& report)
     {
         if (has_failed_)
             throw ComputationError(
@@ -71,15 +72,14 @@ class Flow::Session {
                 run_->take_step(on_step);
         });
         has_failed_ = false;
+        if (std::ssize(report.steps) >= n_expected_)
+            progress_.finish();
     }
 
     void complete(FlowReport& report)
     {
         workers_.execute([&] { run_->complete(report); });
     }
-
-    /// Tells the observer of progress that all is done.
-    void finish() { progress_.finish(); }
 
   private:
     void set_up(PolygonMesh& mesh, const FlowOptions& options, const FlowState* resume, bool is_observed,
@@ -97,6 +97,7 @@ class Flow::Session {
         run_.emplace(*flowing_, std::move(prepared), progress_, setup, report, resume);
     }
 
+    int n_expected_;
     Workers workers_;
     Progress progress_;
     std::optional<FlowingMesh> flowing_;
@@ -122,7 +123,7 @@ Flow::~Flow() = default;
 
 void Flow::step(int n)
 {
-    session_->step(n, on_step_);
+    session_->step(n, on_step_, report_);
 }
 
 FlowReport Flow::report() const
@@ -138,7 +139,6 @@ FlowReport mean_curvature_flow(PolygonMesh& mesh, const FlowOptions& options, co
     Flow flow(mesh, options, on_step, control);
     flow.step(options.steps - flow.n_steps());
     flow.session_->complete(flow.report_);
-    flow.session_->finish();
     return std::move(flow.report_);
 }
 

@@ -12,6 +12,7 @@
 #include <stop_token>
 #include <string>
 #include <thread>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -89,7 +90,9 @@ class FlowThread {
             };
         thread_ = std::jthread([this, command = std::move(command), mesh = std::move(mesh), control]() mutable {
             try {
-                result_ = call_flow(std::move(command), std::move(mesh), control);
+                FlowCall flow(std::move(command), std::move(mesh), control);
+                flow.take_all_steps();
+                result_ = flow.result();
             } catch (...) {
                 failure_ = std::current_exception();
             }
@@ -174,31 +177,55 @@ std::vector<Value> to_vector(const Array<Value>& array)
     return {array.data(), array.data() + array.size()};
 }
 
-/// @param words see parse_flow_options. @param progress called with the phase, the step, the number of steps and the
-/// fraction that is done; or None.
-/// @returns positions, labels, report, and what was missed.
-template <class Integer>
-py::tuple run(const Array<double>& positions, const Array<Integer>& corners, const Array<std::int64_t>& offsets,
-              const std::vector<std::string>& words, const Array<Index>& fixed, const Array<Index>& labels,
-              const Array<Index>& edges, const Array<double>& weights, const py::object& progress)
+/// Options that are arrays here: fixed vertices, labels, edges, weights.
+using ArrayOptions = std::tuple<Array<Index>, Array<Index>, Array<Index>, Array<double>>;
+
+/// @param words see parse_flow_options.
+SmoothCommand make_command(const std::vector<std::string>& words, const ArrayOptions& arrays)
 {
+    const auto& [fixed, labels, edges, weights] = arrays;
     SmoothCommand command = parse_flow_options(words);
     command.options.motion.fixed_vertices = to_vector(fixed);
     command.options.cut.labels = to_vector(labels);
     for (py::ssize_t i = 0; i + 1 < edges.size(); i += 2)
         command.options.motion.feature_edges.push_back({edges.data()[i], edges.data()[i + 1]});
     command.options.motion.attachment_weights = to_vector(weights);
-    FlowResult result = run_interruptibly(std::move(command), make_mesh(positions, corners, offsets), progress);
+    return command;
+}
+
+/// Positions, labels, report, and what was missed.
+py::tuple to_tuple(FlowResult result)
+{
     const py::array_t<Index> parts(static_cast<py::ssize_t>(result.labels.size()), result.labels.data());
     return py::make_tuple(to_array(std::move(result.positions)), parts, result.report, result.missed);
 }
 
+/// @param progress called with the phase, the step, the number of steps and the fraction that is done; or None.
 template <class Integer>
-void define_run(py::module_& module)
+py::tuple run(const Array<double>& positions, const Array<Integer>& corners, const Array<std::int64_t>& offsets,
+              const std::vector<std::string>& words, const ArrayOptions& arrays, const py::object& progress)
+{
+    return to_tuple(run_interruptibly(make_command(words, arrays), make_mesh(positions, corners, offsets), progress));
+}
+
+template <class Integer>
+std::unique_ptr<FlowCall> begin(const Array<double>& positions, const Array<Integer>& corners,
+                                const Array<std::int64_t>& offsets, const std::vector<std::string>& words,
+                                const ArrayOptions& arrays)
+{
+    SmoothCommand command = make_command(words, arrays);
+    PolygonMesh mesh = make_mesh(positions, corners, offsets);
+    const py::gil_scoped_release release;
+    return std::make_unique<FlowCall>(std::move(command), std::move(mesh));
+}
+
+template <class Integer>
+void define_run(py::module_& module, py::class_<FlowCall>& flow)
 {
     module.def("run", &run<Integer>, py::arg("positions").noconvert(), py::arg("corners").noconvert(),
-               py::arg("offsets").noconvert(), py::arg("words"), py::arg("fixed"), py::arg("labels"), py::arg("edges"),
-               py::arg("weights"), py::arg("progress"));
+               py::arg("offsets").noconvert(), py::arg("words"), py::arg("arrays"), py::arg("progress"));
+    flow.def(py::init(&begin<Integer>), py::arg("positions").noconvert(), py::arg("corners").noconvert(),
+             py::arg("offsets").noconvert(), py::arg("words"), py::arg("arrays"));
 }
 
 /// Options that are arrays here, or that concern files.
@@ -239,8 +266,28 @@ PYBIND11_MODULE(_core, module)
     using namespace seamflow;
     // ComputationError is a std::runtime_error: pybind11 knows that.
     py::register_exception_translator(&translate);
-    define_run<std::int32_t>(module);
-    define_run<std::int64_t>(module);
+    py::class_<FlowCall> flow(module, "Flow");
+    define_run<std::int32_t>(module, flow);
+    define_run<std::int64_t>(module, flow);
+    flow.def("step", &FlowCall::step, py::call_guard<py::gil_scoped_release>())
+        .def("n_steps", &FlowCall::n_steps, py::call_guard<py::gil_scoped_release>())
+        .def("positions",
+             [](FlowCall& call) {
+                 Points positions;
+                 {
+                     const py::gil_scoped_release release;
+                     positions = call.positions();
+                 }
+                 return to_array(std::move(positions));
+             })
+        .def("result", [](FlowCall& call) {
+            FlowResult result;
+            {
+                const py::gil_scoped_release release;
+                result = call.result();
+            }
+            return to_tuple(std::move(result));
+        });
     module.def("options", &options, "Name, type, description and whether it is a flag, of each keyword of smooth().");
     module.attr("version") = std::string(version);
 }

@@ -2,8 +2,6 @@
 
 #include <utility>
 
-#include "engine/mean_curvature_flow.h"
-#include "engine/tasks/stopwatch.h"
 #include "engine/tasks/workers.h"
 #include "partition/errors.h"
 #include "samples/process/option_words.h"
@@ -12,43 +10,70 @@
 
 namespace seamflow {
 
-namespace {
-
-FlowReport run(SmoothCommand& command, PolygonMesh& mesh, const FlowControl& control, RunRecord& record)
+FlowCall::FlowCall(SmoothCommand command, PolygonMesh mesh, const FlowControl& control)
+    : command_(std::move(command))
+    , mesh_(std::move(mesh))
+    , record_(begin_record(command_))
 {
-    if (mesh.n_vertices() == 0)
-        throw InputError("has no vertices");
-    const Stopwatch whole;
-    Workers workers(command.options.resources.threads);
-    const Executor exec = workers.exec();
-    require_valid(mesh, exec);
-    resolve_amount(command, mesh, exec, record);
-    const SurfaceChangeMeter change(mesh, exec);
-    FlowReport report = mean_curvature_flow(mesh, command.options, {}, control);
-    report.remarks.insert(report.remarks.begin(), record.remarks.begin(), record.remarks.end());
-    record.surface = change.measure(mesh, report.mesh.moved_with, command.self_intersections, exec);
-    remark_on_loss(command.options, record.surface, report.remarks);
-    remark_on_folds(command.options, record.surface, report.remarks);
-    for (std::string& remark : report.remarks)
-        remark = in_words_of_keywords(remark);
-    record.seconds = whole.seconds();
-    return report;
-}
-
-}  // namespace
-
-FlowResult call_flow(SmoothCommand command, PolygonMesh mesh, const FlowControl& control)
-{
-    RunRecord record = begin_record(command);
     try {
-        FlowReport report = run(command, mesh, control, record);
-        return {.positions = std::move(mesh.vertices),
-                .labels = std::move(report.cut.labels),
-                .report = smooth_report_json(record, report),
-                .missed = missed_tolerance(command, report.convergence)};
+        begin(control);
     } catch (const InputError& error) {
         throw InputError(std::string("mesh: ").append(error.what()));
     }
+}
+
+void FlowCall::begin(const FlowControl& control)
+{
+    if (mesh_.n_vertices() == 0)
+        throw InputError("has no vertices");
+    Workers workers(command_.options.resources.threads);
+    require_valid(mesh_, workers.exec());
+    resolve_amount(command_, mesh_, workers.exec(), record_);
+    change_.emplace(mesh_, workers.exec());
+    flow_.emplace(mesh_, command_.options, StepObserver(), control);
+}
+
+void FlowCall::step(int n)
+{
+    const std::lock_guard lock(mutex_);
+    flow_->step(n);
+}
+
+void FlowCall::take_all_steps()
+{
+    step(command_.options.steps - flow_->n_steps());
+}
+
+int FlowCall::n_steps()
+{
+    const std::lock_guard lock(mutex_);
+    return flow_->n_steps();
+}
+
+Points FlowCall::positions()
+{
+    const std::lock_guard lock(mutex_);
+    return mesh_.vertices;
+}
+
+FlowResult FlowCall::result()
+{
+    const std::lock_guard lock(mutex_);
+    FlowReport report = flow_->report();
+    report.remarks.insert(report.remarks.begin(), record_.remarks.begin(), record_.remarks.end());
+    Workers workers(command_.options.resources.threads);
+    record_.surface = change_->measure(mesh_, report.mesh.moved_with, command_.self_intersections, workers.exec());
+    remark_on_loss(command_.options, record_.surface, report.remarks);
+    remark_on_folds(command_.options, record_.surface, report.remarks);
+    for (std::string& remark : report.remarks)
+        remark = in_words_of_keywords(remark);
+    record_.seconds = watch_.seconds();
+    FlowResult result{.positions = mesh_.vertices,
+                      .labels = {},
+                      .report = smooth_report_json(record_, report),
+                      .missed = missed_tolerance(command_, report.convergence)};
+    result.labels = std::move(report.cut.labels);
+    return result;
 }
 
 }  // namespace seamflow

@@ -1,11 +1,17 @@
 #pragma once
 
+#include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "engine/flow.h"
 #include "engine/options/flow_control.h"
+#include "engine/tasks/stopwatch.h"
 #include "partition/polygon_mesh.h"
 #include "samples/command/smooth_command.h"
+#include "samples/report/run_record.h"
+#include "samples/report/surface_change.h"
 
 namespace seamflow {
 
@@ -21,10 +27,39 @@ struct FlowResult {
     std::string missed;
 };
 
-/// Smooths a mesh in memory as `smooth` smooths one in a file, with the same bits.
-/// @param command from parse_flow_options; labels, fixed vertices and weights are in its options.
-/// @param mesh need not be valid.
-/// @throws the exceptions of mean_curvature_flow; messages about the mesh begin with "mesh: ".
-FlowResult call_flow(SmoothCommand command, PolygonMesh mesh, const FlowControl& control);
+/// A flow of a mesh in memory, as `smooth` smooths one in a file, with the same bits. Its functions may be called from
+/// any thread, one after the other.
+class FlowCall {
+  public:
+    /// @param command from parse_flow_options; labels, fixed vertices and weights are in its options.
+    /// @param mesh need not be valid.
+    /// @throws the exceptions of mean_curvature_flow; messages about the mesh begin with "mesh: ".
+    FlowCall(SmoothCommand command, PolygonMesh mesh, const FlowControl& control = {});
+
+    /// @throws as Flow::step.
+    void step(int n);
+
+    /// All steps of the command that have not been taken.
+    void take_all_steps();
+
+    [[nodiscard]] int n_steps();
+
+    /// After the steps so far.
+    [[nodiscard]] FlowResult result();
+
+    /// #V by 3: a copy.
+    [[nodiscard]] Points positions();
+
+  private:
+    void begin(const FlowControl& control);
+
+    std::mutex mutex_;
+    Stopwatch watch_;
+    SmoothCommand command_;
+    PolygonMesh mesh_;
+    RunRecord record_;
+    std::optional<SurfaceChangeMeter> change_;
+    std::optional<Flow> flow_;
+};
 
 }  // namespace seamflow

@@ -47,11 +47,21 @@ def load_core():
     return module
 
 
-lines = ["def smooth(", "    V: npt.ArrayLike | Any,", "    F: npt.ArrayLike | Iterable[Sequence[int]] | None = None,",
-         "    *,", "    fixed: npt.ArrayLike | None = None,", "    labels: npt.ArrayLike | None = None,",
-         "    edges: npt.ArrayLike | None = None,",
-         "    attach_weights: npt.ArrayLike | None = None,", "    progress: Callable[[Progress], Any] | None = None,"]
-for name, kind, _, is_flag in load_core().options():
-    lines.append(f"    {name.replace('-', '_')}: {type_of(kind, is_flag)} | None = None,")
-lines.append(") -> tuple[npt.NDArray[np.floating[Any]], dict[str, Any]]: ...")
+ARGUMENTS = ["V: npt.ArrayLike | Any", "F: npt.ArrayLike | Iterable[Sequence[int]] | None = None", "*",
+             "fixed: npt.ArrayLike | None = None", "labels: npt.ArrayLike | None = None",
+             "edges: npt.ArrayLike | None = None", "attach_weights: npt.ArrayLike | None = None"]
+OPTIONS = [f"{name.replace('-', '_')}: {type_of(kind, is_flag)} | None = None"
+           for name, kind, _, is_flag in load_core().options()]
+
+
+def function(name, arguments, result, indent=""):
+    return [f"{indent}def {name}(", *(f"{indent}    {argument}," for argument in arguments), f"{indent}) -> {result}: ..."]
+
+
+ARRAY = "npt.NDArray[np.floating[Any]]"
+lines = function("smooth", [*ARGUMENTS, "progress: Callable[[Progress], Any] | None = None", *OPTIONS],
+                 f"tuple[{ARRAY}, dict[str, Any]]")
+lines += ["", "class Flow:", *function("__init__", ["self", *ARGUMENTS, *OPTIONS], "None", "    ")]
+lines += ["    def step(self, n: int = 1) -> None: ...", "    @property", "    def n_steps(self) -> int: ...",
+          "    @property", f"    def positions(self) -> {ARRAY}: ...", "    def report(self) -> dict[str, Any]: ..."]
 (folder / "__init__.pyi").write_text(HEAD + "\n".join(lines) + "\n")

@@ -102,6 +102,43 @@ class SameBits(WithFolder):
         words = ["--radius", "3%", "--attach-weights", self.folder / "weights"]
         np.testing.assert_array_equal(attached, self.smooth_file(*words))
 
+    def test_step_by_step(self):
+        V, F = self.generate("noisy-sphere", "--vertices", "2000", "--noise", "0.3")
+        F = np.array(F)
+        for keywords in (
+            {"radius": "2%", "steps": 3},
+            {"time_step_edges": 2, "steps": 3, "flow": "linear"},
+            {"time_step_edges": 2, "steps": 3, "converge": 1e-9, "subdomains": 5, "fixed": [3, 5]},
+        ):
+            with self.subTest(keywords=keywords):
+                expected, report = seamflow.smooth(V.astype(np.float32), F, **keywords)
+                flow = seamflow.Flow(V.astype(np.float32), F, **keywords)
+                np.testing.assert_array_equal(flow.positions, V.astype(np.float32))
+                flow.step()
+                self.assertEqual(flow.n_steps, 1)
+                self.assertEqual(len(flow.report()["steps"]), 1)
+                flow.step(2)
+                self.assertEqual(flow.positions.dtype, np.float32)
+                np.testing.assert_array_equal(flow.positions, expected)
+                own = flow.report()
+                self.assertEqual(set(own), set(report))
+                for name in ("surface", "remarks", "labels", "choices"):
+                    self.assertEqual(own[name], report[name])
+                flow.step()
+                self.assertEqual(flow.n_steps, 4)
+        with self.assertRaisesRegex(ValueError, "n is -1, but has to be at least 0"):
+            flow.step(-1)
+        with self.assertRaisesRegex(ValueError, "flow is linear"):
+            seamflow.Flow(V, F, radius="1%", flow="linear", approach="sweep")
+        with self.assertRaisesRegex(ValueError, "^mesh: "):
+            seamflow.Flow(V[:5], F, radius="1%")
+        with self.assertRaisesRegex(TypeError, "did you mean radius"):
+            seamflow.Flow(V, F, radios="1%")
+        flow = seamflow.Flow(V, F, time_step_edges=30, converge=1e-100, subdomains=20)
+        flow.step()
+        with self.assertWarnsRegex(RuntimeWarning, "the tolerance 1e-100 was missed in 1 step"):
+            flow.report()
+
     def test_types(self):
         V, F = self.generate("noisy-sphere", "--vertices", "500")
         F = np.array(F)

@@ -11,7 +11,7 @@ import numpy as np
 
 from . import _core
 
-__all__ = ["Progress", "smooth"]
+__all__ = ["Flow", "Progress", "smooth"]
 __version__ = _core.version
 
 _OPTIONS = {name.replace("-", "_"): (name, kind.split(":")[0], *rest) for name, kind, *rest in _core.options()}
@@ -53,6 +53,68 @@ def smooth(V, F=None, *, fixed=None, labels=None, edges=None, attach_weights=Non
     The other keywords are the options of the program, with underscores for hyphens: a number or the text that the
     program takes, True for those without a value.
     """
+    mesh, single = _arguments(V, F, options, fixed, labels, edges, attach_weights)
+
+    def tell(*state):
+        progress(Progress(*state))
+
+    positions, parts, report, missed = _core.run(*mesh, progress and tell)
+    if missed:
+        warnings.warn(missed, RuntimeWarning, stacklevel=2)
+    return positions.astype(np.float32 if single else np.float64, copy=False), _report(report, parts)
+
+
+class Flow:
+    """The flow of smooth(), taken step by step:
+
+        flow = seamflow.Flow(V, F, radius="1%", flow="linear")
+        flow.step()
+        show(flow.positions)
+
+    Between steps it keeps what the next one can use: with flow="linear" the factorisation, so that a step after the
+    first is one solution. After `steps` steps the positions have the same bits as those of smooth(). The arguments are
+    those of smooth() except progress; more steps than `steps` may be taken. Ctrl-C raises KeyboardInterrupt after the
+    steps that are being taken.
+    """
+
+    def __init__(self, V, F=None, *, fixed=None, labels=None, edges=None, attach_weights=None, **options):
+        mesh, self._single = _arguments(V, F, options, fixed, labels, edges, attach_weights)
+        self._flow = _core.Flow(*mesh)
+
+    def step(self, n=1):
+        """Takes n steps. After an error no further step can be taken."""
+        if n < 0:
+            raise ValueError(f"n is {n}, but has to be at least 0")
+        self._flow.step(n)
+
+    @property
+    def n_steps(self):
+        """How many steps were taken."""
+        return self._flow.n_steps()
+
+    @property
+    def positions(self):
+        """A copy of the positions after the last step, (#V, 3), in the type of V (float32, or else float64)."""
+        return self._flow.positions().astype(np.float32 if self._single else np.float64, copy=False)
+
+    def report(self):
+        """The dict of smooth() on the steps so far. Warns as smooth() does."""
+        _, parts, report, missed = self._flow.result()
+        if missed:
+            warnings.warn(missed, RuntimeWarning, stacklevel=2)
+        return _report(report, parts)
+
+
+def _report(text, parts):
+    report = json.loads(text)
+    for of_files in ("input", "output"):
+        del report[of_files]
+    report["labels"] = parts.tolist()
+    return report
+
+
+def _arguments(V, F, options, fixed, labels, edges, attach_weights):
+    """Positions, corners, offsets, words and arrays as the module takes them; and whether V is in single precision."""
     if F is None:
         V, F = _of_mesh(V)
     V = np.asarray(V)
@@ -77,19 +139,8 @@ def smooth(V, F=None, *, fixed=None, labels=None, edges=None, attach_weights=Non
             # So that the options are checked against each other; no such file is read.
             words.append(f"--{name}=array")
 
-    def tell(*state):
-        progress(Progress(*state))
-
-    positions, parts, report, missed = _core.run(
-        np.ascontiguousarray(V, dtype=np.float64), corners, offsets, words, *arrays, progress and tell
-    )
-    if missed:
-        warnings.warn(missed, RuntimeWarning, stacklevel=2)
-    report = json.loads(report)
-    for of_files in ("input", "output"):
-        del report[of_files]
-    report["labels"] = parts.tolist()
-    return positions.astype(np.float32 if V.dtype == np.float32 else np.float64, copy=False), report
+    arrays = tuple(arrays)
+    return (np.ascontiguousarray(V, dtype=np.float64), corners, offsets, words, arrays), V.dtype == np.float32
 
 
 def _describe_options():
@@ -100,14 +151,15 @@ def _describe_options():
     return "\n".join(lines)
 
 
-def _signature():
-    """That of smooth with all its keywords."""
-    own = [p for p in inspect.signature(smooth).parameters.values() if p.kind is not p.VAR_KEYWORD]
+def _signature(function):
+    """That of a function with the keywords of all options."""
+    own = [p for p in inspect.signature(function).parameters.values() if p.kind is not p.VAR_KEYWORD]
     further = [inspect.Parameter(keyword, inspect.Parameter.KEYWORD_ONLY, default=None) for keyword in _OPTIONS]
     return inspect.Signature(own + further)
 
 
-smooth.__signature__ = _signature()
+smooth.__signature__ = _signature(smooth)
+Flow.__signature__ = _signature(Flow)
 if smooth.__doc__:
     smooth.__doc__ += "\n" + _describe_options() + "\n"
 
@@ -210,7 +262,7 @@ def _words(keyword, value):
         known = sorted({*_OPTIONS, "fixed", "labels", "edges", "attach_weights", "progress"})
         nearest = difflib.get_close_matches(keyword, known, 1)
         meant = f", did you mean {nearest[0]}?" if nearest else f"; there are {', '.join(known)}"
-        raise TypeError(f"smooth() has no keyword {keyword}{meant}")
+        raise TypeError(f"there is no keyword {keyword}{meant}")
     name, _, _, is_flag = _OPTIONS[keyword]
     if is_flag:
         if value is not None and not isinstance(value, (bool, np.bool_)):
