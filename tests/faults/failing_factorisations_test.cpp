@@ -59,7 +59,8 @@ TEST_CASE("a factorisation that fails is made up for, or comes out with its step
                 ++n;
                 REQUIRE(n < 1000);
             }
-            CHECK((n > 2 || !kind.factorises()));
+            // The matrix of a linear flow has one factorisation for all steps.
+            CHECK((n > (kind.options.flow == FlowEquation::Linear ? 1 : 2) || !kind.factorises()));
             // The last system of all has another chance without responses, or with other pivots.
             if (after == After::Fails)
                 CHECK((n_complaints > 0 || !kind.factorises()));
