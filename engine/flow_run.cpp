@@ -78,8 +78,8 @@ void require_positions(const StepMemory& memory, const PolygonMesh& mesh)
 
 }  // namespace
 
-/// Where the parts of the steps begin and end within a whole flow, which ends with the steps that were expected, however
-/// many follow. All steps take equally long; a step is divided as the time of the previous one was.
+/// Where the parts of the steps begin and end within a whole flow, which ends with the steps that were expected,
+/// however many follow. All steps take equally long; a step is divided as the time of the previous one was.
 class FlowRun::StepFractions {
   public:
     /// @param begin the fraction of the whole that is done before the first step.

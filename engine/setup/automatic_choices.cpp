@@ -106,14 +106,14 @@ ToleranceChoice choose_tolerance(const PolygonMesh& mesh, const MeshSize& size, 
 {
     if (options.accuracy.tolerance)
         return {options.accuracy.tolerance, ""};
+    if (options.flow == FlowEquation::Linear && options.accuracy.approach != Approach::Undecomposed)
+        return {tolerance_of_linear_flow, "its matrix is factorised once"};
     if (options.accuracy.approach == Approach::ConjugateGradients)
         return {is_long(options, size) ? tolerance_of_gradients_if_long : tolerance_of_gradients, ""};
     if (options.accuracy.approach == Approach::Converged)
         return {loose_tolerance, ""};
     if (options.accuracy.approach == Approach::Undecomposed)
         return {};
-    if (options.flow == FlowEquation::Linear)
-        return {tolerance_of_linear_flow, "its matrix is factorised once"};
     if (boundary_moves && !speaks_of_sweeps(options) && (options.cut.subdomains != 1 || !options.cut.labels.empty()))
         return {loose_tolerance, "sub-meshes that share a free boundary need it"};
     if (speaks_of_sweeps(options) || mesh.n_faces() == 0)

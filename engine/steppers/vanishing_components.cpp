@@ -130,10 +130,11 @@ VanishingComponents::VanishingComponents(const FlowOptions& options, const Point
     , find_(std::move(find))
 {
     // The Laplacian with uniform weights does not depend on any size.
-    // That of a linear flow depends on those of the first surface alone.
-    if (options.scheme == Scheme::BackwardEuler && !options.keep_edges && options.laplacian != Laplacian::Uniform &&
-        options.flow != FlowEquation::Linear)
+    if (options.scheme == Scheme::BackwardEuler && !options.keep_edges && options.laplacian != Laplacian::Uniform)
         extent_ = std::sqrt(options.time_step / small_by_steps);
+    // The matrix of a linear flow has the sizes of the first surface in all steps, and keeps enough of its masses.
+    if (options.flow == FlowEquation::Linear && extent_ > 0.0)
+        most_ = find_(first, std::exchange(extent_, 0.0)).rows.size();
     is_attached_ = options.motion.attachment > 0.0 || !options.motion.attachment_weights.empty();
     has_kept_lengths_ =
         options.flow == FlowEquation::Conformalized && traits_of(options.laplacian).divisor == Divisor::EdgeLengths;

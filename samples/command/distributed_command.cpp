@@ -25,15 +25,16 @@ std::vector<SmoothProgram::Lack> lacks()
     return list;
 }
 
-/// Ranks take steps in sub-meshes: sweeps unless a tolerance or a free boundary is asked for; sub-meshes can share the
-/// latter only in converged steps.
+/// Ranks take steps in sub-meshes: sweeps unless a tolerance, a free boundary or the linear flow is asked for; the
+/// latter two are for converged steps.
 void settle_approach(FlowOptions& options)
 {
     AccuracyOptions& accuracy = options.accuracy;
     if (accuracy.approach != Approach::Automatic && accuracy.approach != Approach::Decomposed)
         return;
     const bool shares_boundary = options.motion.boundary == Boundary::Free && options.interface == InterfaceOptions();
-    accuracy.approach = accuracy.tolerance || shares_boundary ? Approach::Converged : Approach::Sweep;
+    const bool is_converged = accuracy.tolerance || shares_boundary || options.flow == FlowEquation::Linear;
+    accuracy.approach = is_converged ? Approach::Converged : Approach::Sweep;
 }
 
 }  // namespace

@@ -194,6 +194,11 @@ class SymmetricFaces final : public SymmetricLaplacian {
     typename Kernel::Scratch scratch_;
 };
 
+/// As a fraction of K's diagonal times dt, below which a kept mass would be lost to rounding, and the place of a
+/// component that is so small with it. More mass only delays its way to a point, which is the place of its centroid
+/// either way.
+constexpr double least_kept_mass = 1e-10;
+
 /// K of certain positions, M of the same or of any.
 class KeptStiffness final : public SymmetricLaplacian {
   public:
@@ -219,8 +224,11 @@ class KeptStiffness final : public SymmetricLaplacian {
                   std::span<double> diagonal, std::span<double> mass, const StiffnessProduct* product) override
     {
         measure_mass(positions, mass);
-        for (std::size_t v = 0; v < diagonal_.size(); ++v)
+        for (std::size_t v = 0; v < diagonal_.size(); ++v) {
             diagonal[v] = factor * diagonal_[v];
+            if (!mass_.empty())
+                mass[v] = std::max(mass[v], least_kept_mass * diagonal[v]);
+        }
         with_product(product, [&](auto&& add_to_product) {
             for (std::size_t i = 0; i < pairs_.size(); ++i) {
                 const double entry = factor * entries_[i];
