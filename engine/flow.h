@@ -35,7 +35,7 @@ class Flow {
     /// How many steps were taken, those before the state to resume from included.
     [[nodiscard]] int n_steps() const { return static_cast<int>(report_.steps.size()); }
 
-    /// On all steps so far.
+    /// On all steps so far. After a failure its ConvergenceReport may count the step that failed.
     [[nodiscard]] FlowReport report() const;
 
   private:

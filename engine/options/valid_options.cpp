@@ -89,8 +89,12 @@ void require_valid_tolerance(const FlowOptions& options)
 /// Without a tolerance converged steps are not chosen (see choose_tolerance).
 void require_valid_factorisation(const FlowOptions& options)
 {
-    if (is_foreign(options.resources.factorisation) && is_symmetric(options.laplacian) &&
-        (options.accuracy.tolerance || options.accuracy.approach == Approach::Converged))
+    if (!is_foreign(options.resources.factorisation) || !is_symmetric(options.laplacian))
+        return;
+    if (options.flow == FlowEquation::Linear)
+        throw OptionError("factorisation is by another library, but only this library's own keeps the factors that the "
+                          "linear flow needs: leave the factorisation automatic");
+    if (options.accuracy.tolerance || options.accuracy.approach == Approach::Converged)
         throw OptionError("factorisation is by another library, but converged steps of symmetric Laplacians need the "
                           "Schur complements that this library's own provides: use sweeps (Approach::Sweep), or leave "
                           "the factorisation automatic");

@@ -313,7 +313,9 @@ InterfaceResult SchurStepper::solve_equation(const IterationStop& stop, const Ex
     interface_.guess.swap(interface_.update);
     interface_.has_guess = std::exchange(interface_.has_update, true);
     const InterfaceResult result = solve_on_interface(has_matrix(), stop, exec);
-    interface_.has_complements = keeps_matrix_;
+    // Further solutions of a step may have factors in double precision, with which no step begins.
+    if (data_ == nullptr)
+        interface_.has_complements = keeps_matrix_;
     if (!result.stagnated || !has_single() || factors_.precision == Precision::Single)
         return result;
     // A resumed flow would begin its steps in single precision, too.

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "engine/setup/presets.h"
+#include "engine/setup/smoothed_radius.h"
 #include "samples/command/parse_smooth_command.h"
 #include "samples/command/presets.h"
 
@@ -69,6 +70,8 @@ void resolve_amount(SmoothCommand& command, const PolygonMesh& mesh, const Execu
     else
         command.options.time_step =
             time_step_of(command.amount, run.scale, command.options.steps, filter_of(command.options));
+    // As the identity of checkpoints has it.
+    command.options.uniform_edge = uniform_edge_of(command.options, mesh);
     run.has_attachment_weights = !command.options.motion.attachment_weights.empty();
 }
 

@@ -184,11 +184,14 @@ TEST_CASE("every step of the linear flow has the matrix of the first surface")
                 FlowOptions own = is_cut ? options : undecomposed(options);
                 if (is_cut)
                     own.cut.subdomains = 7, own.accuracy.tolerance = 1e-12;
+                own.report.reference = true;
                 PolygonMesh flowing = mesh;
                 const FlowReport report = mean_curvature_flow(flowing, own, [&](const StepState& state) {
                     CHECK(largest_difference(state.positions, after[at(state.step)]) <= 1e-10);
                 });
                 CHECK(report.convergence.steps_short_of_tolerance == 0);
+                for (const StepReport& step : report.steps)
+                    CHECK(step.distance->max <= 1e-10);
             }
         }
 }
@@ -415,4 +418,7 @@ TEST_CASE("options that further flows exclude are refused with what to do")
           "flow is linear, whose steps are converged or undecomposed, but the approach is for sweeps: leave that out");
     CHECK(
         with([](FlowOptions& o) { o.interface.conditions = Conditions::Robin; }).starts_with("flow is linear, whose"));
+    CHECK(with([](FlowOptions& o) {
+              o.resources.factorisation = Factorisation::Cholmod;
+          }).find("only this library's") != std::string::npos);
 }

@@ -132,6 +132,8 @@ class SameBits(WithFolder):
             seamflow.Flow(V, F, radius="1%", flow="linear", approach="sweep")
         with self.assertRaisesRegex(ValueError, "^mesh: "):
             seamflow.Flow(V[:5], F, radius="1%")
+        with self.assertRaisesRegex(TypeError, "Flow has no progress"):
+            seamflow.Flow(V, F, radius="1%", progress=print)
         with self.assertRaisesRegex(TypeError, "did you mean radius"):
             seamflow.Flow(V, F, radios="1%")
         flow = seamflow.Flow(V, F, time_step_edges=30, converge=1e-100, subdomains=20)

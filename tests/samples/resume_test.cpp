@@ -90,6 +90,23 @@ TEST_CASE("--checkpoint changes no result, stays at the end, and lets more steps
     CHECK(w.has("at-4.obj"));
 }
 
+TEST_CASE("flows resume whatever the equation: the edge of uniform weights, the matrix of the linear flow")
+{
+    const Workshop w;
+    for (const std::string flow :
+         {" --laplacian uniform --converge never", " --laplacian uniform --approach cg",
+          " --flow linear --subdomains 5", " --flow linear --filter low-pass --order 3 --approach undecomposed"}) {
+        CAPTURE(flow);
+        const std::string arguments = flow + " --time-step 1e-3 --steps ";
+        REQUIRE(w.smooth("mesh.obj four.obj" + arguments + "4") == 0);
+        REQUIRE(w.smooth("mesh.obj two.obj" + arguments + "2 --checkpoint kept") == 0);
+        REQUIRE(w.smooth("mesh.obj more.obj" + arguments + "4 --checkpoint kept") == 0);
+        CHECK(w.count_lines("said", "resumed ") == 1);
+        CHECK(test::content_of(w.directory / "more.obj") == test::content_of(w.directory / "four.obj"));
+        std::filesystem::remove_all(w.directory / "kept");
+    }
+}
+
 TEST_CASE("a checkpoint of another run, or a damaged one, is refused with what to do")
 {
     const Workshop w;

@@ -78,6 +78,8 @@ class Flow:
     """
 
     def __init__(self, V, F=None, *, fixed=None, labels=None, edges=None, attach_weights=None, **options):
+        if "progress" in options:
+            raise TypeError("Flow has no progress: take its steps one by one")
         mesh, self._single = _arguments(V, F, options, fixed, labels, edges, attach_weights)
         self._flow = _core.Flow(*mesh)
 
