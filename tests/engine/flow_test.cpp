@@ -75,6 +75,26 @@ TEST_CASE("a flow goes on beyond the steps that were expected, also from a state
     CHECK(rest.report().steps.size() == 5);
 }
 
+TEST_CASE("a linear flow with a filter resumes with the same bits where single precision goes no further")
+{
+    const PolygonMesh mesh = make_noisy_sphere(3000);
+    FlowOptions options{.time_step = 1.0, .steps = 4, .cut = {.subdomains = 8}};
+    options.flow = FlowEquation::Linear;
+    options.filter = Filter::LowPass;
+    options.order = 3;
+    options.accuracy.tolerance = 5e-18;
+    PolygonMesh whole = mesh;
+    FlowControl resumed;
+    Flow flow(whole, options, [&](const StepState& state) {
+        if (state.step == 2)
+            resumed.resume = std::make_shared<FlowState>(state.capture());
+    });
+    flow.step(4);
+    PolygonMesh rest = mesh;
+    mean_curvature_flow(rest, options, {}, resumed);
+    CHECK(same_bits(rest.vertices, whole.vertices));
+}
+
 TEST_CASE("after a failure a flow has its last complete step, and takes no further one")
 {
     const PolygonMesh mesh = make_mixed_polygons(300);

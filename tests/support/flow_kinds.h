@@ -89,9 +89,6 @@ inline std::vector<FlowKind> flow_kinds(double edge)
     add("linear", [](FlowOptions& o) { o.flow = FlowEquation::Linear, o.accuracy.tolerance = 1e-3; });
     // Single precision goes no further.
     add("linear, tight", [](FlowOptions& o) { o.flow = FlowEquation::Linear, o.accuracy.tolerance = 1e-14; });
-    add("linear, tight, low-pass", [](FlowOptions& o) {
-        o.flow = FlowEquation::Linear, o.accuracy.tolerance = 5e-17, o.filter = Filter::LowPass, o.order = 3;
-    });
     add("linear, with reference",
         [](FlowOptions& o) { o.flow = FlowEquation::Linear, o.accuracy.tolerance = 1e-9, o.report.reference = true; });
     add("linear, undecomposed", [](FlowOptions& o) {
