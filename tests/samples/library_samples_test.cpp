@@ -84,6 +84,22 @@ TEST_CASE("converged steps are the undecomposed ones, sweeps nearly so")
     CHECK(w.count_lines("said", "sweeps: 4 sub-meshes") == 1);
 }
 
+TEST_CASE("steps are taken until the mean curvature has halved")
+{
+    const Workshop w;
+    REQUIRE(w.run(GENERATE " noisy-sphere ball.obj --vertices 2000") == 0);
+    REQUIRE(w.run(STEP_BY_STEP " ball.obj out.obj") == 0);
+    const auto curvature = numbers(w.said(), "up to (\\S+)");
+    REQUIRE(curvature.size() >= 2);
+    REQUIRE(curvature.size() < 100);
+    REQUIRE(w.smooth("ball.obj first.obj --flow linear --time-step-edges 0.1 --steps 1 --report r.json") == 0);
+    const double begun = w.json("r.json")["steps"][0]["max_mean_curvature_before"].get<double>();
+    CHECK(2.0 * curvature.back() <= begun);
+    CHECK(2.0 * curvature[curvature.size() - 2] > begun);
+    CHECK(vertex_distance(mesh_in(w, "ball.obj"), mesh_in(w, "ball.obj").vertices, mesh_in(w, "out.obj").vertices).max >
+          0.0);
+}
+
 TEST_CASE("a low-pass filter moves a mesh less than diffusion, and so does an attachment")
 {
     const Workshop w;
@@ -111,7 +127,7 @@ TEST_CASE("wrong usage and files that are not there are said in words")
 {
     const Workshop w;
     for (const std::string program :
-         {LIBRARY_CALL, OPENMESH_PIPELINE, OWN_CUT, OBSERVE_STEPS, CONVERGED_STEP, FURTHER_FLOWS}) {
+         {LIBRARY_CALL, OPENMESH_PIPELINE, OWN_CUT, OBSERVE_STEPS, CONVERGED_STEP, STEP_BY_STEP, FURTHER_FLOWS}) {
         CHECK(w.run(program) == 2);
         CHECK(w.said().starts_with("usage: "));
     }
