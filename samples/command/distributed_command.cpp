@@ -56,9 +56,10 @@ std::optional<ExitStatus> parse_distributed_command(int argc, char** argv, int r
             [&](CLI::App& app) {
                 app.get_option("--approach")
                     ->type_name("auto|decomposed|sweep|converged")
-                    ->description("how a step is taken [sweep; converged with --converge, --boundary free or --flow linear]\n"
-                                  "sweep: one sweep over the sub-meshes; converged: these converge to the undecomposed "
-                                  "step.");
+                    ->description(
+                        "how a step is taken [sweep; converged with --converge, --boundary free or --flow linear]\n"
+                        "sweep: one sweep over the sub-meshes; converged: these converge to the undecomposed "
+                        "step.");
                 app.get_option("--conditions")->type_name("adapted-robin|adapted-ventcell");
                 app.get_option("--preset")
                     ->type_name("fair")
