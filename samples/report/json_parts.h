@@ -12,7 +12,7 @@
 namespace seamflow {
 
 /// Must be raised whenever a key of a report is removed or changes its meaning.
-inline constexpr int report_schema = 1;
+inline constexpr int report_schema = 2;
 
 using ReportJson = nlohmann::ordered_json;
 

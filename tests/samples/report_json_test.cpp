@@ -121,7 +121,7 @@ TEST_CASE("reports say by which version they were made, when, and which keys the
     for (const std::string& text :
          {smooth_report_json(RunRecord{}, FlowReport{}), smooth_failure_json(RunRecord{}, Failure{})}) {
         const Json json = Json::parse(text);
-        CHECK(json["schema"] == 1);
+        CHECK(json["schema"] == 2);
         CHECK(json["version"] == std::string(version));
         const std::string date = json["date"];
         REQUIRE(date.size() == 20);

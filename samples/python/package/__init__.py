@@ -171,7 +171,7 @@ def _of_mesh(mesh):
     if hasattr(mesh, "vertices") and hasattr(mesh, "faces"):
         return mesh.vertices, mesh.faces
     if not hasattr(mesh, "points") or not hasattr(mesh, "cells"):
-        raise TypeError("smooth() takes V and F, or a mesh with .vertices and .faces, or with .points and .cells")
+        raise TypeError("V and F are needed, or a mesh with .vertices and .faces, or with .points and .cells")
     blocks = [(block.type, block.data) for block in mesh.cells if block.type not in ("vertex", "line")]
     for kind, _ in blocks:
         if kind not in ("triangle", "quad") and not kind.startswith("polygon"):
