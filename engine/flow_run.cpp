@@ -13,6 +13,7 @@
 #include "engine/measure/surface_measures.h"
 #include "engine/measure/update_limit.h"
 #include "engine/steppers/make_stepper.h"
+#include "engine/steppers/switching_stepper.h"
 #include "engine/steppers/vanishing_components.h"
 #include "engine/tasks/parallel_executor.h"
 #include "engine/tasks/stopwatch.h"
@@ -37,7 +38,7 @@ void named(const std::string& name, Body&& body)
 /// Approximately that of all faces: good enough for an estimate.
 double sampled_mean_edge(const PolygonMesh& mesh, const Points& positions)
 {
-    constexpr Index sample_size = 50'000;
+    constexpr Index sample_size = 5'000;
     const Index stride = std::max(mesh.n_faces() / sample_size, Index{1});
     double length = 0.0;
     std::size_t n_edges = 0;
@@ -207,7 +208,11 @@ void FlowRun::make_steppers()
             measure_largest_curvature(mesh, prepared_->topology, mesh.vertices, laplacian_of(options()));
     describe(*prepared_, mesh_, report_);
     progress_.enter(FlowPhase::Analyse, 0, 0.6 * setup_, options().report.reference ? 0.8 * setup_ : setup_);
-    stepper_ = make_stepper(mesh, prepared_->topology, prepared_->cut, options(), prepared_->curvature, progress_);
+    if (prepared_->costs && options().accuracy.approach == Approach::ConjugateGradients)
+        stepper_ =
+            std::make_unique<SwitchingStepper>(mesh, prepared_->topology, options(), *prepared_->costs, progress_);
+    else
+        stepper_ = make_stepper(mesh, prepared_->topology, prepared_->cut, options(), prepared_->curvature, progress_);
     report_.cut.labels = std::move(prepared_->cut.labels);
     report_.seconds.analyse = watch.lap();
     report_.seconds.total = report_.seconds.cut + report_.seconds.analyse;

@@ -178,7 +178,7 @@ ApproachChoice choose_approach(const PolygonMesh& mesh, const Topology& topology
     FlowOptions by_conjugate_gradients = options;
     by_conjugate_gradients.accuracy.approach = Approach::ConjugateGradients;
     const ApproachChoice decomposed = in_sub_meshes(tolerance);
-    ApproachChoice choice;
+    ApproachChoice choice{.size = flow};
     choice.costs = {predict_cost(Approach::Undecomposed, flow, options.accuracy.tolerance)};
     const double to_reach = choose_tolerance(mesh, size, by_conjugate_gradients).tolerance.value();
     if (options.flow == FlowEquation::MeanCurvature && !attaches(options.motion) &&

@@ -68,8 +68,9 @@ struct ApproachChoice {
     std::optional<double> tolerance = {};
     /// A sentence; empty where the options decide.
     std::string reason = {};
-    /// All ways that would do, cheapest first; empty if there was no choice.
+    /// All ways that would do, cheapest first; empty if there was no choice. And what their costs follow from.
     std::vector<PredictedCost> costs = {};
+    FlowSize size = {};
 };
 
 /// The approach of the options. With Approach::Automatic, unless they concern sub-meshes or sweeps, the cheapest way

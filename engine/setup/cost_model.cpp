@@ -48,6 +48,15 @@ constexpr double growth_of_iterations = 0.4;
 /// Iterations on Γ, for each factor of e in the residual.
 constexpr double interface_iterations = 0.6;
 
+/// In vertices: about 700 MB. No cost makes up for a machine that runs out of memory.
+constexpr Index largest_factor = 500'000;
+
+/// Of a step by conjugate gradients, for each solution.
+double seconds_of_iterations(const FlowSize& size, double iterations)
+{
+    return iterations * (seconds_per_iteration + iteration.of(size));
+}
+
 }  // namespace
 
 double predicted_iterations(const FlowSize& size, double tolerance)
@@ -64,9 +73,8 @@ PredictedCost predict_cost(Approach approach, const FlowSize& size, std::optiona
     switch (approach) {
     case Approach::ConjugateGradients:
         cost.setup = setup_of_conjugate_gradients.of(size);
-        cost.step = step_of_conjugate_gradients.of(size) + size.solutions *
-                                                               predicted_iterations(size, tolerance.value_or(1.0)) *
-                                                               (seconds_per_iteration + iteration.of(size));
+        cost.step = step_of_conjugate_gradients.of(size) +
+                    size.solutions * seconds_of_iterations(size, predicted_iterations(size, tolerance.value_or(1.0)));
         break;
     case Approach::Undecomposed:
         cost.setup = setup_of_undecomposed.of(size);
@@ -82,6 +90,20 @@ PredictedCost predict_cost(Approach approach, const FlowSize& size, std::optiona
         break;
     }
     return cost;
+}
+
+bool pays_to_factorise(const FlowSize& size, const StepIterations& iterations, int steps_left)
+{
+    if (size.vertices > largest_factor)
+        return false;
+    const double growth = std::max(static_cast<double>(iterations.last) / std::max(iterations.before, 1), 1.0);
+    double expected = iterations.last;
+    double by_gradients = 0.0;
+    for (int i = 0; i < steps_left; ++i) {
+        expected = std::min(growth * expected, static_cast<double>(iterations.most));
+        by_gradients += step_of_conjugate_gradients.of(size) + seconds_of_iterations(size, expected);
+    }
+    return predict_cost(Approach::Undecomposed, size).of(steps_left) < by_gradients;
 }
 
 std::vector<CostConstant> cost_constants()

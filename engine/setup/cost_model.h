@@ -42,6 +42,18 @@ double predicted_iterations(const FlowSize& size, double tolerance);
 /// @param tolerance of the steps, where they are converged.
 PredictedCost predict_cost(Approach approach, const FlowSize& size, std::optional<double> tolerance = {});
 
+/// The iterations by conjugate gradients of the last two steps.
+struct StepIterations {
+    int before = 0;
+    int last = 0;
+    /// The most that a step may take.
+    int most = 0;
+};
+
+/// Whether the steps that are left would cost less, set-up included, by one factorisation of the whole mesh than by
+/// conjugate gradients whose iterations go on growing as they have grown.
+bool pays_to_factorise(const FlowSize& size, const StepIterations& iterations, int steps_left);
+
 /// One of the constants, for inspection: nanoseconds per vertex, and per coefficient of its row.
 struct CostConstant {
     std::string_view name;

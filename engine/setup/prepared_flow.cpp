@@ -111,6 +111,8 @@ std::unique_ptr<PreparedFlow> prepare(FlowingMesh& mesh, const FlowOptions& opti
                                                   resume != nullptr ? std::optional(resume->approach) : std::nullopt);
     accuracy.approach = choice.approach;
     accuracy.tolerance = choice.tolerance;
+    if (!choice.costs.empty())
+        prepared->costs = choice.size;
     progress.count();
     cut_and_measure(*prepared, mesh.mesh(), progress);
     std::vector<std::string>& remarks = prepared->remarks;

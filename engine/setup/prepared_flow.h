@@ -8,6 +8,7 @@
 #include "engine/measure/displacement_meter.h"
 #include "engine/measure/surface_measures.h"
 #include "engine/options/flow_options.h"
+#include "engine/setup/cost_model.h"
 #include "engine/setup/flowing_mesh.h"
 #include "engine/state/flow_state.h"
 #include "engine/tasks/progress.h"
@@ -21,6 +22,8 @@ struct PreparedFlow {
     /// The given options, with what was chosen where they left it open: the approach, the tolerance. Labels are those
     /// of faces that flow.
     FlowOptions options;
+    /// What the cost of steps follows from; empty if there was no choice how to take them.
+    std::optional<FlowSize> costs;
     /// Of the mesh and the given options. Empty if it is not needed.
     FlowIdentity identity;
     MeshSize size;

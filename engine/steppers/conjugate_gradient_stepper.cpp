@@ -17,7 +17,7 @@ InterfaceResult ConjugateGradientStepper::solve_equation(const IterationStop& st
 {
     const WholeMeshSystem::Result result = data_ != nullptr
                                                ? system_.apply(*data_, stop, positions_, exec)
-                                               : system_.step(*before_, time_step_, stop, positions_, exec);
+                                               : system_.step(*before_, time_step_, stop, positions_, exec, guess_);
     return {result, result.distance};
 }
 

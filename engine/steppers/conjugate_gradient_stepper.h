@@ -14,6 +14,10 @@ class ConjugateGradientStepper final : public ConvergedStepper {
     ConjugateGradientStepper(const PolygonMesh& mesh, const Topology& topology, const FlowOptions& options,
                              Progress& progress);
 
+    /// The solution that iterations of the next step begin with, #V by 3, unless Vᵏ is nearer; null: Vᵏ. It must exist
+    /// until the step has been taken.
+    void begin_with(const Points* guess) { guess_ = guess; }
+
     using ConvergedStepper::describe;
     void describe(FlowReport& report) const override;
 
@@ -22,6 +26,7 @@ class ConjugateGradientStepper final : public ConvergedStepper {
 
     const PolygonMesh* mesh_;
     WholeMeshSystem system_;
+    const Points* guess_ = nullptr;
 };
 
 }  // namespace seamflow

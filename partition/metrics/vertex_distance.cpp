@@ -21,7 +21,7 @@ double mean_edge_length(const PolygonMesh& mesh, const Points& positions, const 
         const auto corners = mesh.face(f);
         double around = 0.0;
         for (std::size_t k = 0; k < corners.size(); ++k)
-            around += (positions.row(corners[(k + 1) % corners.size()]) - positions.row(corners[k])).norm();
+            around += (positions.row(corners[k + 1 < corners.size() ? k + 1 : 0]) - positions.row(corners[k])).norm();
         return around;
     });
     return mesh.n_corners() > 0 ? total / mesh.n_corners() : 0.0;

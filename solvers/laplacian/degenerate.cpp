@@ -11,6 +11,13 @@ namespace seamflow {
 
 namespace {
 
+/// Whether the length of an edge is a normal double: the root of a positive number always is.
+bool has_length(const Point& edge)
+{
+    const double square = edge.squaredNorm();
+    return square > 0.0 && std::isfinite(square);
+}
+
 /// The first corner of face f where an edge without a valid length starts, and where that matters; -1 if there is none.
 Index edge_without_length(const PolygonMesh& mesh, const Topology& topology, Index f)
 {
@@ -18,8 +25,8 @@ Index edge_without_length(const PolygonMesh& mesh, const Topology& topology, Ind
     for (std::size_t k = 0; k < corners.size(); ++k) {
         const Index start = corners[k];
         const Index end = corners[k + 1 < corners.size() ? k + 1 : 0];
-        const bool matters = topology.moves(start) || topology.moves(end);
-        if (matters && !std::isnormal((mesh.vertices.row(end) - mesh.vertices.row(start)).norm()))
+        if (!has_length(mesh.vertices.row(end) - mesh.vertices.row(start)) &&
+            (topology.moves(start) || topology.moves(end)))
             return static_cast<Index>(k);
     }
     return -1;
@@ -83,7 +90,7 @@ void append_ends(const PolygonMesh& mesh, Index f, std::vector<Index>& vertices)
     for (std::size_t k = 0; k < corners.size(); ++k) {
         const Index start = corners[k];
         const Index end = corners[(k + 1) % corners.size()];
-        if (!std::isnormal((mesh.vertices.row(end) - mesh.vertices.row(start)).norm()))
+        if (!has_length(mesh.vertices.row(end) - mesh.vertices.row(start)))
             vertices.insert(vertices.end(), {start, end});
     }
 }

@@ -12,7 +12,7 @@ namespace seamflow {
 
 namespace {
 
-constexpr Index sample_size = 8192;
+constexpr Index sample_size = 2048;
 
 }  // namespace
 
@@ -22,10 +22,11 @@ RowAverages average_rows(const PolygonMesh& mesh, const Topology& topology, cons
     double n = 0.0;
     with_kernel(laplacian, [&]<class Kernel>(Kernel kernel) {
         if constexpr (EdgeKernel<Kernel> || FaceKernel<Kernel>) {
+            std::vector<Index> neighbours;
             for (Index v = 0; v < mesh.n_vertices(); v += std::max(mesh.n_vertices() / sample_size, Index{1})) {
                 if (!topology.moves(v) || topology.kind[v] != VertexKind::Interior)
                     continue;
-                std::vector<Index> neighbours;
+                neighbours.clear();
                 double diagonal = 0.0;
                 const double mass = visit_row(kernel, mesh, topology, mesh.vertices, v, [&](Index w, double k) {
                     neighbours.push_back(w);

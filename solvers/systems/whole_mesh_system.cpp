@@ -332,7 +332,7 @@ double WholeMeshSystem::distance_after(const BlockRowMatrix::Result& pass)
 }
 
 WholeMeshSystem::Result WholeMeshSystem::step(const Points& before, double time_step, const IterationStop& stop,
-                                              Points& after, const Executor& exec)
+                                              Points& after, const Executor& exec, const Points* guess)
 {
     time_step_ = time_step;
     const double root = std::sqrt(time_step);
@@ -347,7 +347,7 @@ WholeMeshSystem::Result WholeMeshSystem::step(const Points& before, double time_
     }
     matrix_.factorise(exec);
     before_step_ = &before;
-    return solve(sizes.residual.sum(), before_, stop, after, exec);
+    return solve(sizes.residual.sum(), before_, guess, stop, after, exec);
 }
 
 WholeMeshSystem::Result WholeMeshSystem::apply(const Points& data, const IterationStop& stop, Points& result,
@@ -368,18 +368,17 @@ WholeMeshSystem::Result WholeMeshSystem::apply(const Points& data, const Iterati
         for_each(exec, matrix_.n_rows(), [&](Index i) { result.row(i).setZero(); });
         return {};
     }
-    return solve(squared.value(), data_, stop, result, exec);
+    return solve(squared.value(), data_, nullptr, stop, result, exec);
 }
 
-/// Solves for the result of the step on V, or on data, starting from V or from 0.
+/// Solves for the result of the step on V, or on data, starting from a guess, from V or from 0.
 /// @param squared of the residual, each over the diagonal. @param data by rows: V, or what replaces it.
-WholeMeshSystem::Result WholeMeshSystem::solve(double squared, const Points& data, const IterationStop& stop,
-                                               Points& after, const Executor& exec)
+WholeMeshSystem::Result WholeMeshSystem::solve(double squared, const Points& data, const Points* guess,
+                                               const IterationStop& stop, Points& after, const Executor& exec)
 {
     const double root = std::sqrt(time_step_);
     PassStart start = start_pass(squared, exec);
     const double first = start.norm;
-    StoppingCriterion criterion(stop, most_left, 1.0);
     double left = 1.0;
     double distance = 0.0;
     // The current solution, by rows; nullptr once the result has been written.
@@ -394,6 +393,24 @@ WholeMeshSystem::Result WholeMeshSystem::solve(double squared, const Points& dat
         });
         reached = &after_;
     }
+    const auto renew = [&] {
+        const double renewed = measure(*before_step_, data, exec);
+        if (renewed > 0.0)
+            start = start_pass(renewed, exec);
+        left = renewed > 0.0 ? start.norm / first : 0.0;
+    };
+    if (guess != nullptr) {
+        after_.resize(matrix_.n_rows(), 3);
+        for_each(exec, matrix_.n_rows(), [&](Index i) { after_.row(i) = guess->row(blocks_.values[i]); });
+        renew();
+        if (left < 1.0) {
+            reached = &after_;
+        } else {
+            after_ = before_;
+            renew();
+        }
+    }
+    StoppingCriterion criterion(stop, most_left, left);
     while (!criterion.is_met()) {
         const BlockRowMatrix::Result pass = matrix_.iterate(
             start.squared, std::max(stop.tolerance / left, most_reduction_at_once), criterion.iterations_left(), exec);
@@ -414,10 +431,7 @@ WholeMeshSystem::Result WholeMeshSystem::solve(double squared, const Points& dat
             after_.resize(matrix_.n_rows(), 3);
             move(*reached, [&](Index i) { return after_.row(i); });
             reached = &after_;
-            const double renewed = measure(*before_step_, data, exec);
-            if (renewed > 0.0)
-                start = start_pass(renewed, exec);
-            left = renewed > 0.0 ? start.norm / first : 0.0;
+            renew();
         }
         distance = pass.residual > shortest_pass && distance > 0.0
                        ? distance * left / before_pass

@@ -42,7 +42,9 @@ class WholeMeshSystem {
     /// @param before #V by 3: Vᵏ. @param time_step dt, in length².
     /// @param stop relative to the residual of Vᵏ⁺¹ = Vᵏ, in the norm of the inverse of the diagonal.
     /// @param after #V by 3: receives Vᵏ⁺¹; fixed vertices stay.
-    Result step(const Points& before, double time_step, const IterationStop& stop, Points& after, const Executor& exec);
+    /// @param guess #V by 3: what iterations begin with if its residual is smaller than that of Vᵏ; may be null.
+    Result step(const Points& before, double time_step, const IterationStop& stop, Points& after, const Executor& exec,
+                const Points* guess = nullptr);
 
     /// Applies the last step to other data, with the same matrix; nothing pulls to V⁰. Only for systems made for that,
     /// and while the input of the step still exists.
@@ -75,7 +77,8 @@ class WholeMeshSystem {
 
     Sizes assemble(const Points& before, const Executor& exec);
     double measure(const Points& before, const Points& data, const Executor& exec);
-    Result solve(double squared, const Points& data, const IterationStop& stop, Points& after, const Executor& exec);
+    Result solve(double squared, const Points& data, const Points* guess, const IterationStop& stop, Points& after,
+                 const Executor& exec);
     /// dt w of a row.
     [[nodiscard]] double screening(Index i) const { return screenings_.empty() ? 0.0 : time_step_ * screenings_[i]; }
     PassStart start_pass(double squared, const Executor& exec);

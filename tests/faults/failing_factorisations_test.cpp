@@ -8,6 +8,7 @@
 #include "partition/errors.h"
 #include "tests/faults/failing_work.h"
 #include "tests/faults/small_runs.h"
+#include "tests/support/collapsing_flow.h"
 
 using namespace seamflow;
 using After = test::FailingFactorisation::After;
@@ -65,4 +66,22 @@ TEST_CASE("a factorisation that fails is made up for, or comes out with its step
             if (after == After::Fails)
                 CHECK((n_complaints > 0 || !kind.factorises()));
         }
+}
+
+TEST_CASE("conjugate gradients go without factors that fail")
+{
+    const PolygonMesh mesh = make_mixed_polygons(10'000);
+    const FlowOptions options = test::collapsing_flow(mesh);
+    PolygonMesh moved = mesh;
+    FlowReport report;
+    {
+        const test::FailingFactorisation failing(1, After::Fails);
+        report = mean_curvature_flow(moved, options);
+        CHECK(failing.has_failed());
+    }
+    REQUIRE(report.choices.size() == 3);
+    CHECK(report.choices.back().find("failed") != std::string::npos);
+    FlowOptions asked_for = options;
+    asked_for.accuracy.approach = Approach::ConjugateGradients;
+    CHECK(test::same_bits(moved.vertices, test::flowed(mesh, asked_for)));
 }

@@ -1,0 +1,121 @@
+#include "engine/steppers/switching_stepper.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "engine/steppers/make_stepper.h"
+#include "partition/errors.h"
+
+namespace seamflow {
+
+SwitchingStepper::SwitchingStepper(const PolygonMesh& mesh, const Topology& topology, const FlowOptions& options,
+                                   const FlowSize& size, Progress& progress)
+    : mesh_(&mesh)
+    , topology_(&topology)
+    , options_(&options)
+    , size_(size)
+    , progress_(&progress)
+    , gradients_(mesh, topology, options, progress)
+    , iterations_{.most = options.accuracy.converge_iterations}
+{
+}
+
+void SwitchingStepper::make_factors()
+{
+    FlowOptions options = *options_;
+    options.accuracy.approach = Approach::Undecomposed;
+    options.accuracy.tolerance.reset();
+    // Flows do not keep twins.
+    complete_ = *topology_;
+    complete_.twin = make_topology(*mesh_, progress_->exec()).twin;
+    factors_ = make_undecomposed_stepper(*mesh_, complete_, options, {}, *progress_);
+}
+
+/// @returns the solution; null without factors.
+const Points* SwitchingStepper::solve_by_factors(const Points& before)
+{
+    if (!factors_)
+        return nullptr;
+    try {
+        factors_->continue_from(before, {});
+        factors_->step(before);
+        return &factors_->positions();
+    } catch (const ComputationError&) {
+        failed_ = n_taken_ + 1;
+        factors_.reset();
+        return nullptr;
+    }
+}
+
+void SwitchingStepper::step(const Points& before)
+{
+    if (first_with_factors_ == 0 && n_taken_ >= 2 && pays_to_factorise(size_, iterations_, size_.steps - n_taken_)) {
+        make_factors();
+        first_with_factors_ = n_taken_ + 1;
+    }
+    gradients_.begin_with(solve_by_factors(before));
+    gradients_.step(before);
+    gradients_.begin_with(nullptr);
+    ++n_taken_;
+    StepReport report;
+    gradients_.describe(report);
+    iterations_.before = std::exchange(iterations_.last, *report.iterations);
+}
+
+void SwitchingStepper::continue_from(const Points& image, const Similarity& similarity)
+{
+    gradients_.continue_from(image, similarity);
+}
+
+void SwitchingStepper::save(StepMemory& memory) const
+{
+    gradients_.save(memory);
+    for (const int number : {iterations_.before, iterations_.last, n_taken_, first_with_factors_, failed_})
+        memory.numbers.push_back(number);
+}
+
+void SwitchingStepper::restore(const StepMemory& memory)
+{
+    constexpr std::size_t n_own = 5;
+    StepMemory of_gradients = memory;
+    StepMemory own;
+    while (own.numbers.size() < n_own && !of_gradients.numbers.empty()) {
+        own.numbers.insert(own.numbers.begin(), of_gradients.numbers.back());
+        of_gradients.numbers.pop_back();
+    }
+    gradients_.restore(of_gradients);
+    StepMemoryReader reader(own);
+    for (int* number : {&iterations_.before, &iterations_.last})
+        *number = static_cast<int>(std::clamp(reader.number(), 0.0, static_cast<double>(iterations_.most)));
+    for (int* number : {&n_taken_, &first_with_factors_, &failed_})
+        *number = reader.count();
+    if (first_with_factors_ > 0 && failed_ == 0)
+        make_factors();
+}
+
+void SwitchingStepper::add_seconds(PhaseSeconds& seconds) const
+{
+    gradients_.add_seconds(seconds);
+    if (factors_)
+        factors_->add_seconds(seconds);
+}
+
+void SwitchingStepper::describe(FlowReport& report) const
+{
+    gradients_.describe(report);
+    if (factors_)
+        factors_->add_seconds(report.seconds);
+    if (first_with_factors_ > 0)
+        report.choices.push_back(
+            fmt::format("From step {} on, conjugate gradients began with the solution by one factorisation: they had "
+                        "come to need more and more iterations.",
+                        first_with_factors_));
+    if (failed_ > 0)
+        report.choices.push_back(fmt::format("In step {} that failed, because edges have shrunk to nothing: conjugate "
+                                             "gradients went on without it.",
+                                             failed_));
+}
+
+}  // namespace seamflow

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <memory>
+#include <span>
+
+#include "engine/setup/cost_model.h"
+#include "engine/steppers/conjugate_gradient_stepper.h"
+#include "engine/steppers/stepper.h"
+
+namespace seamflow {
+
+/// Takes undecomposed steps by conjugate gradients, which from some step on begin with the solution by a factorisation
+/// of the whole mesh: as soon as they have come to need so many iterations that it is cheaper for the steps that are
+/// left. Edges that a flow shrinks to nothing make the matrix worse, which no choice before the first step foresees;
+/// where they also spoil the factorisation, conjugate gradients repair its solution or go without it. It all depends on
+/// numbers of iterations alone, so that the bits are the same on every machine.
+class SwitchingStepper final : public Stepper {
+  public:
+    /// @param mesh, topology, options, progress must outlive the stepper.
+    /// @param size what the costs follow from; all steps of the flow.
+    SwitchingStepper(const PolygonMesh& mesh, const Topology& topology, const FlowOptions& options,
+                     const FlowSize& size, Progress& progress);
+
+    void step(const Points& before) override;
+    [[nodiscard]] const Points& positions() const override { return gradients_.positions(); }
+    void continue_from(const Points& image, const Similarity& similarity) override;
+    void move(std::span<const Index> vertices, const Points& to) override { gradients_.move(vertices, to); }
+    void save(StepMemory& memory) const override;
+    void restore(const StepMemory& memory) override;
+    void add_seconds(PhaseSeconds& seconds) const override;
+    void describe(StepReport& report) const override { gradients_.describe(report); }
+    void describe(FlowReport& report) const override;
+
+  private:
+    void make_factors();
+    const Points* solve_by_factors(const Points& before);
+
+    const PolygonMesh* mesh_;
+    const Topology* topology_;
+    const FlowOptions* options_;
+    FlowSize size_;
+    Progress* progress_;
+    ConjugateGradientStepper gradients_;
+    /// For factors.
+    Topology complete_;
+    std::unique_ptr<Stepper> factors_;
+    /// Of the last two steps without factors.
+    StepIterations iterations_;
+    int n_taken_ = 0;
+    /// The step that factors were first made for, and the one for which they failed; 0: none.
+    int first_with_factors_ = 0;
+    int failed_ = 0;
+};
+
+}  // namespace seamflow
