@@ -38,17 +38,18 @@ void named(const std::string& name, Body&& body)
 /// Approximately that of all faces: good enough for an estimate.
 double sampled_mean_edge(const PolygonMesh& mesh, const Points& positions)
 {
-    constexpr Index sample_size = 5'000;
+    constexpr Index sample_size = 50'000;
     const Index stride = std::max(mesh.n_faces() / sample_size, Index{1});
-    double length = 0.0;
-    std::size_t n_edges = 0;
-    for (Index f = 0; f < mesh.n_faces(); f += stride) {
-        const auto corners = mesh.face(f);
+    using Sum = Eigen::Array2d;
+    const auto of_face = [&](Index i) -> Sum {
+        const auto corners = mesh.face(i * stride);
+        double length = 0.0;
         for (std::size_t k = 0; k < corners.size(); ++k)
-            length += (positions.row(corners[(k + 1) % corners.size()]) - positions.row(corners[k])).norm();
-        n_edges += corners.size();
-    }
-    return length / static_cast<double>(n_edges);
+            length += (positions.row(corners[k + 1 < corners.size() ? k + 1 : 0]) - positions.row(corners[k])).norm();
+        return {length, static_cast<double>(corners.size())};
+    };
+    const Sum all = sum(run_in_parallel, (mesh.n_faces() + stride - 1) / stride, of_face, Sum(Sum::Zero()));
+    return all[0] / all[1];
 }
 
 /// @param estimate in units of length; emptied if the edges have no length to measure by.

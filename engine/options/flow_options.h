@@ -261,6 +261,9 @@ struct ResourceOptions {
     /// Number of threads, at most most_threads. 0: those of the calling TBB arena (by default all cores). The result is
     /// the same, bit for bit, for any number.
     int threads = 0;
+    /// The number of cores, at least 1, for which an automatic approach is the fastest. The result depends on it, and
+    /// on no number of threads.
+    int tune_for = 2;
     /// Largest number of bytes of all factorisations of sub-meshes at once, at least 1. If it is too small for a step,
     /// the flow throws an OptionError with the necessary number. nullopt: sweeps keep as few factorisations as keep all
     /// threads busy, converged steps keep all. With a limit, converged steps of symmetric Laplacians recompute the

@@ -80,7 +80,7 @@ auto option_table(Options& options)
     auto& [weld, boundary, fixed_vertices, feature_edges, strict, attachment, attachment_weights, rescale, within,
            limits] = motion;
     auto& [volume, move, slide] = limits;
-    auto& [threads, memory_limit, factorisation, precision] = resources;
+    auto& [threads, tune_for, memory_limit, factorisation, precision] = resources;
     auto& [reference, record_schedule, keep_gaps, measures] = report;
     const auto row = []<class Value>(std::string_view field, std::string_view option, unsigned concerns, Value& value,
                                      const Limits& of_number = {}) {
@@ -127,6 +127,8 @@ auto option_table(Options& options)
         row("memory_limit", "--memory-limit", factors | no_result, memory_limit, at_least(1, "at least 1 (byte)")),
         row("factorisation", "--factorisation", factors, factorisation),
         row("precision", "--precision", factors | converged_steps, precision),
+        row("tune_for", "--tune-for", solution | one_process, tune_for,
+            Limits{1.0, ResourceOptions::most_threads, false, false, "at least 1 and at most 1024 (cores)"}),
         row("reference", "--reference", solution | one_process, reference),
         row("keep_edges", "--keep-edges", one_process, keep_edges,
             Limits{0.0, 180.0, true, true, "above 0 and below 180 (degrees)"}),

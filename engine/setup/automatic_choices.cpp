@@ -174,7 +174,8 @@ ApproachChoice choose_approach(const PolygonMesh& mesh, const Topology& topology
                         .rows = average_rows(mesh, topology, laplacian_of(options)),
                         .time_step = options.time_step,
                         .steps = options.steps,
-                        .solutions = n_solutions(filter_of(options))};
+                        .solutions = n_solutions(filter_of(options)),
+                        .cores = options.resources.tune_for};
     FlowOptions by_conjugate_gradients = options;
     by_conjugate_gradients.accuracy.approach = Approach::ConjugateGradients;
     const ApproachChoice decomposed = in_sub_meshes(tolerance);

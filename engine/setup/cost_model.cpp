@@ -7,34 +7,41 @@ namespace seamflow {
 
 namespace {
 
-/// Seconds for each vertex: a constant part, and one for each off-diagonal coefficient of its row.
+/// Seconds for each vertex on two cores: a constant part, and one for each off-diagonal coefficient of its row; and the
+/// fraction of them that one core works alone.
 struct PerVertex {
     double constant;
     double per_coefficient;
+    double serial;
 
     [[nodiscard]] double of(const FlowSize& size) const
     {
-        return 1e-9 * size.vertices * (constant + per_coefficient * size.rows.length);
+        return 1e-9 * size.vertices * (constant + per_coefficient * size.rows.length) * scale(size.cores);
     }
+
+    [[nodiscard]] double scale(int cores) const { return serial + (1.0 - serial) * 2.0 / cores; }
 };
 
-constexpr PerVertex iteration{3.5, 1.1};
+/// Iterations are bound by memory. With sixteen cores it still fed all of them; further ones are assumed to share what
+/// feeds so many.
+constexpr int most_cores_fed = 32;
+constexpr PerVertex iteration{3.5, 1.1, 0.02};
 /// Overhead of an iteration, however few its vertices: three loops begin and end.
 constexpr double seconds_per_iteration = 3e-5;
-constexpr PerVertex setup_of_conjugate_gradients{150.0, 30.0};
-constexpr PerVertex step_of_conjugate_gradients{40.0, 4.0};
+constexpr PerVertex setup_of_conjugate_gradients{150.0, 30.0, 0.44};
+constexpr PerVertex step_of_conjugate_gradients{40.0, 4.0, 0.03};
 
-constexpr PerVertex setup_of_sweeps{300.0, 200.0};
-constexpr PerVertex step_of_sweeps{80.0, 14.0};
-constexpr PerVertex step_of_converged{100.0, 18.0};
-constexpr PerVertex interface_iteration{10.0, 0.0};
+constexpr PerVertex setup_of_sweeps{300.0, 200.0, 0.22};
+constexpr PerVertex step_of_sweeps{80.0, 14.0, 0.03};
+constexpr PerVertex step_of_converged{100.0, 18.0, 0.05};
+constexpr PerVertex interface_iteration{10.0, 0.0, 0.05};
 /// Larger meshes are cut by clusters of faces.
 constexpr Index large_mesh = 250'000;
 constexpr double part_of_setup_if_large = 0.6;
 
-constexpr PerVertex setup_of_undecomposed{400.0, 55.0};
+constexpr PerVertex setup_of_undecomposed{400.0, 55.0, 0.6};
 /// For `reference_vertices`; factors grow faster than meshes.
-constexpr PerVertex step_of_undecomposed{0.0, 55.0};
+constexpr PerVertex step_of_undecomposed{0.0, 55.0, 1.0};
 constexpr double reference_vertices = 10'000.0;
 constexpr double growth_of_factors = 0.35;
 
@@ -48,13 +55,15 @@ constexpr double growth_of_iterations = 0.4;
 /// Iterations on Γ, for each factor of e in the residual.
 constexpr double interface_iterations = 0.6;
 
-/// In vertices: about 700 MB. No cost makes up for a machine that runs out of memory.
+/// In vertices: a peak of about 600 MB. No cost makes up for a machine that runs out of memory.
 constexpr Index largest_factor = 500'000;
 
 /// Of a step by conjugate gradients, for each solution.
 double seconds_of_iterations(const FlowSize& size, double iterations)
 {
-    return iterations * (seconds_per_iteration + iteration.of(size));
+    FlowSize fed = size;
+    fed.cores = std::min(size.cores, most_cores_fed);
+    return iterations * (seconds_per_iteration + iteration.of(fed));
 }
 
 }  // namespace
@@ -109,7 +118,7 @@ bool pays_to_factorise(const FlowSize& size, const StepIterations& iterations, i
 std::vector<CostConstant> cost_constants()
 {
     const auto named = [](std::string_view name, const PerVertex& cost) -> CostConstant {
-        return {name, cost.constant, cost.per_coefficient};
+        return {name, cost.constant, cost.per_coefficient, cost.serial};
     };
     return {named("cg: setup", setup_of_conjugate_gradients),
             named("cg: step without iterations", step_of_conjugate_gradients),

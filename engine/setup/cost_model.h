@@ -7,7 +7,7 @@
 #include "engine/options/flow_options.h"
 #include "solvers/laplacian/row_averages.h"
 
-/// The cost of a flow by each way of taking its steps: fitted once to measurements on two cores (see
+/// The cost of a flow by each way of taking its steps: fitted once to measurements on two cores and on sixteen (see
 /// samples/benchmark/speed.md), and used only to compare these ways, so that results do not depend on the machine.
 namespace seamflow {
 
@@ -20,6 +20,7 @@ struct FlowSize {
     int steps = 1;
     /// Of each step (see n_solutions).
     int solutions = 1;
+    int cores = 2;
 };
 
 /// Predicted cost of a way of taking steps.
@@ -54,11 +55,13 @@ struct StepIterations {
 /// conjugate gradients whose iterations go on growing as they have grown.
 bool pays_to_factorise(const FlowSize& size, const StepIterations& iterations, int steps_left);
 
-/// One of the constants, for inspection: nanoseconds per vertex, and per coefficient of its row.
+/// One of the constants, for inspection: nanoseconds per vertex, and per coefficient of its row, on two cores; and the
+/// fraction of them that one core works alone.
 struct CostConstant {
     std::string_view name;
     double per_vertex = 0.0;
     double per_coefficient = 0.0;
+    double serial = 0.0;
 };
 
 /// All cost constants.

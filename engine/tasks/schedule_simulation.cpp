@@ -1,7 +1,9 @@
 #include "engine/tasks/schedule_simulation.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <functional>
+#include <limits>
 #include <queue>
 #include <span>
 #include <utility>
@@ -17,7 +19,9 @@ namespace {
 /// The tasks that ran in a step, numbered from 0 in the order of their numbers in the schedule.
 struct TasksOfStep {
     std::vector<Index> task;
+    /// Those of tasks that all workers share: of all workers together.
     std::vector<double> seconds;
+    std::vector<std::uint8_t> is_shared;
     std::vector<TaskPriority> priority;
     std::vector<std::vector<Index>> before;
     std::vector<std::vector<Index>> after;
@@ -39,10 +43,15 @@ TasksOfStep graph_of(const Schedule& schedule, int step)
 {
     TasksOfStep graph;
     std::vector<Index> place(schedule.tasks.size(), -1);
-    for (const TaskRecord& record : records_of(schedule, step)) {
+    const std::span<const TaskRecord> records = records_of(schedule, step);
+    const int recorded_with =
+        records.empty() ? 1 : std::ranges::max_element(records, {}, &TaskRecord::thread)->thread + 1;
+    for (const TaskRecord& record : records) {
+        const bool is_shared = schedule.tasks[record.task].kind == TaskKind::SolveInterface;
         place[record.task] = graph.size();
         graph.task.push_back(record.task);
-        graph.seconds.push_back(record.end - record.start);
+        graph.seconds.push_back((record.end - record.start) * (is_shared ? recorded_with : 1));
+        graph.is_shared.push_back(is_shared ? 1 : 0);
         graph.priority.push_back(schedule.tasks[record.task].priority);
     }
     graph.before.resize(graph.task.size());
@@ -61,9 +70,11 @@ TasksOfStep graph_of(const Schedule& schedule, int step)
 /// When each task ends, in seconds since the first one starts.
 class ListSchedule {
   public:
-    ListSchedule(const TasksOfStep& graph, int workers)
+    /// @param sharing the number of workers that share a task which all of them share.
+    ListSchedule(const TasksOfStep& graph, int workers, int sharing)
         : end(graph.task.size(), 0.0)
         , graph_(&graph)
+        , sharing_(sharing)
         , idle_(workers)
     {
         for (Index i = 0; i < graph.size(); ++i) {
@@ -94,7 +105,7 @@ class ListSchedule {
         for (; idle_ > 0 && !ready_.empty(); --idle_) {
             const Index i = ready_.top().second;
             ready_.pop();
-            end[i] = makespan + graph_->seconds[i];
+            end[i] = makespan + graph_->seconds[i] / (graph_->is_shared[i] != 0 ? sharing_ : 1);
             running_.emplace(end[i], i);
         }
     }
@@ -109,6 +120,7 @@ class ListSchedule {
     }
 
     const TasksOfStep* graph_;
+    int sharing_;
     int idle_;
     std::vector<std::size_t> waits_for_;
     /// 0: high, 1: normal priority.
@@ -120,7 +132,7 @@ class ListSchedule {
 /// With a worker for each task, a waiting task starts when the last one that it waits for ends.
 void find_critical_path(const TasksOfStep& graph, Simulation& simulation)
 {
-    const ListSchedule unlimited(graph, graph.size());
+    const ListSchedule unlimited(graph, graph.size(), std::numeric_limits<int>::max());
     simulation.critical_path_seconds = unlimited.makespan;
     const auto ends_earlier = [&](Index a, Index b) { return unlimited.end[a] < unlimited.end[b]; };
     const auto last = std::max_element(unlimited.end.begin(), unlimited.end.end());
@@ -154,7 +166,7 @@ Simulation simulate(const Schedule& schedule, int step, int workers)
     simulation.workers = workers;
     for (const double seconds : graph.seconds)
         simulation.work += seconds;
-    simulation.makespan = ListSchedule(graph, workers).makespan;
+    simulation.makespan = ListSchedule(graph, workers, workers).makespan;
     if (graph.size() > 0)
         find_critical_path(graph, simulation);
     return simulation;

@@ -72,6 +72,7 @@ void add_flow_options(CLI::App& app, BenchmarkCommand& command)
     add_converge(app, flow,
                  "ours by converged steps, to this relative residual; never: by sweeps; auto: as the library decides "
                  "[auto]");
+    add_field(app, flow, "--tune-for", "the number of cores for which ours chooses its approach [2]");
     add_field(app, flow, "--threads", "number of threads, at most 1024; 0: all cores [0; with --simulate-threads 1]");
 }
 
@@ -241,9 +242,12 @@ void add_modes(CLI::App& app, Words& words, BenchmarkCommand& command)
             {"--scaling", "--peers", "--export"});
     exclude(app.add_option("--simulate-threads", words.simulated_threads,
                            "ours, its tasks replayed with each of these numbers of threads: 1,2,8 or so, or all\n"
-                           "The tasks are those of the median step; all: 1, 2, 4, … 1024.")
+                           "The tasks are those of the median step; all: 1, 2, 4, … 1024. And what each approach would "
+                           "take with as many cores.")
                 ->type_name("LIST"),
             {"--scaling", "--threads-sweep", "--peers", "--export"});
+    add_real(app, "--memory-bandwidth", command.memory_bandwidth, positive(),
+             "with --simulate-threads: of the machine with those cores, in GB/s [as measured here]");
     exclude(app.add_option("--simulate-ranks", words.simulated_ranks,
                            "ours, shared by each of these numbers of ranks: their work and their messages\n"
                            "Ranks are threads of one process. A model predicts what follows for large meshes.")
@@ -286,6 +290,8 @@ void settle(const CLI::App& app, const Words& words, BenchmarkCommand& command)
         prepare_grid(app, command);
     if (is_given("--whole-run"))
         command.mode = is_given("--scaling") ? BenchmarkMode::WholeRunScaling : BenchmarkMode::WholeRun;
+    if (is_given("--memory-bandwidth") && !is_given("--simulate-threads"))
+        throw OptionError("--memory-bandwidth belongs to --simulate-threads");
     if (is_given("--turns") && !is_given("--grid") && !is_given("--whole-run"))
         throw OptionError("--turns belongs to --grid and --whole-run");
     command.options.peers = peers_named(!words.peers.empty() ? words.peers : usual_peers(command.mode));

@@ -55,6 +55,8 @@ struct BenchmarkCommand {
     CaseOptions options;
     BenchmarkMode mode = BenchmarkMode::Case;
     GridAxes grid;
+    /// For BenchmarkMode::SimulateThreads, in GB/s; 0: as measured.
+    double memory_bandwidth = 0.0;
     /// For BenchmarkMode::SimulateRanks.
     std::vector<int> simulated_ranks;
     /// How often compared methods are run, in turns; the least times count.

@@ -1,6 +1,5 @@
 #include "samples/benchmark/explanation.h"
 
-#include <array>
 #include <ostream>
 #include <utility>
 
@@ -9,16 +8,13 @@
 #include "engine/options/option_names.h"
 #include "engine/setup/cost_model.h"
 #include "samples/benchmark/case_json.h"
+#include "samples/benchmark/memory_bandwidth.h"
 
 namespace seamflow {
 
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-constexpr std::array approaches{
-    std::pair{Approach::Sweep, Method::OurSweep}, std::pair{Approach::Converged, Method::OurConverged},
-    std::pair{Approach::ConjugateGradients, Method::OurCg}, std::pair{Approach::Undecomposed, Method::Undecomposed}};
 
 std::string distance_text(const std::optional<double>& distance)
 {
@@ -34,12 +30,16 @@ Explanation explain(const PolygonMesh& mesh, const FlowOptions& flow, Reference 
     Explanation explanation{.size = {.vertices = mesh.n_vertices(),
                                      .rows = average_rows(mesh, topology, flow.laplacian),
                                      .time_step = flow.time_step,
-                                     .steps = flow.steps},
+                                     .steps = flow.steps,
+                                     .cores = flow.resources.tune_for},
+                            .threads = flow.resources.threads,
+                            .bandwidth_of_one = triad_bandwidth(1),
+                            .bandwidth = triad_bandwidth(flow.resources.threads),
                             .chosen = choose_approach(mesh, topology, size, flow).approach,
                             .entries = {}};
     MethodRows rows(mesh);
     rows.find_reference(reference, flow);
-    for (const auto& [approach, method] : approaches) {
+    for (const auto& [approach, method] : our_approaches) {
         FlowOptions options = flow;
         options.accuracy.approach = approach;
         const auto tolerance = choose_tolerance(mesh, size, options).tolerance;
@@ -53,10 +53,16 @@ Explanation explain(const PolygonMesh& mesh, const FlowOptions& flow, Reference 
 void print_explanation(std::ostream& out, const Explanation& explanation)
 {
     const FlowSize& size = explanation.size;
-    out << "the model, in nanoseconds for each vertex, and for each coefficient of its row besides:\n";
+    out << "the model on two cores, in nanoseconds for each vertex, and for each coefficient of its row besides; and "
+           "the "
+           "part that one core works alone:\n";
     for (const CostConstant& constant : cost_constants())
-        out << fmt::format("  {:<36} {:>7.1f} {:>7.1f}\n", constant.name, constant.per_vertex,
-                           constant.per_coefficient);
+        out << fmt::format("  {:<36} {:>7.1f} {:>7.1f} {:>7.2f}\n", constant.name, constant.per_vertex,
+                           constant.per_coefficient, constant.serial);
+    out << fmt::format("memory: {:.3g} GB/s with {} of the flow, {:.3g} GB/s with one (triad)\n",
+                       1e-9 * explanation.bandwidth,
+                       explanation.threads == 1 ? "the thread" : fmt::format("the {} threads", explanation.threads),
+                       1e-9 * explanation.bandwidth_of_one);
     out << fmt::format("{} vertices, {:.2f} coefficients a row beside the diagonal, dt times K/M {:.1f}, {} steps\n"
                        "{:<14} {:>9} {:>9} {:>9}  {:>9} {:>9} {:>9} {:>6} {:>6} {:>9} {:>9}\n"
                        "{:<14} {:>9} {:>9} {:>9}  {:>9} {:>9} {:>9}\n",
@@ -89,9 +95,13 @@ Json explanation_json(const Explanation& explanation)
               {"stiffness", explanation.size.rows.stiffness},
               {"time_step", explanation.size.time_step},
               {"steps", explanation.size.steps},
+              {"threads", explanation.threads},
+              {"triad_bytes_per_second", explanation.bandwidth},
+              {"triad_bytes_per_second_one_thread", explanation.bandwidth_of_one},
               {"chosen", option_name(explanation.chosen)}};
     for (const CostConstant& constant : cost_constants())
-        json["constants"][std::string(constant.name)] = {constant.per_vertex, constant.per_coefficient};
+        json["constants"][std::string(constant.name)] = {constant.per_vertex, constant.per_coefficient,
+                                                         constant.serial};
     for (const auto& [predicted, row] : explanation.entries)
         json["approaches"][std::string(option_name(predicted.approach))] = {
             {"predicted",

@@ -61,6 +61,7 @@ MethodJson task_json(const MethodTask& task)
             {"approach", options.accuracy.approach},
             {"memory_limit", optional_json(options.resources.memory_limit)},
             {"threads", options.resources.threads},
+            {"tune_for", options.resources.tune_for},
             {"tolerance", task.tolerance},
             {"simulated_threads", task.simulated_threads},
             {"input", task.input.string()},
@@ -81,6 +82,7 @@ MethodTask task_of(const MethodJson& json)
     json.at("approach").get_to(task.options.accuracy.approach);
     task.options.resources.memory_limit = optional_of<std::size_t>(json.at("memory_limit"));
     json.at("threads").get_to(task.options.resources.threads);
+    json.at("tune_for").get_to(task.options.resources.tune_for);
     json.at("tolerance").get_to(task.tolerance);
     json.at("simulated_threads").get_to(task.simulated_threads);
     task.input = json.at("input").get<std::string>();

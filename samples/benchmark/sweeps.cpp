@@ -13,6 +13,7 @@
 #include "samples/benchmark/explanation.h"
 #include "samples/benchmark/grid_cell.h"
 #include "samples/benchmark/grid_report.h"
+#include "samples/benchmark/many_cores.h"
 #include "samples/benchmark/matrix_market.h"
 #include "samples/benchmark/simulated_ranks.h"
 #include "samples/benchmark/whole_run.h"
@@ -125,7 +126,14 @@ Json run_simulation(const BenchmarkCommand& command, std::ostream& out)
     out << "the tasks of the median step as they were recorded, replayed with other numbers of threads:\n";
     print_simulations(out, result.ours.result.simulations);
     out << std::flush;
-    return case_json(name_of_mesh(command), command.time_step_edges, options, result);
+    Json json = case_json(name_of_mesh(command), command.time_step_edges, options, result);
+    if (is_symmetric(options.flow.laplacian)) {
+        const ManyCores many =
+            measure_for_many_cores(mesh, options.flow, options.simulated_threads, 1e9 * command.memory_bandwidth);
+        print_many_cores(out, many);
+        json["approaches"] = many_cores_json(many);
+    }
+    return json;
 }
 
 Json run_ranks(const BenchmarkCommand& command, std::ostream& out)

@@ -147,6 +147,9 @@ void add_accuracy(CLI::App& app, FlowOptions& options)
               "decomposed: one of the two; cg: conjugate gradients on the whole mesh, with hardly any set-up; "
               "undecomposed: one factorisation of the whole mesh; auto: the fastest, in sub-meshes if another option "
               "concerns them.");
+    add_field(app, options, "--tune-for",
+              "the number of cores for which --approach auto is the fastest [2]\n"
+              "It is not that of the machine, so that the result is the same on all of them.");
     add_field(app, options, "--precision",
               "precision of the factorisations of converged steps [auto]\n"
               "Steps are refined to the tolerance in any case. auto: single where that loses few digits.");

@@ -195,7 +195,7 @@ TEST_CASE("benchmark replays its tasks with more threads than there are")
 {
     const Workshop w;
     REQUIRE(w.run(BENCHMARK " --vertices 5000 --subdomains 30 --steps 3 --simulate-threads 1,2,1024 "
-                            "--json simulated.json") == 0);
+                            "--memory-bandwidth 1e-3 --json simulated.json") == 0);
     const Json json = w.json("simulated.json");
     CHECK(json["threads"] == 1);
     REQUIRE(json["simulated_threads"].size() == 3);
@@ -204,6 +204,24 @@ TEST_CASE("benchmark replays its tasks with more threads than there are")
     CHECK(json["simulated_threads"][2]["speed_up"] >= json["simulated_threads"][1]["speed_up"]);
     CHECK(json["simulated_threads"][2]["makespan_s"] >= json["simulated_threads"][2]["critical_path_s"]);
     CHECK(w.count_lines("said", "   1024 ") == 1);
+    const Json& approaches = json["approaches"]["entries"];
+    CHECK(json["approaches"]["memory_bytes_per_second"] == 1e6);
+    for (const char* approach : {"sweep", "converged", "cg", "undecomposed"}) {
+        CAPTURE(approach);
+        const Json& costs = approaches[approach];
+        REQUIRE(costs.size() == 3);
+        CHECK(costs[2]["cores"] == 1024);
+        CHECK(costs[0]["setup_s"].get<double>() > costs[1]["setup_s"].get<double>());
+        CHECK(costs[1]["setup_s"].get<double>() > costs[2]["setup_s"].get<double>());
+        CHECK(costs[1]["all_s"].get<double>() ==
+              test::relative(costs[1]["setup_s"].get<double>() + 3 * costs[1]["step_s"].get<double>(), 1e-9));
+        CHECK(w.count_lines("said", std::string(approach) + " ") >= 4);
+    }
+    // Of an iteration of 292 bytes for each vertex, and a megabyte a second, cores save nothing.
+    CHECK(approaches["cg"][2]["step_s"].get<double>() > 5000 * 292 / 1e6);
+    CHECK(approaches["cg"][2]["step_s"] == approaches["cg"][0]["step_s"]);
+    CHECK(approaches["undecomposed"][2]["step_s"] == approaches["undecomposed"][0]["step_s"]);
+    CHECK(approaches["converged"][2]["step_s"].get<double>() < approaches["converged"][1]["step_s"].get<double>());
 }
 
 TEST_CASE("benchmark counts what ranks say to each other")
@@ -298,6 +316,8 @@ TEST_CASE("benchmark refuses wrong usage and unusable files")
                                   "--threads-sweep --peers cg",
                                   "--simulate-threads 0",
                                   "--simulate-threads 1 --peers cg",
+                                  "--memory-bandwidth 100",
+                                  "--simulate-threads 1 --memory-bandwidth 0",
                                   "--simulate-threads 1 --scaling",
                                   "--simulate-threads 1 --threads-sweep",
                                   "--simulate-ranks 0",

@@ -251,6 +251,7 @@ TEST_CASE("what processes hand to each other arrives as it was")
     task.options.interface.q = 0.25;
     task.options.resources.memory_limit = std::size_t{1} << 40;
     task.simulated_threads = {1, 1024};
+    task.options.resources.tune_for = 16;
     task.input = "in.obj";
     task.output = "out.ply";
     write_task(folder.path(), task);
@@ -262,6 +263,7 @@ TEST_CASE("what processes hand to each other arrives as it was")
     CHECK(task_read.options.interface.q == task.options.interface.q);
     CHECK(task_read.options.resources.memory_limit == task.options.resources.memory_limit);
     CHECK(task_read.simulated_threads == task.simulated_threads);
+    CHECK(task_read.options.resources.tune_for == 16);
     CHECK(task_read.input == task.input);
     CHECK(task_read.output == task.output);
     CHECK(task_read.options.time_step == task.options.time_step);
@@ -337,10 +339,12 @@ TEST_CASE("a simulation records with one thread and without a limit, where nothi
     CHECK(command.options.flow.resources.memory_limit == std::numeric_limits<std::size_t>::max());
     CHECK(command.options.peers.empty());
     CHECK(command.options.reference == Reference::None);
+    CHECK(command.memory_bandwidth == 0.0);
     BenchmarkCommand refined;
     REQUIRE_FALSE(parse({"--simulate-threads", "all", "--threads", "2", "--memory-limit", "2G", "--conditions",
-                         "ventcell", "--q", "0.1"},
+                         "ventcell", "--q", "0.1", "--memory-bandwidth", "137"},
                         refined));
+    CHECK(refined.memory_bandwidth == 137.0);
     CHECK(refined.options.flow.resources.threads == 2);
     CHECK(refined.options.flow.resources.memory_limit == 2'000'000'000);
     CHECK(refined.options.flow.interface.conditions == Conditions::Ventcell);

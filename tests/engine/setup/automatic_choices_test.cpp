@@ -232,6 +232,35 @@ TEST_CASE("what costs least is chosen where nothing is said of sub-meshes, and a
     CHECK(with([](FlowOptions& o) { o.cut.subdomains = 4, o.accuracy.tolerance = 1e-8; }) == Approach::Converged);
 }
 
+TEST_CASE("the number of cores to tune for decides, that of threads does not")
+{
+    const PolygonMesh mesh = make_triangles(20000);
+    const Topology topology = make_topology(mesh);
+    FlowOptions options = step_options(mesh, Laplacian::Fujiwara, 500.0);
+    options.steps = 1;
+    const auto choice_for = [&](int cores, int threads) {
+        options.resources.tune_for = cores;
+        options.resources.threads = threads;
+        return choose_approach(mesh, topology, size_of(mesh), options);
+    };
+    CHECK(choice_for(2, 2).approach == Approach::Undecomposed);
+    CHECK(choice_for(2, 16).approach == Approach::Undecomposed);
+    CHECK(choice_for(16, 2).approach != Approach::Undecomposed);
+    // One factor of the whole mesh is of no use to further cores; all else is, up to what memory feeds.
+    const auto cost_of = [](const ApproachChoice& choice, Approach approach) {
+        return *std::ranges::find(choice.costs, approach, &PredictedCost::approach);
+    };
+    const auto cost = [&](Approach approach, int cores) { return cost_of(choice_for(cores, 1), approach); };
+    CHECK(cost(Approach::Undecomposed, 64).step == cost(Approach::Undecomposed, 1).step);
+    for (const Approach approach : {Approach::Converged, Approach::ConjugateGradients}) {
+        CHECK(cost(approach, 1).step > 1.8 * cost(approach, 2).step);
+        CHECK(cost(approach, 2).step > 4.0 * cost(approach, 16).step);
+        CHECK(cost(approach, 2).setup > 1.5 * cost(approach, 16).setup);
+    }
+    CHECK(cost(Approach::ConjugateGradients, 1000).step > 0.8 * cost(Approach::ConjugateGradients, 64).step);
+    CHECK(cost(Approach::Converged, 1000).step < 0.7 * cost(Approach::Converged, 64).step);
+}
+
 TEST_CASE("conjugate gradients are not chosen where their iterations would not do")
 {
     const PolygonMesh mesh = make_triangles(20000);

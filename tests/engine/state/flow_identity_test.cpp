@@ -68,6 +68,7 @@ std::vector<Change> all_changes()
         {"reference", [](FlowOptions& o) { o.report.reference = true; }},
         {"factorisation", [](FlowOptions& o) { o.resources.factorisation = Factorisation::Cholmod; }},
         {"measures", [](FlowOptions& o) { o.report.measures = !o.report.measures; }},
+        {"tune_for", [](FlowOptions& o) { o.resources.tune_for = 16; }},
         {"precision", [](FlowOptions& o) { o.resources.precision = Precision::Double; }},
     };
 }

@@ -238,6 +238,7 @@ TEST_CASE("every option that changes results tells flows apart, by its own name"
         {"reference", [](FlowOptions& o) { o.report.reference = true; }},
         {"factorisation", [](FlowOptions& o) { o.resources.factorisation = Factorisation::Own; }},
         {"measures", [](FlowOptions& o) { o.report.measures = false; }},
+        {"tune_for", [](FlowOptions& o) { o.resources.tune_for = 16; }},
         {"precision", [](FlowOptions& o) { o.resources.precision = Precision::Double; }},
     };
     const PolygonMesh mesh = make_quads(100);

@@ -81,6 +81,19 @@ TEST_CASE("tasks that end together free what waits for them before the next one 
     CHECK(simulate(schedule, 1, 2).makespan == 16.0);
 }
 
+TEST_CASE("all workers share the solution on the interface")
+{
+    Schedule schedule = schedule_of({1.0, 1.0, 8.0, 1.0}, {{0, 2}, {1, 2}, {2, 3}});
+    schedule.tasks[2].kind = TaskKind::SolveInterface;
+    CHECK(simulate(schedule, 1, 1).makespan == 11.0);
+    CHECK(simulate(schedule, 1, 2).makespan == 6.0);
+    CHECK(simulate(schedule, 1, 8).makespan == 3.0);
+    CHECK(simulate(schedule, 1, 8).work == 11.0);
+    // Two threads shared it when it was recorded.
+    schedule.records[1].thread = 1;
+    CHECK(simulate(schedule, 1, 1).makespan == 19.0);
+}
+
 TEST_CASE("only the tasks of the step count")
 {
     Schedule schedule = schedule_of({1.0, 2.0, 4.0}, {{0, 1}, {2, 0}});
