@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <iterator>
 #include <limits>
 #include <numeric>
 #include <span>
@@ -50,8 +49,9 @@ void append(PolygonMesh& mesh, const PolygonMesh& part)
     const Index first = mesh.n_corners();
     static_cast<void>(sum_of_counts(first, part.n_corners()));
     mesh.face_vertices.insert(mesh.face_vertices.end(), part.face_vertices.begin(), part.face_vertices.end());
-    std::transform(part.face_offsets.begin() + 1, part.face_offsets.end(), std::back_inserter(mesh.face_offsets),
-                   [first](Index end) { return first + end; });
+    const auto offsets =
+        mesh.face_offsets.insert(mesh.face_offsets.end(), part.face_offsets.begin() + 1, part.face_offsets.end());
+    std::for_each(offsets, mesh.face_offsets.end(), [first](Index& end) { end += first; });
 }
 
 }  // namespace
@@ -69,7 +69,7 @@ std::vector<std::int64_t> count_lines(const TextScanner& whole, std::span<const 
     std::vector<std::int64_t> first(slices.size() + 1);
     for_each(exec, static_cast<Index>(slices.size()), [&](Index i) {
         TextScanner scanner(whole, slices[i]);
-        while (scanner.next_line())
+        while (!scanner.next_keyword().empty())
             ++first[i + 1];
     });
     std::partial_sum(first.begin(), first.end(), first.begin());
