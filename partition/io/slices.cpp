@@ -13,20 +13,7 @@ namespace seamflow {
 
 namespace {
 
-/// Asks the system for large pages for memory that has not been touched yet. It may ignore this.
-void prefer_large_pages(void* memory, std::size_t n_bytes)
-{
-    constexpr std::uintptr_t page = std::uintptr_t{1} << 21;
-    const std::uintptr_t begin = (reinterpret_cast<std::uintptr_t>(memory) + page - 1) / page * page;
-    const std::uintptr_t end = (reinterpret_cast<std::uintptr_t>(memory) + n_bytes) / page * page;
-#ifdef MADV_HUGEPAGE
-    if (begin < end)
-        static_cast<void>(::madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE));
-#endif
-}
-
-/// Makes room for the parts, and for as much in each of the following slices, up to a multiple of the current size, in
-/// large pages: touching memory for the first time takes longer than copying it.
+/// Makes room for the parts, and for as much in each of the following slices, up to a multiple of the current size.
 template <class Value>
 void make_room(std::vector<Value>& values, std::span<const PolygonMesh> parts, Index n_to_follow,
                std::vector<Value> PolygonMesh::*member)
@@ -55,6 +42,17 @@ void append(PolygonMesh& mesh, const PolygonMesh& part)
 }
 
 }  // namespace
+
+void prefer_large_pages(void* memory, std::size_t n_bytes)
+{
+    constexpr std::uintptr_t page = std::uintptr_t{1} << 21;
+    const std::uintptr_t begin = (reinterpret_cast<std::uintptr_t>(memory) + page - 1) / page * page;
+    const std::uintptr_t end = (reinterpret_cast<std::uintptr_t>(memory) + n_bytes) / page * page;
+#ifdef MADV_HUGEPAGE
+    if (begin < end)
+        static_cast<void>(::madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE));
+#endif
+}
 
 Index sum_of_counts(std::int64_t a, std::int64_t b)
 {
