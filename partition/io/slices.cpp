@@ -5,6 +5,7 @@
 #include <limits>
 #include <numeric>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <sys/mman.h>
@@ -31,14 +32,19 @@ void make_room(std::vector<Value>& values, std::span<const PolygonMesh> parts, I
     prefer_large_pages(values.data(), values.capacity() * sizeof(Value));
 }
 
-void append(PolygonMesh& mesh, const PolygonMesh& part)
+/// @param n_to_follow number of parts that will be appended afterwards.
+void append(PolygonMesh& mesh, std::span<const PolygonMesh> parts, Index n_to_follow)
 {
-    const Index first = mesh.n_corners();
-    static_cast<void>(sum_of_counts(first, part.n_corners()));
-    mesh.face_vertices.insert(mesh.face_vertices.end(), part.face_vertices.begin(), part.face_vertices.end());
-    const auto offsets =
-        mesh.face_offsets.insert(mesh.face_offsets.end(), part.face_offsets.begin() + 1, part.face_offsets.end());
-    std::for_each(offsets, mesh.face_offsets.end(), [first](Index& end) { end += first; });
+    make_room(mesh.face_offsets, parts, n_to_follow, &PolygonMesh::face_offsets);
+    make_room(mesh.face_vertices, parts, n_to_follow, &PolygonMesh::face_vertices);
+    for (const PolygonMesh& part : parts) {
+        const Index first = mesh.n_corners();
+        static_cast<void>(sum_of_counts(first, part.n_corners()));
+        mesh.face_vertices.insert(mesh.face_vertices.end(), part.face_vertices.begin(), part.face_vertices.end());
+        const auto offsets =
+            mesh.face_offsets.insert(mesh.face_offsets.end(), part.face_offsets.begin() + 1, part.face_offsets.end());
+        std::for_each(offsets, mesh.face_offsets.end(), [first](Index& end) { end += first; });
+    }
 }
 
 }  // namespace
@@ -85,21 +91,23 @@ void append_faces(PolygonMesh& mesh, Index n, const Executor& exec,
                   const std::function<void(Index slice, PolygonMesh& faces)>& read)
 {
     // Enough that few threads wait, and few enough that they need little memory.
-    constexpr Index at_once = 64;
-    std::vector<PolygonMesh> parts(at(std::min(n, at_once)));
+    constexpr Index at_once = 32;
+    std::vector<PolygonMesh> parts;
+    std::vector<PolygonMesh> parts_before;
     for (Index begin = 0; begin < n; begin += at_once) {
         parts.resize(at(std::min(at_once, n - begin)));
-        for_each(exec, static_cast<Index>(parts.size()), [&](Index i) {
-            parts[i].face_offsets.resize(1);
-            parts[i].face_vertices.clear();
-            read(begin + i, parts[i]);
+        // One thread appends the parts that were read before, while others read these.
+        for_each(exec, static_cast<Index>(parts.size()) + 1, [&](Index i) {
+            if (i == 0)
+                return append(mesh, parts_before, n - begin);
+            PolygonMesh& part = parts[i - 1];
+            part.face_offsets.resize(1);
+            part.face_vertices.clear();
+            read(begin + i - 1, part);
         });
-        const Index n_to_follow = n - begin - static_cast<Index>(parts.size());
-        make_room(mesh.face_offsets, parts, n_to_follow, &PolygonMesh::face_offsets);
-        make_room(mesh.face_vertices, parts, n_to_follow, &PolygonMesh::face_vertices);
-        for (const PolygonMesh& part : parts)
-            append(mesh, part);
+        std::swap(parts, parts_before);
     }
+    append(mesh, parts_before, 0);
 }
 
 }  // namespace seamflow
