@@ -123,7 +123,7 @@ PolygonMesh read_binary_slices(const std::filesystem::path& path, std::string_vi
         const std::uint64_t begin = at(i) * per_slice;
         ByteScanner scanner(path, file, header_bytes + facet_bytes * begin, std::endian::little);
         BinaryFacets collector(scanner, place);
-        collector.expect_points(per_slice);
+        collector.expect_facets(per_slice);
         read_facets(scanner, begin, std::min<std::uint64_t>(begin + per_slice, n), collector);
         return collector.take_points();
     };
