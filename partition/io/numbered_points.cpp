@@ -119,7 +119,7 @@ NumberedPoints number_together(std::span<const std::vector<std::array<Real, 3>>>
             if (first[k] != k)
                 continue;
             const std::array<Real, 3>& point = lists[i][k - result.begin[i]];
-            result.points.row(next) = Point(point[0], point[1], point[2]);
+            result.points.row(next) << point[0], point[1], point[2];
             result.numbers[k] = next++;
         }
     });
