@@ -47,7 +47,11 @@ class ObjReader {
     /// Reads all lines.
     void read()
     {
-        while (scanner_.next_line()) {
+        while (true) {
+            if (read_plain_vertex() || read_plain_face())
+                continue;
+            if (!scanner_.next_line())
+                break;
             // Texture coordinates, normals, groups, materials, points, lines, … are ignored here.
             if (const std::string_view keyword = scanner_.token(); keyword.size() == 1 && keyword[0] == 'v')
                 read_vertex();
@@ -67,6 +71,8 @@ class ObjReader {
     }
 
   private:
+    bool read_plain_vertex();
+    bool read_plain_face();
     void read_vertex();
     void read_face();
     Index read_corner();
@@ -78,6 +84,39 @@ class ObjReader {
     /// Ascending in both vertex and line, so that the first unresolved one is the first in the file.
     std::vector<ForwardReference> forward_references_;
 };
+
+/// The functions read_plain_… read a line in its commonest form, without fault, and return false if it has another.
+bool ObjReader::read_plain_vertex()
+{
+    std::array<double, 3> position{};
+    const bool is_plain = scanner_.next_plain_line([&](PlainLine& line) {
+        return line.keyword('v') && line.real(position[0]) && line.real(position[1]) && line.real(position[2]) &&
+               line.ends();
+    });
+    if (is_plain)
+        builder_.add_vertex(position);
+    return is_plain;
+}
+
+bool ObjReader::read_plain_face()
+{
+    corners_.clear();
+    const auto n = static_cast<std::uint64_t>(builder_.n_vertices());
+    const bool is_plain = scanner_.next_plain_line([&](PlainLine& line) {
+        if (!line.keyword('f'))
+            return false;
+        while (!line.ends()) {
+            std::uint64_t number = 0;
+            if (!line.corner(number) || number == 0 || number > n)
+                return false;
+            corners_.push_back(static_cast<Index>(number - 1));
+        }
+        return true;
+    });
+    if (is_plain)
+        builder_.add_face(corners_);
+    return is_plain;
+}
 
 void ObjReader::read_vertex()
 {
@@ -262,8 +301,8 @@ std::vector<TextCounts> count_obj(const TextScanner& whole, std::span<const std:
     std::vector<TextCounts> counts(slices.size() + 1);
     for_each(exec, static_cast<Index>(slices.size()), [&](Index i) {
         TextScanner scanner(whole, slices[i]);
-        while (scanner.next_line()) {
-            const std::string_view keyword = scanner.token();
+        std::string_view keyword;
+        while (!(keyword = scanner.next_keyword()).empty()) {
             counts[i + 1].n_vertices += keyword == "v" ? 1 : 0;
             counts[i + 1].n_normals += keyword == "vn" ? 1 : 0;
         }

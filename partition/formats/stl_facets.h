@@ -4,6 +4,7 @@
 #include <array>
 #include <functional>
 #include <limits>
+#include <numeric>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -11,6 +12,8 @@
 #include "partition/executor.h"
 #include "partition/io/input_position.h"
 #include "partition/io/mesh_builder.h"
+#include "partition/io/numbered_points.h"
+#include "partition/io/slices.h"
 #include "partition/point_numbers.h"
 #include "partition/polygon_mesh.h"
 
@@ -24,9 +27,11 @@ inline bool is_keyword(std::string_view token, std::string_view keyword)
 }
 
 /// Joins the corners of facets to vertices, and facets to a mesh.
+/// @tparam Real double or float: the type of the coordinates in the file.
+template <class Real>
 class FacetCollector {
   public:
-    using Corner = PointNumbers::Place;
+    using Corner = std::array<Real, 3>;
 
     /// Of a whole file.
     explicit FacetCollector(const InputPosition& position)
@@ -62,15 +67,19 @@ class FacetCollector {
     PolygonMesh finish()
     {
         for (const Corner& point : numbers_.points())
-            builder_.add_vertex(point);
+            builder_.add_vertex({point[0], point[1], point[2]});
         return builder_.finish();
     }
 
-    /// Makes room for so many more points.
-    void expect_points(std::size_t n) { numbers_.reserve(n); }
+    /// Makes room for so many facets and, as a table with much room is faster, as many points: there are about half.
+    void expect_facets(std::size_t n)
+    {
+        numbers_.reserve(n);
+        builder_.reserve(0, n);
+    }
 
   private:
-    static constexpr double no_place = std::numeric_limits<double>::quiet_NaN();
+    static constexpr Real no_place = std::numeric_limits<Real>::quiet_NaN();
 
     /// Most facets share corners with the one before them.
     Index number_of(const Corner& point)
@@ -83,7 +92,7 @@ class FacetCollector {
 
     const InputPosition& position_;
     MeshBuilder builder_;
-    PointNumbers numbers_;
+    BasicPointNumbers<Real> numbers_;
     /// Of the last facet; at first equal to nothing.
     std::array<Corner, 3> last_points_ = {Corner{no_place}, Corner{no_place}, Corner{no_place}};
     std::array<Index, 3> last_corners_ = {};
@@ -94,12 +103,40 @@ class FacetCollector {
 /// @param read called with a slice and where its faces go; returns its points.
 /// @param faces gets the faces of all slices.
 /// @returns #V by 3: the points.
+template <class Real>
 Points join_facets(Index n_slices, const Executor& exec,
-                   const std::function<std::vector<PointNumbers::Place>(Index slice, const MeshSlice& place)>& read,
-                   PolygonMesh& faces);
+                   const std::function<std::vector<std::array<Real, 3>>(Index slice, const MeshSlice& place)>& read,
+                   PolygonMesh& faces)
+{
+    std::vector<std::vector<std::array<Real, 3>>> of_slice(at(n_slices));
+    std::vector<Index> corners(at(n_slices) + 1, 0);
+    Points none(0, 3);
+    append_faces(faces, n_slices, exec, [&](Index i, PolygonMesh& part) {
+        of_slice[i] = read(i, {none, 0, part});
+        corners[i + 1] = part.n_corners();
+    });
+    std::partial_sum(corners.begin(), corners.end(), corners.begin());
+    NumberedPoints all = number_together<Real>(of_slice, exec);
+    for_each(exec, n_slices, [&](Index i) {
+        for (Index corner = corners[i]; corner < corners[i + 1]; ++corner) {
+            Index& v = faces.face_vertices[corner];
+            v = all.numbers[all.begin[i] + v];
+        }
+    });
+    return std::move(all.points);
+}
 
 /// #V by 3.
-Points points_of(const std::vector<PointNumbers::Place>& places);
+template <class Real>
+Points points_of(const std::vector<std::array<Real, 3>>& places)
+{
+    using Places = Eigen::Matrix<Real, Eigen::Dynamic, 3, Eigen::RowMajor>;
+    const auto n = static_cast<Index>(places.size());
+    Points points = uninitialised_points(n);
+    if (n > 0)
+        points = Eigen::Map<const Places>(places.data()->data(), n, 3).template cast<double>();
+    return points;
+}
 
 /// Sets the mesh's vertices.
 /// @throws InputError with no useful message if there are none.

@@ -2,9 +2,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <functional>
 #include <limits>
-#include <numeric>
 #include <optional>
 #include <string>
 #include <utility>
@@ -17,10 +15,8 @@
 #include "partition/formats/stl_facets.h"
 #include "partition/io/byte_scanner.h"
 #include "partition/io/mesh_builder.h"
-#include "partition/io/numbered_points.h"
 #include "partition/io/slices.h"
 #include "partition/io/text_scanner.h"
-#include "partition/point_numbers.h"
 
 namespace seamflow {
 
@@ -32,16 +28,17 @@ constexpr std::size_t normal_bytes = 12;
 constexpr std::size_t attribute_bytes = 2;
 constexpr std::size_t facet_bytes = stl_facet_bytes;
 
-using Corner = PointNumbers::Place;
+using Corner = std::array<float, 3>;
+using BinaryFacets = FacetCollector<float>;
 
 std::uint64_t declared_facets(std::string_view file)
 {
     return from_bytes<std::uint32_t>(file.data() + title_bytes, std::endian::little);
 }
 
-double read_coordinate(ByteScanner& scanner)
+float read_coordinate(ByteScanner& scanner)
 {
-    const double value = scanner.read<float>();
+    const auto value = scanner.read<float>();
     if (!std::isfinite(value))
         scanner.fault("a coordinate is not a finite number; remove the facet or mend it");
     return value;
@@ -49,20 +46,20 @@ double read_coordinate(ByteScanner& scanner)
 
 Corner read_point(ByteScanner& scanner)
 {
-    const double x = read_coordinate(scanner);
-    const double y = read_coordinate(scanner);
-    const double z = read_coordinate(scanner);
+    const float x = read_coordinate(scanner);
+    const float y = read_coordinate(scanner);
+    const float z = read_coordinate(scanner);
     return {x, y, z};
 }
 
-/// The corners of a facet that is known to be there; empty if a coordinate is not finite.
+/// The corners of a facet that is known to be there; empty if a coordinate is not finite, and perhaps if it is huge.
 std::optional<std::array<Corner, 3>> corners_of(std::string_view facet)
 {
     std::array<Corner, 3> corners;
-    double sum = 0.0;
+    float sum = 0.0F;
     const char* bytes = facet.data() + normal_bytes;
     for (Corner& corner : corners)
-        for (double& x : corner) {
+        for (float& x : corner) {
             x = from_bytes<float>(bytes, std::endian::little);
             sum += std::abs(x);
             bytes += sizeof(float);
@@ -83,7 +80,7 @@ void require_room_for_facets(ByteScanner& scanner, std::string_view file)
                                  (file.size() - header_bytes) / facet_bytes));
 }
 
-void read_facets(ByteScanner& scanner, std::uint64_t begin, std::uint64_t end, FacetCollector& collector)
+void read_facets(ByteScanner& scanner, std::uint64_t begin, std::uint64_t end, BinaryFacets& collector)
 {
     for (std::uint64_t f = begin; f < end; ++f) {
         scanner.enter("facet", f);
@@ -107,7 +104,7 @@ PolygonMesh read_binary(const std::filesystem::path& path, std::string_view file
     ByteScanner scanner(path, file, std::min(title_bytes, file.size()), std::endian::little);
     scanner.note_faults_in(faults);
     require_room_for_facets(scanner, file);
-    FacetCollector collector(scanner);
+    BinaryFacets collector(scanner);
     read_facets(scanner, 0, scanner.read<std::uint32_t>(), collector);
     scanner.require_end();
     return collector.finish();
@@ -119,18 +116,20 @@ PolygonMesh read_binary_slices(const std::filesystem::path& path, std::string_vi
     ByteScanner all(path, file, title_bytes, std::endian::little);
     require_room_for_facets(all, file);
     const auto n = all.read<std::uint32_t>();
-    const auto per_slice = static_cast<std::uint64_t>(elements_per_slice(slicing, facet_bytes));
+    // Longer than slices of other files: the points that two have in common are looked for in both.
+    const std::uint64_t per_slice = 2 * static_cast<std::uint64_t>(elements_per_slice(slicing, facet_bytes));
     ByteScanner(path, file, header_bytes + facet_bytes * n, std::endian::little).require_end();
     const auto read = [&](Index i, const MeshSlice& place) {
         const std::uint64_t begin = at(i) * per_slice;
         ByteScanner scanner(path, file, header_bytes + facet_bytes * begin, std::endian::little);
-        FacetCollector collector(scanner, place);
-        collector.expect_points(per_slice);
+        BinaryFacets collector(scanner, place);
+        collector.expect_facets(per_slice);
         read_facets(scanner, begin, std::min<std::uint64_t>(begin + per_slice, n), collector);
         return collector.take_points();
     };
     PolygonMesh mesh;
-    set_vertices(mesh, join_facets(static_cast<Index>((n + per_slice - 1) / per_slice), slicing.exec, read, mesh));
+    set_vertices(mesh,
+                 join_facets<float>(static_cast<Index>((n + per_slice - 1) / per_slice), slicing.exec, read, mesh));
     return mesh;
 }
 
@@ -140,37 +139,6 @@ bool has_size_of_binary(std::string_view file)
 }
 
 }  // namespace
-
-Points join_facets(Index n_slices, const Executor& exec,
-                   const std::function<std::vector<PointNumbers::Place>(Index slice, const MeshSlice& place)>& read,
-                   PolygonMesh& faces)
-{
-    std::vector<std::vector<PointNumbers::Place>> of_slice(at(n_slices));
-    std::vector<Index> corners(at(n_slices) + 1, 0);
-    Points none(0, 3);
-    append_faces(faces, n_slices, exec, [&](Index i, PolygonMesh& part) {
-        of_slice[i] = read(i, {none, 0, part});
-        corners[i + 1] = part.n_corners();
-    });
-    std::partial_sum(corners.begin(), corners.end(), corners.begin());
-    NumberedPoints all = number_together(of_slice, exec);
-    for_each(exec, n_slices, [&](Index i) {
-        for (Index corner = corners[i]; corner < corners[i + 1]; ++corner) {
-            Index& v = faces.face_vertices[corner];
-            v = all.numbers[all.begin[i] + v];
-        }
-    });
-    return std::move(all.points);
-}
-
-Points points_of(const std::vector<PointNumbers::Place>& places)
-{
-    const auto n = static_cast<Index>(places.size());
-    Points points = uninitialised_points(n);
-    if (n > 0)
-        points = Eigen::Map<const Points>(places.data()->data(), n, 3);
-    return points;
-}
 
 void set_vertices(PolygonMesh& mesh, Points points)
 {
@@ -211,7 +179,7 @@ Points StlRanges::facets(Index begin, Index end, PolygonMesh& faces, FaultLog& f
     ByteScanner scanner(path_, content_, header_bytes + facet_bytes * at(begin), std::endian::little);
     scanner.note_faults_in(&faults);
     Points none(0, 3);
-    FacetCollector collector(scanner, {none, 0, faces});
+    BinaryFacets collector(scanner, {none, 0, faces});
     read_facets(scanner, at(begin), at(end), collector);
     return points_of(collector.take_points());
 }

@@ -47,10 +47,10 @@ class TextReader {
             next_line("facet or endsolid");
     }
 
-    FacetCollector& collector() { return collector_; }
+    FacetCollector<double>& collector() { return collector_; }
 
   private:
-    using Corner = FacetCollector::Corner;
+    using Corner = FacetCollector<double>::Corner;
 
     void read_facet();
     Corner read_corner();
@@ -60,7 +60,7 @@ class TextReader {
     void expect_end_of(std::string_view what);
 
     TextScanner scanner_;
-    FacetCollector collector_;
+    FacetCollector<double> collector_;
 };
 
 bool TextReader::read(bool in_solid, const char* end)
@@ -190,7 +190,7 @@ Points StlText::facets(std::string_view share, PolygonMesh& faces, const Slicing
             throw InputError("a solid ends too early, or does not end");
         return reader.collector().take_points();
     };
-    return join_facets(static_cast<Index>(slices.size()), slicing.exec, read, faces);
+    return join_facets<double>(static_cast<Index>(slices.size()), slicing.exec, read, faces);
 }
 
 Points StlText::check(std::string_view share, std::size_t lines_before, bool& in_solid, PolygonMesh& faces,

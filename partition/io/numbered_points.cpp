@@ -1,10 +1,12 @@
 #include "partition/io/numbered_points.h"
 
+#include <array>
 #include <cstdint>
+#include <memory>
 #include <numeric>
 
-#include "partition/index_lists.h"
 #include "partition/io/slices.h"
+#include "partition/point_numbers.h"
 
 namespace seamflow {
 
@@ -15,50 +17,93 @@ namespace {
 constexpr unsigned share_bits = 6;
 constexpr Index n_shares = 1 << share_bits;
 
-Index share_of(const PointNumbers::Place& point)
+template <class Real>
+Index share_of(const std::array<Real, 3>& point)
 {
-    return static_cast<Index>(PointNumbers::hash_of(point) >> (64U - share_bits));
+    return static_cast<Index>(BasicPointNumbers<Real>::hash_of(point) >> (64U - share_bits));
+}
+
+/// For n values, in large pages where the system has them; these are still to be set.
+template <class Value>
+std::unique_ptr<Value[]> uninitialised(Index n)
+{
+    auto values = std::make_unique_for_overwrite<Value[]>(at(n));
+    prefer_large_pages(values.get(), at(n) * sizeof(Value));
+    return values;
+}
+
+/// The points of all lists, one share after the other, within a share as they come.
+template <class Real>
+struct Shares {
+    /// Where each begins; then the number of all points.
+    std::vector<Index> begin;
+    std::unique_ptr<std::array<Real, 3>[]> points;
+    /// Where each comes from: its index among the points of all lists.
+    std::unique_ptr<Index[]> origins;
+};
+
+template <class Real>
+Shares<Real> divide(std::span<const std::vector<std::array<Real, 3>>> lists, const std::vector<Index>& begin,
+                    const Executor& exec)
+{
+    const auto n_lists = static_cast<Index>(lists.size());
+    // Of each share, the points of each list; then where these begin.
+    std::vector<Index> places(at(n_shares) * lists.size() + 1, 0);
+    for_each(exec, n_lists, [&](Index i) {
+        std::array<Index, n_shares> n_points{};
+        for (const auto& point : lists[i])
+            ++n_points[share_of(point)];
+        for (Index share = 0; share < n_shares; ++share)
+            places[at(share) * lists.size() + at(i) + 1] = n_points[share];
+    });
+    std::partial_sum(places.begin(), places.end(), places.begin());
+    Shares<Real> shares;
+    for (Index share = 0; share <= n_shares; ++share)
+        shares.begin.push_back(places[at(share) * lists.size()]);
+    shares.points = uninitialised<std::array<Real, 3>>(begin.back());
+    shares.origins = uninitialised<Index>(begin.back());
+    for_each(exec, n_lists, [&](Index i) {
+        std::array<Index, n_shares> next{};
+        for (Index share = 0; share < n_shares; ++share)
+            next[share] = places[at(share) * lists.size() + at(i)];
+        for (Index k = 0; k < std::ssize(lists[i]); ++k) {
+            const Index place = next[share_of(lists[i][k])]++;
+            shares.points[place] = lists[i][k];
+            shares.origins[place] = begin[i] + k;
+        }
+    });
+    return shares;
+}
+
+/// For each point of all lists, the first that equals it.
+template <class Real>
+std::unique_ptr<Index[]> first_equal(std::span<const std::vector<std::array<Real, 3>>> lists,
+                                     const std::vector<Index>& begin, const Executor& exec)
+{
+    const Shares<Real> shares = divide(lists, begin, exec);
+    auto first = uninitialised<Index>(begin.back());
+    for_each(exec, n_shares, [&](Index share) {
+        const auto n = at(shares.begin[share + 1] - shares.begin[share]);
+        const Index* const origins = shares.origins.get() + shares.begin[share];
+        const std::vector<Index> of_share =
+            BasicPointNumbers<Real>::first_equal({shares.points.get() + shares.begin[share], n});
+        for (std::size_t i = 0; i < n; ++i)
+            first[origins[i]] = origins[of_share[i]];
+    });
+    return first;
 }
 
 }  // namespace
 
-NumberedPoints number_together(std::span<const std::vector<PointNumbers::Place>> lists, const Executor& exec)
+template <class Real>
+NumberedPoints number_together(std::span<const std::vector<std::array<Real, 3>>> lists, const Executor& exec)
 {
     const auto n_lists = static_cast<Index>(lists.size());
     NumberedPoints result;
     result.begin.assign(lists.size() + 1, 0);
     for (Index i = 0; i < n_lists; ++i)
         result.begin[i + 1] = sum_of_counts(result.begin[i], std::ssize(lists[i]));
-    // Shares lie together in memory.
-    std::vector<IndexLists> of_share(lists.size());
-    std::vector<std::vector<PointNumbers::Place>> points(lists.size());
-    for_each(exec, n_lists, [&](Index i) {
-        of_share[i] = make_lists(n_shares, [&](auto&& add) {
-            for (Index k = 0; k < std::ssize(lists[i]); ++k)
-                add(share_of(lists[i][k]), k);
-        });
-        points[i].reserve(lists[i].size());
-        for (const Index k : of_share[i].values)
-            points[i].push_back(lists[i][k]);
-    });
-    // For each point, the first that equals it.
-    std::vector<Index> first(at(result.begin.back()));
-    for_each(exec, n_shares, [&](Index share) {
-        std::size_t n = 0;
-        for (Index i = 0; i < n_lists; ++i)
-            n += of_share[i][share].size();
-        PointNumbers found;
-        found.reserve(n);
-        std::vector<Index> first_of;
-        for (Index i = 0; i < n_lists; ++i)
-            for (Index m = of_share[i].offsets[share]; m < of_share[i].offsets[share + 1]; ++m) {
-                const Index k = result.begin[i] + of_share[i].values[m];
-                const Index number = found(points[i][m]);
-                if (number == std::ssize(first_of))
-                    first_of.push_back(k);
-                first[k] = first_of[number];
-            }
-    });
+    const std::unique_ptr<Index[]> first = first_equal(lists, result.begin, exec);
     // New points of each list, and before it.
     std::vector<Index> n_new(lists.size() + 1, 0);
     for_each(exec, n_lists, [&](Index i) {
@@ -67,14 +112,14 @@ NumberedPoints number_together(std::span<const std::vector<PointNumbers::Place>>
     });
     std::partial_sum(n_new.begin(), n_new.end(), n_new.begin());
     result.points = uninitialised_points(n_new.back());
-    result.numbers.resize(first.size());
+    result.numbers = uninitialised<Index>(result.begin.back());
     for_each(exec, n_lists, [&](Index i) {
         Index next = n_new[i];
         for (Index k = result.begin[i]; k < result.begin[i + 1]; ++k) {
             if (first[k] != k)
                 continue;
-            const PointNumbers::Place& point = lists[i][k - result.begin[i]];
-            result.points.row(next) = Point(point[0], point[1], point[2]);
+            const std::array<Real, 3>& point = lists[i][k - result.begin[i]];
+            result.points.row(next) << point[0], point[1], point[2];
             result.numbers[k] = next++;
         }
     });
@@ -85,5 +130,9 @@ NumberedPoints number_together(std::span<const std::vector<PointNumbers::Place>>
     });
     return result;
 }
+
+template NumberedPoints number_together(std::span<const std::vector<std::array<double, 3>>> lists,
+                                        const Executor& exec);
+template NumberedPoints number_together(std::span<const std::vector<std::array<float, 3>>> lists, const Executor& exec);
 
 }  // namespace seamflow

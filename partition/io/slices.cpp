@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <iterator>
 #include <limits>
 #include <numeric>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <sys/mman.h>
@@ -14,20 +14,7 @@ namespace seamflow {
 
 namespace {
 
-/// Asks the system for large pages for memory that has not been touched yet. It may ignore this.
-void prefer_large_pages(void* memory, std::size_t n_bytes)
-{
-    constexpr std::uintptr_t page = std::uintptr_t{1} << 21;
-    const std::uintptr_t begin = (reinterpret_cast<std::uintptr_t>(memory) + page - 1) / page * page;
-    const std::uintptr_t end = (reinterpret_cast<std::uintptr_t>(memory) + n_bytes) / page * page;
-#ifdef MADV_HUGEPAGE
-    if (begin < end)
-        static_cast<void>(::madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE));
-#endif
-}
-
-/// Makes room for the parts, and for as much in each of the following slices, up to a multiple of the current size, in
-/// large pages: touching memory for the first time takes longer than copying it.
+/// Makes room for the parts, and for as much in each of the following slices, up to a multiple of the current size.
 template <class Value>
 void make_room(std::vector<Value>& values, std::span<const PolygonMesh> parts, Index n_to_follow,
                std::vector<Value> PolygonMesh::*member)
@@ -45,16 +32,33 @@ void make_room(std::vector<Value>& values, std::span<const PolygonMesh> parts, I
     prefer_large_pages(values.data(), values.capacity() * sizeof(Value));
 }
 
-void append(PolygonMesh& mesh, const PolygonMesh& part)
+/// @param n_to_follow number of parts that will be appended afterwards.
+void append(PolygonMesh& mesh, std::span<const PolygonMesh> parts, Index n_to_follow)
 {
-    const Index first = mesh.n_corners();
-    static_cast<void>(sum_of_counts(first, part.n_corners()));
-    mesh.face_vertices.insert(mesh.face_vertices.end(), part.face_vertices.begin(), part.face_vertices.end());
-    std::transform(part.face_offsets.begin() + 1, part.face_offsets.end(), std::back_inserter(mesh.face_offsets),
-                   [first](Index end) { return first + end; });
+    make_room(mesh.face_offsets, parts, n_to_follow, &PolygonMesh::face_offsets);
+    make_room(mesh.face_vertices, parts, n_to_follow, &PolygonMesh::face_vertices);
+    for (const PolygonMesh& part : parts) {
+        const Index first = mesh.n_corners();
+        static_cast<void>(sum_of_counts(first, part.n_corners()));
+        mesh.face_vertices.insert(mesh.face_vertices.end(), part.face_vertices.begin(), part.face_vertices.end());
+        const auto offsets =
+            mesh.face_offsets.insert(mesh.face_offsets.end(), part.face_offsets.begin() + 1, part.face_offsets.end());
+        std::for_each(offsets, mesh.face_offsets.end(), [first](Index& end) { end += first; });
+    }
 }
 
 }  // namespace
+
+void prefer_large_pages(void* memory, std::size_t n_bytes)
+{
+    constexpr std::uintptr_t page = std::uintptr_t{1} << 21;
+    const std::uintptr_t begin = (reinterpret_cast<std::uintptr_t>(memory) + page - 1) / page * page;
+    const std::uintptr_t end = (reinterpret_cast<std::uintptr_t>(memory) + n_bytes) / page * page;
+#ifdef MADV_HUGEPAGE
+    if (begin < end)
+        static_cast<void>(::madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE));
+#endif
+}
 
 Index sum_of_counts(std::int64_t a, std::int64_t b)
 {
@@ -69,7 +73,7 @@ std::vector<std::int64_t> count_lines(const TextScanner& whole, std::span<const 
     std::vector<std::int64_t> first(slices.size() + 1);
     for_each(exec, static_cast<Index>(slices.size()), [&](Index i) {
         TextScanner scanner(whole, slices[i]);
-        while (scanner.next_line())
+        while (!scanner.next_keyword().empty())
             ++first[i + 1];
     });
     std::partial_sum(first.begin(), first.end(), first.begin());
@@ -87,21 +91,23 @@ void append_faces(PolygonMesh& mesh, Index n, const Executor& exec,
                   const std::function<void(Index slice, PolygonMesh& faces)>& read)
 {
     // Enough that few threads wait, and few enough that they need little memory.
-    constexpr Index at_once = 64;
-    std::vector<PolygonMesh> parts(at(std::min(n, at_once)));
+    constexpr Index at_once = 32;
+    std::vector<PolygonMesh> parts;
+    std::vector<PolygonMesh> parts_before;
     for (Index begin = 0; begin < n; begin += at_once) {
         parts.resize(at(std::min(at_once, n - begin)));
-        for_each(exec, static_cast<Index>(parts.size()), [&](Index i) {
-            parts[i].face_offsets.resize(1);
-            parts[i].face_vertices.clear();
-            read(begin + i, parts[i]);
+        // One thread appends the parts that were read before, while others read these.
+        for_each(exec, static_cast<Index>(parts.size()) + 1, [&](Index i) {
+            if (i == 0)
+                return append(mesh, parts_before, n - begin);
+            PolygonMesh& part = parts[i - 1];
+            part.face_offsets.resize(1);
+            part.face_vertices.clear();
+            read(begin + i - 1, part);
         });
-        const Index n_to_follow = n - begin - static_cast<Index>(parts.size());
-        make_room(mesh.face_offsets, parts, n_to_follow, &PolygonMesh::face_offsets);
-        make_room(mesh.face_vertices, parts, n_to_follow, &PolygonMesh::face_vertices);
-        for (const PolygonMesh& part : parts)
-            append(mesh, part);
+        std::swap(parts, parts_before);
     }
+    append(mesh, parts_before, 0);
 }
 
 }  // namespace seamflow

@@ -43,6 +43,10 @@ void write_elements(OutputFile& file, Index n, Index per_slice, const Executor& 
     });
 }
 
+/// Asks the system for large pages for memory that has not been touched yet. It may ignore this. To touch memory in
+/// small pages for the first time takes longer than to copy it.
+void prefer_large_pages(void* memory, std::size_t n_bytes);
+
 /// The sum of two numbers of elements.
 /// @throws InputError if there are more than 2^31 - 1.
 Index sum_of_counts(std::int64_t a, std::int64_t b);

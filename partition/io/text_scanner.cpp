@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include "partition/io/plain_numbers.h"
+
 namespace seamflow {
 
 namespace {
@@ -46,19 +48,6 @@ std::from_chars_result parse(const char* first, const char* last, double& value)
     else
         result.ec = std::errc::result_out_of_range;
     return result;
-}
-
-/// from_chars, but faster for numbers without a sign.
-std::from_chars_result parse(const char* first, const char* last, std::int64_t& value)
-{
-    constexpr std::ptrdiff_t most_digits = 18;
-    const char* const end = last - first > most_digits ? first + most_digits : last;
-    const char* next = first;
-    for (; next < end && *next >= '0' && *next <= '9'; ++next)
-        value = 10 * value + (*next - '0');
-    if (next > first && (next == last || next < end))
-        return {next, std::errc()};
-    return std::from_chars(first, last, value);
 }
 
 }  // namespace
@@ -191,6 +180,25 @@ std::string_view TextScanner::rest_of_token() const
     return {cursor_, static_cast<std::size_t>(last - cursor_)};
 }
 
+std::string_view TextScanner::next_keyword()
+{
+    if (!may_be_plain() || is_blank(*next_))
+        return next_line() ? token() : std::string_view();
+    const char* const first = next_;
+    const char* const next = end_of_line(first);
+    const char* end = next;
+    while (end > first && is_blank(end[-1]))
+        --end;
+    const char* last = first;
+    while (last < end && !is_blank(*last) && *last != syntax_.comment)
+        ++last;
+    // A comment may follow the word, but may not end it.
+    if (last == first || (last < end && !is_blank(*last)) || end[-1] == '\\')
+        return next_line() ? token() : std::string_view();
+    pass_over_line(next);
+    return {first, static_cast<std::size_t>(last - first)};
+}
+
 std::string_view TextScanner::token()
 {
     const auto result = peek();
@@ -210,6 +218,10 @@ double TextScanner::real(const char* what)
 {
     skip_blanks();
     double value = 0;
+    if (const char* const end = read_plain_real(cursor_, end_, value); end != nullptr && ends_token(end)) {
+        cursor_ = end;
+        return value;
+    }
     const auto [last, error] = parse(after_plus(cursor_, line_end_), line_end_, value);
     if (error == std::errc() && ends_token(last) && std::isfinite(value)) {
         cursor_ = last;
@@ -244,8 +256,14 @@ double TextScanner::number_or_nan()
 std::int64_t TextScanner::integer_before_slash(const char* what)
 {
     skip_blanks();
+    std::uint64_t digits = 0;
+    if (const char* const end = read_plain_digits(cursor_, end_, digits);
+        end != nullptr && end != cursor_ && (ends_token(end) || *end == '/')) {
+        cursor_ = end;
+        return static_cast<std::int64_t>(digits);
+    }
     std::int64_t value = 0;
-    const auto [last, error] = parse(after_plus(cursor_, line_end_), line_end_, value);
+    const auto [last, error] = std::from_chars(after_plus(cursor_, line_end_), line_end_, value);
     if (error != std::errc() || (!ends_token(last) && *last != '/'))
         fail(complaint_at_number(what, "a whole number"));
     cursor_ = last;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "partition/io/input_position.h"
+#include "partition/io/plain_line.h"
 
 namespace seamflow {
 
@@ -45,6 +46,24 @@ class TextScanner final : public InputPosition {
 
     /// Goes to the next line with a token, skipping the rest of this one. False at the end of the text.
     bool next_line();
+
+    /// Goes to the next line with a token and gives that; empty at the end of the text. Faster than `next_line` and
+    /// `token`, but the rest of the line may be gone.
+    std::string_view next_keyword();
+
+    /// Reads the next line if it is in its commonest form. Otherwise nothing happens, and next_line finds it.
+    /// @param read called with a PlainLine; returns whether it could read it to its end.
+    template <class Read>
+    bool next_plain_line(Read&& read)
+    {
+        if (!may_be_plain())
+            return false;
+        PlainLine line(next_, end_, line_break_);
+        if (!read(line))
+            return false;
+        pass_over_line(line.rest());
+        return true;
+    }
 
     /// The next token of the line; empty if there is none left.
     std::string_view token();
@@ -98,6 +117,14 @@ class TextScanner final : public InputPosition {
     [[nodiscard]] const char* end_of_line(const char* from) const;
     [[nodiscard]] bool ends_token(const char* c) const;
     void load_line();
+    /// Whether a line is left that begins in itself.
+    [[nodiscard]] bool may_be_plain() const { return next_ < end_ && !continued_ && !crosses_lines_; }
+    /// Counts a line. @param next where the following one begins.
+    void pass_over_line(const char* next)
+    {
+        ++line_;
+        cursor_ = line_end_ = next_ = next;
+    }
     void skip_blanks();
     [[nodiscard]] std::string complaint_at_number(const char* what, const char* form);
 

@@ -133,6 +133,18 @@ TEST_CASE("STL: complaints about binary data name facet and byte")
     CHECK(contains(stl_complaint(binary({0, 0, 0, 1, 0, 0, 1, -0.0F, 0})), "a.stl: facet 0 (numbered from 0)"));
 }
 
+TEST_CASE("STL: coordinates of a binary file may be so large that their sum is none, or too small for a normal float")
+{
+    constexpr float huge = std::numeric_limits<float>::max();
+    constexpr float tiny = std::numeric_limits<float>::denorm_min();
+    const auto mesh = read_text("a.stl", binary({huge, huge, huge, -huge, tiny, 0, huge, huge, -tiny,  //
+                                                 huge, huge, -tiny, -huge, tiny, -0.0F, huge, huge, 0}))
+                          .mesh;
+    Points expected(4, 3);
+    expected << huge, huge, huge, -huge, tiny, 0, huge, huge, -tiny, huge, huge, 0;
+    CHECK(identical(mesh, make_mesh(expected, {{0, 1, 2}, {2, 1, 3}})));
+}
+
 TEST_CASE("STL: many vertices are joined again")
 {
     PolygonMesh mesh;
