@@ -12,6 +12,7 @@
 #include "engine/steppers/sweep_order.h"
 #include "engine/tasks/parallel_executor.h"
 #include "engine/tasks/run_for_sub_mesh.h"
+#include "partition/decomposition/make_sub_mesh.h"
 #include "partition/decomposition/overlap.h"
 #include "partition/decomposition/reverse_cuthill_mckee.h"
 #include "partition/errors.h"
@@ -46,7 +47,7 @@ Decomposition overlap_sub_meshes(const PolygonMesh& mesh, const Topology& topolo
 }  // namespace
 
 SweepStepper::SweepStepper(const PolygonMesh& mesh, const Topology& topology, const Cut& cut,
-                           const FlowOptions& options, const std::vector<double>& curvature, Progress& progress)
+                           const FlowOptions& options, std::vector<double> curvature, Progress& progress)
     : decomposition_(decompose(mesh, topology, cut.labels, cut.n_parts, progress.exec()))
     , graph_(options.report.record_schedule, progress)
     , positions_(copied(mesh.vertices))
@@ -55,6 +56,7 @@ SweepStepper::SweepStepper(const PolygonMesh& mesh, const Topology& topology, co
     , factorisation_(options.resources.factorisation)
 {
     const auto stage = assign_stages(decomposition_, options.interface.colouring, curvature);
+    curvature = std::vector<double>();
     if (options.interface.conditions == Conditions::Schwarz)
         decomposition_ = overlap_sub_meshes(mesh, topology, cut, stage, options.interface.overlap);
     progress.require_going_on();
@@ -167,6 +169,8 @@ void SweepStepper::make_states(const PolygonMesh& mesh, const FlowOptions& optio
             auto equations = make_equations(sub_mesh, std::move(sub_mesh.twin), options, terms, workspaces_.local());
             SubMeshState& state = made[s].emplace(sub_mesh, std::move(equations), mesh.vertices);
             state.p = robin_parameter(sub_mesh, state.position, options);
+            if (!state.system->uses_faces())
+                keep_faces_at_interface(sub_mesh);
         });
         progress.count();
     });

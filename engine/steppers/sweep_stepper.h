@@ -53,7 +53,7 @@ class SweepStepper final : public Stepper {
     /// @throws ComputationError naming the sub-mesh if an analysis fails; OptionError if the memory limit is too low;
     ///         Cancelled, as all functions that take time.
     SweepStepper(const PolygonMesh& mesh, const Topology& topology, const Cut& cut, const FlowOptions& options,
-                 const std::vector<double>& curvature, Progress& progress);
+                 std::vector<double> curvature, Progress& progress);
 
     /// The same for the sub-meshes of one rank.
     /// @param mesh the part of the mesh that the rank knows. @param options not the classical conditions, nor
