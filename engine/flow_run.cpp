@@ -185,9 +185,7 @@ FlowRun::FlowRun(FlowingMesh& mesh, std::unique_ptr<PreparedFlow> prepared, Prog
 {
     make_steppers();
     tools_ = std::make_unique<StepTools>(mesh.mesh(), prepared_->topology, options());
-    // Mean curvature is measured across edges, except for that of Δ_P.
-    if (traits_of(options().laplacian).reach != Reach::TwoRings)
-        prepared_->topology.twin = std::vector<Index>();
+    free_topology();
     if (resume != nullptr)
         restore(*resume);
     const auto n_taken = static_cast<int>(report.steps.size());
@@ -199,6 +197,23 @@ FlowRun::FlowRun(FlowingMesh& mesh, std::unique_ptr<PreparedFlow> prepared, Prog
 }
 
 FlowRun::~FlowRun() = default;
+
+/// Frees what steps and measures do not need.
+void FlowRun::free_topology()
+{
+    Topology& topology = prepared_->topology;
+    // Mean curvature is measured across edges, except for that of Δ_P.
+    if (traits_of(options().laplacian).reach == Reach::TwoRings)
+        return;
+    topology.twin = std::vector<Index>();
+    // Steps of sub-meshes do not use the whole mesh.
+    const bool is_whole = options().keep_edges || options().scheme == Scheme::ExplicitEuler ||
+                          takes_whole_mesh(options().accuracy.approach);
+    if (is_whole || options().report.measures || tools_->limited)
+        return;
+    topology.vertex_offsets = std::vector<Index>();
+    topology.vertex_corners = std::vector<Index>();
+}
 
 void FlowRun::make_steppers()
 {
@@ -213,15 +228,15 @@ void FlowRun::make_steppers()
         stepper_ =
             std::make_unique<SwitchingStepper>(mesh, prepared_->topology, options(), *prepared_->costs, progress_);
     else
-        stepper_ = make_stepper(mesh, prepared_->topology, prepared_->cut, options(), prepared_->curvature, progress_);
+        stepper_ = make_stepper(mesh, prepared_->topology, prepared_->cut, options(), std::move(prepared_->curvature),
+                                progress_);
     report_.cut.labels = std::move(prepared_->cut.labels);
     report_.seconds.analyse = watch.lap();
     report_.seconds.total = report_.seconds.cut + report_.seconds.analyse;
     if (options().report.reference) {
         progress_.enter(FlowPhase::Analyse, 0, 0.8 * setup_, setup_);
-        reference_ = make_undecomposed_stepper(mesh, prepared_->topology, options(), prepared_->curvature, progress_);
+        reference_ = make_undecomposed_stepper(mesh, prepared_->topology, options(), progress_);
     }
-    prepared_->curvature = std::vector<double>();
 }
 
 /// Restores everything to its state after a step.

@@ -38,6 +38,7 @@ class FlowRun {
 
     [[nodiscard]] const FlowOptions& options() const { return prepared_->options; }
     void make_steppers();
+    void free_topology();
     void restore(const FlowState& state);
     [[nodiscard]] FlowState capture() const;
     void compare_with_reference(int step, StepReport& of_step);

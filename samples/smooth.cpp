@@ -33,6 +33,7 @@
 #include "samples/files/output_files.h"
 #include "samples/page/page_html.h"
 #include "samples/page/read_file_colours.h"
+#include "samples/process/freed_memory.h"
 #include "samples/process/interruption.h"
 #include "samples/process/launched_processes.h"
 #include "samples/report/report_json.h"
@@ -212,6 +213,7 @@ ExitStatus run(SmoothCommand& command, RunRecord& run)
         throw;
     }
     long_run.end();
+    return_freed_memory();
     report.remarks.insert(report.remarks.begin(), run.remarks.begin(), run.remarks.end());
     // Without steps, the choices do not matter.
     if (command.options.steps == 0)

@@ -268,22 +268,33 @@ std::vector<Index> places_among(const std::vector<OwnedSubMesh>& all, const std:
     return places;
 }
 
-/// A window that is large enough for both directions, whatever crosses Γ: as if every sub-mesh needed the results of
-/// all around it. Ranks whose sub-meshes are in this order, each with a window of at least this size, do not wait for
+/// Windows that are large enough forward and backward, whatever crosses Γ: as if every sub-mesh needed the results of
+/// all around it. Ranks that each have their part of both orders, and windows of at least this size, do not wait for
 /// each other in a circle: a solution waits for factorisations at lower places than those that wait for it.
-Index sufficient_window(const std::vector<std::vector<Index>>& adjacency, const std::vector<Index>& stage,
-                        const std::vector<Index>& order)
+std::vector<FactorWindow> sufficient_windows(const std::vector<std::vector<Index>>& adjacency,
+                                             const std::vector<Index>& stage)
 {
-    Index window = 1;
+    const std::vector<Index> order = reverse_cuthill_mckee(adjacency);
+    std::vector<FactorWindow> windows;
     for (const auto& direction : {stage, reversed(stage)}) {
         SweepPlan plan = empty_plan(direction);
         for (std::size_t s = 0; s < adjacency.size(); ++s)
             for (const Index neighbour : adjacency[s])
                 (direction[neighbour] < direction[s] ? plan.traces : plan.predictions)[s].push_back(
                     {.from = neighbour, .to = static_cast<Index>(s), .source = {}, .target = {}});
-        window = std::max(window, least_window(plan, order));
+        windows.push_back(least_window(plan, order_by_need(plan, order)));
     }
-    return window;
+    return windows;
+}
+
+/// The own ones of all sub-meshes, by their numbers here.
+std::vector<Index> own_of(const RankMesh& mesh, const std::vector<Index>& places, const std::vector<Index>& all)
+{
+    std::vector<Index> own;
+    for (const Index place : all)
+        if (const Index s = position_in(places, place); s >= 0 && mesh.is_own[s] != 0)
+            own.push_back(s);
+    return own;
 }
 
 }  // namespace
@@ -365,11 +376,8 @@ RankSubMeshes make_rank_sub_meshes(Communicator& comm, const RankMesh& mesh, Dec
     const std::vector<Index> stage_of_all = assign_stages(adjacency, options.interface.colouring, curvatures);
     for (const Index place : places)
         result.stage.push_back(stage_of_all[place]);
-    const std::vector<Index> order = reverse_cuthill_mckee(adjacency);
-    for (const Index place : order)
-        if (const Index s = position_in(places, place); s >= 0 && mesh.is_own[s] != 0)
-            result.factor_order.push_back(s);
-    result.least_window = sufficient_window(adjacency, stage_of_all, order);
+    for (const FactorWindow& window : sufficient_windows(adjacency, stage_of_all))
+        result.windows.push_back({own_of(mesh, places, window.order), own_of(mesh, places, window.freed), window.size});
     return result;
 }
 

@@ -1,5 +1,7 @@
 #include "engine/steppers/make_stepper.h"
 
+#include <utility>
+
 #include "engine/steppers/conjugate_gradient_stepper.h"
 #include "engine/steppers/edge_keeping_stepper.h"
 #include "engine/steppers/explicit_stepper.h"
@@ -23,8 +25,7 @@ std::unique_ptr<Stepper> make_factor_once(const PolygonMesh& mesh, const Topolog
 }  // namespace
 
 std::unique_ptr<Stepper> make_stepper(const PolygonMesh& mesh, const Topology& topology, const Cut& cut,
-                                      const FlowOptions& options, const std::vector<double>& curvature,
-                                      Progress& progress)
+                                      const FlowOptions& options, std::vector<double> curvature, Progress& progress)
 {
     if (options.keep_edges)
         return std::make_unique<EdgeKeepingStepper>(mesh, topology, options, progress);
@@ -38,20 +39,19 @@ std::unique_ptr<Stepper> make_stepper(const PolygonMesh& mesh, const Topology& t
         return std::make_unique<SchwarzGmresStepper>(mesh, topology, cut, options, progress);
     if (options.flow == FlowEquation::Linear)
         return make_factor_once(mesh, topology, cut, options, progress);
-    return std::make_unique<SweepStepper>(mesh, topology, cut, options, curvature, progress);
+    return std::make_unique<SweepStepper>(mesh, topology, cut, options, std::move(curvature), progress);
 }
 
 std::unique_ptr<Stepper> make_undecomposed_stepper(const PolygonMesh& mesh, const Topology& topology,
-                                                   const FlowOptions& options, const std::vector<double>& curvature,
-                                                   Progress& progress)
+                                                   const FlowOptions& options, Progress& progress)
 {
     // The whole mesh is one factor, which no limit for sub-meshes suits.
     FlowOptions undecomposed = options;
     undecomposed.resources.memory_limit.reset();
     if (options.flow == FlowEquation::Linear)
         return make_factor_once(mesh, topology, cut_into(mesh, topology, 1), undecomposed, progress);
-    return std::make_unique<SweepStepper>(mesh, topology, cut_into(mesh, topology, 1), undecomposed, curvature,
-                                          progress);
+    return std::make_unique<SweepStepper>(mesh, topology, cut_into(mesh, topology, 1), undecomposed,
+                                          std::vector<double>(), progress);
 }
 
 }  // namespace seamflow

@@ -20,12 +20,10 @@ namespace seamflow {
 /// @throws ComputationError naming the sub-mesh if an analysis fails; OptionError if the memory limit is too low;
 ///         Cancelled.
 std::unique_ptr<Stepper> make_stepper(const PolygonMesh& mesh, const Topology& topology, const Cut& cut,
-                                      const FlowOptions& options, const std::vector<double>& curvature,
-                                      Progress& progress);
+                                      const FlowOptions& options, std::vector<double> curvature, Progress& progress);
 
 /// Backward Euler steps of the whole mesh as one, regardless of options on sub-meshes and memory.
 std::unique_ptr<Stepper> make_undecomposed_stepper(const PolygonMesh& mesh, const Topology& topology,
-                                                   const FlowOptions& options, const std::vector<double>& curvature,
-                                                   Progress& progress);
+                                                   const FlowOptions& options, Progress& progress);
 
 }  // namespace seamflow

@@ -97,7 +97,7 @@ class SweepBuilder {
     void wait_for_room(const FactorWindow& window)
     {
         for (std::size_t i = 0; i + at(window.size) < window.order.size(); ++i)
-            graph_.add_dependency(solved_[window.order[i]], factorised_[window.order[i + at(window.size)]]);
+            graph_.add_dependency(solved_[window.freed[i]], factorised_[window.order[i + at(window.size)]]);
     }
 
     /// A solve waits for those whose Vᵏ⁺¹ it takes.

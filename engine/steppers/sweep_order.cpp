@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 #include "engine/tasks/parallel_executor.h"
 #include "partition/cut/colouring.h"
@@ -39,6 +40,24 @@ std::vector<Index> inverse(const std::vector<Index>& order)
     for (std::size_t i = 0; i < order.size(); ++i)
         places[order[i]] = static_cast<Index>(i);
     return places;
+}
+
+/// Calls visit(t) for the sub-meshes whose Vᵏ⁺¹ a sub-mesh takes.
+template <class Visit>
+void for_each_leader(const SweepPlan& plan, Index s, Visit&& visit)
+{
+    for (const auto* transfers : {&plan.traces[s], &plan.copies[s]})
+        for (const Transfer& transfer : *transfers)
+            if (plan.stage[transfer.from] < plan.stage[s])
+                visit(transfer.from);
+}
+
+/// The sub-meshes in the order of the sweep.
+std::vector<Index> by_stage(const SweepPlan& plan)
+{
+    std::vector<Index> sub_meshes = ascending(plan.stage.size());
+    std::ranges::stable_sort(sub_meshes, {}, [&](Index s) { return plan.stage[s]; });
+    return sub_meshes;
 }
 
 }  // namespace
@@ -85,23 +104,36 @@ std::vector<Index> reversed(const std::vector<Index>& stage)
     return reversed_stages;
 }
 
-Index least_window(const SweepPlan& plan, const std::vector<Index>& order)
+std::vector<Index> order_by_need(const SweepPlan& plan, const std::vector<Index>& order)
+{
+    const std::vector<Index> places = inverse(order);
+    // Per sub-mesh, the lowest place of one whose solve waits for its solve, and for its factor.
+    std::vector<Index> solve = places;
+    std::vector<Index> sweep = by_stage(plan);
+    for (auto s = sweep.rbegin(); s != sweep.rend(); ++s)
+        for_each_leader(plan, *s, [&](Index leader) { solve[leader] = std::min(solve[leader], solve[*s]); });
+    std::vector<Index> factor = solve;
+    for (const Index s : sweep)
+        for (const Transfer& prediction : plan.predictions[s])
+            factor[prediction.from] = std::min(factor[prediction.from], solve[s]);
+    std::ranges::stable_sort(sweep, {}, [&](Index s) { return factor[s]; });
+    return sweep;
+}
+
+FactorWindow least_window(const SweepPlan& plan, std::vector<Index> order)
 {
     const std::vector<Index> places = inverse(order);
     // Per sub-mesh, the last place that must be factorised before it can be solved.
     std::vector<Index> last = places;
-    std::vector<Index> by_stage = ascending(plan.stage.size());
-    std::stable_sort(by_stage.begin(), by_stage.end(), [&](Index s, Index t) { return plan.stage[s] < plan.stage[t]; });
-    Index window = 0;
-    for (const Index s : by_stage) {
+    FactorWindow window{.order = std::move(order), .freed = by_stage(plan)};
+    for (const Index s : window.freed) {
         for (const Transfer& prediction : plan.predictions[s])
             last[s] = std::max(last[s], places[prediction.from]);
-        for (const auto* transfers : {&plan.traces[s], &plan.copies[s]})
-            for (const Transfer& transfer : *transfers)
-                if (plan.stage[transfer.from] < plan.stage[s])
-                    last[s] = std::max(last[s], last[transfer.from]);
-        window = std::max(window, last[s] - places[s] + 1);
+        for_each_leader(plan, s, [&](Index leader) { last[s] = std::max(last[s], last[leader]); });
     }
+    std::ranges::stable_sort(window.freed, {}, [&](Index s) { return last[s]; });
+    for (std::size_t i = 0; i < last.size(); ++i)
+        window.size = std::max(window.size, last[window.freed[i]] - static_cast<Index>(i) + 1);
     return window;
 }
 

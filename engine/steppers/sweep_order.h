@@ -27,15 +27,21 @@ std::vector<Index> assign_stages(const std::vector<std::vector<Index>>& adjacenc
 std::vector<Index> reversed(const std::vector<Index>& stage);
 
 /// How many factors live at once. Sub-meshes are factorised in a fixed order: the one at place i + size waits until the
-/// one at place i has been solved and its factor is freed.
+/// i-th of `freed` has been solved and its factor is freed.
 struct FactorWindow {
-    /// The sub-meshes in the order in which they are factorised; adjacent ones are near each other.
+    /// The sub-meshes in the order in which they are factorised.
     std::vector<Index> order;
+    /// The same sub-meshes in the order in which they can be solved meanwhile.
+    std::vector<Index> freed;
     Index size = 0;
 };
 
+/// An order in which few factors live at once: each sub-mesh comes shortly before the first solve that needs it.
+/// @param order of the same sub-meshes; adjacent ones are near each other.
+std::vector<Index> order_by_need(const SweepPlan& plan, const std::vector<Index>& order);
+
 /// The smallest window with which a sweep along this order cannot deadlock: a sub-mesh is solved only after those whose
 /// results or predictions it uses have been factorised.
-Index least_window(const SweepPlan& plan, const std::vector<Index>& order);
+FactorWindow least_window(const SweepPlan& plan, std::vector<Index> order);
 
 }  // namespace seamflow

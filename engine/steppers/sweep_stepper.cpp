@@ -12,6 +12,7 @@
 #include "engine/steppers/sweep_order.h"
 #include "engine/tasks/parallel_executor.h"
 #include "engine/tasks/run_for_sub_mesh.h"
+#include "partition/decomposition/make_sub_mesh.h"
 #include "partition/decomposition/overlap.h"
 #include "partition/decomposition/reverse_cuthill_mckee.h"
 #include "partition/errors.h"
@@ -46,7 +47,7 @@ Decomposition overlap_sub_meshes(const PolygonMesh& mesh, const Topology& topolo
 }  // namespace
 
 SweepStepper::SweepStepper(const PolygonMesh& mesh, const Topology& topology, const Cut& cut,
-                           const FlowOptions& options, const std::vector<double>& curvature, Progress& progress)
+                           const FlowOptions& options, std::vector<double> curvature, Progress& progress)
     : decomposition_(decompose(mesh, topology, cut.labels, cut.n_parts, progress.exec()))
     , graph_(options.report.record_schedule, progress)
     , positions_(copied(mesh.vertices))
@@ -55,6 +56,7 @@ SweepStepper::SweepStepper(const PolygonMesh& mesh, const Topology& topology, co
     , factorisation_(options.resources.factorisation)
 {
     const auto stage = assign_stages(decomposition_, options.interface.colouring, curvature);
+    curvature = std::vector<double>();
     if (options.interface.conditions == Conditions::Schwarz)
         decomposition_ = overlap_sub_meshes(mesh, topology, cut, stage, options.interface.overlap);
     progress.require_going_on();
@@ -69,7 +71,8 @@ SweepStepper::SweepStepper(const PolygonMesh& mesh, const Topology& topology, co
             error_.emplace(decomposition_, mesh, topology, options, *peers_);
         },
         [&] { make_plans(stage, states_.size(), options); });
-    order_factors(options);
+    order_factors();
+    limit_factors(options);
     add_sweeps(options);
 }
 
@@ -85,8 +88,8 @@ SweepStepper::SweepStepper(const PolygonMesh& mesh, RankSubMeshes sub_meshes, co
 {
     make_states(mesh, options, progress);
     make_plans(sub_meshes.stage, sub_meshes.n_of_all_ranks, options);
-    window_.order = std::move(sub_meshes.factor_order);
-    limit_factors(sub_meshes.least_window, options);
+    windows_ = std::move(sub_meshes.windows);
+    limit_factors(options);
     peers_ = std::move(sub_meshes.peers);
     error_.emplace(decomposition_, mesh, *sub_meshes.topology, options, *peers_);
     foreign_->connect(decomposition_, plans_, error_->foreign_rows());
@@ -107,22 +110,20 @@ void SweepStepper::add_sweeps(const FlowOptions& options)
         SweepTasks tasks = tasks_of(plans_[sweep], options);
         if (foreign_ != nullptr)
             add_exchange(sweep, tasks);
-        add_sweep(graph_, sweep, plans_[sweep], decomposition_.adjacency, window_, std::move(tasks));
+        add_sweep(graph_, sweep, plans_[sweep], decomposition_.adjacency, windows_[sweep], std::move(tasks));
     }
 }
 
-void SweepStepper::order_factors(const FlowOptions& options)
+void SweepStepper::order_factors()
 {
-    window_.order = reverse_cuthill_mckee(decomposition_.adjacency);
-    Index least = 0;
+    const std::vector<Index> order = reverse_cuthill_mckee(decomposition_.adjacency);
     for (const SweepPlan& plan : plans_)
-        least = std::max(least, least_window(plan, window_.order));
-    limit_factors(least, options);
+        windows_.push_back(least_window(plan, order_by_need(plan, order)));
 }
 
-/// Without a limit, each thread has enough work within the window.
-/// @param least the smallest window with which sweeps cannot deadlock.
-void SweepStepper::limit_factors(Index least, const FlowOptions& options)
+/// Without a limit, each thread has enough work within the window. The windows are as small as they can be without
+/// deadlocks.
+void SweepStepper::limit_factors(const FlowOptions& options)
 {
     constexpr Index places_per_thread = 4;
     std::size_t largest = 1;
@@ -131,10 +132,17 @@ void SweepStepper::limit_factors(Index least, const FlowOptions& options)
             largest = std::max(largest, state.system->factor_bytes());
     factors_.emplace(largest);
 
-    const auto n = static_cast<Index>(window_.order.size());
+    const auto n = static_cast<Index>(windows_.front().order.size());
+    Index least = 0;
+    for (const FactorWindow& window : windows_)
+        least = std::max(least, window.size);
     // A further solution begins when the previous one is complete.
     least = filter_.is_plain() ? std::min(least, n) : n;
-    window_.size = std::min(n, least + places_per_thread * workspaces_.size());
+    const auto resize = [&](Index size) {
+        for (FactorWindow& window : windows_)
+            window.size = size;
+    };
+    resize(std::min(n, least + places_per_thread * workspaces_.size()));
     if (!options.resources.memory_limit)
         return;
     const std::size_t places = *options.resources.memory_limit / largest;
@@ -142,7 +150,7 @@ void SweepStepper::limit_factors(Index least, const FlowOptions& options)
         throw OptionError("memory_limit is " + std::to_string(*options.resources.memory_limit) + " bytes, but the " +
                           std::to_string(least) + " factorisations that a step needs at once take " +
                           std::to_string(at(least) * largest) + ": raise it, or use more sub-meshes");
-    window_.size = static_cast<Index>(std::min(at(n), places));
+    resize(static_cast<Index>(std::min(at(n), places)));
 }
 
 void SweepStepper::make_states(const PolygonMesh& mesh, const FlowOptions& options, Progress& progress)
@@ -161,6 +169,8 @@ void SweepStepper::make_states(const PolygonMesh& mesh, const FlowOptions& optio
             auto equations = make_equations(sub_mesh, std::move(sub_mesh.twin), options, terms, workspaces_.local());
             SubMeshState& state = made[s].emplace(sub_mesh, std::move(equations), mesh.vertices);
             state.p = robin_parameter(sub_mesh, state.position, options);
+            if (!state.system->uses_faces())
+                keep_faces_at_interface(sub_mesh);
         });
         progress.count();
     });
@@ -418,7 +428,7 @@ void SweepStepper::describe(FlowReport& report) const
 {
     const std::vector<Index>& stage = plans_.front().stage;
     report.cut.interface_vertices = decomposition_.n_interface_vertices;
-    report.resources.live_factors = window_.size;
+    report.resources.live_factors = windows_.front().size;
     report.resources.factor_memory_bytes = factors_->bytes();
     std::vector<Index> n_nearly_singular;
     std::vector<Factorisation> factorisations;

@@ -33,10 +33,9 @@ struct RankSubMeshes {
     std::size_t n_of_all_ranks = 0;
     /// #sub-meshes: the sweep's order.
     std::vector<Index> stage;
-    /// Those of this rank, in an order common to all ranks.
-    std::vector<Index> factor_order;
-    /// The smallest window with which sweeps along that order cannot deadlock.
-    Index least_window = 0;
+    /// For a sweep forward and one backward: those of this rank, in orders common to all ranks, and the smallest size
+    /// with which the sweep cannot deadlock.
+    std::vector<FactorWindow> windows;
     /// Both must outlive the stepper.
     ForeignSubMeshes* foreign = nullptr;
     const Topology* topology = nullptr;
@@ -54,7 +53,7 @@ class SweepStepper final : public Stepper {
     /// @throws ComputationError naming the sub-mesh if an analysis fails; OptionError if the memory limit is too low;
     ///         Cancelled, as all functions that take time.
     SweepStepper(const PolygonMesh& mesh, const Topology& topology, const Cut& cut, const FlowOptions& options,
-                 const std::vector<double>& curvature, Progress& progress);
+                 std::vector<double> curvature, Progress& progress);
 
     /// The same for the sub-meshes of one rank.
     /// @param mesh the part of the mesh that the rank knows. @param options not the classical conditions, nor
@@ -78,9 +77,9 @@ class SweepStepper final : public Stepper {
     [[nodiscard]] bool is_own(Index s) const { return foreign_ == nullptr || !foreign_->is_foreign(s); }
     void make_plans(const std::vector<Index>& stage, std::size_t n_sub_meshes, const FlowOptions& options);
     void add_sweeps(const FlowOptions& options);
-    void order_factors(const FlowOptions& options);
+    void order_factors();
     void run_for(Index s, const std::function<void()>& body) const;
-    void limit_factors(Index least, const FlowOptions& options);
+    void limit_factors(const FlowOptions& options);
     SweepTasks tasks_of(const SweepPlan& plan, const FlowOptions& options);
     void add_exchange(std::size_t sweep, SweepTasks& tasks);
     void run_sweep(std::size_t sweep, const std::function<void()>& join = {});
@@ -102,7 +101,8 @@ class SweepStepper final : public Stepper {
     std::vector<SubMeshState> states_;
     /// Forward, and backward where the sweep alternates.
     std::vector<SweepPlan> plans_;
-    FactorWindow window_;
+    /// One for each plan, all of the same size.
+    std::vector<FactorWindow> windows_;
     /// With the classical conditions.
     std::optional<InterfaceGaps> copies_;
     /// Not for overlapping sub-meshes: peers, and their estimate.

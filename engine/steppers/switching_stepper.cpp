@@ -30,7 +30,7 @@ void SwitchingStepper::make_factors()
     // Flows do not keep twins.
     complete_ = *topology_;
     complete_.twin = make_topology(*mesh_, progress_->exec()).twin;
-    factors_ = make_undecomposed_stepper(*mesh_, complete_, options, {}, *progress_);
+    factors_ = make_undecomposed_stepper(*mesh_, complete_, options, *progress_);
 }
 
 /// @returns the solution; null without factors.

@@ -57,9 +57,14 @@ Point spread_point(std::size_t i, std::size_t n)
 IndexLists free_components(const PolygonMesh& mesh, const Topology& topology)
 {
     IndexLists free;
+    const IndexLists faces_at = make_lists(mesh.n_vertices(), [&](auto&& add) {
+        for (Index f = 0; f < mesh.n_faces(); ++f)
+            for (const Index v : mesh.face(f))
+                add(v, f);
+    });
     const Components all = connected_components(mesh.n_vertices(), [&](Index v, auto&& visit) {
-        for (const Index corner : topology.corners_at(v))
-            for (const Index w : mesh.face(topology.face_of[corner]))
+        for (const Index f : faces_at[v])
+            for (const Index w : mesh.face(f))
                 visit(w);
     });
     for (Index c = 0; c < all.count(); ++c) {

@@ -126,4 +126,21 @@ SubMesh make_sub_mesh(const PolygonMesh& mesh, const Topology& topology, std::sp
     return std::move(draft.sub_mesh);
 }
 
+void keep_faces_at_interface(SubMesh& sub_mesh)
+{
+    std::vector<Index>& around = sub_mesh.interface.own_faces.values;
+    std::vector<Index> kept = around;
+    sort_unique(kept);
+    for (Index& f : around)
+        f = place_in(kept, f);
+    IndexLists faces;
+    for (const Index f : kept) {
+        const auto corners = sub_mesh.face_vertices[f];
+        faces.values.insert(faces.values.end(), corners.begin(), corners.end());
+        faces.close();
+    }
+    faces.shrink_to_fit();
+    sub_mesh.face_vertices = std::move(faces);
+}
+
 }  // namespace seamflow

@@ -19,7 +19,7 @@ struct SubMeshInterface {
     /// The neighbours v_{i-1} and v_{i+1} along the sub-mesh's boundary.
     std::vector<Index> before;
     std::vector<Index> after;
-    /// The own faces around the vertex, as indices into SubMesh::faces.
+    /// The own faces around the vertex, as indices into SubMesh::face_vertices.
     IndexLists own_faces;
     /// The other faces around the vertex, as indices into `halo_faces`.
     IndexLists complement_faces;
@@ -42,7 +42,7 @@ struct CorrectedVertices {
 
 /// One part of a cut mesh with its own copy of the vertices of its faces. Local vertices 0 to n_vertices - 1 are those
 /// vertices; the n_halo next ones, the halo, are the vertices of faces of other sub-meshes that touch Γ. Equations may
-/// take over `face_vertices` and `twin`.
+/// take over `face_vertices` and `twin`; see also keep_faces_at_interface.
 struct SubMesh {
     /// The faces, as indices into the whole mesh, in ascending order.
     std::vector<Index> faces;

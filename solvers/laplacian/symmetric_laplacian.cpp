@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -37,34 +39,45 @@ void with_product(const StiffnessProduct* product, AssembleWith&& assemble_with)
 }
 
 /// K from edges. An edge on the boundary counts half, like one of its two half-edges.
-template <EdgeKernel Kernel>
+/// @tparam Number of a vertex: as short as possible, because edges take much of a flow's memory.
+template <EdgeKernel Kernel, class Number>
 class SymmetricEdges final : public SymmetricLaplacian {
   public:
     SymmetricEdges(Kernel kernel, const FacesOnBothSides& faces)
         : kernel_(kernel)
         , inverse_degree_(faces.n_vertices, 0.0)
     {
-        edges_.reserve(faces.own.values.size() / 2 + faces.beyond.values.size());
-        append_own_edges(faces, false, edges_);
+        std::vector<VertexPair> edges;
+        edges.reserve(faces.own.values.size() / 2 + faces.beyond.values.size());
+        append_own_edges(faces, false, edges);
         const OuterEdges outer = list_outer_edges(faces);
-        count_edges(edges_, 1.0);
+        count_edges(edges, 1.0);
         count_edges(outer.inner, 1.0);
         count_edges(outer.rim, 0.5);
         for (double& degree : inverse_degree_)
             degree = degree > 0.0 ? (Kernel::averages_mass ? 1.0 / degree : 1.0) : 0.0;
         if (faces.contributions == Contributions::BothSides)
-            edges_.insert(edges_.end(), outer.inner.begin(), outer.inner.end());
-        n_whole_ = edges_.size();
+            edges.insert(edges.end(), outer.inner.begin(), outer.inner.end());
+        n_whole_ = edges.size();
         if (faces.contributions == Contributions::BothSides)
-            edges_.insert(edges_.end(), outer.rim.begin(), outer.rim.end());
+            edges.insert(edges.end(), outer.rim.begin(), outer.rim.end());
         else
-            append_own_edges(faces, true, edges_);
-        edges_.shrink_to_fit();
+            append_own_edges(faces, true, edges);
+        edges_.reserve(edges.size());
+        for (const auto& [first, second] : edges)
+            edges_.push_back({static_cast<Number>(first), static_cast<Number>(second)});
     }
 
     [[nodiscard]] bool uses_faces() const override { return false; }
 
-    [[nodiscard]] std::vector<VertexPair> pairs() const override { return edges_; }
+    [[nodiscard]] std::vector<VertexPair> pairs() const override
+    {
+        std::vector<VertexPair> pairs;
+        pairs.reserve(edges_.size());
+        for (const auto& [first, second] : edges_)
+            pairs.push_back({static_cast<Index>(first), static_cast<Index>(second)});
+        return pairs;
+    }
 
     void assemble(const Points& positions, double factor, std::span<const Index> slots, std::span<double> values,
                   std::span<double> diagonal, std::span<double> mass, const StiffnessProduct* product) override
@@ -74,13 +87,13 @@ class SymmetricEdges final : public SymmetricLaplacian {
         with_product(product, [&](auto&& add_to_product) {
             const auto add = [&](std::size_t begin, std::size_t end, double share) {
                 for (std::size_t i = begin; i < end; ++i) {
-                    const VertexPair& e = edges_[i];
-                    const Point difference = positions.row(e.second) - positions.row(e.first);
+                    const auto [first, second] = edges_[i];
+                    const Point difference = positions.row(second) - positions.row(first);
                     const auto edge = kernel_.edge(difference);
                     const double weight = edge.weight(share * factor);
-                    add_to_product(e.first, e.second, -weight, difference);
+                    add_to_product(first, second, -weight, difference);
                     values[slots[i]] -= weight;
-                    for (const Index v : {e.first, e.second}) {
+                    for (const Number v : {first, second}) {
                         diagonal[v] += weight;
                         mass[v] += share * edge.mass();
                     }
@@ -97,11 +110,11 @@ class SymmetricEdges final : public SymmetricLaplacian {
     {
         std::fill(mass.begin(), mass.end(), 0.0);
         for (std::size_t i = 0; i < edges_.size(); ++i) {
-            const VertexPair& e = edges_[i];
-            const auto edge = kernel_.edge(positions.row(e.second) - positions.row(e.first));
+            const auto [first, second] = edges_[i];
+            const auto edge = kernel_.edge(positions.row(second) - positions.row(first));
             const double share = (i < n_whole_ ? 1.0 : 0.5) * edge.mass();
-            mass[e.first] += share;
-            mass[e.second] += share;
+            mass[first] += share;
+            mass[second] += share;
         }
         for (std::size_t v = 0; v < inverse_degree_.size(); ++v)
             mass[v] *= inverse_degree_[v];
@@ -116,9 +129,14 @@ class SymmetricEdges final : public SymmetricLaplacian {
         }
     }
 
+    struct Edge {
+        Number first;
+        Number second;
+    };
+
     Kernel kernel_;
     /// First the edges that count fully, then those that count half.
-    std::vector<VertexPair> edges_;
+    std::vector<Edge> edges_;
     std::size_t n_whole_ = 0;
     /// Per vertex: 1 / number of edges, those on the boundary counted half; 1 where M_v is a sum.
     std::vector<double> inverse_degree_;
@@ -269,9 +287,11 @@ std::unique_ptr<SymmetricLaplacian> make_symmetric_laplacian(const ScaledLaplaci
                                                              const FacesOnBothSides& faces)
 {
     return with_kernel(laplacian, [&]<class Kernel>(Kernel kernel) -> std::unique_ptr<SymmetricLaplacian> {
-        if constexpr (EdgeKernel<Kernel>)
-            return std::make_unique<SymmetricEdges<Kernel>>(kernel, faces);
-        else if constexpr (FaceKernel<Kernel>)
+        if constexpr (EdgeKernel<Kernel>) {
+            if (faces.n_vertices <= std::numeric_limits<std::uint16_t>::max())
+                return std::make_unique<SymmetricEdges<Kernel, std::uint16_t>>(kernel, faces);
+            return std::make_unique<SymmetricEdges<Kernel, Index>>(kernel, faces);
+        } else if constexpr (FaceKernel<Kernel>)
             return std::make_unique<SymmetricFaces<Kernel>>(faces);
         else
             throw OptionError("the Laplacian is not symmetric");

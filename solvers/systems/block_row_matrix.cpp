@@ -72,10 +72,6 @@ BlockRowMatrix::BlockRowMatrix(std::vector<Index> blocks, const Pattern& pattern
     reserve_entries(lower_);
     reserve_entries(upper_);
     reserve_entries(outer_);
-    for (Buffer<float>* values : {&diagonal_, &pivot_, &inverse_, &shift_})
-        reserve(*values, n_rows());
-    for (Buffer<Row>* rows : {&residual_, &direction_, &step_, &product_, &increment_})
-        reserve(*rows, n_rows());
     for_each_block(exec, [&](Index block, Index begin, Index end) {
         const Lists of_block = std::move(lists[block]);
         for (Index i = begin; i < end; ++i) {
@@ -86,11 +82,19 @@ BlockRowMatrix::BlockRowMatrix(std::vector<Index> blocks, const Pattern& pattern
             std::transform(columns + parts[1], columns + parts[2], upper_.columns.get() + upper_.begin[i], inner);
             const auto place = std::copy(columns, columns + parts[0], outer_.columns.get() + outer_.begin[i]);
             std::copy(columns + parts[2], of_block.rows[i - begin].end(), place);
-            // The row of the identity, until it is set and where there are no columns.
-            diagonal_[i] = 1.0F;
-            residual_[i].setZero();
-            product_[i].setZero();
         }
+    });
+    // In the memory that the lists have left.
+    for (Buffer<float>* values : {&diagonal_, &pivot_})
+        reserve(*values, n_rows());
+    for (Buffer<StoredRow>* rows : {&residual_, &direction_, &increment_})
+        reserve(*rows, n_rows());
+    for (Buffer<Row>* rows : {&step_, &product_})
+        reserve(*rows, n_rows());
+    for_each_block(exec, [&](Index, Index begin, Index end) {
+        // The row of the identity, until it is set and where there are no columns.
+        std::fill(&diagonal_[begin], &diagonal_[end], 1.0F);
+        std::fill(&residual_[begin], &residual_[end], Row(Row::Zero()));
     });
 }
 
@@ -109,12 +113,6 @@ float& BlockRowMatrix::entry(const Place& place, Index column)
 /// symmetric Gauss–Seidel.
 void BlockRowMatrix::factorise(const Executor& exec)
 {
-    const auto finish = [&](Index begin, Index end) {
-        for (Index i = begin; i < end; ++i) {
-            inverse_[i] = 1.0F / pivot_[i];
-            shift_[i] = diagonal_[i] - 2.0F * pivot_[i];
-        }
-    };
     for_each_block(exec, [&](Index, Index begin, Index end) {
         double positive = 0.0;
         double all = 0.0;
@@ -124,7 +122,6 @@ void BlockRowMatrix::factorise(const Executor& exec)
         }
         if (positive > most_positive * all) {
             std::copy(&diagonal_[begin], &diagonal_[end], &pivot_[begin]);
-            finish(begin, end);
             return;
         }
         // For each row so far, the sum of the entries above the diagonal.
@@ -143,7 +140,6 @@ void BlockRowMatrix::factorise(const Executor& exec)
             }
             pivot_[i] = std::max({pivot, size, least_pivot * diagonal_[i]});
         }
-        finish(begin, end);
     });
 }
 
@@ -153,13 +149,13 @@ Eigen::Array4d BlockRowMatrix::start(float scale, const Executor& exec)
         const Entries<Inner>::Product lower(lower_);
         Eigen::Array4d sum = Eigen::Array4d::Zero();
         for (Index i = begin; i < end; ++i) {
-            Row r = scale * residual_[i];
-            lower.subtract_from(r, i, &residual_[begin]);
-            residual_[i] = inverse_[i] * r;
-            sum += (residual_[i] * r).cast<double>();
-            direction_[i].setZero();
+            Row r = scale * Row(residual_[i]);
+            lower.subtract_from(r, i, &product_[begin]);
+            product_[i] = 1.0F / pivot_[i] * r;
+            residual_[i] = product_[i];
+            sum += (product_[i] * r).cast<double>();
+            direction_[i] = increment_[i] = Row(Row::Zero());
             step_[i].setZero();
-            increment_[i].setZero();
         }
         return sum;
     });
@@ -171,17 +167,16 @@ void BlockRowMatrix::solve_upper(const Row& alpha, const Row& beta, const Execut
     for_each_block(exec, [&, alpha = alpha, beta = beta](Index, Index begin, Index end) {
         const Entries<Inner>::Product upper(upper_);
         const float* const pivot = pivot_.get();
-        const float* const inverse = inverse_.get();
-        const Row* const residual = residual_.get();
-        Row* const direction = direction_.get();
+        const StoredRow* const residual = residual_.get();
+        StoredRow* const direction = direction_.get();
         Row* const step = step_.get();
-        Row* const increment = increment_.get();
+        StoredRow* const increment = increment_.get();
         for (Index i = end - 1; i >= begin; --i) {
-            increment[i] += alpha * step[i];
-            Row p = pivot[i] * residual[i] + beta * direction[i];
+            increment[i] = Row(Row(increment[i]) + alpha * step[i]);
+            Row p = pivot[i] * Row(residual[i]) + beta * Row(direction[i]);
             direction[i] = p;
             upper.subtract_from(p, i, step + begin);
-            step[i] = inverse[i] * p;
+            step[i] = 1.0F / pivot[i] * p;
         }
     });
 }
@@ -193,20 +188,20 @@ Eigen::Array4d BlockRowMatrix::solve_lower(const Executor& exec)
     return sum_of_blocks<Eigen::Array4d>(exec, [&](Index begin, Index end) {
         const Entries<Inner>::Product lower(lower_);
         const Entries<Index>::Product outer(outer_);
-        const float* const inverse = inverse_.get();
-        const float* const shift = shift_.get();
-        const Row* const direction = direction_.get();
+        const float* const diagonal = diagonal_.get();
+        const float* const pivot = pivot_.get();
+        const StoredRow* const direction = direction_.get();
         const Row* const step = step_.get();
         Row* const product = product_.get();
         Eigen::Array4d sum = Eigen::Array4d::Zero();
         for (Index i = begin; i < end; ++i) {
             const Row t = step[i];
             const Row p = direction[i];
-            Row q = -shift[i] * t;
+            Row q = -(diagonal[i] - 2.0F * pivot[i]) * t;
             outer.subtract_from(q, i, step);
             q = p - q;
             lower.subtract_from(q, i, product + begin);
-            q *= inverse[i];
+            q *= 1.0F / pivot[i];
             product[i] = q;
             sum += (p * (q + t)).cast<double>();
         }
@@ -222,10 +217,10 @@ Eigen::Array4d BlockRowMatrix::update_residual(const Row& alpha, const Executor&
         const float* const pivot = pivot_.get();
         const Row* const product = product_.get();
         const Row* const step = step_.get();
-        Row* const residual = residual_.get();
+        StoredRow* const residual = residual_.get();
         Eigen::Array4d sum = Eigen::Array4d::Zero();
         for (Index i = begin; i < end; ++i) {
-            const Row r = residual[i] - alpha * (product[i] + step[i]);
+            const Row r = Row(residual[i]) - alpha * (product[i] + step[i]);
             residual[i] = r;
             sum += (pivot[i] * r * r).cast<double>();
         }
@@ -255,7 +250,7 @@ BlockRowMatrix::Result BlockRowMatrix::iterate(const Eigen::Array4d& squared_at_
     for_each_block(exec, [&](Index block, Index begin, Index end) {
         for (Index i = begin; i < end; ++i) {
             const Row change = alpha * step_[i];
-            increment_[i] += change;
+            increment_[i] = Row(Row(increment_[i]) + change);
             farthest[block] = std::max(farthest[block], change.square().sum());
         }
     });

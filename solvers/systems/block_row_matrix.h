@@ -11,6 +11,7 @@
 #include "partition/executor.h"
 #include "partition/index_lists.h"
 #include "partition/polygon_mesh.h"
+#include "solvers/direct/simd.h"
 #include "solvers/krylov/stopping_criterion.h"
 
 namespace seamflow {
@@ -25,13 +26,36 @@ class BlockRowMatrix {
   public:
     /// Three columns and a zero one, so that a row fills a register.
     using Row = Eigen::Array4f;
+    /// The three columns alone, which take less memory, for arrays whose rows are read only one after the other.
+    class StoredRow {
+      public:
+        StoredRow() = default;
+        // Not as arrays, which the compiler would keep in memory.
+        StoredRow(const Row& row)
+        {
+            SimdVector<float, 4> all;
+            load(row.data(), all);
+            for (int c = 0; c < 3; ++c)
+                columns_[c] = all[c];
+        }
+        operator Row() const
+        {
+            Row row;
+            store(SimdVector<float, 4>{columns_[0], columns_[1], columns_[2], 0.0F}, row.data());
+            return row;
+        }
+
+      private:
+        float columns_[3];
+    };
     /// Most rows of a block.
     static constexpr Index most_rows = 1 << 16;
-    /// What an iteration reads and writes, in bytes per row: 14 rows of vectors, 5 numbers, 3 places, and the entries.
+    /// What an iteration reads and writes, in bytes per row: 6 rows of vectors in registers and 8 stored ones, 4
+    /// numbers, 3 places, and the entries.
     /// @param row_length average number of off-diagonal entries.
     static constexpr double bytes_of_iteration(double row_length)
     {
-        return 14 * sizeof(Row) + 5 * sizeof(float) + 3 * sizeof(Index) +
+        return 6 * sizeof(Row) + 8 * sizeof(StoredRow) + 4 * sizeof(float) + 3 * sizeof(Index) +
                (sizeof(float) + sizeof(std::uint16_t)) * row_length;
     }
 
@@ -61,10 +85,10 @@ class BlockRowMatrix {
     float& entry(const Place& place, Index column);
     void set_diagonal(Index i, float value) { diagonal_[i] = value; }
     [[nodiscard]] float diagonal(Index i) const { return diagonal_[i]; }
-    /// Of row i: set it, then start.
-    [[nodiscard]] Row& residual(Index i) { return residual_[i]; }
+    /// To be set before start.
+    void set_residual(Index i, const Row& row) { residual_[i] = row; }
     /// Of row i, after the iteration.
-    [[nodiscard]] const Row& increment(Index i) const { return increment_[i]; }
+    [[nodiscard]] Row increment(Index i) const { return increment_[i]; }
 
     /// Builds the preconditioner once all entries are set.
     void factorise(const Executor& exec);
@@ -158,17 +182,15 @@ class BlockRowMatrix {
     /// In other blocks.
     Entries<Index> outer_;
     Buffer<float> diagonal_;
-    /// D, its inverse, and the diagonal of A less 2 D.
+    /// D.
     Buffer<float> pivot_;
-    Buffer<float> inverse_;
-    Buffer<float> shift_;
     /// Of the iteration: (D + L)⁻¹ r, r being the residual; the direction p; t = (D + Lᵀ)⁻¹ p; q - t with q = (D + L)⁻¹
     /// A t; the solution.
-    Buffer<Row> residual_;
-    Buffer<Row> direction_;
+    Buffer<StoredRow> residual_;
+    Buffer<StoredRow> direction_;
     Buffer<Row> step_;
     Buffer<Row> product_;
-    Buffer<Row> increment_;
+    Buffer<StoredRow> increment_;
 };
 
 template <class Sum, class Body>

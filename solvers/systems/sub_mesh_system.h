@@ -47,6 +47,9 @@ class SubMeshSystem {
     /// Size of a factor, in bytes; an estimate if not known beforehand.
     [[nodiscard]] virtual std::size_t factor_bytes() const = 0;
 
+    /// Whether it needs the faces of the sub-mesh after its construction.
+    [[nodiscard]] virtual bool uses_faces() const { return true; }
+
     /// Kind of the factorisation (see DirectSolver::kind).
     [[nodiscard]] virtual Factorisation factorisation() const = 0;
 

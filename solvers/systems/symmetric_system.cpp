@@ -32,7 +32,6 @@ SymmetricSystem::SymmetricSystem(const SystemParts& parts, SymmetricRows rows, S
     list_couplings(pairs, unknown_of);
     if (rows == SymmetricRows::Transmission)
         list_interface(upper, unknown_of);
-    mass_.resize(matrix_.vertex_of.size());
     solver_ = make_symmetric_solver(std::move(upper), parts.factorisation, workspace, tree);
 }
 
@@ -111,33 +110,30 @@ void SymmetricSystem::list_couplings(const std::vector<VertexPair>& pairs, const
 void SymmetricSystem::list_interface(const SparsePattern& upper, const std::vector<Index>& unknown_of)
 {
     const auto& vertices = sub_mesh_->interface.vertices;
-    std::vector<std::vector<InterfaceEntry>> entries(vertices.size());
     std::vector<Index> interface_index(matrix_.vertex_of.size(), -1);
     for (std::size_t i = 0; i < vertices.size(); ++i)
         interface_index[unknown_of[vertices[i]]] = static_cast<Index>(i);
-    for (Index column = 0; column < upper.n(); ++column)
-        for (Index slot = upper.column_offsets[column]; slot < upper.column_offsets[column + 1]; ++slot) {
-            const Index row = upper.rows[slot];
-            if (row == column)
-                continue;
-            if (interface_index[row] >= 0)
-                entries[interface_index[row]].push_back({slot, column});
-            if (interface_index[column] >= 0)
-                entries[interface_index[column]].push_back({slot, row});
-        }
-    std::size_t beyond = 0;
-    const auto add_row = [&](Index unknown) {
-        rows_.push_back({unknown, static_cast<Index>(entries_.size()), static_cast<Index>(beyond)});
-    };
+    Lists<InterfaceEntry> entries = make_lists<InterfaceEntry>(static_cast<Index>(vertices.size()), [&](auto&& add) {
+        for (Index column = 0; column < upper.n(); ++column)
+            for (Index slot = upper.column_offsets[column]; slot < upper.column_offsets[column + 1]; ++slot) {
+                const Index row = upper.rows[slot];
+                if (row == column)
+                    continue;
+                if (interface_index[row] >= 0)
+                    add(interface_index[row], {slot, column, 0.0});
+                if (interface_index[column] >= 0)
+                    add(interface_index[column], {slot, row, 0.0});
+            }
+    });
+    entries_ = std::move(entries.values);
+    Index beyond = 0;
     rows_.reserve(vertices.size() + 1);
     for (std::size_t i = 0; i < vertices.size(); ++i) {
-        add_row(unknown_of[vertices[i]]);
-        entries_.insert(entries_.end(), entries[i].begin(), entries[i].end());
-        while (beyond < beyond_.size() && beyond_[beyond].unknown == rows_[i].unknown)
+        rows_.push_back({unknown_of[vertices[i]], entries.offsets[i], beyond});
+        while (at(beyond) < beyond_.size() && beyond_[beyond].unknown == rows_[i].unknown)
             ++beyond;
     }
-    add_row(-1);
-    held_.reserve(entries_.size());
+    rows_.push_back({-1, entries.offsets.back(), beyond});
 }
 
 SubMeshSystem::Assembled SymmetricSystem::assemble(const Points& positions, const Points& other_side, double time_step,
@@ -150,12 +146,12 @@ SubMeshSystem::Assembled SymmetricSystem::assemble(const Points& positions, cons
     for (auto* couplings : {&fixed_, &beyond_})
         for (Coupling& coupling : *couplings)
             coupling.value = *further++;
+    mass_.resize(matrix_.vertex_of.size());
     for (std::size_t u = 0; u < mass_.size(); ++u)
         mass_[u] = workspace.mass[matrix_.vertex_of[u]];
     time_step_ = time_step;
     pulls_ = matrix_.screening.exists();
 
-    held_.clear();
     for (std::size_t i = 0; i + 1 < rows_.size(); ++i) {
         rows_[i].role = roles[i];
         if (roles[i] == InterfaceRole::Follows)
@@ -172,8 +168,7 @@ SubMeshSystem::Assembled SymmetricSystem::assemble(const Points& positions, cons
 void SymmetricSystem::make_dirichlet_row(std::size_t i, std::span<double> values)
 {
     for (Index e = rows_[i].first_entry; e < rows_[i + 1].first_entry; ++e) {
-        held_.push_back({entries_[e].unknown, vertex_at(i), values[entries_[e].slot]});
-        values[entries_[e].slot] = 0.0;
+        entries_[e].held = std::exchange(values[entries_[e].slot], 0.0);
     }
     values[matrix_.diagonal_slot(rows_[i].unknown)] = 1.0;
 }
@@ -261,9 +256,12 @@ void SymmetricSystem::fill_right_hand_side(const Points& positions, const Points
         const Index v = matrix_.vertex_of[u];
         right.row(u) += mass_[u] * time_step_ * screening.weight(v) * screening.first.row(v);
     }
-    for (const auto* couplings : {&fixed_, &held_})
-        for (const Coupling& coupling : *couplings)
-            right.row(coupling.unknown) -= coupling.value * known.row(coupling.vertex);
+    for (const Coupling& coupling : fixed_)
+        right.row(coupling.unknown) -= coupling.value * known.row(coupling.vertex);
+    for (std::size_t i = 0; i + 1 < rows_.size(); ++i)
+        for (Index e = rows_[i].first_entry; rows_[i].role == InterfaceRole::Follows && e < rows_[i + 1].first_entry;
+             ++e)
+            right.row(entries_[e].unknown) -= entries_[e].held * known.row(vertex_at(i));
     for (std::size_t i = 0; i + 1 < rows_.size(); ++i) {
         const InterfaceRow& row = rows_[i];
         if (row.role == InterfaceRole::Follows)

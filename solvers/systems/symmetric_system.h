@@ -30,6 +30,7 @@ class SymmetricSystem final : public SubMeshSystem {
     Assembled assemble(const Points& positions, const Points& other_side, double time_step, double p,
                        std::span<const InterfaceRole> roles, SolverWorkspace& workspace) override;
     [[nodiscard]] std::size_t factor_bytes() const override { return solver_->factor_bytes(); }
+    [[nodiscard]] bool uses_faces() const override { return matrix_.laplacian->uses_faces(); }
     [[nodiscard]] Factorisation factorisation() const override { return solver_->kind(); }
     Factor factorise(const Assembled& equations, FactorMemory& memory, SolverWorkspace& workspace) override;
     void use_data(const Points& data) override;
@@ -51,6 +52,8 @@ class SymmetricSystem final : public SubMeshSystem {
         Index slot;
         /// The other unknown.
         Index unknown;
+        /// The coefficient, if the sub-mesh follows at the vertex in this step.
+        double held;
     };
     /// A vertex of Γ.
     struct InterfaceRow {
@@ -87,9 +90,7 @@ class SymmetricSystem final : public SubMeshSystem {
     /// Per vertex of Γ, and one more; with Dirichlet rows none.
     std::vector<InterfaceRow> rows_;
     std::vector<InterfaceEntry> entries_;
-    /// Coefficients at vertices of Γ where the sub-mesh follows in this step.
-    std::vector<Coupling> held_;
-    /// Per unknown.
+    /// Per unknown, of this step.
     std::vector<double> mass_;
     /// dt of this step.
     double time_step_ = 0.0;

@@ -222,7 +222,6 @@ WholeMeshSystem::WholeMeshSystem(const PolygonMesh& mesh, const Topology& topolo
     , row_of_(make_row_of(blocks_, exec))
     , matrix_(make_matrix(mesh, topology, blocks_, row_of_, traits_of(laplacian).reach, exec))
     , moves_(at(mesh.n_vertices()))
-    , before_(mesh.n_vertices(), 3)
     , masses_(is_applied_again ? at(mesh.n_vertices()) : 0)
 {
     for_each(exec, matrix_.n_rows(), [&](Index i) { moves_[i] = topology.moves(blocks_.values[i]) ? 1 : 0; });
@@ -237,9 +236,10 @@ WholeMeshSystem::WholeMeshSystem(const PolygonMesh& mesh, const Topology& topolo
 }
 
 /// The matrix, and the residual of Vᵏ⁺¹ = Vᵏ.
-WholeMeshSystem::Sizes WholeMeshSystem::assemble(const Points& before, const Executor& exec)
+/// @param of_rows V, by rows.
+WholeMeshSystem::Sizes WholeMeshSystem::assemble(const Points& of_rows, const Executor& exec)
 {
-    const RowGeometry geometry{*mesh_, *topology_, before, before_, blocks_, row_of_, matrix_};
+    const RowGeometry geometry{*mesh_, *topology_, *before_, of_rows, blocks_, row_of_, matrix_};
     using Sums = Eigen::Array<double, 8, 1>;
     Sums sums;
     with_rows(laplacian_, geometry, [&](auto&& visit) {
@@ -248,13 +248,13 @@ WholeMeshSystem::Sizes WholeMeshSystem::assemble(const Points& before, const Exe
             if (moves_[i] == 0)
                 return Sums::Zero();
             matrix_.for_each_entry(place, [](Index, float& value) { value = 0.0F; });
-            const Point here = before_.row(i);
+            const Point here = of_rows.row(i);
             double diagonal = 0.0;
             Eigen::Array4d size = Eigen::Array4d::Zero();
             Point residual = Point::Zero();
             const double mass = visit(place, [&](auto&& value, Index j, double k) {
                 const double entry = units_.stiffness * k;
-                const Point share = entry * (before_.row(j) - here);
+                const Point share = entry * (of_rows.row(j) - here);
                 // Vertices that stay have no equation.
                 if (moves_[j] != 0)
                     value() += static_cast<float>(entry);
@@ -271,10 +271,11 @@ WholeMeshSystem::Sizes WholeMeshSystem::assemble(const Points& before, const Exe
                 size.head<3>() += pull.array().abs().transpose();
             }
             matrix_.set_diagonal(i, static_cast<float>(diagonal));
-            matrix_.residual(i) = to_row(units_.length * residual);
+            const Eigen::Array4f row = to_row(units_.length * residual);
+            matrix_.set_residual(i, row);
             Sums result;
             const double inverse = 1.0 / diagonal;
-            result << size.square() * inverse, matrix_.residual(i).cast<double>().square() * inverse;
+            result << size.square() * inverse, row.cast<double>().square() * inverse;
             return result;
         });
     });
@@ -284,12 +285,13 @@ WholeMeshSystem::Sizes WholeMeshSystem::assemble(const Points& before, const Exe
 
 /// residual = -dt K V' - M (V' - D), and dt M w (V⁰ - V') if it is attached, of the current solution V', with the
 /// weights of V.
+/// @param of_rows V, by rows.
 /// @param data D, by rows: V, or other data that the step is applied to; the pull is then not to V⁰, but to 0.
 /// @returns the sum of its squares, each over the diagonal.
-double WholeMeshSystem::measure(const Points& before, const Points& data, const Executor& exec)
+double WholeMeshSystem::measure(const Points& of_rows, const Points& data, const Executor& exec)
 {
-    const RowGeometry geometry{*mesh_, *topology_, before, before_, blocks_, row_of_, matrix_};
-    const bool is_first = &data == &before_;
+    const RowGeometry geometry{*mesh_, *topology_, *before_, of_rows, blocks_, row_of_, matrix_};
+    const bool is_first = &data == &of_rows;
     using Sum = Eigen::Array<double, 1, 1>;
     Sum squared;
     with_rows(laplacian_, geometry, [&](auto&& visit) {
@@ -306,7 +308,7 @@ double WholeMeshSystem::measure(const Points& before, const Points& data, const 
                 residual +=
                     units_.mass * mass * screening(i) * ((is_first ? Point(first_.row(i)) : Point::Zero()) - there);
             residual *= units_.length;
-            matrix_.residual(i) = to_row(residual);
+            matrix_.set_residual(i, to_row(residual));
             return Sum::Constant(residual.squaredNorm() / matrix_.diagonal(i));
         });
     });
@@ -338,16 +340,22 @@ WholeMeshSystem::Result WholeMeshSystem::step(const Points& before, double time_
     const double root = std::sqrt(time_step);
     const double mass_unit = traits_of(laplacian_).divisor == Divisor::EdgeLengths ? root : time_step;
     units_ = {.stiffness = time_step / mass_unit, .mass = 1.0 / mass_unit, .length = 1.0 / root};
-    for_each(exec, matrix_.n_rows(), [&](Index i) { before_.row(i) = before.row(blocks_.values[i]); });
-    const Sizes sizes = assemble(before, exec);
+    before_ = &before;
+    list_before(after, exec);
+    const Sizes sizes = assemble(after, exec);
     // There is nothing to smooth.
     if ((sizes.residual <= sizes.rounding).all()) {
         copy(exec, before, after);
         return {};
     }
     matrix_.factorise(exec);
-    before_step_ = &before;
-    return solve(sizes.residual.sum(), before_, guess, stop, after, exec);
+    return solve(sizes.residual.sum(), after, guess, stop, after, exec);
+}
+
+/// Saves memory: a result has room for V, by rows, until it is known itself.
+void WholeMeshSystem::list_before(Points& result, const Executor& exec) const
+{
+    for_each(exec, matrix_.n_rows(), [&](Index i) { result.row(i) = before_->row(blocks_.values[i]); });
 }
 
 WholeMeshSystem::Result WholeMeshSystem::apply(const Points& data, const IterationStop& stop, Points& result,
@@ -361,18 +369,20 @@ WholeMeshSystem::Result WholeMeshSystem::apply(const Points& data, const Iterati
         if (moves_[i] == 0)
             return Sum::Zero();
         const Point residual = units_.length * masses_[i] * data_.row(i);
-        matrix_.residual(i) = to_row(residual);
+        matrix_.set_residual(i, to_row(residual));
         return Sum::Constant(residual.squaredNorm() / matrix_.diagonal(i));
     });
     if (!(squared.value() > 0.0)) {
         for_each(exec, matrix_.n_rows(), [&](Index i) { result.row(i).setZero(); });
         return {};
     }
+    list_before(result, exec);
     return solve(squared.value(), data_, nullptr, stop, result, exec);
 }
 
 /// Solves for the result of the step on V, or on data, starting from a guess, from V or from 0.
 /// @param squared of the residual, each over the diagonal. @param data by rows: V, or what replaces it.
+/// @param after in: V, by rows, maybe the data.
 WholeMeshSystem::Result WholeMeshSystem::solve(double squared, const Points& data, const Points* guess,
                                                const IterationStop& stop, Points& after, const Executor& exec)
 {
@@ -381,9 +391,10 @@ WholeMeshSystem::Result WholeMeshSystem::solve(double squared, const Points& dat
     const double first = start.norm;
     double left = 1.0;
     double distance = 0.0;
-    // The current solution, by rows; nullptr once the result has been written.
-    const Points* reached = &before_;
-    if (&data != &before_) {
+    // Whether the current solution is in after_, by rows; if not, it is V.
+    bool is_in_rows = &data != &after;
+    bool is_written = false;
+    if (is_in_rows) {
         after_.resize(matrix_.n_rows(), 3);
         for_each(exec, matrix_.n_rows(), [&](Index i) {
             if (moves_[i] == 0)
@@ -391,10 +402,9 @@ WholeMeshSystem::Result WholeMeshSystem::solve(double squared, const Points& dat
             else
                 after_.row(i).setZero();
         });
-        reached = &after_;
     }
     const auto renew = [&] {
-        const double renewed = measure(*before_step_, data, exec);
+        const double renewed = measure(after, data, exec);
         if (renewed > 0.0)
             start = start_pass(renewed, exec);
         left = renewed > 0.0 ? start.norm / first : 0.0;
@@ -403,14 +413,16 @@ WholeMeshSystem::Result WholeMeshSystem::solve(double squared, const Points& dat
         after_.resize(matrix_.n_rows(), 3);
         for_each(exec, matrix_.n_rows(), [&](Index i) { after_.row(i) = guess->row(blocks_.values[i]); });
         renew();
-        if (left < 1.0) {
-            reached = &after_;
-        } else {
-            after_ = before_;
+        is_in_rows = left < 1.0;
+        if (!is_in_rows) {
+            after_ = after;
             renew();
         }
     }
     StoppingCriterion criterion(stop, most_left, left);
+    const auto current = [&](Index i) {
+        return is_in_rows ? Point(after_.row(i)) : Point(before_->row(blocks_.values[i]));
+    };
     while (!criterion.is_met()) {
         const BlockRowMatrix::Result pass = matrix_.iterate(
             start.squared, std::max(stop.tolerance / left, most_reduction_at_once), criterion.iterations_left(), exec);
@@ -419,18 +431,16 @@ WholeMeshSystem::Result WholeMeshSystem::solve(double squared, const Points& dat
         // The residual after the first pass is known well enough; later ones begin near the rounding error.
         const bool is_first = before_pass == 1.0;
         const bool is_last = is_first && left <= stop.tolerance && pass.residual > most_reduction_at_once;
-        const auto move = [&](const auto& from, auto&& to) {
-            for_each(exec, matrix_.n_rows(), [&](Index i) {
-                to(i) = from.row(i) + length * matrix_.increment(i).head<3>().cast<double>().matrix().transpose();
-            });
+        const auto moved = [&](Index i) -> Point {
+            return current(i) + length * matrix_.increment(i).head<3>().cast<double>().matrix().transpose();
         };
         if (is_last) {
-            move(*reached, [&](Index i) { return after.row(blocks_.values[i]); });
-            reached = nullptr;
+            for_each(exec, matrix_.n_rows(), [&](Index i) { after.row(blocks_.values[i]) = moved(i); });
+            is_written = true;
         } else {
             after_.resize(matrix_.n_rows(), 3);
-            move(*reached, [&](Index i) { return after_.row(i); });
-            reached = &after_;
+            for_each(exec, matrix_.n_rows(), [&](Index i) { after_.row(i) = moved(i); });
+            is_in_rows = true;
             renew();
         }
         distance = pass.residual > shortest_pass && distance > 0.0
@@ -438,8 +448,8 @@ WholeMeshSystem::Result WholeMeshSystem::solve(double squared, const Points& dat
                        : length * distance_after(pass) * left / (before_pass * pass.residual);
         criterion.note(pass.iterations, left, left / before_pass);
     }
-    if (reached != nullptr)
-        for_each(exec, matrix_.n_rows(), [&](Index i) { after.row(blocks_.values[i]) = reached->row(i); });
+    if (!is_written)
+        for_each(exec, matrix_.n_rows(), [&](Index i) { after.row(blocks_.values[i]) = current(i); });
     return {criterion.result(left), distance};
 }
 

@@ -41,7 +41,7 @@ class WholeMeshSystem {
     /// Takes a step.
     /// @param before #V by 3: Vᵏ. @param time_step dt, in length².
     /// @param stop relative to the residual of Vᵏ⁺¹ = Vᵏ, in the norm of the inverse of the diagonal.
-    /// @param after #V by 3: receives Vᵏ⁺¹; fixed vertices stay.
+    /// @param after #V by 3, in other memory than Vᵏ: receives Vᵏ⁺¹; fixed vertices stay.
     /// @param guess #V by 3: what iterations begin with if its residual is smaller than that of Vᵏ; may be null.
     Result step(const Points& before, double time_step, const IterationStop& stop, Points& after, const Executor& exec,
                 const Points* guess = nullptr);
@@ -49,7 +49,7 @@ class WholeMeshSystem {
     /// Applies the last step to other data, with the same matrix; nothing pulls to V⁰. Only for systems made for that,
     /// and while the input of the step still exists.
     /// @param data #V by 3: D, which is 0 where vertices do not move.
-    /// @param stop relative to the residual of 0. @param result #V by 3.
+    /// @param stop relative to the residual of 0. @param result #V by 3, in other memory than D and Vᵏ.
     Result apply(const Points& data, const IterationStop& stop, Points& result, const Executor& exec);
 
   private:
@@ -75,8 +75,9 @@ class WholeMeshSystem {
         double norm = 0.0;
     };
 
-    Sizes assemble(const Points& before, const Executor& exec);
-    double measure(const Points& before, const Points& data, const Executor& exec);
+    void list_before(Points& result, const Executor& exec) const;
+    Sizes assemble(const Points& of_rows, const Executor& exec);
+    double measure(const Points& of_rows, const Points& data, const Executor& exec);
     Result solve(double squared, const Points& data, const Points* guess, const IterationStop& stop, Points& after,
                  const Executor& exec);
     /// dt w of a row.
@@ -94,17 +95,17 @@ class WholeMeshSystem {
     IndexLists blocks_;
     std::vector<Index> row_of_;
     BlockRowMatrix matrix_;
-    /// By rows: whether they move, where they are before the step, and after it so far if the residual is renewed.
+    /// V as given to the last step.
+    const Points* before_ = nullptr;
+    /// By rows: whether they move, and where they are after the step so far if the residual is renewed.
     std::vector<std::uint8_t> moves_;
+    Points after_ = Points(0, 3);
     /// With an attachment, by rows: w, and V⁰.
     std::vector<double> screenings_;
     Points first_ = Points(0, 3);
-    Points before_;
-    Points after_;
-    /// For `apply`: by rows, M in the unit of the matrix, and D; and V as given to the last step.
+    /// For `apply`: by rows, M in the unit of the matrix, and D.
     std::vector<double> masses_;
     Points data_ = Points(0, 3);
-    const Points* before_step_ = nullptr;
 };
 
 }  // namespace seamflow

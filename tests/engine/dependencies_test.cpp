@@ -85,7 +85,7 @@ Waits waits_of(const SweepPlan& plan, const std::vector<std::vector<Index>>& adj
     }
     // A factor takes the place of one that is gone.
     for (std::size_t i = at(window.size); i < window.order.size(); ++i)
-        add(TaskKind::Solve, window.order[i - at(window.size)], TaskKind::AssembleAndFactorise, window.order[i]);
+        add(TaskKind::Solve, window.freed[i - at(window.size)], TaskKind::AssembleAndFactorise, window.order[i]);
     return ascending(std::move(waits));
 }
 
@@ -179,11 +179,13 @@ Index check_graphs(const PolygonMesh& mesh, const FlowOptions& options)
     std::vector<std::vector<Index>> ranks{colours_of(report)};
     if (alternates(options, at(report.cut.n_sub_meshes())))
         ranks.push_back(reversed(colours_of(report)));
-    const FactorWindow window{reverse_cuthill_mckee(decomposition.adjacency), report.resources.live_factors};
+    const std::vector<Index> order = reverse_cuthill_mckee(decomposition.adjacency);
     const Schedule& schedule = report.schedule.value();
     std::size_t first = 0;
     for (const std::vector<Index>& rank : ranks) {
         const SweepPlan plan = make_plan(decomposition, options, rank);
+        FactorWindow window = least_window(plan, order_by_need(plan, order));
+        window.size = report.resources.live_factors;
         const std::vector<Task> tasks = tasks_of(plan, predicts(options));
         const RecordedWaits recorded = recorded_from(schedule, first, tasks.size());
         CHECK(recorded.tasks == tasks);

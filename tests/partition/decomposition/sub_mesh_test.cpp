@@ -178,6 +178,20 @@ TEST_CASE("own and complement faces of a vertex of the interface are all faces a
     });
 }
 
+TEST_CASE("reduced to the faces at its interface, a sub-mesh has the same faces at each vertex there")
+{
+    for_each_sub_mesh([](const CutMesh&, const SubMesh& sub_mesh) {
+        SubMesh reduced = sub_mesh;
+        keep_faces_at_interface(reduced);
+        const auto& all = sub_mesh.interface.own_faces.values;
+        const auto& kept = reduced.interface.own_faces.values;
+        REQUIRE(kept.size() == all.size());
+        for (std::size_t i = 0; i < all.size(); ++i)
+            CHECK(std::ranges::equal(reduced.face_vertices[kept[i]], sub_mesh.face_vertices[all[i]]));
+        CHECK(at(reduced.face_vertices.size()) == std::set<Index>(all.begin(), all.end()).size());
+    });
+}
+
 TEST_CASE("the halo is the faces of others that touch the interface, and their vertices")
 {
     for_each_sub_mesh([](const CutMesh& cut, const SubMesh& sub_mesh) {

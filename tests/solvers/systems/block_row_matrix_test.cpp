@@ -79,7 +79,7 @@ struct Solution {
 Solution solve(BlockRowMatrix& matrix, const Eigen::MatrixXf& b, double goal, float scale, const Executor& exec)
 {
     for (Index i = 0; i < matrix.n_rows(); ++i)
-        matrix.residual(i) << b(i, 0), b(i, 1), b(i, 2), 0.0F;
+        matrix.set_residual(i, {b(i, 0), b(i, 1), b(i, 2), 0.0F});
     matrix.factorise(exec);
     const Eigen::Array4d squared = matrix.start(scale, exec);
     Solution solution;
