@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 
 #include "engine/measure/flow_report.h"
 #include "engine/options/flow_control.h"
@@ -31,6 +32,29 @@ class Flow {
     /// @throws as mean_curvature_flow; the positions are then those of the last complete step, and no further one can
     ///         be taken: ComputationError.
     void step(int n = 1);
+
+    /// Changes between steps: the next one takes them up, and only the sub-meshes that have such vertices are made
+    /// anew. A flow that was changed has no state to resume from. Vertices joined along seams change together. Besides
+    /// what is said below, all throw OptionError for flows with a reference, rescale, within or limits, and, `move` of
+    /// mean curvature flows aside, for those that take sweeps, conjugate gradients or UMFPACK's factors (a new Flow
+    /// from the positions does the same); InputError for vertices that do not exist; ComputationError after a failure.
+
+    /// Holds vertices where they are.
+    void hold(std::span<const Index> vertices);
+
+    /// Lets vertices move again that were held since the flow began.
+    /// @throws OptionError for vertices that were fixed before.
+    void release(std::span<const Index> vertices);
+
+    /// Puts vertices elsewhere, fixed ones, too. What linear and conformalized flows keep of V⁰ is then as if the flow
+    /// had begun with them there.
+    /// @param to #vertices by 3.
+    void move(std::span<const Index> vertices, const Points& to);
+
+    /// Changes the weights of an attachment.
+    /// @param weights one for each vertex: w, in 1/length², at least 0.
+    /// @throws OptionError for flows without an attachment.
+    void attach(std::span<const Index> vertices, std::span<const double> weights);
 
     /// How many steps were taken, those before the state to resume from included.
     [[nodiscard]] int n_steps() const { return static_cast<int>(report_.steps.size()); }

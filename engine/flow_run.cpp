@@ -6,6 +6,8 @@
 #include <string>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "engine/measure/component_limits.h"
 #include "engine/measure/displacement_bound.h"
 #include "engine/measure/remarks.h"
@@ -263,8 +265,82 @@ void FlowRun::restore(const FlowState& state)
     report_.seconds.total += state.seconds.total;
 }
 
+/// @returns the vertices of the flowing mesh that these move with, each once.
+std::vector<Index> FlowRun::require_changeable(std::string_view what, std::span<const Index> vertices,
+                                               bool needs_stepper) const
+{
+    if (reference_ || tools_->has_results_apart() || tools_->is_scaled)
+        throw OptionError(fmt::format("a flow with a reference, rescale, within or limits does not {} vertices between "
+                                      "steps: begin a new flow",
+                                      what));
+    if (needs_stepper && !stepper_->can_change())
+        throw OptionError(fmt::format("this flow does not {} vertices between steps: set its approach to converged, or "
+                                      "begin a new flow",
+                                      what));
+    std::vector<Index> flowing;
+    for (const Index v : vertices) {
+        if (v < 0 || v >= mesh_.mesh().n_vertices())
+            throw InputError(
+                fmt::format("vertex {} is to {} between steps, but the mesh has {} vertices, numbered from "
+                            "0",
+                            v, what, mesh_.mesh().n_vertices()));
+        flowing.push_back(mesh_.moves_with(v));
+    }
+    return flowing;
+}
+
+void FlowRun::hold(std::span<const Index> vertices, bool is_held)
+{
+    std::vector<Index> flowing = require_changeable(is_held ? "hold" : "release", vertices, true);
+    Topology& topology = prepared_->topology;
+    is_held_.resize(topology.fixed.size(), 0);
+    for (const Index v : flowing)
+        if (!is_held && !topology.moves(v) && is_held_[v] == 0)
+            throw OptionError(fmt::format("vertex {} was fixed when the flow began: only vertices held since then can "
+                                          "be released; begin a new flow",
+                                          v));
+    std::erase_if(flowing, [&](Index v) { return topology.moves(v) != is_held; });
+    stepper_->hold(flowing, is_held);
+    for (const Index v : flowing)
+        topology.fixed[v] = is_held_[v] = is_held ? 1 : 0;
+    was_changed_ = true;
+}
+
+void FlowRun::attach(std::span<const Index> vertices, std::span<const double> weights)
+{
+    const std::vector<Index> flowing = require_changeable("attach", vertices, true);
+    if (!attaches(options().motion))
+        throw OptionError("only a flow with an attachment has weights to change between steps: set attachment or "
+                          "attachment_weights");
+    if (weights.size() != vertices.size())
+        throw OptionError(
+            fmt::format("{} vertices have {} attachment weights: give one for each", vertices.size(), weights.size()));
+    for (const double weight : weights)
+        if (!(weight >= 0.0 && std::isfinite(weight)))
+            throw OptionError(
+                fmt::format("an attachment weight is {}, but must be at least 0 and finite (1/length²)", weight));
+    stepper_->attach(flowing, weights);
+    was_changed_ = true;
+}
+
+void FlowRun::move(std::span<const Index> vertices, const Points& to)
+{
+    const std::vector<Index> flowing =
+        require_changeable("move", vertices, options().flow != FlowEquation::MeanCurvature);
+    if (to.rows() != std::ssize(vertices) || !to.allFinite())
+        throw OptionError(fmt::format("{} vertices are to move to {} positions: give a finite one for each",
+                                      vertices.size(), to.rows()));
+    const Points there = mesh_.to_flowing(to);
+    stepper_->move(flowing, there);
+    stepper_->move_first(flowing, there);
+    mesh_.move_to(stepper_->positions());
+    was_changed_ = true;
+}
+
 FlowState FlowRun::capture() const
 {
+    if (was_changed_)
+        throw ComputationError("a flow that was changed between its steps has no state to resume from");
     FlowState state{.identity = prepared_->identity,
                     .approach = options().accuracy.approach,
                     .cut = checksum_of(report_.cut.labels),

@@ -1,6 +1,10 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
+#include <span>
+#include <string_view>
+#include <vector>
 
 #include "engine/measure/flow_report.h"
 #include "engine/setup/flowing_mesh.h"
@@ -29,6 +33,12 @@ class FlowRun {
     /// @throws ComputationError naming the step; Cancelled. Afterwards no further step can be taken.
     void take_step(const StepObserver& on_step);
 
+    /// What Flow offers between steps, for vertices of the given mesh. The mesh moves at once.
+    /// @throws OptionError where it is not possible; InputError for vertices that do not exist.
+    void hold(std::span<const Index> vertices, bool is_held);
+    void attach(std::span<const Index> vertices, std::span<const double> weights);
+    void move(std::span<const Index> vertices, const Points& to);
+
     /// Completes the report, or a copy of it, on the flow as a whole.
     void complete(FlowReport& report) const;
 
@@ -38,6 +48,8 @@ class FlowRun {
 
     [[nodiscard]] const FlowOptions& options() const { return prepared_->options; }
     void make_steppers();
+    [[nodiscard]] std::vector<Index> require_changeable(std::string_view what, std::span<const Index> vertices,
+                                                        bool needs_stepper) const;
     void free_topology();
     void restore(const FlowState& state);
     [[nodiscard]] FlowState capture() const;
@@ -58,6 +70,10 @@ class FlowRun {
     /// Before the first step (see extent_of).
     double extent_before_;
     const FlowState* resume_;
+    /// Between steps, so that the options no longer describe the flow.
+    bool was_changed_ = false;
+    /// #V: those held between steps.
+    std::vector<std::uint8_t> is_held_;
     std::unique_ptr<StepTools> tools_;
     std::unique_ptr<StepFractions> fractions_;
     /// #V by 3. The flow continues from its own positions: empty if they are its results, too.

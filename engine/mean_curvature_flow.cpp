@@ -61,11 +61,17 @@ class Flow::Session {
         workers_.execute([&] { run_.reset(); });
     }
 
+    /// Calls action(run) on the threads of the flow.
+    template <class Action>
+    void change(Action&& action)
+    {
+        require_sound();
+        workers_.execute([&] { action(*run_); });
+    }
+
     void step(int n, const StepObserver& on_step, const FlowReport& report)
     {
-        if (has_failed_)
-            throw ComputationError(
-                "an earlier step has failed, which leaves nothing to continue from: begin a new flow");
+        require_sound();
         has_failed_ = true;
         workers_.execute([&] {
             for (int i = 0; i < n; ++i)
@@ -82,6 +88,13 @@ class Flow::Session {
     }
 
   private:
+    void require_sound() const
+    {
+        if (has_failed_)
+            throw ComputationError(
+                "an earlier step has failed, which leaves nothing to continue from: begin a new flow");
+    }
+
     void set_up(PolygonMesh& mesh, const FlowOptions& options, const FlowState* resume, bool is_observed,
                 FlowReport& report)
     {
@@ -124,6 +137,26 @@ Flow::~Flow() = default;
 void Flow::step(int n)
 {
     session_->step(n, on_step_, report_);
+}
+
+void Flow::hold(std::span<const Index> vertices)
+{
+    session_->change([&](FlowRun& run) { run.hold(vertices, true); });
+}
+
+void Flow::release(std::span<const Index> vertices)
+{
+    session_->change([&](FlowRun& run) { run.hold(vertices, false); });
+}
+
+void Flow::move(std::span<const Index> vertices, const Points& to)
+{
+    session_->change([&](FlowRun& run) { run.move(vertices, to); });
+}
+
+void Flow::attach(std::span<const Index> vertices, std::span<const double> weights)
+{
+    session_->change([&](FlowRun& run) { run.attach(vertices, weights); });
 }
 
 FlowReport Flow::report() const

@@ -34,6 +34,9 @@ class FlowingMesh {
     /// The vertex of mesh() that a vertex of the given mesh moves with.
     [[nodiscard]] Index moves_with(Index v) const { return first_.empty() ? v : first_[v]; }
 
+    /// Converts positions of the given mesh to those of mesh().
+    [[nodiscard]] Points to_flowing(const Points& positions) const { return positions.rowwise() - offset_; }
+
     /// Leaves out faces that repeat others. A surface whose faces occur twice (to be seen from both sides, say) is
     /// manifold nowhere, but flows like the single one. To be called at most once, before anything refers to mesh().
     /// @param topology of mesh(): only places where it is not manifold are searched.

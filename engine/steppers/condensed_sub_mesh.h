@@ -48,6 +48,7 @@ class CondensedSubMesh {
 
     [[nodiscard]] const Vertices& vertices() const { return vertices_; }
     [[nodiscard]] const NeumannSystem& system() const { return *system_; }
+    [[nodiscard]] NeumannSystem& system() { return *system_; }
 
     /// @param is_kept whether the factor lives from condensation to back substitution; otherwise it is recomputed
     ///        whenever it is needed, with the same bits.

@@ -70,6 +70,9 @@ SchurStepper::SchurStepper(const PolygonMesh& mesh, PeerSubMeshes sub_meshes, co
 {
     Decomposition& decomposition = sub_meshes.decomposition;
     keeps_matrix_ = options.flow == FlowEquation::Linear;
+    changed_.resize(sub_meshes_.size(), 0);
+    if (options.flow != FlowEquation::MeanCurvature)
+        first_ = mesh.vertices;
     factors_.precision = options.resources.precision;
     interface_.n_vertices = decomposition.n_interface_vertices;
     interface_.complements.resize(sub_meshes_.size());
@@ -202,7 +205,7 @@ CondensedStep SchurStepper::shared_step()
 
 void SchurStepper::condense(Index s)
 {
-    if (has_matrix())
+    if (has_matrix_of(s))
         return sub_meshes_[s]->condense_again(shared_step(), workspaces_.local());
     // Without Γ there is no iteration: one solution is exact.
     const bool is_exact = factors_.precision == Precision::Automatic && equation_.copies().n_in(s) == 0;
@@ -281,6 +284,14 @@ std::array<bool, 3> SchurStepper::at_rest(const Executor& exec) const
     return rests;
 }
 
+/// To the last bit: the iteration finds 0 up to its tolerance.
+void SchurStepper::leave_out_held()
+{
+    for (std::size_t i = 0; i < interface_.is_held.size(); ++i)
+        if (interface_.is_held[i] != 0)
+            interface_.update.row(static_cast<Eigen::Index>(i)).setZero();
+}
+
 /// @returns stagnation also if refinement of the interiors stagnates.
 InterfaceResult SchurStepper::solve_on_interface(bool has_matrix, const IterationStop& stop, const Executor& exec)
 {
@@ -291,6 +302,7 @@ InterfaceResult SchurStepper::solve_on_interface(bool has_matrix, const Iteratio
         interface_.complements, has_matrix, interface_.condensed,
         [&](const Points& update) -> Points& { return refine_all(update, exec); },
         interface_.has_guess ? &interface_.guess : nullptr, stop, interface_.update, exec);
+    leave_out_held();
     const std::array<bool, 3> rests = at_rest(exec);
     if (std::ranges::find(rests, true) != rests.end()) {
         double moving = 0.0;
@@ -313,9 +325,12 @@ InterfaceResult SchurStepper::solve_equation(const IterationStop& stop, const Ex
     interface_.guess.swap(interface_.update);
     interface_.has_guess = std::exchange(interface_.has_update, true);
     const InterfaceResult result = solve_on_interface(has_matrix(), stop, exec);
-    // Further solutions of a step may have factors in double precision, with which no step begins.
-    if (data_ == nullptr)
+    if (data_ == nullptr) {
+        // Further solutions of a step may have factors in double precision, with which no step begins.
         interface_.has_complements = keeps_matrix_;
+        std::ranges::fill(changed_, 0);
+        has_changed_ = false;
+    }
     if (!result.stagnated || !has_single() || factors_.precision == Precision::Single)
         return result;
     // A resumed flow would begin its steps in single precision, too.
@@ -330,6 +345,55 @@ void SchurStepper::back_substitute(Index s)
 {
     sub_meshes_[s]->back_substitute(shared_step(), interface_.update, keeps_matrix_ || !filter_.is_plain(),
                                     workspaces_.local());
+}
+
+/// Calls action(i, sub-mesh, local number) for the i-th vertex in each sub-mesh that it belongs to.
+template <class Action>
+void SchurStepper::change(std::span<const Index> vertices, Action&& action)
+{
+    if (places_of_.size() == 0)
+        places_of_ = make_lists<Place>(static_cast<Index>(positions_.rows()), [&](auto&& add) {
+            for (Index s = 0; s < static_cast<Index>(sub_meshes_.size()); ++s)
+                for (Index v = 0; is_own(s) && v < sub_meshes_[s]->vertices().n_vertices; ++v)
+                    add(sub_meshes_[s]->vertices().local_to_global[v], Place{s, v});
+        });
+    for (std::size_t i = 0; i < vertices.size(); ++i)
+        for (const Place& place : places_of_[vertices[i]]) {
+            changed_[place.sub_mesh] = 1;
+            has_changed_ = true;
+            action(i, *sub_meshes_[place.sub_mesh], place.local);
+        }
+}
+
+void SchurStepper::hold(std::span<const Index> vertices, bool is_held)
+{
+    change(vertices, [&](std::size_t, CondensedSubMesh& sub_mesh, Index v) { sub_mesh.system().hold(v, is_held); });
+    std::vector<std::uint8_t> is_named(at(static_cast<Index>(positions_.rows())), 0);
+    for (const Index v : vertices)
+        is_named[v] = 1;
+    const std::vector<Index> on_interface = saved_vertices();
+    interface_.is_held.resize(on_interface.size(), 0);
+    for (std::size_t i = 0; i < on_interface.size(); ++i)
+        if (is_named[on_interface[i]] != 0)
+            interface_.is_held[i] = is_held ? 1 : 0;
+}
+
+void SchurStepper::attach(std::span<const Index> vertices, std::span<const double> weights)
+{
+    change(vertices,
+           [&](std::size_t i, CondensedSubMesh& sub_mesh, Index v) { sub_mesh.system().attach(v, weights[i]); });
+}
+
+void SchurStepper::move_first(std::span<const Index> vertices, const Points& to)
+{
+    if (first_.rows() == 0)
+        return;
+    move_rows(vertices, to, first_);
+    change(vertices, [](std::size_t, CondensedSubMesh&, Index) {});
+    for_each(run_in_parallel, static_cast<Index>(sub_meshes_.size()), [&](Index s) {
+        if (changed_[s] != 0)
+            sub_meshes_[s]->system().keep(rows_of(first_, sub_meshes_[s]->vertices().local_to_global));
+    });
 }
 
 void SchurStepper::save(StepMemory& memory) const

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "engine/steppers/condensed_sub_mesh.h"
@@ -11,6 +13,7 @@
 #include "engine/steppers/kept_factors.h"
 #include "engine/steppers/shared_factor_pool.h"
 #include "partition/cut/cut.h"
+#include "partition/index_lists.h"
 #include "partition/topology.h"
 #include "solvers/interface/interface_equation.h"
 #include "solvers/interface/interface_peers.h"
@@ -51,6 +54,10 @@ class SchurStepper final : public ConvergedStepper {
     /// @param mesh the part of the mesh that this peer knows; positions() are Vᵏ⁺¹ only in its own sub-meshes.
     SchurStepper(const PolygonMesh& mesh, PeerSubMeshes sub_meshes, const FlowOptions& options, Progress& progress);
 
+    [[nodiscard]] bool can_change() const override { return true; }
+    void hold(std::span<const Index> vertices, bool is_held) override;
+    void attach(std::span<const Index> vertices, std::span<const double> weights) override;
+    void move_first(std::span<const Index> vertices, const Points& to) override;
     void save(StepMemory& memory) const override;
     [[nodiscard]] std::vector<Index> saved_vertices() const override;
     using ConvergedStepper::describe;
@@ -80,6 +87,8 @@ class SchurStepper final : public ConvergedStepper {
         /// Whether the complements are also those of the next step.
         bool has_complements = false;
         bool has_guess = false;
+        /// Per vertex, whether it is held: its update is exactly 0. Empty if none ever was.
+        std::vector<std::uint8_t> is_held;
         /// The update that interiors and `condensed` belong to.
         Points reached;
     };
@@ -95,8 +104,14 @@ class SchurStepper final : public ConvergedStepper {
     template <class Action>
     void for_each_sub_mesh(const Executor& exec, Action&& action);
     CondensedStep shared_step();
+    template <class Action>
+    void change(std::span<const Index> vertices, Action&& action);
     /// Whether the matrix is that of the last solution, with its factors.
-    [[nodiscard]] bool has_matrix() const { return data_ != nullptr || interface_.has_complements; }
+    [[nodiscard]] bool has_matrix() const { return data_ != nullptr || (interface_.has_complements && !has_changed_); }
+    [[nodiscard]] bool has_matrix_of(Index s) const
+    {
+        return data_ != nullptr || (interface_.has_complements && changed_[s] == 0);
+    }
     void condense(Index s);
     void back_substitute(Index s);
     Points& refine_all(const Points& update, const Executor& exec);
@@ -104,6 +119,7 @@ class SchurStepper final : public ConvergedStepper {
     [[nodiscard]] Point interior_residual() const;
     [[nodiscard]] std::array<bool, 3> at_rest(const Executor& exec) const;
     bool refine_interiors(double tolerance, const Point& first, const Executor& exec);
+    void leave_out_held();
     InterfaceResult solve_on_interface(bool has_matrix, const IterationStop& stop, const Executor& exec);
     InterfaceResult solve_equation(const IterationStop& stop, const Executor& exec) override;
     void restore_further(StepMemoryReader& memory) override;
@@ -113,6 +129,17 @@ class SchurStepper final : public ConvergedStepper {
     /// Whether all steps have the same matrix.
     bool keeps_matrix_ = false;
     FactorStore factors_;
+    /// #V by 3: V⁰, if something of it is kept.
+    Points first_ = Points(0, 3);
+    /// Sub-meshes whose matrix has changed since the last step, and whether any has.
+    std::vector<std::uint8_t> changed_;
+    bool has_changed_ = false;
+    /// Where vertices are, once that is asked for.
+    struct Place {
+        Index sub_mesh;
+        Index local;
+    };
+    Lists<Place> places_of_;
     /// Null for foreign sub-meshes, for which nothing is done.
     std::vector<std::unique_ptr<CondensedSubMesh>> sub_meshes_;
     InterfaceEquation equation_;

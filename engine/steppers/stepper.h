@@ -46,6 +46,20 @@ class Stepper {
     /// @param vertices those below 0 are ignored. @param to #vertices by 3.
     virtual void move(std::span<const Index> vertices, const Points& to) = 0;
 
+    /// Whether the following are possible, which make anew only what depends on the vertices they name.
+    [[nodiscard]] virtual bool can_change() const { return false; }
+
+    /// Holds vertices where they are, or lets them move again.
+    virtual void hold(std::span<const Index>, bool) {}
+
+    /// Sets w of the attachment of vertices, in 1/length². Only for flows that attach.
+    /// @param weights one for each.
+    virtual void attach(std::span<const Index>, std::span<const double>) {}
+
+    /// Moves vertices in what is kept of V⁰, as if the flow had begun with them there.
+    /// @param to #vertices by 3.
+    virtual void move_first(std::span<const Index>, const Points&) {}
+
     /// Saves what the next step needs.
     virtual void save(StepMemory& memory) const = 0;
 

@@ -224,14 +224,20 @@ class KeptStiffness final : public SymmetricLaplacian {
                   bool keeps_mass)
         : laplacian_(std::move(laplacian))
         , pairs_(laplacian_->pairs())
-        , entries_(pairs_.size(), 0.0)
         , diagonal_(n_vertices)
+        , keeps_mass_(keeps_mass)
+    {
+        KeptStiffness::keep(positions);
+    }
+
+    void keep(const Points& positions) override
     {
         std::vector<Index> slots(pairs_.size());
         std::iota(slots.begin(), slots.end(), 0);
-        std::vector<double> mass(n_vertices);
+        std::vector<double> mass(diagonal_.size());
+        entries_.assign(pairs_.size(), 0.0);
         laplacian_->assemble(positions, 1.0, slots, entries_, diagonal_, mass);
-        if (keeps_mass)
+        if (keeps_mass_)
             mass_ = std::move(mass);
     }
 
@@ -273,6 +279,7 @@ class KeptStiffness final : public SymmetricLaplacian {
     /// Per vertex; M is empty if it follows the mesh.
     std::vector<double> diagonal_;
     std::vector<double> mass_;
+    bool keeps_mass_;
 };
 
 }  // namespace

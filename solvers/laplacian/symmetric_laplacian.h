@@ -46,6 +46,10 @@ class SymmetricLaplacian {
 
     /// Only mass[v] = M_v.
     virtual void measure_mass(const Points& positions, std::span<double> mass) const = 0;
+
+    /// Takes what is kept of fixed positions from others (see keep_stiffness).
+    /// @param positions at least #V by 3; needed only during the call.
+    virtual void keep(const Points&) {}
 };
 
 /// @param laplacian a symmetric one.

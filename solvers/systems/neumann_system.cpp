@@ -77,13 +77,14 @@ NeumannSystem::Assembled NeumannSystem::assemble(const Points& positions, const 
     set_rows(residual, matrix_.n_vertices);
     const StiffnessProduct product{increments, residual};
     // r = -dt K (Vᵏ + X) - M X - dt M w (Vᵏ + X - V⁰)
-    const std::span<const double> matrix = matrix_.fill(positions, time_step, 0, workspace, &product);
+    const std::span<double> matrix = matrix_.fill(positions, time_step, 0, workspace, &product);
     for (const Index v : matrix_.vertex_of)
         residual.row(v) = -residual.row(v) - workspace.mass[v] * increments.row(v);
     const Screening& screening = matrix_.screening;
     for (const Index v : screening.exists() ? std::span(matrix_.vertex_of) : std::span<const Index>())
         residual.row(v) -= workspace.mass[v] * time_step * screening.weight(v) *
                            ((positions.row(v) - screening.first.row(v)) + increments.row(v));
+    leave_out_held(matrix, increments, residual);
     return {matrix, residual, power_of_two_near(std::sqrt(time_step))};
 }
 
@@ -93,12 +94,44 @@ NeumannSystem::Assembled NeumannSystem::assemble(const Points& positions, const 
     Points& residual = workspace.residual;
     set_rows(residual, matrix_.n_vertices);
     const StiffnessProduct product{increments, residual, true};
-    const std::span<const double> matrix = matrix_.fill(positions, time_step, 0, workspace, &product);
+    const std::span<double> matrix = matrix_.fill(positions, time_step, 0, workspace, &product);
     for (const Index v : matrix_.vertex_of)
         residual.row(v) =
             -residual.row(v) -
             workspace.mass[v] * ((1.0 + time_step * matrix_.screening.weight(v)) * increments.row(v) - data.row(v));
+    leave_out_held(matrix, increments, residual);
     return {matrix, residual, power_of_two_near(std::sqrt(time_step))};
+}
+
+void NeumannSystem::hold(Index v, bool is_held)
+{
+    is_held_.resize(at(matrix_.n_vertices), 0);
+    is_held_[v] = is_held ? 1 : 0;
+    if (std::ranges::find(is_held_, 1) == is_held_.end())
+        is_held_.clear();
+}
+
+void NeumannSystem::keep(const Points& first)
+{
+    matrix_.laplacian->keep(first);
+    if (matrix_.screening.exists())
+        matrix_.screening.first = first.topRows(matrix_.screening.first.rows());
+}
+
+/// Their rows and columns are those of a diagonal matrix, and right-hand sides of 0. The residual of their neighbours has
+/// them where they are.
+void NeumannSystem::leave_out_held(std::span<double> matrix, const Points& increments, Points& residual) const
+{
+    if (is_held_.empty())
+        return;
+    const std::vector<VertexPair> pairs = matrix_.laplacian->pairs();
+    for (std::size_t i = 0; i < pairs.size(); ++i)
+        if (matrix_.slots[i] < matrix_.n_entries() &&
+            (is_held_[pairs[i].first] != 0 || is_held_[pairs[i].second] != 0))
+            matrix[matrix_.slots[i]] = 0.0;
+    for (Index u = 0; u < matrix_.n(); ++u)
+        if (const Index v = matrix_.vertex_of[u]; is_held_[v] != 0)
+            residual.row(v) = -matrix[matrix_.diagonal_slot(u)] * increments.row(v);
 }
 
 std::optional<NeumannSystem::Factor> NeumannSystem::factorise(const Assembled& equations, Precision precision,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <variant>
@@ -96,10 +97,24 @@ class NeumannSystem {
     /// @throws ComputationError if the result is not finite.
     void back_substitute(Factor& factor, const Points& on_interface, Points& increments) const;
 
+    /// Holds an own vertex where it is from now on, or lets it move again: its correction is 0. All sub-meshes that
+    /// share it must be told.
+    void hold(Index v, bool is_held);
+
+    /// Sets w of the attachment of an own vertex, in 1/length². Only with an attachment.
+    void attach(Index v, double weight) { matrix_.screening.weights[v] = weight; }
+
+    /// Takes what is kept of V⁰, and what an attachment pulls to, from other positions.
+    /// @param first at least #own by 3.
+    void keep(const Points& first);
+
   private:
     SparsePattern number_unknowns(const SubMesh& sub_mesh);
+    void leave_out_held(std::span<double> matrix, const Points& increments, Points& residual) const;
 
     Index n_interface_;
+    /// #own: the vertices held; empty if there are none.
+    std::vector<std::uint8_t> is_held_;
     /// If the Laplacian uses them.
     IndexLists faces_;
     SymmetricMatrix matrix_;
