@@ -246,6 +246,35 @@ py::list options()
     return list;
 }
 
+std::vector<Index> vertices_of(const Array<Index>& vertices)
+{
+    return {vertices.data(), vertices.data() + vertices.size()};
+}
+
+void define_changes(py::class_<FlowCall>& flow)
+{
+    using Vertices = Array<Index>;
+    flow.def("hold",
+             [](FlowCall& call, const Vertices& vertices, bool is_held) {
+                 const std::vector<Index> list = vertices_of(vertices);
+                 const py::gil_scoped_release release;
+                 call.change([&](Flow& of_call) { is_held ? of_call.hold(list) : of_call.release(list); });
+             })
+        .def("move",
+             [](FlowCall& call, const Vertices& vertices, const Array<double>& to) {
+                 const std::vector<Index> list = vertices_of(vertices);
+                 const Points positions = Eigen::Map<const Points>(to.data(), to.shape(0), 3);
+                 const py::gil_scoped_release release;
+                 call.change([&](Flow& of_call) { of_call.move(list, positions); });
+             })
+        .def("attach", [](FlowCall& call, const Vertices& vertices, const Array<double>& weights) {
+            const std::vector<Index> list = vertices_of(vertices);
+            const std::vector<double> of_list(weights.data(), weights.data() + weights.size());
+            const py::gil_scoped_release release;
+            call.change([&](Flow& of_call) { of_call.attach(list, of_list); });
+        });
+}
+
 void translate(std::exception_ptr exception)
 {
     try {
@@ -269,6 +298,7 @@ PYBIND11_MODULE(_core, module)
     py::class_<FlowCall> flow(module, "Flow");
     define_run<std::int32_t>(module, flow);
     define_run<std::int64_t>(module, flow);
+    define_changes(flow);
     flow.def("step", &FlowCall::step, py::call_guard<py::gil_scoped_release>())
         .def("n_steps", &FlowCall::n_steps, py::call_guard<py::gil_scoped_release>())
         .def("positions",

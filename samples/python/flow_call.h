@@ -39,6 +39,14 @@ class FlowCall {
     /// @throws as Flow::step.
     void step(int n);
 
+    /// Calls action(flow) between steps, for what Flow changes there.
+    template <class Action>
+    void change(Action&& action)
+    {
+        const std::lock_guard lock(mutex_);
+        action(*flow_);
+    }
+
     /// All steps of the command that have not been taken.
     void take_all_steps();
 

@@ -141,6 +141,44 @@ class SameBits(WithFolder):
         with self.assertWarnsRegex(RuntimeWarning, "the tolerance 1e-100 was missed in 1 step"):
             flow.report()
 
+    def test_changes_between_steps(self):
+        V, F = self.generate("noisy-sphere", "--vertices", "3000", "--noise", "0.3")
+        F = np.array(F)
+        region = np.arange(700, 900)
+        mask = np.zeros(len(V), dtype=bool)
+        mask[region] = True
+        options = {"time_step_edges": 20, "steps": 3, "flow": "linear", "converge": 1e-11, "subdomains": 8}
+        flow = seamflow.Flow(V, F, **options)
+        flow.hold(region)
+        flow.step(3)
+        expected, _ = seamflow.smooth(V, F, fixed=region, **options)
+        np.testing.assert_allclose(flow.positions, expected, atol=1e-8)
+        np.testing.assert_array_equal(flow.positions[region], V[region])
+        to = V[region] * 1.1
+        flow.move(mask, to)
+        np.testing.assert_array_equal(flow.positions[region], to)
+        flow.step()
+        np.testing.assert_array_equal(flow.positions[region], to)
+        flow.release(mask)
+        flow.step()
+        self.assertGreater(np.abs(flow.positions[region] - to).max(), 1e-3)
+        attached = seamflow.Flow(V, F, attach_weights=np.full(len(V), 5.0), **options)
+        attached.attach(region, 500.0)
+        attached.step(3)
+        expected, _ = seamflow.smooth(V, F, attach_weights=np.where(mask, 500.0, 5.0), **options)
+        np.testing.assert_allclose(attached.positions, expected, atol=1e-8)
+        for wrong, message in (
+            (lambda: flow.hold([len(V)]), f"vertices names vertex {len(V)}, but the mesh has {len(V)}"),
+            (lambda: flow.hold([0.5]), "mask or numbers of vertices"),
+            (lambda: flow.hold(mask[:5]), f"a mask of {len(V)}"),
+            (lambda: flow.move(region, to[:5]), "to has to be real numbers"),
+            (lambda: flow.attach(region, 1.0), "only a flow with an attachment"),
+            (lambda: attached.attach(region, -1.0), "must be at least 0"),
+            (lambda: seamflow.Flow(V, F, time_step_edges=1, approach="cg").hold(region), "converged"),
+        ):
+            with self.assertRaisesRegex(ValueError, message):
+                wrong()
+
     def test_types(self):
         V, F = self.generate("noisy-sphere", "--vertices", "500")
         F = np.array(F)

@@ -82,12 +82,52 @@ class Flow:
             raise TypeError("Flow has no progress: take its steps one by one")
         mesh, self._single = _arguments(V, F, options, fixed, labels, edges, attach_weights)
         self._flow = _core.Flow(*mesh)
+        self._count = len(mesh[0])
 
     def step(self, n=1):
         """Takes n steps. After an error no further step can be taken."""
         if n < 0:
             raise ValueError(f"n is {n}, but has to be at least 0")
         self._flow.step(n)
+
+    def hold(self, vertices):
+        """Holds vertices (a mask or numbers) where they are. This and the following need flow="linear",
+        approach="converged" or converge; only the sub-meshes with such vertices are made anew."""
+        self._flow.hold(self._numbers(vertices), True)
+
+    def release(self, vertices):
+        """Lets vertices move again that were held since the flow began."""
+        self._flow.hold(self._numbers(vertices), False)
+
+    def move(self, vertices, to):
+        """Puts vertices elsewhere, to (#vertices, 3), fixed ones, too. A linear flow goes on as if it had begun with them
+        there. Mean curvature flows can do so however they are solved."""
+        numbers = self._numbers(vertices)
+        to = np.asarray(to)
+        if to.shape != (len(numbers), 3) or to.dtype.kind not in "fiu":
+            raise ValueError(f"to has to be real numbers, ({len(numbers)}, 3), but is {to.dtype}, {to.shape}")
+        self._flow.move(numbers, np.ascontiguousarray(to, dtype=np.float64))
+
+    def attach(self, vertices, weights):
+        """Changes attach_weights of vertices, one for each, in 1/length²."""
+        numbers = self._numbers(vertices)
+        weights = np.broadcast_to(np.asarray(weights, dtype=np.float64), (len(numbers),))
+        self._flow.attach(numbers, np.ascontiguousarray(weights))
+
+    def _numbers(self, vertices):
+        array = np.asarray(vertices)
+        if array.dtype.kind == "b":
+            if array.shape != (self._count,):
+                raise ValueError(f"vertices has to be a mask of {self._count}, but is {array.shape}")
+            array = np.flatnonzero(array)
+        if array.size == 0:
+            return np.zeros(0, dtype=np.int32)
+        if array.ndim != 1 or array.dtype.kind not in "iu":
+            raise ValueError(f"vertices has to be a mask or numbers of vertices, but is {array.dtype}, {array.shape}")
+        wrong = array[(array < 0) | (array >= self._count)]
+        if wrong.size > 0:
+            raise ValueError(f"vertices names vertex {wrong[0]}, but the mesh has {self._count} vertices")
+        return np.ascontiguousarray(array, dtype=np.int32)
 
     @property
     def n_steps(self):
