@@ -124,6 +124,22 @@ void prepare_ranks(std::string_view ranks, BenchmarkCommand& command)
     accuracy.approach = accuracy.tolerance ? Approach::Converged : Approach::Sweep;
 }
 
+/// Δ_F has no areas for masses.
+void prepare_k_harmonic(const CLI::App& app, std::string_view orders, BenchmarkCommand& command)
+{
+    command.mode = BenchmarkMode::KHarmonic;
+    if (!orders.empty())
+        command.orders = numbers_named(orders, "--k-harmonic");
+    if (std::ranges::any_of(command.orders, [](int k) { return k > 3; }))
+        throw OptionError("--k-harmonic: k is 1, 2 or 3");
+    Laplacian& laplacian = command.options.flow.laplacian;
+    if (app.count("--laplacian") == 0)
+        laplacian = Laplacian::AlexaWardetzky;
+    if (laplacian != Laplacian::AlexaWardetzky && laplacian != Laplacian::VirtualRefinement)
+        throw OptionError("--k-harmonic takes a Laplacian with areas for masses: alexa-wardetzky or "
+                          "virtual-refinement");
+}
+
 /// A single value replaces an axis.
 void prepare_grid(const CLI::App& app, BenchmarkCommand& command)
 {
@@ -202,6 +218,7 @@ struct Words {
     std::string peers;
     std::string simulated_threads;
     std::string simulated_ranks;
+    std::string orders;
 };
 
 void add_peers(CLI::App& app, Words& words, BenchmarkCommand& command)
@@ -265,12 +282,22 @@ void add_modes(CLI::App& app, Words& words, BenchmarkCommand& command)
                      "Its constants, what it predicts for each approach, and what each takes."),
             {"--scaling", "--threads-sweep", "--grid", "--simulate-threads", "--simulate-ranks", "--peers",
              "--conditions", "--export"});
+    exclude(
+        app.add_option("--k-harmonic", words.orders,
+                       "factor and solve time of k-harmonic steps for these k: 1,2 or so [1,2,3]\n"
+                       "(M + dtᵏ K (M⁻¹ K)ᵏ⁻¹) u = M x, the problems of a public comparison of solvers for geometry, "
+                       "with its measure of the error. Of alexa-wardetzky, unless --laplacian is "
+                       "virtual-refinement.")
+            ->expected(0, 1)
+            ->type_name("[LIST]"),
+        {"--scaling", "--threads-sweep", "--grid", "--explain", "--simulate-threads", "--simulate-ranks", "--peers",
+         "--steps", "--converge", "--conditions", "--q", "--reference", "--export"});
     exclude(add_mode("--whole-run", BenchmarkMode::WholeRun,
                      "the program smooth from file to file, beside peers of equal accuracy and one step of cholmod\n"
                      "OBJ and PLY, or as --mesh is; peers go from file to file, too. With --scaling for 10^4, 10^5, … "
                      "vertices."),
-            {"--threads-sweep", "--grid", "--explain", "--simulate-threads", "--simulate-ranks", "--conditions", "--q",
-             "--memory-limit", "--export"});
+            {"--threads-sweep", "--grid", "--explain", "--k-harmonic", "--simulate-threads", "--simulate-ranks",
+             "--conditions", "--q", "--memory-limit", "--export"});
     add_integer(app, "--turns", command.turns, 1,
                 "with --grid and --whole-run: how often what is compared is run, in turns [3]\n"
                 "--grid goes by the least times.");
@@ -284,6 +311,8 @@ void settle(const CLI::App& app, const Words& words, BenchmarkCommand& command)
         prepare_simulation(app, words.simulated_threads, command);
     if (is_given("--simulate-ranks"))
         prepare_ranks(words.simulated_ranks, command);
+    if (is_given("--k-harmonic"))
+        prepare_k_harmonic(app, words.orders, command);
     if (is_given("--conditions"))
         command.options.flow.accuracy.approach = Approach::Sweep;
     if (is_given("--grid"))

@@ -25,6 +25,8 @@ enum class BenchmarkMode {
     SimulateRanks,
     /// Many meshes, time steps and numbers of steps: the fastest method.
     Grid,
+    /// One mesh, k-harmonic steps.
+    KHarmonic,
     /// One mesh, how ours chooses its approach.
     Explain,
     /// One mesh, from file to file.
@@ -57,6 +59,8 @@ struct BenchmarkCommand {
     GridAxes grid;
     /// For BenchmarkMode::SimulateThreads, in GB/s; 0: as measured.
     double memory_bandwidth = 0.0;
+    /// For BenchmarkMode::KHarmonic: the values of k.
+    std::vector<int> orders{1, 2, 3};
     /// For BenchmarkMode::SimulateRanks.
     std::vector<int> simulated_ranks;
     /// How often compared methods are run, in turns; the least times count.

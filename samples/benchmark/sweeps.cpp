@@ -13,6 +13,7 @@
 #include "samples/benchmark/explanation.h"
 #include "samples/benchmark/grid_cell.h"
 #include "samples/benchmark/grid_report.h"
+#include "samples/benchmark/k_harmonic.h"
 #include "samples/benchmark/many_cores.h"
 #include "samples/benchmark/matrix_market.h"
 #include "samples/benchmark/simulated_ranks.h"
@@ -134,6 +135,18 @@ Json run_simulation(const BenchmarkCommand& command, std::ostream& out)
         json["approaches"] = many_cores_json(many);
     }
     return json;
+}
+
+Json run_k_harmonic_steps(const BenchmarkCommand& command, std::ostream& out)
+{
+    const PolygonMesh mesh = load(command, command.vertices);
+    const FlowOptions flow = options_for(command, mesh).flow;
+    out << name_of_mesh(command) << ", " << mesh.n_vertices() << " vertices, " << name_of(flow.laplacian) << ", dt "
+        << short_number(command.time_step_edges) << " squared mean edge lengths, " << flow.resources.threads
+        << (flow.resources.threads == 1 ? " thread\n" : " threads\n") << std::flush;
+    const std::vector<KHarmonicRow> rows = run_k_harmonic(mesh, flow, command.orders);
+    print_k_harmonic(out, rows);
+    return {{"vertices", mesh.n_vertices()}, {"k_harmonic", k_harmonic_json(rows)}};
 }
 
 Json run_ranks(const BenchmarkCommand& command, std::ostream& out)
@@ -266,6 +279,8 @@ Json run_benchmark(const BenchmarkCommand& command, std::ostream& out)
         return run_ranks(command, out);
     case BenchmarkMode::Grid:
         return run_grid(command, out);
+    case BenchmarkMode::KHarmonic:
+        return run_k_harmonic_steps(command, out);
     case BenchmarkMode::Explain:
         return run_explanation(command, out);
     case BenchmarkMode::WholeRun:

@@ -224,6 +224,27 @@ TEST_CASE("benchmark replays its tasks with more threads than there are")
     CHECK(approaches["converged"][2]["step_s"].get<double>() < approaches["converged"][1]["step_s"].get<double>());
 }
 
+TEST_CASE("benchmark solves k-harmonic steps, as exactly as direct solvers of the whole mesh")
+{
+    const Workshop w;
+    REQUIRE(w.run(BENCHMARK " --vertices 5000 --k-harmonic 1,2,3 --json k.json") == 0);
+    const Json list = w.json("k.json")["k_harmonic"];
+    REQUIRE(list.size() == 15);
+    for (const Json& row : list) {
+        CAPTURE(row.dump());
+        const std::string method = row["method"];
+        const double error = row.value("backward_error", 1.0);
+        CHECK(error < (method.starts_with("cg") ? 1e-8 : method == "ours 1e-08" ? 1e-7 : 1e-12));
+        CHECK(row.value("solve_s", 0.0) > 0.0);
+    }
+    CHECK(w.count_lines("said", "k = ") == 3);
+    REQUIRE(w.run(BENCHMARK " --kind hexagons --vertices 2000 --k-harmonic 2 --laplacian virtual-refinement "
+                            "--json k.json") == 0);
+    CHECK(w.json("k.json")["k_harmonic"].size() == 5);
+    for (const Json& row : w.json("k.json")["k_harmonic"])
+        CHECK(row["backward_error"].get<double>() < 1e-7);
+}
+
 TEST_CASE("benchmark counts what ranks say to each other")
 {
     const Workshop w;
@@ -317,6 +338,10 @@ TEST_CASE("benchmark refuses wrong usage and unusable files")
                                   "--simulate-threads 0",
                                   "--simulate-threads 1 --peers cg",
                                   "--memory-bandwidth 100",
+                                  "--k-harmonic 4",
+                                  "--k-harmonic 0",
+                                  "--k-harmonic 1 --laplacian fujiwara",
+                                  "--k-harmonic 1 --peers cg",
                                   "--simulate-threads 1 --memory-bandwidth 0",
                                   "--simulate-threads 1 --scaling",
                                   "--simulate-threads 1 --threads-sweep",

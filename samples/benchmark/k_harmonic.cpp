@@ -1,0 +1,246 @@
+#include "samples/benchmark/k_harmonic.h"
+
+#include <algorithm>
+#include <functional>
+#include <limits>
+#include <memory_resource>
+#include <ostream>
+#include <span>
+#include <utility>
+
+#include <Eigen/CholmodSupport>
+#include <Eigen/IterativeLinearSolvers>
+#include <Eigen/SparseCore>
+#include <fmt/format.h>
+
+#include "engine/flow.h"
+#include "engine/tasks/stopwatch.h"
+#include "partition/errors.h"
+#include "samples/benchmark/methods/whole_system.h"
+#include "solvers/direct/ldl_solver.h"
+#include "solvers/sparse/elimination_ordering.h"
+
+namespace seamflow {
+
+namespace {
+
+using Matrix = Eigen::SparseMatrix<double>;
+
+/// The equations A u = b of one k, at all vertices.
+struct Equations {
+    Matrix matrix;
+    Columns right_hand_side;
+};
+
+/// M + dt K; its rows sum to M.
+Matrix first_matrix(const PolygonMesh& mesh, const FlowOptions& flow)
+{
+    Topology topology = make_topology(mesh);
+    std::fill(topology.fixed.begin(), topology.fixed.end(), 0);
+    WholeSystem system(mesh, topology, flow.laplacian, SystemForm::Symmetric, StorageOrder::ByColumns);
+    system.assemble(mesh.vertices, flow.time_step);
+    const SparsePattern& pattern = system.pattern();
+    return Eigen::Map<const Matrix>(system.n(), system.n(), pattern.n_entries(), pattern.column_offsets.data(),
+                                    pattern.rows.data(), system.values().data());
+}
+
+Equations make_equations(const PolygonMesh& mesh, const Matrix& first, int k)
+{
+    const Eigen::VectorXd mass = first * Eigen::VectorXd::Ones(first.cols());
+    Matrix stiffness = first;
+    for (Eigen::Index v = 0; v < first.cols(); ++v)
+        stiffness.coeffRef(v, v) -= mass[v];
+    const Matrix scaled = mass.cwiseInverse().asDiagonal() * stiffness;
+    Matrix power = stiffness;
+    for (int i = 1; i < k; ++i)
+        power = (power * scaled).pruned();
+    // Products of rounded numbers are symmetric up to rounding.
+    Matrix matrix = 0.5 * (power + Matrix(power.transpose()));
+    for (Eigen::Index v = 0; v < first.cols(); ++v)
+        matrix.coeffRef(v, v) += mass[v];
+    matrix.makeCompressed();
+    return {std::move(matrix), mass.asDiagonal() * Columns(mesh.vertices)};
+}
+
+double backward_error(const Equations& equations, const Columns& u)
+{
+    const Columns residual = (equations.right_hand_side - equations.matrix * u).cwiseAbs();
+    Columns size = equations.right_hand_side.cwiseAbs();
+    size += equations.matrix.cwiseAbs() * u.cwiseAbs();
+    return (residual.array() / size.array().max(std::numeric_limits<double>::min())).maxCoeff();
+}
+
+/// A linear flow has one matrix: its first step factorises and solves, the second one solves.
+Columns solve_by_ours(const PolygonMesh& mesh, const FlowOptions& flow, int k, double tolerance, KHarmonicRow& row)
+{
+    FlowOptions options = flow;
+    options.flow = FlowEquation::Linear;
+    options.filter = Filter::Diffusion;
+    options.order = k;
+    options.steps = 2;
+    options.motion.boundary = Boundary::Free;
+    options.motion.weld.reset();
+    options.accuracy = {.tolerance = tolerance, .approach = Approach::Converged};
+    options.report.measures = false;
+    PolygonMesh moved = mesh;
+    Stopwatch watch;
+    Flow steps(moved, options);
+    steps.step();
+    row.factor = watch.lap();
+    const Columns solution = moved.vertices;
+    watch.lap();
+    steps.step();
+    row.solve = watch.lap();
+    row.factor -= row.solve;
+    return solution;
+}
+
+Columns solve_by_cholmod(const Equations& equations, KHarmonicRow& row)
+{
+    Stopwatch watch;
+    Eigen::CholmodSupernodalLLT<Matrix> cholmod;
+    cholmod.cholmod().nmethods = 1;
+    cholmod.cholmod().method[0].ordering = CHOLMOD_METIS;
+    cholmod.compute(equations.matrix);
+    if (cholmod.info() != Eigen::Success)
+        throw ComputationError("the factorisation fails");
+    row.factor = watch.lap();
+    const Columns solution = cholmod.solve(equations.right_hand_side);
+    row.solve = watch.lap();
+    return solution;
+}
+
+SparsePattern pattern_of(const Matrix& matrix)
+{
+    const Eigen::Index n = matrix.cols();
+    SparsePattern pattern;
+    pattern.column_offsets.assign(matrix.outerIndexPtr(), matrix.outerIndexPtr() + n + 1);
+    pattern.rows.assign(matrix.innerIndexPtr(), matrix.innerIndexPtr() + matrix.nonZeros());
+    return pattern;
+}
+
+Columns solve_by_own_factor(const Equations& equations, KHarmonicRow& row)
+{
+    Stopwatch watch;
+    const Matrix upper = equations.matrix.triangularView<Eigen::Upper>();
+    const std::vector<Index> order = elimination_ordering(pattern_of(upper));
+    Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> place_of(
+        Eigen::Map<const Eigen::VectorXi>(order.data(), std::ssize(order)));
+    place_of = place_of.inverse().eval();
+    Matrix permuted;
+    permuted = equations.matrix.twistedBy(place_of);
+    const Matrix ordered = permuted.triangularView<Eigen::Upper>();
+    const LdlSolver solver(pattern_of(ordered));
+    LdlWorkspace workspace;
+    const auto factor = solver.factorise<double>({ordered.valuePtr(), at(static_cast<Index>(ordered.nonZeros()))},
+                                                 *std::pmr::new_delete_resource(), workspace);
+    if (!factor)
+        throw ComputationError("the matrix is not positive definite up to rounding");
+    row.factor = watch.lap();
+    Columns solution = place_of * equations.right_hand_side;
+    factor->solve(solution, solution, workspace);
+    solution = (place_of.inverse() * solution).eval();
+    row.solve = watch.lap();
+    return solution;
+}
+
+/// To an error of 1e-8, if that can be reached in a minute.
+Columns solve_by_gradients(const Equations& equations, KHarmonicRow& row)
+{
+    constexpr double wanted = 1e-8;
+    constexpr double longest = 60.0;
+    constexpr int iterations_at_once = 50;
+    Stopwatch watch;
+    Eigen::ConjugateGradient<Matrix, Eigen::Lower | Eigen::Upper, Eigen::IncompleteCholesky<double>> gradients;
+    gradients.compute(equations.matrix);
+    if (gradients.info() != Eigen::Success)
+        throw ComputationError("the incomplete factorisation fails");
+    gradients.setTolerance(0.0);
+    gradients.setMaxIterations(iterations_at_once);
+    row.factor = watch.lap();
+    Columns solution = Columns::Zero(equations.right_hand_side.rows(), 3);
+    double error = backward_error(equations, solution);
+    watch.lap();
+    while (error > wanted) {
+        if (row.solve > longest)
+            throw ComputationError(fmt::format("an error of {:.1e} after {:.0f} s", error, row.solve));
+        watch.lap();
+        solution = gradients.solveWithGuess(equations.right_hand_side, solution).eval();
+        row.solve += watch.lap();
+        error = backward_error(equations, solution);
+    }
+    return solution;
+}
+
+KHarmonicRow run(int k, std::string method, const Equations& equations,
+                 const std::function<Columns(KHarmonicRow&)>& solve)
+{
+    KHarmonicRow row{.k = k, .method = std::move(method), .failure = {}};
+    try {
+        row.error = backward_error(equations, solve(row));
+    } catch (const ComputationError& error) {
+        row.failure = error.what();
+    }
+    return row;
+}
+
+/// Those without a result come last.
+double rank_of(const KHarmonicRow& row)
+{
+    return row.failure.empty() ? row.factor + row.solve : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace
+
+std::vector<KHarmonicRow> run_k_harmonic(const PolygonMesh& mesh, const FlowOptions& flow,
+                                         const std::vector<int>& orders)
+{
+    const Matrix first = first_matrix(mesh, flow);
+    std::vector<KHarmonicRow> rows;
+    for (const int k : orders) {
+        const Equations equations = make_equations(mesh, first, k);
+        const auto add = [&](std::string method, auto&& solve) {
+            rows.push_back(run(k, std::move(method), equations, solve));
+        };
+        for (const double tolerance : {1e-8, 1e-14})
+            add(fmt::format("ours {:.0e}", tolerance),
+                [&](KHarmonicRow& row) { return solve_by_ours(mesh, flow, k, tolerance, row); });
+        add("cholmod", [&](KHarmonicRow& row) { return solve_by_cholmod(equations, row); });
+        add("own LDL", [&](KHarmonicRow& row) { return solve_by_own_factor(equations, row); });
+        add("cg-ic", [&](KHarmonicRow& row) { return solve_by_gradients(equations, row); });
+    }
+    return rows;
+}
+
+void print_k_harmonic(std::ostream& out, const std::vector<KHarmonicRow>& rows)
+{
+    std::vector<KHarmonicRow> sorted = rows;
+    std::ranges::stable_sort(sorted, {}, [](const KHarmonicRow& row) { return std::pair(row.k, rank_of(row)); });
+    int k = 0;
+    for (const KHarmonicRow& row : sorted) {
+        if (std::exchange(k, row.k) != row.k)
+            out << fmt::format("k = {}\n{:<14} {:>9} {:>9} {:>9} {:>14}\n", row.k, "seconds", "factor", "solve", "both",
+                               "backward error");
+        if (row.failure.empty())
+            out << fmt::format("{:<14} {:>9.3f} {:>9.3f} {:>9.3f} {:>14.1e}\n", row.method, row.factor, row.solve,
+                               row.factor + row.solve, row.error);
+        else
+            out << fmt::format("{:<14} {}\n", row.method, row.failure);
+    }
+    out << std::flush;
+}
+
+nlohmann::ordered_json k_harmonic_json(const std::vector<KHarmonicRow>& rows)
+{
+    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+    for (const KHarmonicRow& row : rows) {
+        list.push_back({{"k", row.k}, {"method", row.method}});
+        if (!row.failure.empty())
+            list.back()["failure"] = row.failure;
+        else
+            list.back().update({{"factor_s", row.factor}, {"solve_s", row.solve}, {"backward_error", row.error}});
+    }
+    return list;
+}
+
+}  // namespace seamflow
