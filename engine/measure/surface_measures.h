@@ -17,6 +17,8 @@ struct MeshSize {
     double area = 0.0;
     /// Average length of the edges, those between two faces counting twice (see mean_edge_length); 0 without faces.
     double mean_edge = 0.0;
+    /// Whether every edge has a length that is a normal double.
+    bool has_lengths = true;
 };
 
 /// A box around positions, in units of length.

@@ -34,8 +34,8 @@ std::size_t count_moving(const Topology& topology)
 
 }  // namespace
 
-void constrain(Topology& topology, const PolygonMesh& mesh, const FlowOptions& options, const Executor& exec,
-               std::vector<std::string>& remarks)
+void constrain(Topology& topology, const PolygonMesh& mesh, const FlowOptions& options, bool has_lengths,
+               const Executor& exec, std::vector<std::string>& remarks)
 {
     if (options.motion.boundary == Boundary::Free)
         free_boundary(topology);
@@ -46,9 +46,11 @@ void constrain(Topology& topology, const PolygonMesh& mesh, const FlowOptions& o
                                      n_weights, mesh.n_vertices()));
     if (options.motion.strict)
         require_manifold(topology);
-    const std::vector<Index> undefined = vertices_without_row(mesh, topology, options.laplacian, exec);
+    const bool is_sound = has_lengths && traits_of(options.laplacian).divisor == Divisor::EdgeLengths;
+    const std::vector<Index> undefined =
+        is_sound ? std::vector<Index>() : vertices_without_row(mesh, topology, options.laplacian, exec);
     // Where nothing can move, the reason is more useful than the unchanged mesh.
-    if (options.motion.strict || undefined.size() == count_moving(topology))
+    if (!is_sound && (options.motion.strict || undefined.size() == count_moving(topology)))
         require_sound_geometry(mesh, topology, options.laplacian, exec);
     if (!undefined.empty())
         remarks.push_back(remark_on_undefined_vertices(static_cast<std::int64_t>(undefined.size()), undefined.front(),

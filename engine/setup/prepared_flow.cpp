@@ -59,7 +59,9 @@ void examine(PreparedFlow& prepared, FlowingMesh& mesh, Progress& progress)
     };
     const auto constrain_it = [&] {
         prepared.remarks.clear();
-        constrain(topology, mesh.mesh(), options, progress.exec(), prepared.remarks);
+        // Vertices that are joined may have edges without length.
+        const bool has_lengths = prepared.size.has_lengths && mesh.n_copies() == 0;
+        constrain(topology, mesh.mesh(), options, has_lengths, progress.exec(), prepared.remarks);
         prepared.size.vertices -= mesh.n_copies();
     };
     look();

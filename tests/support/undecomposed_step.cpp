@@ -76,10 +76,10 @@ std::optional<UndecomposedStep> undecomposed_step(const PolygonMesh& mesh, const
     Topology topology = make_topology(flowing.mesh());
     FlowOptions of_joined = options;
     flowing.weld_seams(topology, of_joined.motion, run_serially);
-    constrain(topology, flowing.mesh(), of_joined, run_serially, remarks);
+    constrain(topology, flowing.mesh(), of_joined, false, run_serially, remarks);
     if (!options.report.keep_gaps && flowing.leave_out_repeated_faces(topology)) {
         topology = make_topology(flowing.mesh());
-        constrain(topology, flowing.mesh(), of_joined, run_serially, remarks);
+        constrain(topology, flowing.mesh(), of_joined, false, run_serially, remarks);
     }
     PolygonMesh near = flowing.mesh();
     near.vertices = from.rowwise() - offset;
