@@ -21,6 +21,7 @@
 #include "engine/tasks/stopwatch.h"
 #include "partition/errors.h"
 #include "partition/metrics/surface_distance.h"
+#include "solvers/laplacian/degenerate.h"
 
 namespace seamflow {
 
@@ -129,8 +130,8 @@ struct FlowRun::StepTools {
         , is_scaled_apart(options.motion.rescale != Rescale::None && !is_scaled)
         , rescaling(mesh, topology, options.motion.rescale)
         , vanishing(options, mesh.vertices, find_small_components(mesh, topology))
-        , limit(mesh, options.accuracy.largest_update)
     {
+        limit.emplace(mesh, options.accuracy.largest_update);
         if (options.motion.limits.exist())
             limited.emplace(mesh, topology, options.motion.limits);
         if (options.motion.within)
@@ -171,7 +172,7 @@ struct FlowRun::StepTools {
     std::optional<DisplacementBound> bound;
 
     VanishingComponents vanishing;
-    const UpdateLimit limit;
+    std::optional<UpdateLimit> limit;
 };
 
 FlowRun::FlowRun(FlowingMesh& mesh, std::unique_ptr<PreparedFlow> prepared, Progress& progress, double setup,
@@ -226,7 +227,8 @@ void FlowRun::make_steppers()
             measure_largest_curvature(mesh, prepared_->topology, mesh.vertices, laplacian_of(options()));
     describe(*prepared_, mesh_, report_);
     progress_.enter(FlowPhase::Analyse, 0, 0.6 * setup_, options().report.reference ? 0.8 * setup_ : setup_);
-    if (prepared_->costs && options().accuracy.approach == Approach::ConjugateGradients)
+    if (prepared_->costs && options().accuracy.approach == Approach::ConjugateGradients &&
+        filter_of(options()).is_plain())
         stepper_ =
             std::make_unique<SwitchingStepper>(mesh, prepared_->topology, options(), *prepared_->costs, progress_);
     else
@@ -265,7 +267,7 @@ void FlowRun::restore(const FlowState& state)
     report_.seconds.total += state.seconds.total;
 }
 
-/// @returns the vertices of the flowing mesh that these move with, each once.
+/// @returns the vertices of the flowing mesh that these move with.
 std::vector<Index> FlowRun::require_changeable(std::string_view what, std::span<const Index> vertices,
                                                bool needs_stepper) const
 {
@@ -274,8 +276,8 @@ std::vector<Index> FlowRun::require_changeable(std::string_view what, std::span<
                                       "steps: begin a new flow",
                                       what));
     if (needs_stepper && !stepper_->can_change())
-        throw OptionError(fmt::format("this flow does not {} vertices between steps: set its approach to converged, or "
-                                      "begin a new flow",
+        throw OptionError(fmt::format("this flow does not {} vertices between steps: only converged steps of symmetric "
+                                      "Laplacians do; begin a new flow",
                                       what));
     std::vector<Index> flowing;
     for (const Index v : vertices) {
@@ -303,6 +305,7 @@ void FlowRun::hold(std::span<const Index> vertices, bool is_held)
     stepper_->hold(flowing, is_held);
     for (const Index v : flowing)
         topology.fixed[v] = is_held_[v] = is_held ? 1 : 0;
+    tools_->vanishing.look_again(find_small_components(mesh_.mesh(), topology));
     was_changed_ = true;
 }
 
@@ -320,6 +323,7 @@ void FlowRun::attach(std::span<const Index> vertices, std::span<const double> we
             throw OptionError(
                 fmt::format("an attachment weight is {}, but must be at least 0 and finite (1/length²)", weight));
     stepper_->attach(flowing, weights);
+    tools_->vanishing.attach(flowing, weights);
     was_changed_ = true;
 }
 
@@ -331,10 +335,29 @@ void FlowRun::move(std::span<const Index> vertices, const Points& to)
         throw OptionError(fmt::format("{} vertices are to move to {} positions: give a finite one for each",
                                       vertices.size(), to.rows()));
     const Points there = mesh_.to_flowing(to);
+    require_rows(flowing, there);
+    mesh_.move_isolated(vertices, to);
     stepper_->move(flowing, there);
     stepper_->move_first(flowing, there);
+    tools_->vanishing.move_first(flowing, there);
     mesh_.move_to(stepper_->positions());
+    tools_->limit.emplace(mesh_.mesh(), options().accuracy.largest_update);
     was_changed_ = true;
+}
+
+/// @throws InputError if vertices would move to where no step is defined for them.
+void FlowRun::require_rows(std::span<const Index> vertices, const Points& to) const
+{
+    PolygonMesh moved = mesh_.mesh();
+    move_rows(vertices, to, moved.vertices);
+    const std::vector<Index> undefined =
+        vertices_without_row(moved, prepared_->topology, options().laplacian, progress_.exec());
+    for (const Index v : vertices)
+        if (std::ranges::binary_search(undefined, v))
+            throw InputError(
+                fmt::format("vertex {} would lie at the same place as one beside it, or have a face without "
+                            "area: move it elsewhere",
+                            v));
 }
 
 FlowState FlowRun::capture() const
@@ -420,7 +443,7 @@ void FlowRun::take_step(const StepObserver& on_step)
     in_mean_edges(of_step.estimated_v_max, mesh, stepper_->positions());
     // Scaling could hide that vertices have been thrown away, or shrink what is left too much.
     named(name, [&] {
-        tools_->limit.require(before, stepper_->positions(), report_.cut.labels);
+        tools_->limit->require(before, stepper_->positions(), report_.cut.labels);
         tools_->rescale(*stepper_);
         if (is_apart) {
             of_flow_ = result_ = stepper_->positions();

@@ -66,7 +66,18 @@ class Flow::Session {
     void change(Action&& action)
     {
         require_sound();
-        workers_.execute([&] { action(*run_); });
+        has_failed_ = true;
+        try {
+            workers_.execute([&] { action(*run_); });
+        } catch (const OptionError&) {
+            // What cannot be is refused before anything changes.
+            has_failed_ = false;
+            throw;
+        } catch (const InputError&) {
+            has_failed_ = false;
+            throw;
+        }
+        has_failed_ = false;
     }
 
     void step(int n, const StepObserver& on_step, const FlowReport& report)

@@ -55,6 +55,10 @@ constexpr double growth_of_iterations = 0.4;
 /// Iterations on Γ, for each factor of e in the residual.
 constexpr double interface_iterations = 0.6;
 
+/// A set-up is to pay within so many steps.
+constexpr int steps_ahead = 3;
+/// From step to step; what grows faster is small yet.
+constexpr double most_growth = 1.3;
 /// In vertices: a peak of about 600 MB. No cost makes up for a machine that runs out of memory.
 constexpr Index largest_factor = 500'000;
 
@@ -101,18 +105,19 @@ PredictedCost predict_cost(Approach approach, const FlowSize& size, std::optiona
     return cost;
 }
 
-bool pays_to_factorise(const FlowSize& size, const StepIterations& iterations, int steps_left)
+bool pays_to_factorise(const FlowSize& size, const StepIterations& iterations)
 {
     if (size.vertices > largest_factor)
         return false;
-    const double growth = std::max(static_cast<double>(iterations.last) / std::max(iterations.before, 1), 1.0);
+    const double growth =
+        std::clamp(static_cast<double>(iterations.last) / std::max(iterations.before, 1), 1.0, most_growth);
     double expected = iterations.last;
     double by_gradients = 0.0;
-    for (int i = 0; i < steps_left; ++i) {
+    for (int i = 0; i < steps_ahead; ++i) {
         expected = std::min(growth * expected, static_cast<double>(iterations.most));
         by_gradients += step_of_conjugate_gradients.of(size) + seconds_of_iterations(size, expected);
     }
-    return predict_cost(Approach::Undecomposed, size).of(steps_left) < by_gradients;
+    return predict_cost(Approach::Undecomposed, size).of(steps_ahead) < by_gradients;
 }
 
 std::vector<CostConstant> cost_constants()

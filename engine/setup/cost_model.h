@@ -51,9 +51,10 @@ struct StepIterations {
     int most = 0;
 };
 
-/// Whether the steps that are left would cost less, set-up included, by one factorisation of the whole mesh than by
-/// conjugate gradients whose iterations go on growing as they have grown.
-bool pays_to_factorise(const FlowSize& size, const StepIterations& iterations, int steps_left);
+/// Whether a few further steps would cost less, set-up included, by one factorisation of the whole mesh than by
+/// conjugate gradients whose iterations go on growing as they have grown. How many steps are left does not count: a
+/// flow that is resumed for more of them has the bits of one that was not interrupted.
+bool pays_to_factorise(const FlowSize& size, const StepIterations& iterations);
 
 /// One of the constants, for inspection: nanoseconds per vertex, and per coefficient of its row, on two cores; and the
 /// fraction of them that one core works alone.

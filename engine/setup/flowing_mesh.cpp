@@ -78,6 +78,14 @@ void FlowingMesh::weld_seams(Topology& topology, MotionOptions& motion, const Ex
     copy_ = std::move(welded->mesh);
 }
 
+void FlowingMesh::move_isolated(std::span<const Index> vertices, const Points& to)
+{
+    for (std::size_t i = 0; i < vertices.size(); ++i)
+        if (const auto place = std::ranges::lower_bound(isolated_, vertices[i]);
+            place != isolated_.end() && *place == vertices[i])
+            of_isolated_.row(place - isolated_.begin()) = to.row(static_cast<Eigen::Index>(i));
+}
+
 bool FlowingMesh::leave_out_repeated_faces(const Topology& topology)
 {
     if (std::ranges::find(topology.kind, VertexKind::NonManifold) == topology.kind.end())

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,10 @@ class FlowingMesh {
 
     /// Converts positions of the given mesh to those of mesh().
     [[nodiscard]] Points to_flowing(const Points& positions) const { return positions.rowwise() - offset_; }
+
+    /// Puts those of the vertices that have no faces elsewhere, which move_to does not do.
+    /// @param vertices of the given mesh. @param to #vertices by 3.
+    void move_isolated(std::span<const Index> vertices, const Points& to);
 
     /// Leaves out faces that repeat others. A surface whose faces occur twice (to be seen from both sides, say) is
     /// manifold nowhere, but flows like the single one. To be called at most once, before anything refers to mesh().

@@ -1,6 +1,7 @@
 #include "engine/steppers/switching_stepper.h"
 
 #include <algorithm>
+#include <new>
 #include <utility>
 
 #include <fmt/format.h>
@@ -22,7 +23,26 @@ SwitchingStepper::SwitchingStepper(const PolygonMesh& mesh, const Topology& topo
 {
 }
 
+/// Without memory for them, there are none.
 void SwitchingStepper::make_factors()
+{
+    try {
+        try_to_make_factors();
+    } catch (const ComputationError&) {
+        leave_factors();
+    } catch (const std::bad_alloc&) {
+        leave_factors();
+    }
+}
+
+void SwitchingStepper::leave_factors()
+{
+    failed_ = n_taken_ + 1;
+    factors_.reset();
+    complete_ = {};
+}
+
+void SwitchingStepper::try_to_make_factors()
 {
     FlowOptions options = *options_;
     options.accuracy.approach = Approach::Undecomposed;
@@ -43,17 +63,16 @@ const Points* SwitchingStepper::solve_by_factors(const Points& before)
         factors_->step(before);
         return &factors_->positions();
     } catch (const ComputationError&) {
-        failed_ = n_taken_ + 1;
-        factors_.reset();
+        leave_factors();
         return nullptr;
     }
 }
 
 void SwitchingStepper::step(const Points& before)
 {
-    if (first_with_factors_ == 0 && n_taken_ >= 2 && pays_to_factorise(size_, iterations_, size_.steps - n_taken_)) {
-        make_factors();
+    if (first_with_factors_ == 0 && n_taken_ >= 2 && pays_to_factorise(size_, iterations_)) {
         first_with_factors_ = n_taken_ + 1;
+        make_factors();
     }
     gradients_.begin_with(solve_by_factors(before));
     gradients_.step(before);
@@ -113,9 +132,10 @@ void SwitchingStepper::describe(FlowReport& report) const
                         "come to need more and more iterations.",
                         first_with_factors_));
     if (failed_ > 0)
-        report.choices.push_back(fmt::format("In step {} that failed, because edges have shrunk to nothing: conjugate "
-                                             "gradients went on without it.",
-                                             failed_));
+        report.choices.push_back(
+            fmt::format("In step {} there was none, because edges have shrunk to nothing or memory "
+                        "is too small: conjugate gradients went on without it.",
+                        failed_));
 }
 
 }  // namespace seamflow

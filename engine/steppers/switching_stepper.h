@@ -13,11 +13,12 @@ namespace seamflow {
 /// of the whole mesh: as soon as they have come to need so many iterations that it is cheaper for the steps that are
 /// left. Edges that a flow shrinks to nothing make the matrix worse, which no choice before the first step foresees;
 /// where they also spoil the factorisation, conjugate gradients repair its solution or go without it. It all depends on
-/// numbers of iterations alone, so that the bits are the same on every machine.
+/// numbers of iterations alone, so that the bits are the same on every machine with enough memory.
 class SwitchingStepper final : public Stepper {
   public:
     /// @param mesh, topology, options, progress must outlive the stepper.
-    /// @param size what the costs follow from; all steps of the flow.
+    /// @param options without a filter.
+    /// @param size what the costs follow from.
     SwitchingStepper(const PolygonMesh& mesh, const Topology& topology, const FlowOptions& options,
                      const FlowSize& size, Progress& progress);
 
@@ -33,6 +34,8 @@ class SwitchingStepper final : public Stepper {
 
   private:
     void make_factors();
+    void try_to_make_factors();
+    void leave_factors();
     const Points* solve_by_factors(const Points& before);
 
     const PolygonMesh* mesh_;

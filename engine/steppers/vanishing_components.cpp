@@ -147,6 +147,24 @@ VanishingComponents::VanishingComponents(const FlowOptions& options, const Point
         first_ = first;
 }
 
+void VanishingComponents::attach(std::span<const Index> vertices, std::span<const double> weights)
+{
+    std::vector<double>& each = options_.motion.attachment_weights;
+    if (first_.rows() == 0)
+        return;
+    if (each.empty())
+        each.assign(at(static_cast<Index>(first_.rows())), options_.motion.attachment);
+    for (std::size_t i = 0; i < vertices.size(); ++i)
+        each[vertices[i]] = weights[i];
+}
+
+void VanishingComponents::move_first(std::span<const Index> vertices, const Points& to)
+{
+    // Of a mean curvature flow an attachment goes on pulling to where it pulled.
+    if (first_.rows() > 0 && options_.flow != FlowEquation::MeanCurvature)
+        move_rows(vertices, to, first_);
+}
+
 void VanishingComponents::step(Stepper& stepper, const Points& before)
 {
     const SmallComponents small = extent_ > 0.0 ? find_(before, extent_) : SmallComponents();

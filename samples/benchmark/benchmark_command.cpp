@@ -128,7 +128,7 @@ void prepare_ranks(std::string_view ranks, BenchmarkCommand& command)
 void prepare_k_harmonic(const CLI::App& app, std::string_view orders, BenchmarkCommand& command)
 {
     command.mode = BenchmarkMode::KHarmonic;
-    if (!orders.empty())
+    if (!orders.empty() && orders != "all")
         command.orders = numbers_named(orders, "--k-harmonic");
     if (std::ranges::any_of(command.orders, [](int k) { return k > 3; }))
         throw OptionError("--k-harmonic: k is 1, 2 or 3");

@@ -1,6 +1,7 @@
 #include "samples/benchmark/k_harmonic.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <limits>
 #include <memory_resource>
@@ -36,6 +37,10 @@ struct Equations {
 Matrix first_matrix(const PolygonMesh& mesh, const FlowOptions& flow)
 {
     Topology topology = make_topology(mesh);
+    for (const VertexKind kind : topology.kind)
+        if (kind != VertexKind::Interior && kind != VertexKind::Boundary)
+            throw InputError(
+                "--k-harmonic needs a manifold mesh whose vertices all have faces: inspect names the others");
     std::fill(topology.fixed.begin(), topology.fixed.end(), 0);
     WholeSystem system(mesh, topology, flow.laplacian, SystemForm::Symmetric, StorageOrder::ByColumns);
     system.assemble(mesh.vertices, flow.time_step);
@@ -178,6 +183,8 @@ KHarmonicRow run(int k, std::string method, const Equations& equations,
     KHarmonicRow row{.k = k, .method = std::move(method), .failure = {}};
     try {
         row.error = backward_error(equations, solve(row));
+        if (!std::isfinite(row.error))
+            throw ComputationError("the solution is not finite");
     } catch (const ComputationError& error) {
         row.failure = error.what();
     }

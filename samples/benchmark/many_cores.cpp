@@ -44,6 +44,11 @@ class Extrapolation {
         return predict_cost(approach_, size, 1e-2).setup;
     }
 
+    [[nodiscard]] double makespan(int cores) const
+    {
+        return std::ranges::find(measured_.simulations, cores, &Simulation::workers)->makespan;
+    }
+
     [[nodiscard]] double step(int cores) const
     {
         const double step = measured_.step_seconds();
@@ -54,9 +59,8 @@ class Extrapolation {
                                  measured_.iterations / static_cast<double>(measured_.steps.size());
             return std::max(step * threads_ / cores, bytes / bandwidth_);
         }
-        const auto replayed = std::ranges::find(measured_.simulations, cores, &Simulation::workers);
-        const double besides = std::max(step - replayed->work / threads_, 0.0);
-        return replayed->makespan + besides * threads_ / cores;
+        const double besides = std::max(step - makespan(threads_), 0.0);
+        return makespan(cores) + besides * threads_ / cores;
     }
 
     Approach approach_;
@@ -82,6 +86,7 @@ ManyCores measure_for_many_cores(const PolygonMesh& mesh, const FlowOptions& flo
     for (const auto& [approach, method] : our_approaches) {
         MethodTask task = MethodRows::task_of(method, flow);
         task.simulated_threads = cores;
+        task.simulated_threads.push_back(flow.resources.threads);
         // Options of sub-meshes mean nothing to the others, which refuse them.
         if (takes_whole_mesh(approach)) {
             task.options.cut = {};

@@ -106,9 +106,8 @@ NeumannSystem::Assembled NeumannSystem::assemble(const Points& positions, const 
 void NeumannSystem::hold(Index v, bool is_held)
 {
     is_held_.resize(at(matrix_.n_vertices), 0);
+    n_held_ += (is_held ? 1 : 0) - is_held_[v];
     is_held_[v] = is_held ? 1 : 0;
-    if (std::ranges::find(is_held_, 1) == is_held_.end())
-        is_held_.clear();
 }
 
 void NeumannSystem::keep(const Points& first)
@@ -118,16 +117,15 @@ void NeumannSystem::keep(const Points& first)
         matrix_.screening.first = first.topRows(matrix_.screening.first.rows());
 }
 
-/// Their rows and columns are those of a diagonal matrix, and right-hand sides of 0. The residual of their neighbours has
-/// them where they are.
+/// Their rows and columns are those of a diagonal matrix, and right-hand sides of 0. The residual of their neighbours
+/// has them where they are.
 void NeumannSystem::leave_out_held(std::span<double> matrix, const Points& increments, Points& residual) const
 {
-    if (is_held_.empty())
+    if (n_held_ == 0)
         return;
     const std::vector<VertexPair> pairs = matrix_.laplacian->pairs();
     for (std::size_t i = 0; i < pairs.size(); ++i)
-        if (matrix_.slots[i] < matrix_.n_entries() &&
-            (is_held_[pairs[i].first] != 0 || is_held_[pairs[i].second] != 0))
+        if (matrix_.slots[i] < matrix_.n_entries() && (is_held_[pairs[i].first] != 0 || is_held_[pairs[i].second] != 0))
             matrix[matrix_.slots[i]] = 0.0;
     for (Index u = 0; u < matrix_.n(); ++u)
         if (const Index v = matrix_.vertex_of[u]; is_held_[v] != 0)

@@ -113,8 +113,9 @@ class NeumannSystem {
     void leave_out_held(std::span<double> matrix, const Points& increments, Points& residual) const;
 
     Index n_interface_;
-    /// #own: the vertices held; empty if there are none.
+    /// The vertices held; empty if none ever was. And their number.
     std::vector<std::uint8_t> is_held_;
+    Index n_held_ = 0;
     /// If the Laplacian uses them.
     IndexLists faces_;
     SymmetricMatrix matrix_;

@@ -326,6 +326,18 @@ WholeMeshSystem::PassStart WholeMeshSystem::start_pass(double squared, const Exe
     return start;
 }
 
+/// From V to the current solution.
+double WholeMeshSystem::farthest_move(const Executor& exec) const
+{
+    const auto keep_larger = [](double& largest, double other) { largest = std::max(largest, other); };
+    return std::sqrt(reduce(
+        exec, matrix_.n_rows(), 0.0,
+        [&](double& largest, Index i) {
+            keep_larger(largest, (after_.row(i) - before_->row(blocks_.values[i])).squaredNorm());
+        },
+        keep_larger));
+}
+
 /// The sum of the updates that would follow if they kept decreasing at the same rate.
 double WholeMeshSystem::distance_after(const BlockRowMatrix::Result& pass)
 {
@@ -407,14 +419,17 @@ WholeMeshSystem::Result WholeMeshSystem::solve(double squared, const Points& dat
         const double renewed = measure(after, data, exec);
         if (renewed > 0.0)
             start = start_pass(renewed, exec);
-        left = renewed > 0.0 ? start.norm / first : 0.0;
+        // Not a number, if that is what the residual is.
+        left = renewed > 0.0 ? start.norm / first : renewed;
     };
     if (guess != nullptr) {
         after_.resize(matrix_.n_rows(), 3);
         for_each(exec, matrix_.n_rows(), [&](Index i) { after_.row(i) = guess->row(blocks_.values[i]); });
         renew();
         is_in_rows = left < 1.0;
-        if (!is_in_rows) {
+        if (is_in_rows) {
+            distance = slower_somewhere * left * farthest_move(exec);
+        } else {
             after_ = after;
             renew();
         }

@@ -83,6 +83,7 @@ class WholeMeshSystem {
     /// dt w of a row.
     [[nodiscard]] double screening(Index i) const { return screenings_.empty() ? 0.0 : time_step_ * screenings_[i]; }
     PassStart start_pass(double squared, const Executor& exec);
+    [[nodiscard]] double farthest_move(const Executor& exec) const;
     static double distance_after(const BlockRowMatrix::Result& pass);
 
     const PolygonMesh* mesh_;

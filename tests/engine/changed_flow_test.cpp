@@ -218,6 +218,73 @@ TEST_CASE("conjugate gradients and sweeps of the mean curvature flow go on from 
     }
 }
 
+TEST_CASE("components that shrink to points are held, released and attached like others")
+{
+    PolygonMesh mesh = make_noisy_sphere(400);
+    const Index n = mesh.n_vertices();
+    const PolygonMesh small = make_noisy_sphere(100);
+    for (Index f = 0; f < small.n_faces(); ++f) {
+        std::vector<Index> corners(small.face(f).begin(), small.face(f).end());
+        for (Index& v : corners)
+            v += n;
+        mesh.add_face(corners);
+    }
+    mesh.vertices.conservativeResize(n + small.n_vertices(), 3);
+    const Points table = 1e-4 * small.vertices;
+    mesh.vertices.bottomRows(small.n_vertices()) = table.rowwise() + Point(3.0, 0.0, 0.0);
+    FlowOptions options = converged(FlowEquation::MeanCurvature, Laplacian::Fujiwara, mesh);
+    options.time_step = 0.5;
+    options.cut.subdomains = 4;
+    options.motion.attachment_weights.assign(at(mesh.n_vertices()), 0.0);
+    options.motion.attachment_weights[0] = 1e-3;
+    std::vector<Index> all_small(at(small.n_vertices()));
+    std::iota(all_small.begin(), all_small.end(), n);
+    const std::vector<Index> one{n + 5};
+
+    PolygonMesh moved = mesh;
+    Flow flow(moved, options);
+    flow.step();
+    flow.hold(one);
+    const Point held = moved.vertices.row(n + 5);
+    flow.step();
+    CHECK(moved.vertices.row(n + 5) == held);
+    flow.release(one);
+    flow.step(2);
+    CHECK(moved.vertices.allFinite());
+
+    const std::vector<double> strong(all_small.size(), 4.0);
+    PolygonMesh attached = mesh;
+    Flow changed(attached, options);
+    changed.attach(all_small, strong);
+    changed.step();
+    for (const Index v : all_small)
+        options.motion.attachment_weights[v] = 4.0;
+    options.steps = 1;
+    CHECK(test::largest_difference(attached.vertices, test::flowed(mesh, options)) < 1e-9);
+}
+
+TEST_CASE("vertices without faces go where they are put, also far from the origin, and limits go along")
+{
+    for (const double far : {0.0, 1e6}) {
+        PolygonMesh mesh = make_noisy_sphere(600);
+        const Index isolated = mesh.n_vertices();
+        mesh.vertices.conservativeResize(isolated + 1, 3);
+        mesh.vertices.row(isolated) = Point(0.5, 0.5, 0.5);
+        mesh.vertices.col(0).array() += far;
+        FlowOptions options = converged(FlowEquation::Linear, Laplacian::Uniform, mesh);
+        PolygonMesh moved = mesh;
+        Flow flow(moved, options);
+        const Point there(far + 7.0, 1.0, 2.0);
+        flow.move(std::vector<Index>{isolated}, there);
+        flow.step();
+        CHECK(moved.vertices.row(isolated) == there);
+        // Further than the mesh was wide.
+        flow.move(std::vector<Index>{3}, Point(far + 50.0, 0.0, 0.0));
+        flow.step();
+        CHECK(moved.vertices(3, 0) < far + 40.0);
+    }
+}
+
 TEST_CASE("changes that cannot be are refused, and nothing has changed")
 {
     const PolygonMesh mesh = make_mixed_polygons(600);
@@ -237,6 +304,10 @@ TEST_CASE("changes that cannot be are refused, and nothing has changed")
     CHECK_THROWS_AS(flow.move(std::vector<Index>{1, 2}, Points::Zero(1, 3)), OptionError);
     CHECK_THROWS_AS(flow.move(std::vector<Index>{1}, Points::Constant(1, 3, std::nan(""))), OptionError);
     CHECK_THROWS_AS(flow.attach(std::vector<Index>{1}, std::vector<double>{1.0}), OptionError);
+    // Onto the vertex beside it.
+    const Index corner = mesh.face(mesh.n_faces() / 2)[0];
+    const Point onto = moved.vertices.row(mesh.face(mesh.n_faces() / 2)[1]);
+    CHECK_THROWS_AS(flow.move(std::vector<Index>{corner}, onto), InputError);
     Index fixed = 0;
     while (topology.moves(fixed))
         ++fixed;

@@ -91,8 +91,8 @@ class Flow:
         self._flow.step(n)
 
     def hold(self, vertices):
-        """Holds vertices (a mask or numbers) where they are. This and the following need flow="linear",
-        approach="converged" or converge; only the sub-meshes with such vertices are made anew."""
+        """Holds vertices (a mask or numbers) where they are. This and the following need flow="linear" or
+        approach="converged"; only the sub-meshes with such vertices are made anew."""
         self._flow.hold(self._numbers(vertices), True)
 
     def release(self, vertices):

@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include "engine/flow.h"
 #include "engine/mean_curvature_flow.h"
 #include "engine/setup/cost_model.h"
 #include "partition/metrics/vertex_distance.h"
@@ -34,7 +35,7 @@ TEST_CASE("where edges collapse, conjugate gradients begin with the solution by 
     const FlowReport report = mean_curvature_flow(moved, options);
     REQUIRE(report.convergence.approach == Approach::ConjugateGradients);
     const int first = first_without_iterations(report);
-    REQUIRE(first >= 3);
+    REQUIRE(first >= 4);
     for (std::size_t i = 0; i < report.steps.size(); ++i) {
         CHECK((*report.steps[i].iterations == 0) == (i + 1 >= at(first)));
         CHECK(*report.steps[i].residual <= *report.convergence.tolerance);
@@ -83,20 +84,44 @@ TEST_CASE("iterations that stay as they are need no factors")
     CHECK(report.choices.size() == 1);
 }
 
-TEST_CASE("iterations that grow are worth factors only where steps are left for them, and memory")
+TEST_CASE("iterations that grow are worth factors, where these take no more memory than there is")
 {
-    FlowSize size{.vertices = 10'000, .rows = {.length = 6.0, .stiffness = 1.0}, .time_step = 1.0, .steps = 10};
-    const StepIterations growing{.before = 10, .last = 20, .most = 1000};
-    CHECK(pays_to_factorise(size, growing, 6));
-    CHECK_FALSE(pays_to_factorise(size, growing, 1));
-    CHECK_FALSE(pays_to_factorise(size, growing, 0));
-    // The same number of iterations, but growing no more.
-    CHECK_FALSE(pays_to_factorise(size, {.before = 20, .last = 20, .most = 1000}, 6));
-    CHECK(pays_to_factorise(size, {.before = 400, .last = 400, .most = 1000}, 6));
-    // They grow no further than to the most.
-    CHECK_FALSE(pays_to_factorise(size, {.before = 10, .last = 20, .most = 20}, 6));
+    FlowSize size{.vertices = 10'000, .rows = {.length = 6.0, .stiffness = 1.0}, .time_step = 1.0, .steps = 1};
+    CHECK(pays_to_factorise(size, {.before = 20, .last = 40, .most = 1000}));
+    // The same number of iterations, but growing no more, or no further than to the most.
+    CHECK_FALSE(pays_to_factorise(size, {.before = 30, .last = 30, .most = 1000}));
+    CHECK_FALSE(pays_to_factorise(size, {.before = 15, .last = 30, .most = 30}));
+    CHECK(pays_to_factorise(size, {.before = 400, .last = 400, .most = 1000}));
+    CHECK_FALSE(pays_to_factorise(size, {.before = 40, .last = 5, .most = 1000}));
     size.vertices = 10'000'000;
-    CHECK_FALSE(pays_to_factorise(size, {.before = 500, .last = 1000, .most = 1000}, 100));
+    CHECK_FALSE(pays_to_factorise(size, {.before = 500, .last = 1000, .most = 1000}));
+}
+
+TEST_CASE("a flow that is resumed for more steps, or goes on beyond those expected, switches at the same step")
+{
+    const PolygonMesh mesh = make_mixed_polygons(10'000);
+    FlowOptions options = collapsing_flow(mesh);
+    const Points expected = test::flowed(mesh, options);
+    options.steps = 3;
+    FlowControl control;
+    PolygonMesh moved = mesh;
+    Flow flow(moved, options, [&](const StepState& now) {
+        if (now.step == 3)
+            control.resume = std::make_shared<FlowState>(now.capture());
+    });
+    flow.step(7);
+    CHECK(test::same_bits(moved.vertices, expected));
+    options.steps = 7;
+    PolygonMesh resumed = mesh;
+    mean_curvature_flow(resumed, options, {}, control);
+    CHECK(test::same_bits(resumed.vertices, expected));
+    // Ordinary steps need no factors, however many there are.
+    PolygonMesh regular = make_triangles(10'000);
+    FlowOptions one = collapsing_flow(regular);
+    one.steps = 1;
+    Flow longer(regular, one);
+    longer.step(6);
+    CHECK(first_without_iterations(longer.report()) == 0);
 }
 
 TEST_CASE("a step by conjugate gradients begins with a guess that is nearer than the positions before")
