@@ -52,12 +52,11 @@ class Stepper {
     /// Holds vertices where they are, or lets them move again.
     virtual void hold(std::span<const Index>, bool) {}
 
-    /// Sets w of the attachment of vertices, in 1/length². Only for flows that attach.
-    /// @param weights one for each.
+    /// Sets w of the attachment of vertices, in 1/length², one for each. Only for flows that attach.
     virtual void attach(std::span<const Index>, std::span<const double>) {}
 
-    /// Moves vertices in what is kept of V⁰, as if the flow had begun with them there.
-    /// @param to #vertices by 3.
+    /// Moves vertices in what is kept of V⁰ to other positions (#vertices by 3), as if the flow had begun with them
+    /// there.
     virtual void move_first(std::span<const Index>, const Points&) {}
 
     /// Saves what the next step needs.

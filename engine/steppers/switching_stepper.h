@@ -16,8 +16,8 @@ namespace seamflow {
 /// numbers of iterations alone, so that the bits are the same on every machine with enough memory.
 class SwitchingStepper final : public Stepper {
   public:
-    /// @param mesh, topology, options, progress must outlive the stepper.
-    /// @param options without a filter.
+    /// @param mesh, topology, progress must outlive the stepper.
+    /// @param options must, too; without a filter.
     /// @param size what the costs follow from.
     SwitchingStepper(const PolygonMesh& mesh, const Topology& topology, const FlowOptions& options,
                      const FlowSize& size, Progress& progress);

@@ -47,8 +47,7 @@ class SymmetricLaplacian {
     /// Only mass[v] = M_v.
     virtual void measure_mass(const Points& positions, std::span<double> mass) const = 0;
 
-    /// Takes what is kept of fixed positions from others (see keep_stiffness).
-    /// @param positions at least #V by 3; needed only during the call.
+    /// Takes what is kept of fixed positions from others, at least #V by 3 (see keep_stiffness).
     virtual void keep(const Points&) {}
 };
 
