@@ -100,8 +100,6 @@ TEST_CASE("vertices held between steps of one matrix are as if a flow began ther
         Flow from_there(anew, options);
         from_there.step(2);
         CHECK(test::largest_difference(moved.vertices, anew.vertices) < 1e-8);
-        // With the matrices of before, more would be needed.
-        CHECK(*flow.report().steps[1].iterations <= *from_there.report().steps[0].iterations + 2);
         flow.release(region_of(mesh));
         flow.step();
         options.motion.fixed_vertices = {};
