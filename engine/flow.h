@@ -36,8 +36,8 @@ class Flow {
     /// Changes between steps: the next one takes them up, and only the sub-meshes that have such vertices are made
     /// anew. A flow that was changed has no state to resume from. Vertices joined along seams change together. Besides
     /// what is said below, all throw OptionError for flows with a reference, rescale, within or limits, and, `move` of
-    /// mean curvature flows aside, for those that take sweeps, conjugate gradients or UMFPACK's factors (a new Flow
-    /// from the positions does the same); InputError for vertices that do not exist; ComputationError after a failure.
+    /// mean curvature flows aside, for those that take sweeps, conjugate gradients or UMFPACK's factors (begin a new
+    /// Flow from the positions instead); InputError for vertices that do not exist; ComputationError after a failure.
 
     /// Holds vertices where they are.
     void hold(std::span<const Index> vertices);
@@ -49,6 +49,7 @@ class Flow {
     /// Puts vertices elsewhere, fixed ones, too. What linear and conformalized flows keep of V⁰ is then as if the flow
     /// had begun with them there.
     /// @param to #vertices by 3.
+    /// @throws InputError where one would have an edge without length or a face without area.
     void move(std::span<const Index> vertices, const Points& to);
 
     /// Changes the weights of an attachment.

@@ -283,9 +283,8 @@ std::vector<Index> FlowRun::require_changeable(std::string_view what, std::span<
     for (const Index v : vertices) {
         if (v < 0 || v >= mesh_.mesh().n_vertices())
             throw InputError(
-                fmt::format("vertex {} is to {} between steps, but the mesh has {} vertices, numbered from "
-                            "0",
-                            v, what, mesh_.mesh().n_vertices()));
+                fmt::format("vertex {} is to {} between steps, but the mesh has {} vertices, numbered from 0", v, what,
+                            mesh_.mesh().n_vertices()));
         flowing.push_back(mesh_.moves_with(v));
     }
     return flowing;

@@ -1,6 +1,5 @@
 #include "engine/steppers/switching_stepper.h"
 
-#include <algorithm>
 #include <new>
 #include <utility>
 
@@ -106,9 +105,7 @@ void SwitchingStepper::restore(const StepMemory& memory)
     }
     gradients_.restore(of_gradients);
     StepMemoryReader reader(own);
-    for (int* number : {&iterations_.before, &iterations_.last})
-        *number = static_cast<int>(std::clamp(reader.number(), 0.0, static_cast<double>(iterations_.most)));
-    for (int* number : {&n_taken_, &first_with_factors_, &failed_})
+    for (int* number : {&iterations_.before, &iterations_.last, &n_taken_, &first_with_factors_, &failed_})
         *number = reader.count();
     if (first_with_factors_ > 0 && failed_ == 0)
         make_factors();
