@@ -96,8 +96,8 @@ std::optional<PolygonMesh> read_across_lines(TextScanner after_header, const Ply
 PolygonMesh read_binary_slices(const std::filesystem::path& path, std::string_view file, std::size_t data,
                                const PlyHeader& header, const Slicing& slicing)
 {
-    if (header.element("vertex")->count > std::numeric_limits<Index>::max())
-        throw InputError("too many vertices");
+    if (header.element("vertex")->count == 0 || header.element("vertex")->count > std::numeric_limits<Index>::max())
+        throw InputError("no vertices, or too many");
     const auto n_vertices = static_cast<Index>(header.element("vertex")->count);
     const std::vector<PlySlice> slices = slice_elements(file, data, header.encoding, header.elements, slicing);
     const auto source_of = [&](std::string_view bytes) {

@@ -25,6 +25,8 @@ std::vector<PlySlice> slice_text(const TextScanner& after_header, const Slicing&
     std::vector<PlySlice> slices;
     for (std::size_t i = 0; i < bytes.size(); ++i)
         slices.push_back({static_cast<std::uint64_t>(first[i]), static_cast<std::uint64_t>(first[i + 1]), bytes[i]});
+    if (slices.empty())
+        slices.push_back({0, 0, after_header.rest()});
     return slices;
 }
 
@@ -171,7 +173,10 @@ std::vector<PlySlice> slice_elements(std::string_view file, std::size_t begin, E
     BinarySlicer slicer(file, begin, order_of(encoding));
     for (const PlyElement& element : elements)
         slicer.add(element, slicing);
-    return slicer.take();
+    std::vector<PlySlice> slices = slicer.take();
+    if (slices.empty())
+        slices.push_back({0, 0, file.substr(begin, 0)});
+    return slices;
 }
 
 std::vector<PlySlice> slice_ply(std::string_view file, const TextScanner& after_header, Encoding encoding,

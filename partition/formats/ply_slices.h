@@ -24,12 +24,13 @@ struct PlySlice {
 /// Slices the data after the header.
 /// @param file the whole file. @param after_header stands at the last line of the header.
 /// @param elements the first ones of the header; in a text file the slices go on to its end.
+/// @returns one slice at least, an empty one if there are no elements.
 /// @throws InputError if a binary file lacks some of them.
 std::vector<PlySlice> slice_ply(std::string_view file, const TextScanner& after_header, Encoding encoding,
                                 std::span<const PlyElement> elements, const Slicing& slicing);
 
 /// Cuts the elements of a binary file into slices.
-/// @param begin the byte at which the first of them begins. @param elements see slice_ply.
+/// @param begin the byte at which the first of them begins. @param elements, and what is returned: see slice_ply.
 /// @throws InputError if some are missing.
 std::vector<PlySlice> slice_elements(std::string_view file, std::size_t begin, Encoding encoding,
                                      std::span<const PlyElement> elements, const Slicing& slicing);

@@ -256,6 +256,18 @@ TEST_CASE("binary files, cut anywhere, are read as in one go; cut off and damage
         }
 }
 
+TEST_CASE("files without an element, and with padding or more after none, are read and written as in one go")
+{
+    const std::string header = "element vertex 0\nproperty float x\nproperty float y\nproperty float z\nend_header\n";
+    for (const std::string more : {"", "\n", "0 0 0\n", "a longer rest"})
+        for (const std::string kind : {"ascii", "binary_little_endian", "binary_big_endian"}) {
+            const std::string content = "ply\nformat " + kind + " 1.0\n" + header + more;
+            check_reading(FileFormat::Ply, content, 7);
+            CHECK(rewritten(FileFormat::Ply, content, PolygonMesh(), {last_slice_first, 7}).content == content);
+        }
+    check_reading(FileFormat::Off, "OFF BINARY\n" + std::string(12 + 100, '\0'), 7);
+}
+
 TEST_CASE("a file without faults is read slice by slice to its end, and not again in one go")
 {
     PolygonMesh mesh;
