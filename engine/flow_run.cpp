@@ -104,6 +104,9 @@ class FlowRun::StepFractions {
     [[nodiscard]] double begin_of_reference() const { return end() - reference_ * length_; }
     [[nodiscard]] double end() const { return std::min(begin_ + (n_done_ + 1) * length_, 1.0); }
 
+    /// That of the step, from 1.
+    [[nodiscard]] int number() const { return n_done_ + 1; }
+
     /// Continues with the next step.
     void end_step(double task_seconds, double measuring_seconds, double reference_seconds)
     {
@@ -357,6 +360,30 @@ void FlowRun::require_rows(std::span<const Index> vertices, const Points& to) co
                 fmt::format("vertex {} would lie at the same place as one beside it, or have a face without "
                             "area: move it elsewhere",
                             v));
+}
+
+void FlowRun::diffuse(Points& data, int n)
+{
+    mesh_.join(data);
+    stepper_->begin(data);
+    for (int step = 1; step <= n; ++step) {
+        progress_.enter(FlowPhase::Step, fractions_->number(), fractions_->begin(), fractions_->end());
+        Stopwatch watch;
+        named("step " + std::to_string(step), [&] { stepper_->step(data); });
+        copy(progress_.exec(), stepper_->positions(), data);
+        report_.seconds.step += watch.seconds();
+        report_.seconds.total += watch.seconds();
+        fractions_->end_step(watch.seconds(), 0.0, 0.0);
+    }
+    mesh_.take_along(data);
+}
+
+void FlowRun::weigh(const std::function<double(Index v, Index w)>& squared_difference)
+{
+    if (!stepper_->can_change())
+        throw OptionError("edges of fields are kept only in converged and undecomposed steps: leave the approach "
+                          "automatic");
+    stepper_->weigh(squared_difference);
 }
 
 FlowState FlowRun::capture() const

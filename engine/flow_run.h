@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string_view>
@@ -38,6 +39,14 @@ class FlowRun {
     void hold(std::span<const Index> vertices, bool is_held);
     void attach(std::span<const Index> vertices, std::span<const double> weights);
     void move(std::span<const Index> vertices, const Points& to);
+
+    /// Applies the next n steps to data in place of positions, which stay (see Flow::diffuse).
+    /// @param data #V by 3, in the order of the given mesh.
+    void diffuse(Points& data, int n);
+
+    /// Weighs K from now on by differences of data (see Stepper::weigh).
+    /// @throws OptionError where the steps do not support it.
+    void weigh(const std::function<double(Index v, Index w)>& squared_difference);
 
     /// Completes the report, or a copy of it, on the flow as a whole.
     void complete(FlowReport& report) const;

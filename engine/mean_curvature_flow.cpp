@@ -1,5 +1,7 @@
 #include "engine/mean_curvature_flow.h"
 
+#include <algorithm>
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -93,6 +95,14 @@ class Flow::Session {
             progress_.finish();
     }
 
+    /// @throws InputError.
+    void require_rows(Eigen::Index n) const
+    {
+        if (n != flowing_->mesh().n_vertices())
+            throw InputError(fmt::format("the fields have {} rows, but the mesh has {} vertices: give one for each", n,
+                                         flowing_->mesh().n_vertices()));
+    }
+
     void complete(FlowReport& report)
     {
         workers_.execute([&] { run_->complete(report); });
@@ -130,7 +140,8 @@ class Flow::Session {
 };
 
 Flow::Flow(PolygonMesh& mesh, const FlowOptions& options, StepObserver on_step, FlowControl control)
-    : on_step_(std::move(on_step))
+    : is_linear_(options.flow == FlowEquation::Linear)
+    , on_step_(std::move(on_step))
     , control_(std::move(control))
 {
     require_valid(options);
@@ -168,6 +179,47 @@ void Flow::move(std::span<const Index> vertices, const Points& to)
 void Flow::attach(std::span<const Index> vertices, std::span<const double> weights)
 {
     session_->change([&](FlowRun& run) { run.attach(vertices, weights); });
+}
+
+/// @throws OptionError, InputError.
+void Flow::require_fields(const Eigen::Ref<const Eigen::MatrixXd>& fields) const
+{
+    if (!is_linear_)
+        throw OptionError("only linear flows are applied to fields: their matrix stays the same");
+    session_->require_rows(fields.rows());
+    for (Eigen::Index c = 0; c < fields.cols(); ++c)
+        for (Eigen::Index v = 0; v < fields.rows(); ++v)
+            if (!std::isfinite(fields(v, c)))
+                throw InputError(fmt::format("column {} of the fields is not finite at vertex {} (both numbered from "
+                                             "0): fields need a finite number at each",
+                                             c, v));
+}
+
+void Flow::diffuse(Eigen::Ref<Eigen::MatrixXd> fields, int n)
+{
+    require_fields(fields);
+    session_->change([&](FlowRun& run) {
+        constexpr Eigen::Index width = 3;
+        for (Eigen::Index c = 0; c < fields.cols(); c += width) {
+            const Eigen::Index n_columns = std::min(width, fields.cols() - c);
+            Points block = Points::Zero(fields.rows(), width);
+            block.leftCols(n_columns) = fields.middleCols(c, n_columns);
+            run.diffuse(block, n);
+            fields.middleCols(c, n_columns) = block.leftCols(n_columns);
+        }
+    });
+}
+
+void Flow::keep_field_edges(const Eigen::Ref<const Eigen::MatrixXd>& fields, double difference)
+{
+    require_fields(fields);
+    if (!(difference > 0.0))
+        throw OptionError(fmt::format("the difference of fields to keep is {}, but must be positive", difference));
+    // A copy by rows: those of two vertices are compared.
+    const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> rows = fields / difference;
+    session_->change([&](FlowRun& run) {
+        run.weigh([&](Index v, Index w) { return (rows.row(v) - rows.row(w)).squaredNorm(); });
+    });
 }
 
 FlowReport Flow::report() const

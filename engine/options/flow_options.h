@@ -59,7 +59,7 @@ enum class FlowEquation {
     Conformalized,
     /// The heat equation on the first surface, applied to its coordinates: (M(V⁰) + dt K(V⁰)) Vⁿ⁺¹ = M(V⁰) Vⁿ. The
     /// matrix is factorised once: every step after the first is one solution. For symmetric Laplacians and backward
-    /// Euler steps that are converged (Approach::Converged) or undecomposed.
+    /// Euler steps that are converged (Approach::Converged), undecomposed, or by conjugate gradients.
     Linear,
 };
 

@@ -189,9 +189,9 @@ void require_valid_flow(const FlowOptions& options)
                                       name_of(options.laplacian), names_of_symmetric_laplacians()));
     if (options.scheme == Scheme::ExplicitEuler)
         throw OptionError(asked + ", which is for backward Euler steps: leave out the explicit scheme");
-    if (options.accuracy.approach == Approach::ConjugateGradients && options.flow != FlowEquation::MeanCurvature)
-        throw OptionError(asked + ", but approach is by conjugate gradients, which support only mean curvature flow: "
-                                  "leave the approach automatic");
+    if (options.accuracy.approach == Approach::ConjugateGradients && options.flow == FlowEquation::Conformalized)
+        throw OptionError(asked + ", but approach is by conjugate gradients, which support only mean curvature and "
+                                  "linear flows: leave the approach automatic");
     if (options.flow == FlowEquation::Linear)
         if (const std::string_view set = first_set(options, concern::sweeps);
             !set.empty() || (options.accuracy.approach == Approach::Sweep && !options.accuracy.tolerance))

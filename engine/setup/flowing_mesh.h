@@ -69,6 +69,10 @@ class FlowingMesh {
     /// The same for separated sub-meshes (see FlowReport::separated).
     void bring_back(PolygonMesh& separated) const;
 
+    /// Gives the first of joined vertices the mean of all of them.
+    /// @param data #V by 3.
+    void join(Points& data) const;
+
     /// Moves joined vertices to the first of them.
     /// @param positions #V by 3, of mesh().
     void take_along(Points& positions) const;

@@ -341,6 +341,12 @@ InterfaceResult SchurStepper::solve_equation(const IterationStop& stop, const Ex
     return solve_on_interface(false, stop, exec);
 }
 
+void SchurStepper::begin(const Points& data)
+{
+    ConvergedStepper::begin(data);
+    interface_.has_update = false;
+}
+
 void SchurStepper::back_substitute(Index s)
 {
     sub_meshes_[s]->back_substitute(shared_step(), interface_.update, keeps_matrix_ || !filter_.is_plain(),
@@ -382,6 +388,19 @@ void SchurStepper::attach(std::span<const Index> vertices, std::span<const doubl
 {
     change(vertices,
            [&](std::size_t i, CondensedSubMesh& sub_mesh, Index v) { sub_mesh.system().attach(v, weights[i]); });
+}
+
+void SchurStepper::weigh(const std::function<double(Index v, Index w)>& squared_difference)
+{
+    std::ranges::fill(changed_, 1);
+    has_changed_ = true;
+    for_each(run_in_parallel, static_cast<Index>(sub_meshes_.size()), [&](Index s) {
+        if (!is_own(s))
+            return;
+        const std::vector<Index>& global = sub_meshes_[s]->vertices().local_to_global;
+        sub_meshes_[s]->system().weigh(
+            [&](Index v, Index w) { return squared_difference(global[v], global[w]); });
+    });
 }
 
 void SchurStepper::move_first(std::span<const Index> vertices, const Points& to)

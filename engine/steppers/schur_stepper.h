@@ -54,9 +54,11 @@ class SchurStepper final : public ConvergedStepper {
     /// @param mesh the part of the mesh that this peer knows; positions() are Vᵏ⁺¹ only in its own sub-meshes.
     SchurStepper(const PolygonMesh& mesh, PeerSubMeshes sub_meshes, const FlowOptions& options, Progress& progress);
 
+    void begin(const Points& data) override;
     [[nodiscard]] bool can_change() const override { return true; }
     void hold(std::span<const Index> vertices, bool is_held) override;
     void attach(std::span<const Index> vertices, std::span<const double> weights) override;
+    void weigh(const std::function<double(Index v, Index w)>& squared_difference) override;
     void move_first(std::span<const Index> vertices, const Points& to) override;
     void save(StepMemory& memory) const override;
     [[nodiscard]] std::vector<Index> saved_vertices() const override;

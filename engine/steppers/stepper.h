@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -41,6 +42,11 @@ class Stepper {
     /// @param image #V by 3: positions() mapped by the similarity; vertices without faces stay.
     virtual void continue_from(const Points& image, const Similarity& similarity) = 0;
 
+    /// Continues from other data than positions, as flows with one matrix for all steps can: positions() are then the
+    /// data. Nothing is known of updates and errors any more.
+    /// @param data #V by 3.
+    virtual void begin(const Points& data) { continue_from(data, {}); }
+
     /// Moves some vertices, with all copies of them, to where the next step is to find them. What is known of updates
     /// and errors stays.
     /// @param vertices those below 0 are ignored. @param to #vertices by 3.
@@ -54,6 +60,11 @@ class Stepper {
 
     /// Sets w of the attachment of vertices, in 1/length², one for each. Only for flows that attach.
     virtual void attach(std::span<const Index>, std::span<const double>) {}
+
+    /// Weighs the K of all faces, or edges of Laplacians that are sums over these, from now on by 1 / (1 + d²), where d²
+    /// is the largest squared_difference(v, w) of two of its vertices: it lessens with differences of a field (Perona
+    /// and Malik 1990). Only for steppers that can change, with one matrix for all steps.
+    virtual void weigh(const std::function<double(Index v, Index w)>&) {}
 
     /// Moves vertices in what is kept of V⁰ to other positions (#vertices by 3), as if the flow had begun with them
     /// there.

@@ -79,6 +79,12 @@ class SymmetricEdges final : public SymmetricLaplacian {
         return pairs;
     }
 
+    void for_each_element(const std::function<void(std::size_t)>& action) const override
+    {
+        for (std::size_t i = 0; i < edges_.size(); ++i)
+            action(1);
+    }
+
     void assemble(const Points& positions, double factor, std::span<const Index> slots, std::span<double> values,
                   std::span<double> diagonal, std::span<double> mass, const StiffnessProduct* product) override
     {
@@ -168,6 +174,13 @@ class SymmetricFaces final : public SymmetricLaplacian {
         return pairs;
     }
 
+    void for_each_element(const std::function<void(std::size_t)>& action) const override
+    {
+        for (const IndexListsView& faces : lists_)
+            for (Index f = 0; f < faces.size(); ++f)
+                action(faces[f].size() * (faces[f].size() - 1) / 2);
+    }
+
     void assemble(const Points& positions, double factor, std::span<const Index> slots, std::span<double> values,
                   std::span<double> diagonal, std::span<double> mass, const StiffnessProduct* product) override
     {
@@ -239,6 +252,31 @@ class KeptStiffness final : public SymmetricLaplacian {
         laplacian_->assemble(positions, 1.0, slots, entries_, diagonal_, mass);
         if (keeps_mass_)
             mass_ = std::move(mass);
+        unweighted_.clear();
+    }
+
+    void for_each_element(const std::function<void(std::size_t)>& action) const override
+    {
+        laplacian_->for_each_element(action);
+    }
+
+    void weigh(const SquaredDifference& squared_difference) override
+    {
+        if (unweighted_.empty())
+            unweighted_ = entries_;
+        std::ranges::fill(diagonal_, 0.0);
+        std::size_t begin = 0;
+        laplacian_->for_each_element([&](std::size_t n) {
+            double largest = 0.0;
+            for (std::size_t i = begin; i < begin + n; ++i)
+                largest = std::max(largest, squared_difference(pairs_[i].first, pairs_[i].second));
+            for (std::size_t i = begin; i < begin + n; ++i) {
+                entries_[i] = unweighted_[i] / (1.0 + largest);
+                diagonal_[pairs_[i].first] -= entries_[i];
+                diagonal_[pairs_[i].second] -= entries_[i];
+            }
+            begin += n;
+        });
     }
 
     [[nodiscard]] bool uses_faces() const override { return laplacian_->uses_faces(); }
@@ -274,8 +312,9 @@ class KeptStiffness final : public SymmetricLaplacian {
   private:
     std::unique_ptr<SymmetricLaplacian> laplacian_;
     std::vector<VertexPair> pairs_;
-    /// Per pair.
+    /// Per pair; and before they were weighed, if they are.
     std::vector<double> entries_;
+    std::vector<double> unweighted_;
     /// Per vertex; M is empty if it follows the mesh.
     std::vector<double> diagonal_;
     std::vector<double> mass_;

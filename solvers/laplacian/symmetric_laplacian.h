@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -20,6 +21,9 @@ struct StiffnessProduct {
     Points& result;
     bool of_increments_alone = false;
 };
+
+/// How much two vertices differ, squared.
+using SquaredDifference = std::function<double(Index v, Index w)>;
 
 /// A Laplacian that is M⁻¹ K with M diagonal and positive and K symmetric and positive semi-definite: Δ_F with M = Σ‖e‖
 /// / val, Δ_A and Δ_B with M the areas of the vertices, Δ_U with M their degrees. Assembled from faces, repeatedly as
@@ -49,6 +53,13 @@ class SymmetricLaplacian {
 
     /// Takes what is kept of fixed positions from others, at least #V by 3 (see keep_stiffness).
     virtual void keep(const Points&) {}
+
+    /// Calls action(n) with the number of the next of `pairs` that belong to one face, or edge, for all of them.
+    virtual void for_each_element(const std::function<void(std::size_t n)>& action) const = 0;
+
+    /// Weighs the kept K of every face, or edge, by 1 / (1 + the largest difference of two of its vertices): the
+    /// diffusivity of Perona and Malik (Scale-Space and Edge Detection Using Anisotropic Diffusion, 1990).
+    virtual void weigh(const SquaredDifference&) {}
 };
 
 /// @param laplacian a symmetric one.

@@ -104,6 +104,9 @@ class NeumannSystem {
     /// Sets w of the attachment of an own vertex, in 1/length². Only with an attachment.
     void attach(Index v, double weight) { matrix_.screening.weights[v] = weight; }
 
+    /// Weighs a kept K (see SymmetricLaplacian::weigh).
+    void weigh(const SquaredDifference& squared_difference) { matrix_.laplacian->weigh(squared_difference); }
+
     /// Takes what is kept of V⁰, and what an attachment pulls to, from other positions.
     /// @param first at least #own by 3.
     void keep(const Points& first);

@@ -223,8 +223,14 @@ WholeMeshSystem::WholeMeshSystem(const PolygonMesh& mesh, const Topology& topolo
     , matrix_(make_matrix(mesh, topology, blocks_, row_of_, traits_of(laplacian).reach, exec))
     , moves_(at(mesh.n_vertices()))
     , masses_(is_applied_again ? at(mesh.n_vertices()) : 0)
+    , keeps_matrix_(terms.keeps_mass)
 {
     for_each(exec, matrix_.n_rows(), [&](Index i) { moves_[i] = topology.moves(blocks_.values[i]) ? 1 : 0; });
+    if (keeps_matrix_) {
+        kept_ = *terms.first;
+        kept_of_rows_.resize(matrix_.n_rows(), 3);
+        for_each(exec, matrix_.n_rows(), [&](Index i) { kept_of_rows_.row(i) = kept_.row(blocks_.values[i]); });
+    }
     if (!terms.attaches())
         return;
     screenings_.resize(moves_.size());
@@ -286,12 +292,12 @@ WholeMeshSystem::Sizes WholeMeshSystem::assemble(const Points& of_rows, const Ex
 /// residual = -dt K V' - M (V' - D), and dt M w (V⁰ - V') if it is attached, of the current solution V', with the
 /// weights of V.
 /// @param of_rows V, by rows.
-/// @param data D, by rows: V, or other data that the step is applied to; the pull is then not to V⁰, but to 0.
+/// @param data D, by rows: V, or other data that the step is applied to.
+/// @param is_pulled whether the pull is to V⁰, not to 0.
 /// @returns the sum of its squares, each over the diagonal.
-double WholeMeshSystem::measure(const Points& of_rows, const Points& data, const Executor& exec)
+double WholeMeshSystem::measure(const Points& of_rows, const Points& data, bool is_pulled, const Executor& exec)
 {
     const RowGeometry geometry{*mesh_, *topology_, *before_, of_rows, blocks_, row_of_, matrix_};
-    const bool is_first = &data == &of_rows;
     using Sum = Eigen::Array<double, 1, 1>;
     Sum squared;
     with_rows(laplacian_, geometry, [&](auto&& visit) {
@@ -306,7 +312,7 @@ double WholeMeshSystem::measure(const Points& of_rows, const Points& data, const
             residual -= units_.mass * mass * (there - data.row(i));
             if (screening(i) > 0.0)
                 residual +=
-                    units_.mass * mass * screening(i) * ((is_first ? Point(first_.row(i)) : Point::Zero()) - there);
+                    units_.mass * mass * screening(i) * ((is_pulled ? Point(first_.row(i)) : Point::Zero()) - there);
             residual *= units_.length;
             matrix_.set_residual(i, to_row(residual));
             return Sum::Constant(residual.squaredNorm() / matrix_.diagonal(i));
@@ -345,13 +351,42 @@ double WholeMeshSystem::distance_after(const BlockRowMatrix::Result& pass)
     return slower_somewhere * (rate < 1.0 ? pass.last_update * rate / (1.0 - rate) : pass.last_update);
 }
 
-WholeMeshSystem::Result WholeMeshSystem::step(const Points& before, double time_step, const IterationStop& stop,
-                                              Points& after, const Executor& exec, const Points* guess)
+void WholeMeshSystem::take_units(double time_step)
 {
+    has_matrix_ &= time_step == time_step_;
     time_step_ = time_step;
     const double root = std::sqrt(time_step);
     const double mass_unit = traits_of(laplacian_).divisor == Divisor::EdgeLengths ? root : time_step;
     units_ = {.stiffness = time_step / mass_unit, .mass = 1.0 / mass_unit, .length = 1.0 / root};
+}
+
+/// Iterations begin with Vᵏ.
+WholeMeshSystem::Result WholeMeshSystem::step_with_kept_matrix(const Points& before, const IterationStop& stop,
+                                                               Points& after, const Executor& exec)
+{
+    before_ = &kept_;
+    if (!has_matrix_) {
+        assemble(kept_of_rows_, exec);
+        matrix_.factorise(exec);
+        has_matrix_ = true;
+    }
+    data_.resize(matrix_.n_rows(), 3);
+    for_each(exec, matrix_.n_rows(), [&](Index i) { data_.row(i) = before.row(blocks_.values[i]); });
+    after_ = data_;
+    const double squared = measure(kept_of_rows_, data_, true, exec);
+    if (!(squared > 0.0)) {
+        copy(exec, before, after);
+        return {};
+    }
+    return solve({squared, kept_of_rows_, data_, true, true}, stop, after, exec);
+}
+
+WholeMeshSystem::Result WholeMeshSystem::step(const Points& before, double time_step, const IterationStop& stop,
+                                              Points& after, const Executor& exec, const Points* guess)
+{
+    take_units(time_step);
+    if (keeps_matrix_)
+        return step_with_kept_matrix(before, stop, after, exec);
     before_ = &before;
     list_before(after, exec);
     const Sizes sizes = assemble(after, exec);
@@ -361,7 +396,7 @@ WholeMeshSystem::Result WholeMeshSystem::step(const Points& before, double time_
         return {};
     }
     matrix_.factorise(exec);
-    return solve(sizes.residual.sum(), after, guess, stop, after, exec);
+    return solve({sizes.residual.sum(), after, after, true, false, guess}, stop, after, exec);
 }
 
 /// Saves memory: a result has room for V, by rows, until it is known itself.
@@ -389,42 +424,38 @@ WholeMeshSystem::Result WholeMeshSystem::apply(const Points& data, const Iterati
         return {};
     }
     list_before(result, exec);
-    return solve(squared.value(), data_, nullptr, stop, result, exec);
+    after_.resize(matrix_.n_rows(), 3);
+    for_each(exec, matrix_.n_rows(), [&](Index i) {
+        if (moves_[i] == 0)
+            after_.row(i) = data_.row(i);
+        else
+            after_.row(i).setZero();
+    });
+    return solve({squared.value(), result, data_, false, true}, stop, result, exec);
 }
 
-/// Solves for the result of the step on V, or on data, starting from a guess, from V or from 0.
-/// @param squared of the residual, each over the diagonal. @param data by rows: V, or what replaces it.
-/// @param after in: V, by rows, maybe the data.
-WholeMeshSystem::Result WholeMeshSystem::solve(double squared, const Points& data, const Points* guess,
-                                               const IterationStop& stop, Points& after, const Executor& exec)
+/// Solves for the result of the step on V, or on data.
+/// @param after in: V, by rows, unless the matrix is kept.
+WholeMeshSystem::Result WholeMeshSystem::solve(const Beginning& beginning, const IterationStop& stop, Points& after,
+                                               const Executor& exec)
 {
     const double root = std::sqrt(time_step_);
-    PassStart start = start_pass(squared, exec);
+    PassStart start = start_pass(beginning.squared, exec);
     const double first = start.norm;
     double left = 1.0;
     double distance = 0.0;
-    // Whether the current solution is in after_, by rows; if not, it is V.
-    bool is_in_rows = &data != &after;
+    bool is_in_rows = beginning.is_in_rows;
     bool is_written = false;
-    if (is_in_rows) {
-        after_.resize(matrix_.n_rows(), 3);
-        for_each(exec, matrix_.n_rows(), [&](Index i) {
-            if (moves_[i] == 0)
-                after_.row(i) = data.row(i);
-            else
-                after_.row(i).setZero();
-        });
-    }
     const auto renew = [&] {
-        const double renewed = measure(after, data, exec);
+        const double renewed = measure(beginning.of_rows, beginning.data, beginning.is_pulled, exec);
         if (renewed > 0.0)
             start = start_pass(renewed, exec);
         // Not a number, if that is what the residual is.
         left = renewed > 0.0 ? start.norm / first : renewed;
     };
-    if (guess != nullptr) {
+    if (beginning.guess != nullptr) {
         after_.resize(matrix_.n_rows(), 3);
-        for_each(exec, matrix_.n_rows(), [&](Index i) { after_.row(i) = guess->row(blocks_.values[i]); });
+        for_each(exec, matrix_.n_rows(), [&](Index i) { after_.row(i) = beginning.guess->row(blocks_.values[i]); });
         renew();
         is_in_rows = left < 1.0;
         if (is_in_rows) {

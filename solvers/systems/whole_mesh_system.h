@@ -20,11 +20,12 @@ namespace seamflow {
 /// factorisation. The matrix and the vectors of an iteration are in single precision; the residual is recomputed in
 /// double precision, from the geometry, so that rounding limits no tolerance. Three columns are iterated at once. Sums
 /// are taken in a fixed order: the bits do not depend on how loops are run. For symmetric Laplacians. An attachment to
-/// V⁰ adds dt M w to the diagonal and dt M w (V⁰ - Vᵏ) to the right-hand side.
+/// V⁰ adds dt M w to the diagonal and dt M w (V⁰ - Vᵏ) to the right-hand side. If terms keep M, all steps have the
+/// matrix of V⁰.
 class WholeMeshSystem {
   public:
     /// @param mesh, topology must outlive the system. Vertices that do not move have no row.
-    /// @param terms with a K that follows the surface.
+    /// @param terms with M and K that both follow the surface or are both kept.
     /// @param is_applied_again whether `apply` will be called.
     /// @throws ComputationError if there are 2³¹ coefficients or more; OptionError for an unsymmetric Laplacian.
     WholeMeshSystem(const PolygonMesh& mesh, const Topology& topology, const ScaledLaplacian& laplacian,
@@ -75,11 +76,28 @@ class WholeMeshSystem {
         double norm = 0.0;
     };
 
+    /// What a solution begins with.
+    struct Beginning {
+        /// Of the residual: the sum of its squares, each over the diagonal.
+        double squared;
+        /// V, by rows.
+        const Points& of_rows;
+        /// By rows: V, or what the step is applied to.
+        const Points& data;
+        /// Whether an attachment pulls to V⁰, not to 0.
+        bool is_pulled;
+        /// Whether the solution that iterations begin with is in after_, by rows; if not, it is V.
+        bool is_in_rows;
+        /// What they begin with instead if its residual is smaller; may be null.
+        const Points* guess = nullptr;
+    };
+
     void list_before(Points& result, const Executor& exec) const;
+    void take_units(double time_step);
     Sizes assemble(const Points& of_rows, const Executor& exec);
-    double measure(const Points& of_rows, const Points& data, const Executor& exec);
-    Result solve(double squared, const Points& data, const Points* guess, const IterationStop& stop, Points& after,
-                 const Executor& exec);
+    double measure(const Points& of_rows, const Points& data, bool is_pulled, const Executor& exec);
+    Result step_with_kept_matrix(const Points& before, const IterationStop& stop, Points& after, const Executor& exec);
+    Result solve(const Beginning& beginning, const IterationStop& stop, Points& after, const Executor& exec);
     /// dt w of a row.
     [[nodiscard]] double screening(Index i) const { return screenings_.empty() ? 0.0 : time_step_ * screenings_[i]; }
     PassStart start_pass(double squared, const Executor& exec);
@@ -104,9 +122,14 @@ class WholeMeshSystem {
     /// With an attachment, by rows: w, and V⁰.
     std::vector<double> screenings_;
     Points first_ = Points(0, 3);
-    /// For `apply`: by rows, M in the unit of the matrix, and D.
+    /// For `apply`: by rows, M in the unit of the matrix. For that and for a kept matrix: by rows, D, which is then Vᵏ.
     std::vector<double> masses_;
     Points data_ = Points(0, 3);
+    /// Of a kept matrix: V⁰, by vertices and by rows; and whether there is the matrix of the time step.
+    bool keeps_matrix_ = false;
+    bool has_matrix_ = false;
+    Points kept_ = Points(0, 3);
+    Points kept_of_rows_ = Points(0, 3);
 };
 
 }  // namespace seamflow

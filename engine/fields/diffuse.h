@@ -1,0 +1,63 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "engine/measure/flow_report.h"
+#include "engine/options/flow_control.h"
+#include "engine/options/flow_options.h"
+#include "partition/polygon_mesh.h"
+
+namespace seamflow {
+
+/// What concerns fields alone.
+struct FieldOptions {
+    /// The amount of all steps together, in place of FlowOptions::time_step and radius: the full width at half maximum
+    /// of the Gaussian kernel of the heat equation at the time t = FWHM² / (16 ln 2) of all steps, in length. Backward
+    /// Euler steps come near to it if there are several (see FieldReport::fwhm).
+    std::optional<double> fwhm = {};
+    /// Keeps edges of the fields: differences well above this diffuse little (see Flow::keep_field_edges). All columns
+    /// count together, as one vector per vertex. K is factorised in each step. Not with conjugate gradients.
+    std::optional<double> keep_edges = {};
+    /// Gives vertices without data, after all steps, the harmonic extension of the others: K X = 0 there.
+    bool fill = false;
+    /// Free: no heat flows across the boundary. Fixed: values there stay, bit for bit.
+    Boundary boundary = Boundary::Free;
+};
+
+/// What diffuse did.
+struct FieldReport {
+    /// Of the flow; its steps count all columns.
+    FlowReport flow;
+    /// With FieldOptions::fwhm: the width that was reached, in length, as white noise at the vertices shows that has
+    /// diffused in the same way: from the variances of values and of their differences along edges (Forman and others,
+    /// Improved Assessment of Significant Activation in Functional Magnetic Resonance Imaging, 1995).
+    std::optional<double> fwhm = {};
+    /// How many vertices have no data in a column, or several; and to how many of them the extension has given some.
+    Index without_data = 0;
+    Index filled = 0;
+    /// Sentences for the user.
+    std::vector<std::string> remarks;
+};
+
+/// Lets fields on a surface diffuse by its heat equation, (M + dt K) Xᵏ⁺¹ = M Xᵏ in each step; the surface stays. The
+/// matrix is factorised once for all steps and columns, but for FieldOptions::keep_edges. The integral Σ M X of each
+/// column stays, with a free boundary and without fixed vertices.
+/// @param fields #V by n: values at the vertices; NaN is no data. Vertices without data take no part: the surface of a
+///        column is that of the faces whose vertices all have data. Vertices that are fixed, have no such face, or no
+///        row in the Laplacian, keep their values.
+/// @param options of the flow: amount, steps, Laplacian, sub-meshes, threads. AccuracyOptions::tolerance is 1e-8 where
+///        it is left open. MotionOptions::boundary does not count.
+/// @throws InputError for a mesh or fields that cannot be used: another number of rows, infinite values; OptionError
+///         for options that fields do not have: sweeps, explicit steps, an attachment, limits, rescaling; as
+///         mean_curvature_flow. The fields are then unchanged.
+FieldReport diffuse(const PolygonMesh& mesh, Eigen::MatrixXd& fields, const FlowOptions& options,
+                    const FieldOptions& field_options = {}, const FlowControl& control = {});
+
+/// The time of a kernel of that width, FWHM² / (16 ln 2), in length².
+double time_for_fwhm(double fwhm);
+
+}  // namespace seamflow

@@ -1,0 +1,369 @@
+#include "engine/fields/diffuse.h"
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include <Eigen/Dense>
+#include <doctest/doctest.h>
+
+#include "engine/fields/white_noise.h"
+#include "partition/errors.h"
+#include "partition/metrics/vertex_distance.h"
+#include "samples/meshes/meshes.h"
+#include "tests/support/relative.h"
+#include "tests/support/test_meshes.h"
+
+using namespace seamflow;
+using test::relative;
+
+namespace {
+
+constexpr double no_data = std::numeric_limits<double>::quiet_NaN();
+
+/// K by cotangents and M by thirds of areas of triangles: written down anew.
+struct CotangentMatrices {
+    Eigen::MatrixXd stiffness;
+    Eigen::VectorXd mass;
+};
+
+/// @param diffusivity_of a face; empty: 1.
+CotangentMatrices by_cotangents(const PolygonMesh& mesh, const std::function<double(Index f)>& diffusivity_of = {})
+{
+    CotangentMatrices of{Eigen::MatrixXd::Zero(mesh.n_vertices(), mesh.n_vertices()),
+                         Eigen::VectorXd::Zero(mesh.n_vertices())};
+    for (Index f = 0; f < mesh.n_faces(); ++f) {
+        const auto face = mesh.face(f);
+        const double g = diffusivity_of ? diffusivity_of(f) : 1.0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Index a = face[(k + 1) % 3];
+            const Index b = face[(k + 2) % 3];
+            const Eigen::RowVector3d u = mesh.vertices.row(a) - mesh.vertices.row(face[k]);
+            const Eigen::RowVector3d v = mesh.vertices.row(b) - mesh.vertices.row(face[k]);
+            const double doubled = u.cross(v).norm();
+            const double w = g * 0.5 * u.dot(v) / doubled;
+            of.stiffness(a, a) += w;
+            of.stiffness(b, b) += w;
+            of.stiffness(a, b) -= w;
+            of.stiffness(b, a) -= w;
+            of.mass[face[k]] += doubled / 6.0;
+        }
+    }
+    return of;
+}
+
+Eigen::MatrixXd one_step(const CotangentMatrices& of, const Eigen::MatrixXd& fields, double time_step)
+{
+    const Eigen::MatrixXd matrix = Eigen::MatrixXd(of.mass.asDiagonal()) + time_step * of.stiffness;
+    const Eigen::MatrixXd right = of.stiffness * (fields.rowwise() - fields.row(0));
+    return fields - time_step * matrix.partialPivLu().solve(right);
+}
+
+PolygonMesh bumpy_triangles(Index vertices)
+{
+    HeightFieldShape shape;
+    shape.noise = 0.2;
+    return make_triangles(vertices, shape);
+}
+
+/// Five columns of different sizes.
+Eigen::MatrixXd waves_on(const PolygonMesh& mesh)
+{
+    Eigen::MatrixXd fields(mesh.n_vertices(), 5);
+    for (Index v = 0; v < mesh.n_vertices(); ++v) {
+        const double x = mesh.vertices(v, 0);
+        const double y = mesh.vertices(v, 1);
+        fields.row(v) << std::sin(9.0 * x), 1e6 + std::cos(7.0 * y), 1e-9 * x * y, (v * 37) % 256, x > 0.4 ? 1e3 : -1e3;
+    }
+    return fields;
+}
+
+/// Of each column, in units of its spread.
+double largest_difference(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b)
+{
+    const Eigen::RowVectorXd spread = b.colwise().maxCoeff() - b.colwise().minCoeff();
+    return ((a - b).cwiseAbs().array().rowwise() / spread.array()).maxCoeff();
+}
+
+FlowOptions steps_of(const PolygonMesh& mesh, double squared_edges, int steps, Approach approach, Index subdomains)
+{
+    const double edge = mean_edge_length(mesh);
+    FlowOptions options{.laplacian = Laplacian::AlexaWardetzky, .time_step = squared_edges * edge * edge, .steps = steps};
+    options.accuracy.approach = approach;
+    options.accuracy.tolerance = 1e-11;
+    if (approach == Approach::Undecomposed)
+        options.accuracy.tolerance.reset();
+    options.cut.subdomains = subdomains;
+    return options;
+}
+
+std::string complaint_of(const std::function<void()>& action)
+{
+    try {
+        action();
+    } catch (const std::exception& error) {
+        return error.what();
+    }
+    return {};
+}
+
+}  // namespace
+
+TEST_CASE("fields diffuse as by a dense matrix of cotangents, however steps are solved")
+{
+    const PolygonMesh mesh = bumpy_triangles(700);
+    const Eigen::MatrixXd before = waves_on(mesh);
+    const CotangentMatrices of = by_cotangents(mesh);
+    for (const auto& [approach, subdomains] :
+         {std::pair{Approach::Converged, 7}, {Approach::Undecomposed, 1}, {Approach::ConjugateGradients, 1}}) {
+        CAPTURE(static_cast<int>(approach));
+        for (const double squared_edges : {0.5, 40.0}) {
+            const FlowOptions options = steps_of(mesh, squared_edges, 3, approach, subdomains);
+            Eigen::MatrixXd expected = before;
+            for (int step = 0; step < 3; ++step)
+                expected = one_step(of, expected, options.time_step);
+            Eigen::MatrixXd fields = before;
+            const FieldReport report = diffuse(mesh, fields, options);
+            CHECK(largest_difference(fields, expected) < 1e-8);
+            CHECK(report.without_data == 0);
+            const Eigen::RowVectorXd kept = of.mass.transpose() * before;
+            CHECK(((of.mass.transpose() * fields - kept).array() / kept.array()).abs().maxCoeff() < 1e-8);
+        }
+    }
+}
+
+TEST_CASE("columns of fields do not depend on each other, on threads, or on their unit")
+{
+    const PolygonMesh mesh = bumpy_triangles(3000);
+    const Eigen::MatrixXd before = waves_on(mesh);
+    FlowOptions options = steps_of(mesh, 10.0, 2, Approach::Converged, 6);
+    Eigen::MatrixXd all = before;
+    diffuse(mesh, all, options);
+    options.resources.threads = 1;
+    Eigen::MatrixXd by_one = before;
+    diffuse(mesh, by_one, options);
+    CHECK(by_one == all);
+    Eigen::MatrixXd doubled = 1024.0 * before;
+    diffuse(mesh, doubled, options);
+    CHECK(doubled == 1024.0 * all);
+    Eigen::MatrixXd third = before.col(3);
+    diffuse(mesh, third, options);
+    CHECK(largest_difference(third, all.col(3)) < 1e-9);
+}
+
+TEST_CASE("constant fields stay, bit for bit, and so do held vertices and a fixed boundary")
+{
+    const PolygonMesh mesh = bumpy_triangles(1200);
+    for (const Approach approach : {Approach::Converged, Approach::ConjugateGradients}) {
+        FlowOptions options = steps_of(mesh, 30.0, 2, approach, approach == Approach::Converged ? 5 : 1);
+        Eigen::MatrixXd fields = waves_on(mesh);
+        fields.col(1).setConstant(0.1);
+        options.motion.fixed_vertices = {17, 400, 401};
+        const Eigen::MatrixXd before = fields;
+        diffuse(mesh, fields, options);
+        CHECK(fields.col(1) == before.col(1));
+        for (const Index v : options.motion.fixed_vertices)
+            CHECK(fields.row(v) == before.row(v));
+        CHECK(fields.row(402) != before.row(402));
+
+        const Topology topology = make_topology(mesh);
+        fields = before;
+        diffuse(mesh, fields, options, {.boundary = Boundary::Fixed});
+        CotangentMatrices of = by_cotangents(mesh);
+        for (Index v = 0; v < mesh.n_vertices(); ++v)
+            if (topology.kind[v] == VertexKind::Boundary || v == 17 || v == 400 || v == 401) {
+                CHECK(fields.row(v) == before.row(v));
+                of.stiffness.row(v).setZero();
+            }
+        Eigen::MatrixXd expected = before;
+        for (int step = 0; step < 2; ++step)
+            expected = one_step(of, expected, options.time_step);
+        CHECK(largest_difference(fields.rightCols(3), expected.rightCols(3)) < 1e-7);
+    }
+}
+
+TEST_CASE("vertices without data take no part, and stay without, or get the harmonic extension")
+{
+    const PolygonMesh mesh = bumpy_triangles(900);
+    const Eigen::MatrixXd complete = waves_on(mesh);
+    Eigen::MatrixXd before = complete;
+    std::vector<Index> lacking;
+    for (Index v = 0; v < mesh.n_vertices(); ++v)
+        if ((mesh.vertices.row(v).head<2>() - Eigen::RowVector2d(0.5, 0.5)).norm() < 0.2)
+            lacking.push_back(v);
+    REQUIRE(lacking.size() > 50);
+    for (const Index v : lacking)
+        before(v, 0) = before(v, 4) = no_data;
+    const FlowOptions options = steps_of(mesh, 10.0, 2, Approach::Automatic, 0);
+    Eigen::MatrixXd fields = before;
+    const FieldReport report = diffuse(mesh, fields, options);
+    CHECK(report.without_data == std::ssize(lacking));
+    CHECK(report.filled == 0);
+
+    // The surface with a hole.
+    PolygonMesh with_hole;
+    with_hole.vertices = mesh.vertices;
+    for (Index f = 0; f < mesh.n_faces(); ++f)
+        if (std::ranges::none_of(mesh.face(f), [&](Index v) { return std::isnan(before(v, 0)); }))
+            with_hole.add_face(mesh.face(f));
+    CotangentMatrices of = by_cotangents(with_hole);
+    for (Index v = 0; v < mesh.n_vertices(); ++v)
+        of.mass[v] = of.mass[v] > 0.0 ? of.mass[v] : 1.0;
+    Eigen::MatrixXd expected = complete;
+    for (int step = 0; step < 2; ++step)
+        expected = one_step(of, expected, options.time_step);
+    Eigen::MatrixXd whole = complete;
+    diffuse(mesh, whole, options);
+    for (Index v = 0; v < mesh.n_vertices(); ++v) {
+        CHECK(std::isnan(fields(v, 0)) == std::isnan(before(v, 0)));
+        CHECK(std::isnan(fields(v, 4)) == std::isnan(before(v, 4)));
+        if (!std::isnan(before(v, 0)))
+            CHECK(std::abs(fields(v, 0) - expected(v, 0)) < 1e-8);
+    }
+    CHECK(largest_difference(fields.middleCols(1, 3), whole.middleCols(1, 3)) < 1e-8);
+
+    Eigen::MatrixXd filled = before;
+    const FieldReport of_filling = diffuse(mesh, filled, options, {.fill = true});
+    CHECK(of_filling.filled == std::ssize(lacking));
+    CHECK(filled.allFinite());
+    const CotangentMatrices of_mesh = by_cotangents(mesh);
+    for (Index v = 0; v < mesh.n_vertices(); ++v)
+        if (std::isnan(before(v, 0)))
+            CHECK(std::abs(of_mesh.stiffness.row(v).dot(filled.col(0))) < 1e-5);
+        else
+            CHECK(filled(v, 0) == fields(v, 0));
+}
+
+TEST_CASE("a column without any data, and a component without any, stay so")
+{
+    const PolygonMesh mesh = test::side_by_side({test::triangle_grid(5, 5), test::triangle_grid(4, 4)});
+    Eigen::MatrixXd fields = Eigen::MatrixXd::Random(mesh.n_vertices(), 2);
+    fields.col(1).setConstant(no_data);
+    for (Index v = 36; v < mesh.n_vertices(); ++v)
+        fields(v, 0) = no_data;
+    fields(7, 0) = no_data;
+    const FieldReport report = diffuse(mesh, fields, {.time_step = 0.5}, {.fill = true});
+    CHECK(fields.col(1).array().isNaN().all());
+    CHECK(fields.col(0).tail(mesh.n_vertices() - 36).array().isNaN().all());
+    CHECK(fields.col(0).head(36).allFinite());
+    CHECK(report.filled == 1);
+}
+
+TEST_CASE("edges of fields stay by the diffusivity of Perona and Malik")
+{
+    const PolygonMesh mesh = bumpy_triangles(500);
+    Eigen::MatrixXd before(mesh.n_vertices(), 4);
+    for (Index v = 0; v < mesh.n_vertices(); ++v)
+        before.row(v) << (mesh.vertices(v, 0) > 0.5 ? 200.0 : 10.0) + (v * 7) % 5, (v * 3) % 4, 0.0, (v * 5) % 3;
+    const FlowOptions options = steps_of(mesh, 3.0, 2, Approach::Converged, 4);
+    Eigen::MatrixXd expected = before;
+    for (int step = 0; step < 2; ++step) {
+        const auto diffusivity = [&](Index f) {
+            double largest = 0.0;
+            for (const Index v : mesh.face(f))
+                for (const Index w : mesh.face(f))
+                    largest = std::max(largest, (expected.row(v) - expected.row(w)).squaredNorm());
+            return 1.0 / (1.0 + largest / (15.0 * 15.0));
+        };
+        expected = one_step(by_cotangents(mesh, diffusivity), expected, options.time_step);
+    }
+    Eigen::MatrixXd fields = before;
+    diffuse(mesh, fields, options, {.keep_edges = 15.0});
+    CHECK((fields - expected).cwiseAbs().maxCoeff() < 1e-6);
+    // The edge stays, and what is beside it becomes smooth.
+    Eigen::MatrixXd plain = before;
+    diffuse(mesh, plain, options);
+    const auto across = [&](const Eigen::MatrixXd& of) {
+        double least = 1e9;
+        for (Index f = 0; f < mesh.n_faces(); ++f)
+            for (const Index v : mesh.face(f))
+                for (const Index w : mesh.face(f))
+                    if (mesh.vertices(v, 0) > 0.5 && mesh.vertices(w, 0) <= 0.5)
+                        least = std::min(least, of(v, 0) - of(w, 0));
+        return least;
+    };
+    CHECK(across(fields) > 150.0);
+    CHECK(across(plain) < 100.0);
+    CHECK(complaint_of([&] {
+              diffuse(mesh, fields, steps_of(mesh, 3.0, 2, Approach::ConjugateGradients, 1), {.keep_edges = 15.0});
+          }) == "edges of fields are kept only in converged and undecomposed steps: leave the approach automatic");
+}
+
+TEST_CASE("the width that a diffusion reaches comes near to the one asked for, the nearer the more steps")
+{
+    const PolygonMesh mesh = make_noisy_sphere(8000, {.amplitude = 0.0, .noise = 0.0});
+    const double fwhm = 10.0 * mean_edge_length(mesh);
+    double before = 0.0;
+    for (const int steps : {2, 10, 40}) {
+        Eigen::MatrixXd fields = Eigen::MatrixXd::Zero(mesh.n_vertices(), 1);
+        FlowOptions options{.laplacian = Laplacian::AlexaWardetzky, .steps = steps};
+        const FieldReport report = diffuse(mesh, fields, options, {.fwhm = fwhm});
+        REQUIRE(report.fwhm);
+        // The second moment of the spectrum of n backward Euler steps: (n - 1) / n of the square.
+        CHECK(*report.fwhm == relative(fwhm * std::sqrt((steps - 1.0) / steps), 0.07));
+        CHECK(*report.fwhm > before);
+        before = *report.fwhm;
+    }
+    CHECK(time_for_fwhm(2.0) == relative(4.0 / (16.0 * std::numbers::ln2), 1e-15));
+}
+
+TEST_CASE("white noise has no width, and its numbers a variance of 1")
+{
+    const PolygonMesh mesh = test::triangle_torus(60, 60);
+    const Eigen::MatrixXd noise = white_noise(mesh.n_vertices());
+    CHECK(std::abs(noise.mean()) < 0.03);
+    CHECK((noise.array() - noise.mean()).square().mean() == relative(1.0, 0.03));
+    CHECK_FALSE(fwhm_of_noise(mesh, Eigen::MatrixXd::Ones(mesh.n_vertices(), 3)));
+}
+
+TEST_CASE("vertices along seams get one value")
+{
+    const PolygonMesh whole = bumpy_triangles(600);
+    std::vector<Index> labels;
+    for (Index f = 0; f < whole.n_faces(); ++f)
+        labels.push_back(whole.vertices(whole.face(f)[0], 0) > 0.5 ? 1 : 0);
+    const PolygonMesh mesh = test::split(whole, labels);
+    REQUIRE(mesh.n_vertices() > whole.n_vertices());
+    Eigen::MatrixXd of_whole = waves_on(whole);
+    Eigen::MatrixXd fields = waves_on(mesh);
+    for (Index v = whole.n_vertices(); v < mesh.n_vertices(); ++v)
+        for (Index w = 0; w < whole.n_vertices(); ++w)
+            if (mesh.vertices.row(v) == whole.vertices.row(w))
+                fields.row(v) = of_whole.row(w);
+    const FlowOptions options = steps_of(whole, 10.0, 2, Approach::Automatic, 0);
+    diffuse(whole, of_whole, options);
+    diffuse(mesh, fields, options);
+    CHECK(largest_difference(fields.topRows(whole.n_vertices()), of_whole) < 1e-9);
+}
+
+TEST_CASE("fields refuse what they do not have, and stay as they were")
+{
+    const PolygonMesh mesh = test::triangle_grid(4, 4);
+    Eigen::MatrixXd fields = Eigen::MatrixXd::Random(mesh.n_vertices(), 2);
+    const Eigen::MatrixXd before = fields;
+    const auto complaint = [&](const FlowOptions& options, const FieldOptions& of_fields = {}) {
+        const std::string text = complaint_of([&] { diffuse(mesh, fields, options, of_fields); });
+        CHECK(fields == before);
+        return text;
+    };
+    FlowOptions sweeps{.time_step = 1.0};
+    sweeps.accuracy.approach = Approach::Sweep;
+    CHECK(complaint(sweeps) == "the steps of fields are solved exactly, and not by sweeps over sub-meshes: leave what "
+                               "concerns sweeps out");
+    CHECK(complaint({.time_step = 1.0}, {.fwhm = 1.0}) ==
+          "fwhm and time_step or radius both say how much is smoothed: leave one of them out");
+    CHECK(complaint({}, {.fwhm = -1.0}) == "fwhm is -1, but must be positive and finite (a length)");
+    CHECK(complaint({.laplacian = Laplacian::PtackovaVelho, .time_step = 1.0}) ==
+          "fields diffuse by a symmetric matrix, which the Laplacian ptackova-velho does not have: use fujiwara, "
+          "alexa-wardetzky, virtual-refinement or uniform");
+    fields(3, 1) = std::numeric_limits<double>::infinity();
+    CHECK(complaint_of([&] { diffuse(mesh, fields, {.time_step = 1.0}); }) ==
+          "column 1 of the fields is infinite at vertex 3 (both numbered from 0): give a finite number, or NaN where "
+          "there are no data");
+    Eigen::MatrixXd short_one = Eigen::MatrixXd::Zero(3, 1);
+    CHECK(complaint_of([&] { diffuse(mesh, short_one, {.time_step = 1.0}); }) ==
+          "the fields have 3 rows, but the mesh has 25 vertices: give one for each");
+}
