@@ -320,11 +320,21 @@ PolygonMesh read_off(const std::filesystem::path& path, std::string_view text, c
 {
     if (const auto data = start_of_binary_off(text))
         return read_binary_off(path, text, *data, slicing, faults);
+    FaultLog own = faults != nullptr ? *faults : FaultLog();
     try {
-        return read_by_lines(path, text, slicing, faults);
+        PolygonMesh mesh = read_by_lines(path, text, slicing, faults != nullptr ? &own : nullptr);
+        if (faults == nullptr || own.count == faults->count)
+            return mesh;
+        // What has faults line by line may have none across lines.
+        if (std::optional<PolygonMesh> across = read_across_lines(path, text, slicing))
+            return *std::move(across);
+        *faults = std::move(own);
+        return mesh;
     } catch (const InputError&) {
         if (std::optional<PolygonMesh> mesh = read_across_lines(path, text, slicing))
             return *std::move(mesh);
+        if (faults != nullptr)
+            *faults = std::move(own);
         throw;
     }
 }

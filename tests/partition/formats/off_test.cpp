@@ -8,6 +8,7 @@
 
 #include <doctest/doctest.h>
 
+#include "partition/formats/off.h"
 #include "tests/support/mesh_files.h"
 #include "tests/support/temporary_directory.h"
 
@@ -95,6 +96,16 @@ TEST_CASE("OFF: every complaint names the line")
     CHECK(contains(off_complaint(vertices + "-1\n"), "a.off:6: the face has 0 corners"));
     CHECK(contains(off_complaint(vertices + "2000000000 0 1 2\n"), "a.off:6: expected the vertices of all corners"));
     CHECK(contains(off_complaint("OFF 0 0 0\n"), "the file has no vertices"));
+}
+
+TEST_CASE("OFF: a file without faults across lines has none, though line by line it would have")
+{
+    // The second line of the first vertex has its normal, which is passed over.
+    const std::string text = "NOFF\n2 0 0\n0 0 0\nx 0 1\n1 1 1 0 0 1\n";
+    CHECK(read_off("a.off", text, Slicing()).vertices == (Points(2, 3) << 0, 0, 0, 1, 1, 1).finished());
+    FaultLog faults;
+    CHECK(read_off("a.off", text, Slicing(), &faults).vertices(1, 2) == 1.0);
+    CHECK(faults.count == 0);
 }
 
 TEST_CASE("OFF: what is written")
