@@ -51,7 +51,7 @@ auto fields(Is<RankList> auto& of)
 }
 
 /// The sum does not depend on who adds what.
-std::uint64_t sum_of_all(Communicator& comm, std::uint64_t own)
+std::uint64_t sum_over_ranks(Communicator& comm, std::uint64_t own)
 {
     std::uint64_t sum = 0;
     for (const std::uint64_t of_rank : comm.gather_all(std::vector<std::uint64_t>{own}))
@@ -114,7 +114,7 @@ std::uint64_t checksum_of_mesh(Communicator& comm, const RankSlice& slice)
                                 static_cast<std::size_t>(slice.face_offsets[f + 1] - begin));
         own += hash_at(~(bounds.faces[comm.rank()] + f), std::as_bytes(corners));
     }
-    return sum_of_all(comm, own);
+    return sum_over_ranks(comm, own);
 }
 
 std::uint64_t checksum_of_labels(Communicator& comm, const RankSlice& slice)
@@ -123,7 +123,7 @@ std::uint64_t checksum_of_labels(Communicator& comm, const RankSlice& slice)
     std::uint64_t own = 0;
     for (std::size_t f = 0; f < slice.labels.size(); ++f)
         own += hash_at(begin + static_cast<std::int64_t>(f), std::as_bytes(std::span(&slice.labels[f], 1)));
-    return sum_of_all(comm, own);
+    return sum_over_ranks(comm, own);
 }
 
 RankCheckpoint::RankCheckpoint(std::filesystem::path folder, FlowIdentity identity)

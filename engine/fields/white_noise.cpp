@@ -24,8 +24,8 @@ double uniform(std::uint64_t number)
     return std::numbers::sqrt3 * (2.0 * in_unit - 1.0);
 }
 
-/// Sums over vertices and edges of a mesh.
-struct Sums {
+/// NoiseSums over vertices and edges of a mesh.
+struct NoiseSums {
     double n = 0.0;
     double value = 0.0;
     double squared = 0.0;
@@ -59,9 +59,9 @@ std::optional<double> fwhm_of_noise(const PolygonMesh& mesh, const Eigen::Matrix
         has_face[v] = 1;
     double sum = 0.0;
     for (Eigen::Index c = 0; c < noise.cols(); ++c) {
-        Sums values;
-        Sums differences;
-        Sums lengths;
+        NoiseSums values;
+        NoiseSums differences;
+        NoiseSums lengths;
         for (Index v = 0; v < mesh.n_vertices(); ++v)
             if (has_face[v] != 0)
                 values.add(noise(v, c));

@@ -1,0 +1,123 @@
+#include "engine/fields/geodesic_distance.h"
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+#include "partition/errors.h"
+#include "partition/metrics/vertex_distance.h"
+#include "samples/meshes/meshes.h"
+#include "tests/support/relative.h"
+#include "tests/support/test_meshes.h"
+
+using namespace seamflow;
+using test::relative;
+
+namespace {
+
+/// The mean of the differences, as a part of the mean distance.
+double mean_error(const Eigen::VectorXd& distance, const Eigen::VectorXd& exact)
+{
+    return (distance - exact).cwiseAbs().sum() / exact.sum();
+}
+
+Index nearest_to(const PolygonMesh& mesh, const Point& place)
+{
+    Eigen::Index nearest = 0;
+    (mesh.vertices.rowwise() - place).rowwise().squaredNorm().minCoeff(&nearest);
+    return static_cast<Index>(nearest);
+}
+
+Eigen::VectorXd from_place(const PolygonMesh& mesh, Index v)
+{
+    return (mesh.vertices.rowwise() - mesh.vertices.row(v)).rowwise().norm();
+}
+
+}  // namespace
+
+TEST_CASE("geodesic distances of planes and spheres come near to the exact ones, on any polygons")
+{
+    const auto flat = [](PolygonMesh mesh) {
+        mesh.vertices.col(2).setZero();
+        return mesh;
+    };
+    const std::vector<PolygonMesh> meshes{flat(make_triangles(4000)), flat(make_quads(4000)), flat(make_hexagons(4000)),
+                                          flat(make_mixed_polygons(4000))};
+    for (const PolygonMesh& mesh : meshes)
+        for (const Point& place : {Point(0.5, 0.5, 0.0), Point(0.1, 0.3, 0.0), Point(0.0, 0.0, 0.0)}) {
+            CAPTURE(mesh.n_faces());
+            CAPTURE(place);
+            const Index from = nearest_to(mesh, place);
+            const Eigen::VectorXd distance = geodesic_distance(mesh, std::array{from});
+            // The mixed polygons are not convex.
+            const bool are_mixed = &mesh == &meshes.back();
+            CHECK(mean_error(distance, from_place(mesh, from)) < (are_mixed ? 0.025 : 0.01));
+            CHECK(distance[from] == 0.0);
+            CHECK(distance.minCoeff() == 0.0);
+        }
+    const PolygonMesh sphere = make_noisy_sphere(10000, {.amplitude = 0.0, .noise = 0.0});
+    for (const Point& place : {Point(0.0, 0.0, 1.0), Point(0.6, 0.0, 0.8)}) {
+        const Index from = nearest_to(sphere, place);
+        const Eigen::VectorXd cosines =
+            (sphere.vertices.rowwise().normalized() * sphere.vertices.row(from).normalized().transpose());
+        const Eigen::VectorXd exact = cosines.array().min(1.0).max(-1.0).acos();
+        const Eigen::VectorXd distance = geodesic_distance(sphere, std::array{from});
+        CHECK(mean_error(distance, exact) < 0.002);
+    }
+}
+
+TEST_CASE("geodesic distances scale with the mesh, and do not depend on threads or on where it lies")
+{
+    const PolygonMesh mesh = make_noisy_sphere(2000);
+    const std::array<Index, 2> from{5, 900};
+    const Eigen::VectorXd distance = geodesic_distance(mesh, from);
+    CHECK(geodesic_distance(mesh, from, {.threads = 1}) == distance);
+    PolygonMesh scaled = mesh;
+    scaled.vertices *= 0x1p-20;
+    CHECK((geodesic_distance(scaled, from) * 0x1p20 - distance).cwiseAbs().maxCoeff() < 1e-7);
+    PolygonMesh far = mesh;
+    far.vertices.rowwise() += Eigen::RowVector3d(1e5, -2e5, 3e5);
+    CHECK((geodesic_distance(far, from) - distance).cwiseAbs().maxCoeff() < 1e-5);
+    // To the nearer of the two.
+    for (const Index v : {Index{5}, Index{900}}) {
+        const Eigen::VectorXd from_one = geodesic_distance(mesh, std::array{v});
+        CHECK((from_one - distance).minCoeff() > -3.0 * mean_edge_length(mesh));
+        CHECK(distance[v] == 0.0);
+    }
+}
+
+TEST_CASE("geodesic distances continue across seams, and are infinite where the surface does not lead")
+{
+    PolygonMesh whole = make_triangles(900);
+    whole.vertices.col(2).setZero();
+    std::vector<Index> labels;
+    for (Index f = 0; f < whole.n_faces(); ++f)
+        labels.push_back(whole.vertices(whole.face(f)[0], 0) > 0.5 ? 1 : 0);
+    const PolygonMesh seams = test::split(whole, labels);
+    REQUIRE(seams.n_vertices() > whole.n_vertices());
+    const std::array<Index, 1> from{40};
+    const Eigen::VectorXd of_whole = geodesic_distance(whole, from);
+    const Eigen::VectorXd across = geodesic_distance(seams, from);
+    CHECK((across.head(whole.n_vertices()) - of_whole).cwiseAbs().maxCoeff() < 1e-9);
+    CHECK(across.allFinite());
+
+    const PolygonMesh two = test::side_by_side({test::triangle_grid(6, 6), test::triangle_grid(3, 3)});
+    const Eigen::VectorXd distance = geodesic_distance(two, from);
+    CHECK(distance.head(49).allFinite());
+    CHECK(distance.tail(16).array().isInf().all());
+    CHECK(distance[48] == relative(std::sqrt(2.0), 1e-12));
+}
+
+TEST_CASE("geodesic distances refuse vertices that are not there")
+{
+    const PolygonMesh mesh = test::triangle_grid(3, 3);
+    CHECK_THROWS_WITH_AS(geodesic_distance(mesh, {}),
+                         "there is no vertex to measure distances from: name one at least", InputError);
+    CHECK_THROWS_WITH_AS(geodesic_distance(mesh, std::array<Index, 1>{16}),
+                         "distances are wanted from vertex 16, but the mesh has 16 vertices, numbered from 0",
+                         InputError);
+}
