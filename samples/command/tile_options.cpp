@@ -77,6 +77,9 @@ void require_inputs(const SmoothCommand& command)
     for (const fs::path& path : command.tiles) {
         if (is_input_stream(path))
             throw OptionError(fmt::format("{} can be read only once: with --out-dir name files", path.string()));
+        std::error_code ignored;
+        if (!fs::is_regular_file(path, ignored))
+            static_cast<void>(OpenFile(path));
         if (!format_of(path))
             throw OptionError(fmt::format("{}: its extension is none of {}", path.string(), extensions_of()));
     }
