@@ -20,8 +20,7 @@ struct TileFaces {
     std::vector<Index> face_vertices;
 };
 
-/// The faces around the border of a tile: all those with a vertex at an edge of one face. A vertex with several fans of
-/// faces occurs once for each of them.
+/// The faces around the border of a tile: all those with a vertex at an edge of one face.
 struct TileBorder {
     /// #B, ascending: the number of each vertex in the tile.
     std::vector<Index> vertices;
