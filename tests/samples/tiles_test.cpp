@@ -172,17 +172,14 @@ TEST_CASE("files whose borders coincide become what the whole mesh becomes, with
         const char* kind;
         Index (*label_of)(const Point&);
     };
-    for (const auto& [kind, label_of] : {Case{"triangles", quarter},
-                                         {"mixed", strip},
-                                         {"quads", narrow_strip},
-                                         {"noisy-sphere", block},
-                                         {"triangles", block}})
+    for (const Case& one : {Case{"triangles", quarter}, Case{"mixed", strip}, Case{"quads", narrow_strip},
+                            Case{"noisy-sphere", block}, Case{"triangles", block}})
         for (const std::string flow :
              {" --time-step-edges 3 --steps 3", " --time-step-edges 0.3 --steps 2 --laplacian virtual-refinement",
               " --time-step-edges 2 --laplacian uniform --order 2", " --radius 1% --boundary free --steps 2"}) {
-            CAPTURE(kind);
+            CAPTURE(one.kind);
             CAPTURE(flow);
-            const TiledWorkshop w(kind, 4000, label_of);
+            const TiledWorkshop w(one.kind, 4000, one.label_of);
             REQUIRE(w.smooth("whole.ply expected.ply" + flow + exact) == 0);
             REQUIRE(w.smooth(w.inputs() + "--out-dir out" + flow + exact) == 0);
             CHECK(w.distance("out", "expected.ply") < most_edges);
@@ -277,14 +274,14 @@ TEST_CASE("a run over files that was killed goes on to the same bytes, also in t
         std::string last;
         std::string not_repeated;
     };
-    for (const auto& [last_words, not_repeated] : {Words{"\nstep 1 of 3  tile1.ply", "step 1 of 3  tile0.ply"},
-                                                   {"\nstep 2 of 3  tile2.ply", "step 2 of 3  tile0.ply"},
-                                                   {"\nstep 3 of 3  tile1.ply", "step 3 of 3  tile0.ply"}}) {
-        CAPTURE(last_words);
+    for (const Words& words : {Words{"\nstep 1 of 3  tile1.ply", "step 1 of 3  tile0.ply"},
+                               Words{"\nstep 2 of 3  tile2.ply", "step 2 of 3  tile0.ply"},
+                               Words{"\nstep 3 of 3  tile1.ply", "step 3 of 3  tile0.ply"}}) {
+        CAPTURE(words.last);
         std::filesystem::remove_all(w.directory / "out");
         {
             RunningProgram program(w.directory.path(), SMOOTH, arguments + "out");
-            while (program.runs() && w.said().find(last_words) == std::string::npos)
+            while (program.runs() && w.said().find(words.last) == std::string::npos)
                 std::this_thread::sleep_for(std::chrono::milliseconds(1));
             program.send(SIGKILL);
             program.wait();
@@ -292,7 +289,7 @@ TEST_CASE("a run over files that was killed goes on to the same bytes, also in t
         REQUIRE(w.has("out/.seamflow-tiles/run"));
         REQUIRE(w.smooth(arguments + "out") == 0);
         CHECK(w.said().find("resumed    after step ") != std::string::npos);
-        CHECK(w.said().find(not_repeated) == std::string::npos);
+        CHECK(w.said().find(words.not_repeated) == std::string::npos);
         CHECK(w.are_same("out", "expected"));
         CHECK_FALSE(w.has("out/.seamflow-tiles"));
     }
