@@ -102,7 +102,7 @@ std::optional<ExitStatus> parse_smooth_command(int argc, char** argv, SmoothComm
         return end;
     require_known(app, program);
     command.arguments.assign(argv + 1, argv + argc);
-    if (!command.out_dir.empty()) {
+    if (app.count("--out-dir") > 0) {
         require_tiles(app, command);
         settle(app, command);
         command.options.report.measures = false;

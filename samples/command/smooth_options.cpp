@@ -272,7 +272,7 @@ void add_files(CLI::App& app, SmoothCommand& command, std::string& every_step)
         ->type_name("");
     app.add_option("OUTPUT", command.output, "smoothed mesh; - for standard output")->required()->type_name("");
     app.add_option("--out-dir", command.out_dir,
-                   "smooth several files whose borders coincide as one surface: smooth INPUT… --out-dir FOLDER\n"
+                   "several files whose borders coincide are one surface: smooth INPUT… --out-dir FOLDER\n"
                    "One file at a time is in memory. The results have the names of the inputs, and equal borders. "
                    "--weld says how far apart borders may be. The same command resumes where it was stopped.")
         ->type_name("FOLDER");

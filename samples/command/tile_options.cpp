@@ -96,7 +96,7 @@ void require_folder(const SmoothCommand& command)
     fs::create_directories(command.out_dir, error);
     if (!fs::is_directory(command.out_dir))
         throw OutputError(fmt::format("{}: cannot create this folder: {}; name another", command.out_dir.string(),
-                                      error ? error.message() : "it is a file"));
+                                      error ? error.message() : "no folder can have this name"));
     for (const fs::path& input : command.tiles) {
         const fs::path output = command.out_dir / input.filename();
         if (fs::equivalent(input, output, error))
