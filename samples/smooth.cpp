@@ -41,6 +41,7 @@
 #include "samples/report/schedule_files.h"
 #include "samples/runs/long_run.h"
 #include "samples/runs/smoothing_run.h"
+#include "samples/tiles/tiled_run.h"
 
 using namespace seamflow;
 
@@ -246,6 +247,8 @@ ExitStatus smooth(int argc, char** argv)
     SmoothCommand command;
     if (const auto end = parse_smooth_command(argc, argv, command))
         return *end;
+    if (!command.out_dir.empty())
+        return smooth_tiles(command);
     RunRecord record = begin_record(command);
     try {
         return run(command, record);

@@ -11,6 +11,7 @@
 #include "samples/command/command_line.h"
 #include "samples/command/settled_options.h"
 #include "samples/command/smooth_options.h"
+#include "samples/command/tile_options.h"
 #include "samples/files/output_files.h"
 #include "samples/page/page_html.h"
 
@@ -91,6 +92,8 @@ std::optional<ExitStatus> parse_smooth_command(int argc, char** argv, SmoothComm
     std::string every_step;
     add_flow_options(app, command);
     add_files(app, command, every_step);
+    if (names_tiles({argv, static_cast<std::size_t>(argc)}))
+        take_tiles(app, command);
     app.footer(program.examples.empty() ? smooth_examples() : program.examples);
     if (program.add_own)
         program.add_own(app);
@@ -99,6 +102,12 @@ std::optional<ExitStatus> parse_smooth_command(int argc, char** argv, SmoothComm
         return end;
     require_known(app, program);
     command.arguments.assign(argv + 1, argv + argc);
+    if (app.count("--out-dir") > 0) {
+        require_tiles(app, command);
+        settle(app, command);
+        command.options.report.measures = false;
+        return std::nullopt;
+    }
     settle(app, command);
     // Only if they are shown.
     command.options.report.measures = command.verbose || !command.report.empty() || !command.csv.empty() ||

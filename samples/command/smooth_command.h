@@ -19,6 +19,10 @@ namespace seamflow {
 struct SmoothCommand {
     std::filesystem::path input;
     std::filesystem::path output;
+    /// Inputs whose borders coincide, in the order of their names, and the folder for their results, in place of
+    /// `input` and `output`. Empty: there is one input.
+    std::vector<std::filesystem::path> tiles;
+    std::filesystem::path out_dir;
     /// All options except `labels`, `fixed_vertices`, the attachment of vertices, and `time_step`, which need the mesh.
     FlowOptions options;
     SmoothingRequest amount;

@@ -271,6 +271,11 @@ void add_files(CLI::App& app, SmoothCommand& command, std::string& every_step)
         ->required()
         ->type_name("");
     app.add_option("OUTPUT", command.output, "smoothed mesh; - for standard output")->required()->type_name("");
+    app.add_option("--out-dir", command.out_dir,
+                   "several files whose borders coincide are one surface: smooth INPUT… --out-dir FOLDER\n"
+                   "One file at a time is in memory. The results have the names of the inputs, and equal borders. "
+                   "--weld says how far apart borders may be. The same command resumes where it was stopped.")
+        ->type_name("FOLDER");
     app.add_option("--report", command.report,
                    "the report: times, sizes and distances, or the reason of a failure; - for standard output")
         ->type_name("REPORT.json");

@@ -1,0 +1,156 @@
+#include "samples/tiles/tile_files.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <functional>
+#include <map>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "engine/state/checkpoint.h"
+
+namespace seamflow {
+
+namespace {
+
+constexpr std::string_view line_of_run = "seamflow run over tiles\n";
+constexpr std::string_view line_of_faces = "seamflow faces of a tile\n";
+constexpr std::string_view line_of_border = "seamflow border of a tile\n";
+constexpr std::string_view line_of_owners = "seamflow owners of a tile\n";
+constexpr std::string_view line_of_state = "seamflow positions of a tile\n";
+
+}  // namespace
+
+TileFolder::TileFolder(std::filesystem::path folder)
+    : folder_(std::move(folder))
+{
+}
+
+void TileFolder::make() const
+{
+    if (!has_run())
+        remove();
+    make_checkpoint_folder(folder_);
+}
+
+void TileFolder::remove() const
+{
+    std::error_code ignored;
+    std::filesystem::remove_all(folder_, ignored);
+}
+
+bool TileFolder::has_run() const
+{
+    std::error_code ignored;
+    return std::filesystem::exists(run_file(), ignored);
+}
+
+TileRun TileFolder::run() const
+{
+    return read_archive<TileRun>(run_file(), line_of_run);
+}
+
+void TileFolder::keep(const TileRun& run) const
+{
+    write_archive(run_file(), line_of_run, run);
+}
+
+TileFaces TileFolder::faces(Index tile) const
+{
+    return read_archive<TileFaces>(file(tile, "faces"), line_of_faces);
+}
+
+TileBorder TileFolder::border(Index tile) const
+{
+    return read_archive<TileBorder>(file(tile, "border"), line_of_border);
+}
+
+TileOwners TileFolder::owners(Index tile) const
+{
+    return read_archive<TileOwners>(file(tile, "owners"), line_of_owners);
+}
+
+void TileFolder::keep(Index tile, const TileFaces& faces) const
+{
+    write_archive(file(tile, "faces"), line_of_faces, faces);
+}
+
+void TileFolder::keep(Index tile, const TileBorder& border) const
+{
+    write_archive(file(tile, "border"), line_of_border, border);
+}
+
+void TileFolder::keep(Index tile, const TileOwners& owners) const
+{
+    write_archive(file(tile, "owners"), line_of_owners, owners);
+}
+
+bool TileFolder::has_state(Index tile, int step) const
+{
+    std::error_code ignored;
+    return std::filesystem::exists(state_file(tile, step), ignored);
+}
+
+Points TileFolder::state(Index tile, int step) const
+{
+    return read_archive<TileState>(state_file(tile, step), line_of_state).positions;
+}
+
+void TileFolder::keep_state(Index tile, int step, Points positions) const
+{
+    write_archive(state_file(tile, step), line_of_state, TileState{std::move(positions)});
+}
+
+int TileFolder::latest_step(Index n_tiles) const
+{
+    const std::string before = state_file(0, 0).stem().string() + ".step-";
+    std::vector<int> steps;
+    for (const auto& entry : std::filesystem::directory_iterator(folder_))
+        if (const std::string name = entry.path().filename().string(); name.starts_with(before))
+            steps.push_back(std::atoi(name.c_str() + before.size()));
+    std::ranges::sort(steps, std::greater<>());
+    for (const int step : steps) {
+        Index tile = 0;
+        while (tile < n_tiles && has_state(tile, step))
+            ++tile;
+        if (tile == n_tiles)
+            return step;
+    }
+    refuse_archive(run_file(), "misses positions of some files");
+}
+
+void TileFolder::remove_state(Index tile, int step) const
+{
+    std::error_code ignored;
+    std::filesystem::remove(state_file(tile, step), ignored);
+}
+
+void TileFolder::take_from_owners(Index tile, const TileOwners& owners, int step, Points& positions) const
+{
+    // By the tile of the owner: one is held at a time.
+    std::map<Index, std::vector<std::size_t>> by_tile;
+    for (std::size_t i = 0; i < owners.vertices.size(); ++i)
+        if (owners.tiles[i] != tile || owners.numbers[i] != owners.vertices[i])
+            by_tile[owners.tiles[i]].push_back(i);
+    for (const auto& [other, taken] : by_tile) {
+        const Points of_other = other == tile ? positions : state(other, step);
+        for (const std::size_t i : taken)
+            positions.row(owners.vertices[i]) = of_other.row(owners.numbers[i]);
+    }
+}
+
+std::filesystem::path TileFolder::file(Index tile, const char* what) const
+{
+    return folder_ / fmt::format("tile-{}.{}", tile, what);
+}
+
+std::filesystem::path TileFolder::state_file(Index tile, int step) const
+{
+    return folder_ / fmt::format("tile-{}.step-{}", tile, step);
+}
+
+}  // namespace seamflow

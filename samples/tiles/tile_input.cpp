@@ -1,0 +1,119 @@
+#include "samples/tiles/tile_input.h"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "engine/state/checksum.h"
+#include "partition/metrics/vertex_distance.h"
+#include "samples/files/mesh_results.h"
+#include "samples/tiles/tile_borders.h"
+#include "samples/tiles/tile_union.h"
+
+namespace seamflow {
+
+namespace {
+
+std::uint64_t checksum_of(const PolygonMesh& mesh)
+{
+    Checksum checksum;
+    checksum.add_numbers(std::span<const double>(mesh.vertices.data(), static_cast<std::size_t>(mesh.vertices.size())));
+    checksum.add_numbers(std::span<const Index>(mesh.face_offsets));
+    checksum.add_numbers(std::span<const Index>(mesh.face_vertices));
+    return checksum.value();
+}
+
+/// The borders of a tile and of those within some distance of it, ascending by tile.
+std::vector<BorderOfTile> borders_near(const TileFolder& folder, std::span<const TileSummary> tiles, Index tile,
+                                       double distance)
+{
+    std::vector<BorderOfTile> near;
+    const BoundingBox box = inflated(tiles[at(tile)].box, distance);
+    for (Index other = 0; std::cmp_less(other, tiles.size()); ++other)
+        if (meet(box, tiles[at(other)].box))
+            near.push_back({other, folder.border(other), other < tile ? folder.owners(other) : TileOwners{}});
+    return near;
+}
+
+/// Puts vertices that have another owner to its place.
+void place_on_owners(const TileFolder& folder, Index tile, const TileOwners& owners)
+{
+    const Points before = folder.state(tile, 0);
+    Points positions = before;
+    folder.take_from_owners(tile, owners, 0, positions);
+    const std::span<const double> old(before.data(), static_cast<std::size_t>(before.size()));
+    const std::span<const double> now(positions.data(), static_cast<std::size_t>(positions.size()));
+    if (!std::ranges::equal(std::as_bytes(old), std::as_bytes(now)))
+        folder.keep_state(tile, 0, std::move(positions));
+}
+
+}  // namespace
+
+TileInput read_tile(const std::filesystem::path& path, const Executor& exec)
+{
+    TileInput input;
+    input.file = read_faulty_mesh(path, input.left_out, exec);
+    require_faces(path, input.file.mesh.n_faces(), input.left_out);
+    return input;
+}
+
+TileSummary summary_of(const std::filesystem::path& path, const PolygonMesh& mesh, const Executor& exec)
+{
+    return {.path = path,
+            .n_vertices = mesh.n_vertices(),
+            .n_faces = mesh.n_faces(),
+            .n_corners = mesh.n_corners(),
+            .mean_edge = mean_edge_length(mesh, mesh.vertices, exec),
+            .box = box_around(mesh.vertices),
+            .checksum = checksum_of(mesh)};
+}
+
+MeshScale scale_of(std::span<const TileSummary> tiles)
+{
+    double sum_of_edges = 0.0;
+    std::int64_t n_corners = 0;
+    BoundingBox box = tiles.front().box;
+    for (const TileSummary& tile : tiles) {
+        sum_of_edges += tile.mean_edge * static_cast<double>(tile.n_corners);
+        n_corners += tile.n_corners;
+        box.low = box.low.cwiseMin(tile.box.low);
+        box.high = box.high.cwiseMax(tile.box.high);
+    }
+    return {.mean_edge = sum_of_edges / static_cast<double>(n_corners), .diagonal = (box.high - box.low).norm()};
+}
+
+void keep_input(const TileFolder& folder, Index tile, PolygonMesh& mesh, const Executor& exec)
+{
+    folder.keep(tile, border_of(mesh, make_topology(mesh, exec), exec));
+    folder.keep_state(tile, 0, std::exchange(mesh.vertices, Points(0, 3)));
+    folder.keep(tile, TileFaces{std::move(mesh.face_offsets), std::move(mesh.face_vertices)});
+}
+
+void join_tiles(const TileFolder& folder, std::span<const TileSummary> tiles, std::optional<double> weld, TileRun& run,
+                const Executor& exec)
+{
+    for (Index tile = 0; std::cmp_less(tile, tiles.size()); ++tile) {
+        const TileOwners owners =
+            weld ? owners_of(tile, borders_near(folder, tiles, tile, *weld), *weld, exec) : TileOwners{};
+        folder.keep(tile, owners);
+        place_on_owners(folder, tile, owners);
+        run.n_border += std::ssize(owners.vertices);
+        run.n_shared += std::count(owners.is_shared.begin(), owners.is_shared.end(), 1);
+    }
+}
+
+FlowIdentity identify(std::span<const TileSummary> tiles, const FlowOptions& options)
+{
+    FlowIdentity identity = identify(PolygonMesh{}, options);
+    identity.entries.push_back({"steps", fmt::format("{}", options.steps)});
+    identity.entries.push_back({"the number of files", fmt::format("{}", tiles.size())});
+    for (const TileSummary& tile : tiles)
+        identity.entries.push_back(
+            {tile.path.filename().string(),
+             fmt::format("{} vertices and {} faces with checksum {:x}", tile.n_vertices, tile.n_faces, tile.checksum)});
+    return identity;
+}
+
+}  // namespace seamflow

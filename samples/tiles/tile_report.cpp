@@ -1,0 +1,105 @@
+#include "samples/tiles/tile_report.h"
+
+#include <algorithm>
+#include <iostream>
+
+#include <fmt/format.h>
+
+#include "partition/io/input_position.h"
+#include "samples/process/peak_memory.h"
+#include "samples/report/report_text.h"
+#include "samples/runs/smoothing_run.h"
+
+namespace seamflow {
+
+TileReport::TileReport(const SmoothCommand& command, std::ostream& out)
+    : command_(command)
+    , out_(out)
+{
+}
+
+void TileReport::print_input(std::span<const TileSummary> tiles, const MeshScale& scale, const FlowOptions& options,
+                             const TileRun& run, double width) const
+{
+    std::int64_t n_vertices = 0;
+    std::int64_t n_faces = 0;
+    std::int64_t most = 0;
+    for (const TileSummary& tile : tiles) {
+        n_vertices += tile.n_vertices;
+        n_faces += tile.n_faces;
+        most = std::max(most, tile.n_vertices);
+    }
+    RunRecord record;
+    record.input = counted(tiles.size(), "file", "files");
+    record.scale = scale;
+    seamflow::print_input(out_, record, n_vertices, n_faces);
+    print_amount(out_, scale, options);
+    out_ << fmt::format("tiles      {} vertices at most; {} of {} border vertices coincide with those of other files; "
+                        "bands of {:.6g} around each",
+                        most, run.n_shared, run.n_border, width)
+         << std::endl;
+}
+
+void TileReport::add_step(const FlowReport& report, const std::filesystem::path& tile, int step)
+{
+    if (const std::string missed = missed_tolerance(command_, report.convergence); !missed.empty()) {
+        ++n_missed_;
+        missed_ = missed;
+    }
+    has_remarks_on_steps_ = has_remarks_on_steps_ || !report.remarks.empty();
+    if (!command_.verbose)
+        return;
+    out_ << fmt::format("step {} of {}  {}: {:.3f} s", step, command_.options.steps, tile.string(),
+                        report.seconds.total);
+    for (const auto& sentences : {report.choices, report.remarks})
+        for (const std::string& sentence : sentences)
+            out_ << "  " << sentence;
+    out_ << std::endl;
+}
+
+void TileReport::add_remark(const std::filesystem::path& tile, const std::string& remark)
+{
+    const std::size_t begin = remark.find(tile.string());
+    const std::string rest = begin == std::string::npos ? remark : remark.substr(begin + tile.string().size());
+    const auto same = std::ranges::find(remarks_, rest, &Remark::rest);
+    if (same != remarks_.end())
+        ++same->n_files;
+    else
+        remarks_.push_back({remark, rest});
+}
+
+void TileReport::add_result(const Points& before, const Points& after)
+{
+    for (Eigen::Index v = 0; v < before.rows(); ++v)
+        moved_.add((after.row(v) - before.row(v)).norm());
+    ++n_written_;
+}
+
+void TileReport::print_result(double seconds, int threads, const MeshScale& scale) const
+{
+    out_ << fmt::format("time       {:.3g} s; {}, {:.4g} MB\n", seconds,
+                        counted(static_cast<std::uint64_t>(threads), "thread", "threads"),
+                        static_cast<double>(peak_memory_bytes()) / 1e6);
+    for (const Remark& one : remarks_)
+        out_ << "remark     " << one.text
+             << (one.n_files == 1 ? "" : fmt::format(" (so it is with {} files in all)", one.n_files)) << '\n';
+    if (has_remarks_on_steps_ && !command_.verbose)
+        out_ << "remark     There are remarks on the steps of single files; --verbose lists them.\n";
+    const LengthStatistics moved = moved_.statistics();
+    const double edge = scale.mean_edge > 0.0 ? scale.mean_edge : 1.0;
+    out_ << fmt::format("result     {} in {}: moved {:.3g} mean edge lengths on average, {:.3g} at most",
+                        counted(n_written_, "file", "files"), command_.out_dir.string(), moved.mean / edge,
+                        moved.max / edge)
+         << std::endl;
+}
+
+ExitStatus TileReport::status() const
+{
+    if (n_missed_ == 0)
+        return ExitStatus::Success;
+    std::cerr << fmt::format("smooth: {} of {}; {} has the last state\n", missed_, counted(n_missed_, "file", "files"),
+                             command_.out_dir.string());
+    return ExitStatus::ComputationFailed;
+}
+
+}  // namespace seamflow
