@@ -84,8 +84,8 @@ FileFields read_fields(const MeshSource& source, std::span<const std::string> na
 ///   become its least or largest number. Only floats that single precision cannot hold become doubles. Fields that the
 ///   file lacks are added as properties (double), last in each vertex. Normals nx, ny, nz that are fields are not
 ///   updated to the surface.
-/// - Colours in OBJ and OFF files are written as whole numbers from 0 to 255 if all those of the file are whole and one
-///   exceeds 1, else in single precision.
+/// - Colours in OBJ and OFF files are written as whole numbers from 0 to 255 (or to the largest of the file) if all
+///   those of the file are whole and one exceeds 1, else in single precision.
 ///
 /// @param fields finite, except that floats and new properties may be NaN.
 /// @returns remarks; also for numbers beyond the range of their type.

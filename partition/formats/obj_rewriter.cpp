@@ -212,7 +212,11 @@ std::vector<std::string> rewrite_obj(OutputFile& file, const std::filesystem::pa
         staying[i] = rewrite_slice(TextScanner(whole, slices[i]), Splicer(slice, slices[i]), counts[i], counts[i + 1],
                                    {mesh.vertices, 0, normals ? &*normals : nullptr}, colours);
     });
-    return normals ? normals->remarks(path, staying) : std::vector<std::string>{};
+    std::vector<std::string> remarks = colours.remarks();
+    if (normals)
+        for (std::string& remark : normals->remarks(path, staying))
+            remarks.push_back(std::move(remark));
+    return remarks;
 }
 
 void rewrite_obj_slice(ByteWriter& file, const TextScanner& whole, const TextSlices& slices, Index slice,

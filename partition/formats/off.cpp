@@ -362,7 +362,7 @@ std::vector<std::string> rewrite_off(OutputFile& file, const std::filesystem::pa
     const NewVertices<MovedNormals> now{mesh.vertices, 0, normals ? &*normals : nullptr};
     if (crosses_lines) {
         rewrite_slice(Splicer(file, content), scanner, 0, mesh.n_vertices(), now, header);
-        return {};
+        return colours.remarks();
     }
     const std::vector<std::string_view> slices = scanner.slices(slicing.bytes);
     const std::vector<TextCounts> counts = count_slices(scanner, slices, slicing.exec);
@@ -371,7 +371,7 @@ std::vector<std::string> rewrite_off(OutputFile& file, const std::filesystem::pa
         rewrite_slice(Splicer(slice, slices[i]), TextScanner(scanner, slices[i]), vertices_before(counts[i], header),
                       vertices_before(counts[i + 1], header), now, header, colours);
     });
-    return {};
+    return colours.remarks();
 }
 
 std::vector<std::string> extras_of_off(const std::filesystem::path& path, std::string_view content)

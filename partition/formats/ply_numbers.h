@@ -39,12 +39,6 @@ Number stored_as(double number)
     }
 }
 
-/// The same for a type of whole numbers.
-inline double stored_whole(PlyType type, double number)
-{
-    return with_type(type, [&](auto zero) { return static_cast<double>(stored_as<decltype(zero)>(number)); });
-}
-
 /// Whether that type reaches as far as the numbers. NaN does not matter.
 bool reaches(PlyType type, const auto& numbers)
 {

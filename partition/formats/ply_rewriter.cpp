@@ -90,7 +90,7 @@ Change change_of_field(const PlyProperty& property, Index column, const FileFiel
         return {first_field + column, property.type};
     if (!is_whole)
         return {first_field + column, PlyType::Float64};
-    remarks.push_back(clamping_remark(property.name, property.type_word));
+    remarks.push_back(clamping_remark(property.name, "of " + std::string(property.type_word)));
     return {first_field + column, property.type};
 }
 
@@ -176,10 +176,9 @@ void VertexRewriter<Source>::rewrite(const PlyElement& vertices, const std::vect
         const auto [column, type] = changes[p];
         if (column < 0)
             continue;
-        double after = column < 3 ? position[column] : column < first_field ? normal[column - 3] : 0.0;
-        if (column >= first_field)
-            after = is_integer(type) ? stored_whole(type, now.field(v, column - first_field))
-                                     : now.field(v, column - first_field);
+        const double after = column < 3             ? position[column]
+                             : column < first_field ? normal[column - 3]
+                                                    : now.field(v, column - first_field);
         const bool wider = encoding_ != Encoding::Ascii && type != vertices.properties[p].type;
         if (wider || differ_as_data(numbers_[p], after))
             write(splicer_.exchange(parts_[p]), changes[p], after);

@@ -115,9 +115,9 @@ std::string kept_normals_remark(const std::filesystem::path& source, const std::
            " stay as they were: ranks that each have a slice of the file do not recompute them";
 }
 
-std::string clamping_remark(std::string_view name, std::string_view type)
+std::string clamping_remark(std::string_view name, std::string_view range)
 {
-    return "some values of " + in_quotes(name) + " are beyond the range of " + std::string(type) +
+    return "some values of " + in_quotes(name) + " are beyond the range " + std::string(range) +
            " and are written as its least or largest number";
 }
 

@@ -190,7 +190,21 @@ void NewColours::require_colours(const std::filesystem::path& target, const File
 void NewColours::find_scale(const TextColours& written)
 {
     const auto is_whole = [](double value) { return std::trunc(value) == value; };
-    are_whole_ = written.maxCoeff() > 1.0 && std::ranges::all_of(written.reshaped(), is_whole);
+    if (written.maxCoeff() > 1.0 && std::ranges::all_of(written.reshaped(), is_whole))
+        largest_ = std::max(written.maxCoeff(), 255.0);
+}
+
+std::vector<std::string> NewColours::remarks() const
+{
+    std::vector<std::string> remarks;
+    for (std::size_t k = 0; k < columns_.size() && largest_; ++k) {
+        if (columns_[k] < 0)
+            continue;
+        const auto values = fields_->values.col(columns_[k]);
+        if (std::round(values.minCoeff()) < 0.0 || std::round(values.maxCoeff()) > *largest_)
+            remarks.push_back(clamping_remark(colour_names[k], fmt::format("0 to {}", *largest_)));
+    }
+    return remarks;
 }
 
 void NewColours::exchange(TextScanner& scanner, Splicer& splicer, Index v, std::size_t n_behind) const
@@ -201,13 +215,13 @@ void NewColours::exchange(TextScanner& scanner, Splicer& splicer, Index v, std::
     for (std::size_t k = 0; k < std::min(colour.count, columns_.size()); ++k) {
         if (columns_[k] < 0)
             continue;
-        const double value = fields_->values(v, columns_[k]);
-        const double after = are_whole_ ? std::clamp(std::round(value), 0.0, 255.0) : value;
+        const double after = fields_->values(v, columns_[k]);
         if (!differ(colour.numbers[k].value, after))
             continue;
         ByteWriter& file = splicer.exchange(colour.numbers[k].part);
-        if (are_whole_)
-            file.number(static_cast<int>(after));
+        // The sum is not -0.
+        if (largest_)
+            file.number(std::clamp(std::round(after), 0.0, *largest_) + 0.0);
         else if (std::abs(after) <= double{std::numeric_limits<float>::max()})
             file.number(static_cast<float>(after));
         else

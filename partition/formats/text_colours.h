@@ -2,7 +2,9 @@
 
 #include <array>
 #include <filesystem>
+#include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -62,15 +64,20 @@ class NewColours {
     /// @param scanner stands before it. @param n_behind how many numbers of the line follow the colour.
     void exchange(TextScanner& scanner, Splicer& splicer, Index v, std::size_t n_behind = 0) const;
 
+    /// Sentences for the user: colours that are kept within their range.
+    [[nodiscard]] std::vector<std::string> remarks() const;
+
   private:
     static void require_colours(const std::filesystem::path& target, const FileFields& fields);
-    /// Colours are whole numbers from 0 to 255 if all those of the file are, and some exceed 1.
+    /// Colours are whole numbers if all those of the file are and some exceed 1. They reach from 0 to 255, or to the
+    /// largest of the file.
     void find_scale(const TextColours& written);
 
     static constexpr std::array<Index, colour_names.size()> no_columns = {-1, -1, -1, -1};
     const FileFields* fields_ = nullptr;
     std::array<Index, colour_names.size()> columns_ = no_columns;
-    bool are_whole_ = false;
+    /// Nothing if colours are not whole.
+    std::optional<double> largest_;
 };
 
 }  // namespace seamflow

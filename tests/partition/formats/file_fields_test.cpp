@@ -1,4 +1,6 @@
 #include <bit>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -10,6 +12,10 @@
 
 #include "partition/formats/file_fields.h"
 #include "partition/formats/mesh_io.h"
+#include "partition/formats/obj.h"
+#include "partition/formats/off.h"
+#include "partition/formats/ply.h"
+#include "partition/formats/text_colours.h"
 #include "partition/io/byte_order.h"
 #include "tests/support/mesh_files.h"
 #include "tests/support/temporary_directory.h"
@@ -185,6 +191,8 @@ TEST_CASE("fields of PLY files are read and written in all types and encodings")
             CHECK(fields.names == all_types);
             CHECK(are_same(fields.values, values));
             CHECK((with_fields("a.ply", file, fields).content == file));
+            fields.values = values.array().isNaN().select(-no_data, values);
+            CHECK((with_fields("a.ply", file, fields).content == file));
             fields.values = others;
             const Rewritten after = with_fields("a.ply", file, fields);
             CHECK((after.content == file_of_all_types(encoding, others, line_end)));
@@ -221,8 +229,8 @@ TEST_CASE("fields of whole numbers are rounded once and kept within the range of
     const auto red = [](const std::vector<double>& values) {
         return with_fields("a.ply", scalar_ply, one_field("red", values));
     };
-    CHECK(red({7.4, 9.5, 254.5}).content == with(scalar_ply, "255", "255"));
-    CHECK(red({7.4, 9.49, 255.49}).content == with(scalar_ply, " 10 ", " 9 "));
+    CHECK(red({7.4, 9.5, 254.5}).content == with(scalar_ply, "007", "7"));
+    CHECK(red({7, 9.49, 255.49}).content == with(scalar_ply, " 10 ", " 9 "));
     CHECK(red({7.4, 9.49, 255.49}).remarks.empty());
     const Rewritten clamped = red({-3, 0.4999, 1e300});
     CHECK(clamped.content == with(with(scalar_ply, "007", "0"), " 10 ", " 0 "));
@@ -421,8 +429,17 @@ TEST_CASE("colours of OBJ files: whole numbers stay whole if they are not fracti
 {
     const std::string bytes = "v 0 0 0 255 0 0\r\nv 1 0 0 0 010 0\r\nv 0 1 0 0 7 2\r\nf 1 2 3\r\n";
     FileFields fields = fields_in("a.obj", bytes, {"green"});
-    fields.values << 0.49, 9.5, 300;
-    CHECK(with_fields("a.obj", bytes, fields).content == with(bytes, "7 2", "255 2"));
+    CHECK(with_fields("a.obj", bytes, fields).content == bytes);
+    fields.values << -0.4, 9.5, 300;
+    const Rewritten clamped = with_fields("a.obj", bytes, fields);
+    CHECK(clamped.content == with(with(bytes, "010 0", "10 0"), "7 2", "255 2"));
+    REQUIRE(clamped.remarks.size() == 1);
+    CHECK(clamped.remarks[0] == "some values of 'green' are beyond the range 0 to 255 and are written as its least or "
+                                "largest number");
+    const std::string wide = with(bytes, "255", "65535");
+    fields.values << 0, 10, 65535.4;
+    CHECK(with_fields("a.obj", wide, fields).content == with(wide, "7 2", "65535 2"));
+    CHECK(with_fields("a.obj", wide, fields).remarks.empty());
     const std::string fractions = "v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 0 1 0 0 0 1\nf 1 2 3\n";
     fields.values << 0.25, 0.5, 0;
     CHECK(with_fields("a.obj", fractions, fields).content ==
@@ -470,6 +487,33 @@ TEST_CASE("colours of OFF files are fields")
     CHECK(complaint_about_fields("a.off", "OFF" + coloured_off.substr(4), {"red"}) ==
           "a.off:2: the keyword 'OFF' announces no colours of vertices; write them behind the coordinates, and the "
           "keyword COFF");
+}
+
+TEST_CASE("fields are the same in whatever slices they are read and written")
+{
+    const TemporaryDirectory folder;
+    const auto in_slices = [&](const std::string& name, const std::string& content, const auto& read,
+                               const auto& rewrite, const FieldNames& names) {
+        const PolygonMesh mesh = read_text(name, content).mesh;
+        FileFields fields = fields_in(name, content, names);
+        const Eigen::MatrixXd values = fields.values;
+        fields.values.array() += 1;
+        const std::string whole = with_fields(name, content, fields).content;
+        for (const std::size_t bytes : {1, 20, 50, 1000}) {
+            const Slicing slicing{run_serially, bytes};
+            CHECK(are_same(read(name, content, names, slicing).values, values));
+            OutputFile file(folder / name);
+            rewrite(file, name, content, mesh, slicing, fields);
+            file.commit();
+            CHECK((content_of(folder / name) == whole));
+        }
+    };
+    const FieldNames some = {"int8", "float", "double"};
+    for (const Encoding encoding : {Encoding::Ascii, Encoding::BinaryLittleEndian, Encoding::BinaryBigEndian})
+        in_slices("a.ply", file_of_all_types(encoding, values_of_all_types(), "\r\n"), read_ply_fields, rewrite_ply,
+                  some);
+    in_slices("a.obj", coloured_obj, read_obj_fields, rewrite_obj, {"colour"});
+    in_slices("a.off", coloured_off, read_off_fields, rewrite_off, {"red", "alpha"});
 }
 
 TEST_CASE("fields: compressed files, STL files, and other formats")
