@@ -333,6 +333,7 @@ TEST_CASE("fields: normals that are given are not updated to the surface, others
     fields.values(1, 0) = 0.1;
     CHECK(with_fields("a.ply", file, fields).content == with(file, "1 0 0 0 0 1", "1 0 0 0.1 0 1"));
     CHECK(contains(with_fields("a.ply", file, one_field("q", {5, 6, 8}), stand_up).content, "0 0 1 0 -1 0 8\n"));
+    CHECK(contains(with_fields("a.ply", file, one_field("nx", {0, 0, 0.5}), stand_up).content, "0 0 1 0.5 0 1.0 7\n"));
 }
 
 TEST_CASE("fields of PLY files that cannot be read")
