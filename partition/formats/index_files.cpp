@@ -134,16 +134,7 @@ void require_property(const TextScanner& scanner, const PlyHeader& header, Index
         throw InputError(
             fmt::format("{}: the file has {} vertices, but the mesh has {}; use it with the mesh it belongs to",
                         scanner.position_of(element->line), element->count, n_vertices));
-    const auto found = std::find_if(element->properties.begin(), element->properties.end(),
-                                    [&](const PlyProperty& p) { return p.name == property; });
-    if (found == element->properties.end() || found->length_type) {
-        std::string names;
-        for (const PlyProperty& p : element->properties)
-            names += (names.empty() ? "" : ", ") + p.name;
-        throw InputError(scanner.position_of(found == element->properties.end() ? element->line : found->line) +
-                         ": the vertices have no number " + in_quotes(property) + ", but " + names +
-                         "; name the property to use");
-    }
+    require_number(scanner, *element, property);
 }
 
 /// @param header has vertices with a number of the wanted name.

@@ -17,6 +17,7 @@
 #include "partition/formats/ply.h"
 #include "partition/formats/splicing.h"
 #include "partition/formats/stl.h"
+#include "partition/formats/text_colours.h"
 #include "partition/io/input_file.h"
 #include "partition/io/output_file.h"
 #include "partition/io/slices.h"
@@ -126,7 +127,10 @@ struct Format {
     void (*write)(OutputFile& file, const PolygonMesh& mesh, Encoding encoding, const Slicing& slicing);
     /// See write_mesh_like.
     std::vector<std::string> (*rewrite)(OutputFile& file, const std::filesystem::path& path, std::string_view content,
-                                        const PolygonMesh& mesh, const Slicing& slicing);
+                                        const PolygonMesh& mesh, const Slicing& slicing, const FileFields& fields);
+    /// See read_fields; null: there are none.
+    FileFields (*read_fields)(const std::filesystem::path& path, std::string_view content,
+                              std::span<const std::string> names, const Slicing& slicing);
     /// See extras_of.
     std::vector<std::string> (*extras)(const std::filesystem::path& path, std::string_view content,
                                        const Slicing& slicing);
@@ -142,6 +146,7 @@ constexpr std::array<Format, 4> all_formats = {{
      .write = [](OutputFile& file, const PolygonMesh& mesh, Encoding,
                  const Slicing& slicing) { write_obj(file, mesh, slicing); },
      .rewrite = rewrite_obj,
+     .read_fields = read_obj_fields,
      .extras = extras_of_obj},
     {.read = [](const std::filesystem::path& path, std::string_view content, const Slicing& slicing,
                 FaultLog* faults) -> MeshFile {
@@ -151,6 +156,7 @@ constexpr std::array<Format, 4> all_formats = {{
      .write = [](OutputFile& file, const PolygonMesh& mesh, Encoding,
                  const Slicing& slicing) { write_off(file, mesh, slicing); },
      .rewrite = rewrite_off,
+     .read_fields = read_off_fields,
      .extras = [](const std::filesystem::path& path, std::string_view content,
                   const Slicing&) { return extras_of_off(path, content); }},
     {.read = read_ply,
@@ -158,12 +164,16 @@ constexpr std::array<Format, 4> all_formats = {{
      .write = [](OutputFile& file, const PolygonMesh& mesh, Encoding encoding,
                  const Slicing& slicing) { write_ply(file, mesh, encoding, slicing); },
      .rewrite = rewrite_ply,
+     .read_fields = read_ply_fields,
      .extras = [](const std::filesystem::path& path, std::string_view content,
                   const Slicing&) { return extras_of_ply(path, content); }},
     {.read = read_stl,
      .require_fits = require_fits_stl,
      .write = write_stl,
-     .rewrite = rewrite_stl,
+     .rewrite = [](OutputFile& file, const std::filesystem::path& path, std::string_view content,
+                   const PolygonMesh& mesh, const Slicing& slicing,
+                   const FileFields&) { return rewrite_stl(file, path, content, mesh, slicing); },
+     .read_fields = nullptr,
      .extras = extras_of_stl},
 }};
 
@@ -221,6 +231,13 @@ void require_encoding(const FileKind& kind)
     throw OptionError(fmt::format("encoding must be {} for {} files", choice_of(names), format.name));
 }
 
+[[noreturn]] void refuse_fields(const std::filesystem::path& path, FileFormat format)
+{
+    throw OutputError(fmt::format("{}: cannot be written: {} files made here hold no fields of vertices; write a .ply "
+                                  "file, which holds any",
+                                  path.string(), traits_of(format).name));
+}
+
 /// Ensures that what is written can be read again.
 void require_readable(const std::filesystem::path& path, const PolygonMesh& mesh, const Executor& exec)
 {
@@ -248,14 +265,26 @@ MeshFile read_faulty_mesh(const std::filesystem::path& path, FaultLog& faults, c
 std::vector<std::string> write_mesh(const std::filesystem::path& path, const PolygonMesh& mesh, const FileKind& kind,
                                     const Executor& exec)
 {
+    return write_mesh(path, mesh, kind, {}, exec);
+}
+
+std::vector<std::string> write_mesh(const std::filesystem::path& path, const PolygonMesh& mesh, const FileKind& kind,
+                                    const FileFields& fields, const Executor& exec)
+{
     const Format& format = functions_of(kind.format);
     require_encoding(kind);
     require_readable(path, mesh, exec);
+    require_writable(path, fields, mesh.n_vertices(), exec);
     std::vector<std::string> remarks;
     if (format.require_fits != nullptr)
         remarks = format.require_fits(path, mesh, kind.encoding);
     OutputFile file(path);
-    format.write(file, mesh, kind.encoding, {exec});
+    if (fields.names.empty())
+        format.write(file, mesh, kind.encoding, {exec});
+    else if (kind.format == FileFormat::Ply)
+        write_ply(file, mesh, kind.encoding, {exec}, {.vertex_fields = &fields});
+    else
+        refuse_fields(path, kind.format);
     file.commit();
     return remarks;
 }
@@ -263,14 +292,35 @@ std::vector<std::string> write_mesh(const std::filesystem::path& path, const Pol
 std::vector<std::string> write_mesh_like(const MeshSource& source, const std::filesystem::path& path,
                                          const PolygonMesh& mesh, const Executor& exec)
 {
+    return write_mesh_like(source, path, mesh, {}, exec);
+}
+
+std::vector<std::string> write_mesh_like(const MeshSource& source, const std::filesystem::path& path,
+                                         const PolygonMesh& mesh, const FileFields& fields, const Executor& exec)
+{
     require_readable(path, mesh, exec);
     source.require_same_faces(path, mesh, exec);
+    require_writable(path, fields, mesh.n_vertices(), exec);
     const Format& format = functions_of(source.kind().format);
+    if (format.read_fields == nullptr && !fields.names.empty())
+        refuse_fields(path, source.kind().format);
     const InputFile input = source.read_again(exec);
     OutputFile file(path);
-    auto remarks = format.rewrite(file, source.path(), input.content(), mesh, {exec});
+    auto remarks = format.rewrite(file, source.path(), input.content(), mesh, {exec}, fields);
     file.commit();
     return remarks;
+}
+
+FileFields read_fields(const MeshSource& source, std::span<const std::string> names, const Executor& exec)
+{
+    const FileFormat kind = source.kind().format;
+    const Format& format = functions_of(kind);
+    if (format.read_fields == nullptr)
+        throw InputError(fmt::format("{}: {} files have no numbers of vertices besides positions; convert the mesh and "
+                                     "its data to PLY",
+                                     source.path().string(), traits_of(kind).name));
+    const InputFile input = source.read_again(exec);
+    return format.read_fields(source.path(), input.content(), names, {exec});
 }
 
 std::vector<std::string> extras_of(const MeshSource& source, const Executor& exec)

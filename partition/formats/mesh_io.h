@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "partition/executor.h"
+#include "partition/formats/file_fields.h"
 #include "partition/formats/mesh_file.h"
 #include "partition/formats/palette.h"
 #include "partition/io/fault_log.h"
@@ -62,6 +63,43 @@ std::vector<std::string> write_mesh(const std::filesystem::path& path, const Pol
 /// @throws InputError if that file has been changed in place since. Replacing or removing it does not matter.
 std::vector<std::string> write_mesh_like(const MeshSource& source, const std::filesystem::path& path,
                                          const PolygonMesh& mesh, const Executor& exec = run_serially);
+
+/// Reads numbers of the vertices besides positions from a file that was read.
+///
+/// - PLY: any property of the vertices that is one number, of any type. NaN means that a vertex has no data. `normal`
+///   stands for nx, ny and nz, and `colour` or `color` for red, green and blue.
+/// - OBJ: the three or four numbers behind the coordinates: red, green, blue, alpha.
+/// - OFF: the same names, in text whose keyword announces colours (COFF, CNOFF, …).
+///
+/// @param names of the fields; the result has each once, in this order.
+/// @throws InputError naming file and line or element: no field of that name, a vertex without it, an infinite number;
+///         also for x, y and z, for other formats, and if the file has been changed since it was read.
+FileFields read_fields(const MeshSource& source, std::span<const std::string> names,
+                       const Executor& exec = run_serially);
+
+/// As above, with other numbers besides the positions. A field replaces that of its name; every number that is equal,
+/// and all else, stays byte for byte.
+///
+/// - In a PLY file types stay. Whole numbers are rounded to the nearest, and those beyond the range of their type
+///   become its least or largest number. Only floats that single precision cannot hold become doubles. Fields that the
+///   file lacks are added as properties (double), last in each vertex. Normals nx, ny, nz that are fields are not
+///   updated to the surface.
+/// - Colours in OBJ and OFF files are written as whole numbers from 0 to 255 (or to the largest of the file) if all
+///   those of the file are whole and one exceeds 1, else in single precision.
+///
+/// @param fields finite, except that floats and new properties may be NaN.
+/// @returns remarks; also for numbers beyond the range of their type.
+/// @throws OutputError also for a field for which the format has no place, with what to do instead.
+/// @throws InputError also naming the line where a colour is missing.
+std::vector<std::string> write_mesh_like(const MeshSource& source, const std::filesystem::path& path,
+                                         const PolygonMesh& mesh, const FileFields& fields,
+                                         const Executor& exec = run_serially);
+
+/// As write_mesh, with numbers of the vertices as properties (double) of a PLY file.
+/// @param fields not infinite.
+/// @throws OutputError also for other formats if there are fields.
+std::vector<std::string> write_mesh(const std::filesystem::path& path, const PolygonMesh& mesh, const FileKind& kind,
+                                    const FileFields& fields, const Executor& exec = run_serially);
 
 /// File content besides the surface, which write_mesh does not write, in a few words each: "normals", "groups".
 /// Comments do not count.

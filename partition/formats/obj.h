@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "partition/formats/file_fields.h"
 #include "partition/formats/text_slices.h"
 #include "partition/index_lists.h"
 #include "partition/io/byte_writer.h"
@@ -46,10 +47,11 @@ void write_obj(OutputFile& file, const PolygonMesh& mesh, const Slicing& slicing
 /// equal and everything else keep their characters. Normals (`vn`) that only one vertex or one face uses become those
 /// of its faces that name them; others stay.
 /// @param path of the text, for messages only. @param mesh with the faces of the file.
+/// @param fields colours, see NewColours.
 /// @returns remarks for the user, in sentences.
 /// @throws OutputError
 std::vector<std::string> rewrite_obj(OutputFile& file, const std::filesystem::path& path, std::string_view text,
-                                     const PolygonMesh& mesh, const Slicing& slicing);
+                                     const PolygonMesh& mesh, const Slicing& slicing, const FileFields& fields = {});
 
 /// Rewrites one of some slices of a file as rewrite_obj does, but keeps all normals.
 /// @param positions of the vertices of all of the slices.

@@ -11,6 +11,7 @@
 
 #include "partition/formats/obj.h"
 #include "partition/formats/splicing.h"
+#include "partition/formats/text_colours.h"
 #include "partition/io/mesh_builder.h"
 
 namespace seamflow {
@@ -149,13 +150,15 @@ std::vector<Index> normals_of_corners(TextScanner scanner, TextCounts counts)
 /// Rewrites a slice.
 /// @param counts of what precedes it. @param end of what precedes the next one.
 StayingNormals rewrite_slice(TextScanner scanner, Splicer splicer, TextCounts counts, const TextCounts& end,
-                             const NewVertices<NormalUpdate>& now)
+                             const NewVertices<NormalUpdate>& now, const NewColours& colours = {})
 {
     StayingNormals staying;
     while (counts != end && scanner.next_line()) {
         const std::string_view keyword = scanner.token();
-        if (keyword == "v")
-            exchange_position(scanner, splicer, now.position(counts.n_vertices++));
+        if (keyword == "v") {
+            exchange_position(scanner, splicer, now.position(counts.n_vertices));
+            colours.exchange(scanner, splicer, static_cast<Index>(counts.n_vertices++));
+        }
         if (keyword != "vn")
             continue;
         const auto normal = static_cast<Index>(counts.n_normals++);
@@ -192,11 +195,12 @@ IndexLists corners_of_obj_normals(const std::filesystem::path& path, std::string
 }
 
 std::vector<std::string> rewrite_obj(OutputFile& file, const std::filesystem::path& path, std::string_view text,
-                                     const PolygonMesh& mesh, const Slicing& slicing)
+                                     const PolygonMesh& mesh, const Slicing& slicing, const FileFields& fields)
 {
     const TextScanner whole(path, text, obj_syntax);
     const std::vector<std::string_view> slices = whole.slices(slicing.bytes);
     const std::vector<TextCounts> counts = count_obj(whole, slices, slicing.exec);
+    const NewColours colours(file.path(), fields, [&](Index n) { return read_obj_colours(path, text, n, slicing); });
     std::optional<NormalUpdate> normals;
     FaultLog known_faults{.of_faces_alone = true};
     if (counts.back().n_normals > 0)
@@ -206,9 +210,13 @@ std::vector<std::string> rewrite_obj(OutputFile& file, const std::filesystem::pa
     file.text(text.substr(0, text.size() - whole.rest().size()));
     file.slices(static_cast<Index>(slices.size()), slicing.exec, [&](Index i, OutputBuffer& slice) {
         staying[i] = rewrite_slice(TextScanner(whole, slices[i]), Splicer(slice, slices[i]), counts[i], counts[i + 1],
-                                   {mesh.vertices, 0, normals ? &*normals : nullptr});
+                                   {mesh.vertices, 0, normals ? &*normals : nullptr}, colours);
     });
-    return normals ? normals->remarks(path, staying) : std::vector<std::string>{};
+    std::vector<std::string> remarks = colours.remarks();
+    if (normals)
+        for (std::string& remark : normals->remarks(path, staying))
+            remarks.push_back(std::move(remark));
+    return remarks;
 }
 
 void rewrite_obj_slice(ByteWriter& file, const TextScanner& whole, const TextSlices& slices, Index slice,

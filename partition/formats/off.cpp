@@ -14,6 +14,7 @@
 #include "partition/errors.h"
 #include "partition/formats/off_header.h"
 #include "partition/formats/splicing.h"
+#include "partition/formats/text_colours.h"
 #include "partition/formats/text_slices.h"
 #include "partition/io/mesh_builder.h"
 #include "partition/io/text_scanner.h"
@@ -150,21 +151,20 @@ PolygonMesh read_slices(const TextScanner& after_header, const OffHeader& header
 /// Writes the lines of a slice that are vertices.
 /// @param v, end the first of them and the one past the last.
 void rewrite_slice(Splicer splicer, TextScanner scanner, Index v, Index end, const NewVertices<MovedNormals>& now,
-                   const OffHeader& header)
+                   const OffHeader& header, const NewColours& colours = {})
 {
     for (; v < end; ++v) {
         scanner.next_line();
         exchange_position(scanner, splicer, now.position(v));
-        if (now.normals == nullptr) {
-            if (scanner.crosses_lines())
-                pass_over_numbers(scanner, header.n_further_numbers());
-            continue;
+        if (header.has_normals()) {
+            const WrittenNormal given = read_normal(scanner);
+            const auto moved = now.normals != nullptr ? now.normals->around_vertex(v, given.value) : std::nullopt;
+            if (moved)
+                exchange_normal(splicer, given, *moved);
         }
-        const WrittenNormal given = read_normal(scanner);
-        if (const auto moved = now.normals->around_vertex(v, given.value))
-            exchange_normal(splicer, given, *moved);
+        colours.exchange(scanner, splicer, v, at(header.n_numbers_behind_colour()));
         if (scanner.crosses_lines())
-            pass_over_numbers(scanner, header.n_further_numbers() - 3);
+            pass_over_numbers(scanner, header.n_numbers_behind_colour());
     }
     splicer.finish();
 }
@@ -306,16 +306,6 @@ std::optional<PolygonMesh> read_across_lines(const std::filesystem::path& path, 
 
 }  // namespace
 
-std::optional<std::size_t> start_of_binary_off(std::string_view content)
-{
-    const std::string_view line = content.substr(0, content.find('\n'));
-    const auto second = line.find_first_not_of(" \t", 3);
-    if (!line.starts_with("OFF") || second == 3 || second == std::string_view::npos ||
-        !line.substr(second).starts_with("BINARY") || line.size() == content.size())
-        return std::nullopt;
-    return line.size() + 1;
-}
-
 PolygonMesh read_off(const std::filesystem::path& path, std::string_view text, const Slicing& slicing, FaultLog* faults)
 {
     if (const auto data = start_of_binary_off(text))
@@ -362,8 +352,9 @@ void write_off(OutputFile& file, const PolygonMesh& mesh, const Slicing& slicing
 }
 
 std::vector<std::string> rewrite_off(OutputFile& file, const std::filesystem::path& path, std::string_view content,
-                                     const PolygonMesh& mesh, const Slicing& slicing)
+                                     const PolygonMesh& mesh, const Slicing& slicing, const FileFields& fields)
 {
+    const NewColours colours(file.path(), fields, [&](Index n) { return read_off_colours(path, content, n, slicing); });
     if (const auto data = start_of_binary_off(content)) {
         if (rewrite_binary_off(file, content, *data, mesh, slicing))
             return {rounding_remark(path)};
@@ -381,16 +372,16 @@ std::vector<std::string> rewrite_off(OutputFile& file, const std::filesystem::pa
     const NewVertices<MovedNormals> now{mesh.vertices, 0, normals ? &*normals : nullptr};
     if (crosses_lines) {
         rewrite_slice(Splicer(file, content), scanner, 0, mesh.n_vertices(), now, header);
-        return {};
+        return colours.remarks();
     }
     const std::vector<std::string_view> slices = scanner.slices(slicing.bytes);
     const std::vector<TextCounts> counts = count_slices(scanner, slices, slicing.exec);
     file.text(content.substr(0, content.size() - scanner.rest().size()));
     file.slices(static_cast<Index>(slices.size()), slicing.exec, [&](Index i, OutputBuffer& slice) {
         rewrite_slice(Splicer(slice, slices[i]), TextScanner(scanner, slices[i]), vertices_before(counts[i], header),
-                      vertices_before(counts[i + 1], header), now, header);
+                      vertices_before(counts[i + 1], header), now, header, colours);
     });
-    return {};
+    return colours.remarks();
 }
 
 std::vector<std::string> extras_of_off(const std::filesystem::path& path, std::string_view content)

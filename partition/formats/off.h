@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "partition/formats/file_fields.h"
+#include "partition/formats/off_header.h"
 #include "partition/formats/ply_header.h"
 #include "partition/io/fault_log.h"
 #include "partition/io/output_file.h"
@@ -30,17 +32,15 @@ void write_off(OutputFile& file, const PolygonMesh& mesh, const Slicing& slicing
 /// Rewrites a file read by `read_off`, with the positions of `mesh`: in text, coordinates that are bitwise equal and
 /// everything else except normals keep their characters; binary files hold floats.
 /// @param path of the content, for messages only. @param mesh with the faces of the file.
+/// @param fields colours, see NewColours; none for a binary file.
 /// @returns remarks for the user, in sentences.
 /// @throws OutputError; also for coordinates beyond single precision in a binary file.
 std::vector<std::string> rewrite_off(OutputFile& file, const std::filesystem::path& path, std::string_view content,
-                                     const PolygonMesh& mesh, const Slicing& slicing);
+                                     const PolygonMesh& mesh, const Slicing& slicing, const FileFields& fields = {});
 
 /// Content besides the surface, in a few words each; comments do not count.
 /// @param path for messages only.
 std::vector<std::string> extras_of_off(const std::filesystem::path& path, std::string_view content);
-
-/// Where the data begin if the first line is `OFF BINARY`, else nothing.
-std::optional<std::size_t> start_of_binary_off(std::string_view content);
 
 /// Reads what follows the line `OFF BINARY`: 32-bit integers and floats. Geomview writes them most significant byte
 /// first and a number of colour components after each face, others the other way round or without: whichever of the

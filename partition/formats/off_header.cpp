@@ -73,6 +73,16 @@ std::int64_t read_count(TextScanner& scanner, std::int64_t size, const char* wha
 
 }  // namespace
 
+std::optional<std::size_t> start_of_binary_off(std::string_view content)
+{
+    const std::string_view line = content.substr(0, content.find('\n'));
+    const auto second = line.find_first_not_of(" \t", 3);
+    if (!line.starts_with("OFF") || second == 3 || second == std::string_view::npos ||
+        !line.substr(second).starts_with("BINARY") || line.size() == content.size())
+        return std::nullopt;
+    return line.size() + 1;
+}
+
 OffHeader read_off_header(TextScanner& scanner)
 {
     const auto size = static_cast<std::int64_t>(scanner.rest().size());

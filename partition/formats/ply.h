@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "partition/formats/file_fields.h"
 #include "partition/formats/mesh_file.h"
 #include "partition/formats/palette.h"
 #include "partition/formats/ply_header.h"
@@ -39,6 +40,8 @@ struct PlyExtras {
     std::span<const Colour> vertex_colours = {};
     /// #V each; each vertex has a property (double) for each of them.
     std::span<const VertexValues> vertex_values = {};
+    /// Each vertex has a property (double) for each of them; null: there are none.
+    const FileFields* vertex_fields = nullptr;
 };
 
 /// Writes PLY: coordinates as double, faces as `list uchar int`, or `list int int` if one has more than 255 sides.
@@ -46,14 +49,21 @@ struct PlyExtras {
 void write_ply(OutputFile& file, const PolygonMesh& mesh, Encoding encoding, const Slicing& slicing,
                const PlyExtras& extras = {});
 
-/// Rewrites a file read by `read_ply`, with the positions of `mesh`. The properties nx, ny, nz of the vertices, if they
-/// are float or double, become the normals of the surface; everything else stays byte for byte, as do bitwise equal
-/// coordinates in text. Coordinates keep their type, which may mean rounding to float; where it cannot hold the results
+/// Reads properties of the vertices of a file read by `read_ply`; see read_fields.
+/// @param path for messages only.
+/// @throws InputError naming the line, or the element and its byte.
+FileFields read_ply_fields(const std::filesystem::path& path, std::string_view content,
+                           std::span<const std::string> names, const Slicing& slicing);
+
+/// Rewrites a file read by `read_ply`, with the positions of `mesh` and with fields in place of the properties of their
+/// names, or as new properties; see write_mesh_like. The properties nx, ny, nz of the vertices, if they are float or
+/// double and no fields, become the normals of the surface; everything else stays byte for byte, as do bitwise equal
+/// numbers in text. Coordinates keep their type, which may mean rounding to float; where it cannot hold the results
 /// (whole numbers, or beyond single precision) it becomes double.
 /// @param path of the content, for messages only. @param mesh with the faces of the file.
 /// @returns remarks for the user, in sentences.
 /// @throws OutputError
 std::vector<std::string> rewrite_ply(OutputFile& file, const std::filesystem::path& path, std::string_view content,
-                                     const PolygonMesh& mesh, const Slicing& slicing);
+                                     const PolygonMesh& mesh, const Slicing& slicing, const FileFields& fields = {});
 
 }  // namespace seamflow

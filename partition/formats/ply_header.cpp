@@ -172,6 +172,25 @@ const PlyElement* PlyHeader::element(std::string_view name) const
     return found != elements.end() ? &*found : nullptr;
 }
 
+const PlyProperty* PlyElement::property(std::string_view wanted) const
+{
+    const auto found = std::ranges::find(properties, wanted, &PlyProperty::name);
+    return found != properties.end() ? &*found : nullptr;
+}
+
+void require_number(const TextScanner& scanner, const PlyElement& vertices, std::string_view name)
+{
+    const PlyProperty* const found = vertices.property(name);
+    if (found != nullptr && !found->length_type)
+        return;
+    std::string names;
+    for (const PlyProperty& p : vertices.properties)
+        names += (names.empty() ? "" : ", ") + p.name;
+    throw InputError(scanner.position_of(found == nullptr ? vertices.line : found->line) +
+                     ": the vertices have no number " + in_quotes(name) + ", but " + names +
+                     "; name the property to use");
+}
+
 PlyHeader read_ply_header(TextScanner& scanner)
 {
     PlyHeader header;

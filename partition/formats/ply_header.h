@@ -78,6 +78,9 @@ struct PlyElement {
     std::vector<PlyProperty> properties;
     /// The line that declares it.
     std::size_t line = 0;
+
+    /// The property of the wanted name, or null.
+    [[nodiscard]] const PlyProperty* property(std::string_view wanted) const;
 };
 
 struct PlyHeader {
@@ -95,6 +98,10 @@ struct PlyHeader {
 /// Reads the header of a PLY file, up to and including the line end_header; what follows is scanner.rest().
 /// @throws InputError naming the line; also for counts that the rest of the file is too short for.
 PlyHeader read_ply_header(TextScanner& scanner);
+
+/// Checks that the vertices have a number of that name, not a list.
+/// @throws InputError naming the line and the properties that they have.
+void require_number(const TextScanner& scanner, const PlyElement& vertices, std::string_view name);
 
 /// Content besides the surface, in a few words each; comments do not count.
 /// @param path for messages only.

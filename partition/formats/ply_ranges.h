@@ -90,9 +90,10 @@ class PlyRanges {
     std::size_t triangle_bytes_ = 0;
 };
 
-/// How one property of the vertices changes when a file is rewritten.
+/// How one property of the vertices changes when a file is rewritten. Changes beyond the last property are properties
+/// that are added.
 struct PlyChange {
-    /// 0 to 2: it is a coordinate; 3 to 5: one of the normal; -1: it stays.
+    /// 0 to 2: it is a coordinate; 3 to 5: one of the normal; from 6 on: a column of FileFields; -1: it stays.
     Index column = -1;
     /// The type of the number in the file that is written.
     PlyType type = PlyType::Float64;

@@ -7,38 +7,29 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
+#include "partition/errors.h"
 #include "partition/formats/ply.h"
 #include "partition/formats/ply_header.h"
+#include "partition/formats/ply_numbers.h"
 #include "partition/formats/ply_ranges.h"
 #include "partition/formats/ply_slices.h"
 #include "partition/formats/ply_source.h"
+#include "partition/formats/ply_vertices.h"
 #include "partition/formats/splicing.h"
 
 namespace seamflow {
 
 namespace {
 
-/// The numbers of a vertex that are rewritten.
+/// The numbers of a vertex that are rewritten; those of FileFields follow them.
 constexpr std::array<std::string_view, 6> columns = {"x", "y", "z", "nx", "ny", "nz"};
-using Row = Eigen::Matrix<double, 1, columns.size()>;
+constexpr auto first_field = static_cast<Index>(columns.size());
 
 using Change = PlyChange;
-
-/// Whether that type can represent the numbers, floats after rounding.
-bool can_hold(PlyType type, const auto& numbers)
-{
-    return with_type(type, [&numbers](auto zero) {
-        using Limits = std::numeric_limits<decltype(zero)>;
-        return std::all_of(numbers.begin(), numbers.end(), [](double number) {
-            const bool in_range =
-                number >= static_cast<double>(Limits::lowest()) && number <= static_cast<double>(Limits::max());
-            return in_range && (!Limits::is_integer || std::trunc(number) == number);
-        });
-    });
-}
 
 /// The kind of the vertex properties nx, ny and nz.
 enum class Normals {
@@ -79,6 +70,45 @@ std::vector<Change> changes_of(const PlyElement& vertices, const std::array<bool
     return changes;
 }
 
+/// Makes a property that the file has that of a field.
+/// @param remarks gets sentences for the user.
+/// @throws OutputError naming `target`, the file to write.
+Change change_of_field(const PlyProperty& property, Index column, const FileFields& fields,
+                       const std::filesystem::path& target, std::vector<std::string>& remarks)
+{
+    const auto refuse = [&](const char* why) {
+        throw OutputError(target.string() + ": cannot be written: the property " + in_quotes(property.name) + " is " +
+                          why);
+    };
+    const auto values = fields.values.col(column);
+    const bool is_whole = is_integer(property.type);
+    if (property.length_type)
+        refuse("a list in the file that was read, not a number; give the values another name");
+    if (is_whole && values.hasNaN())
+        refuse("a whole number in the file that was read, but some values are not; give each vertex a number");
+    if (reaches(property.type, values))
+        return {first_field + column, property.type};
+    if (!is_whole)
+        return {first_field + column, PlyType::Float64};
+    remarks.push_back(clamping_remark(property.name, "of " + std::string(property.type_word)));
+    return {first_field + column, property.type};
+}
+
+/// Adds the changes of fields: in place of those of properties of their names, or of new properties.
+/// @param target, and what is returned: see change_of_field.
+std::vector<std::string> add_fields(std::vector<Change>& changes, const PlyElement& vertices, const FileFields& fields,
+                                    const std::filesystem::path& target)
+{
+    std::vector<std::string> remarks;
+    for (Index column = 0; column < static_cast<Index>(fields.names.size()); ++column)
+        if (const PlyProperty* const property = vertices.property(fields.names[column]))
+            changes[property - vertices.properties.data()] =
+                change_of_field(*property, column, fields, target, remarks);
+        else
+            changes.push_back({first_field + column, PlyType::Float64});
+    return remarks;
+}
+
 /// Writes the vertices of a slice of a file.
 template <class Source>
 class VertexRewriter {
@@ -91,84 +121,111 @@ class VertexRewriter {
     }
 
     /// Writes vertex v.
-    /// @param normals null: there are none.
-    void rewrite(const PlyElement& vertices, const std::vector<Change>& changes, Index v, const Point& position,
-                 const MovedNormals* normals);
+    void rewrite(const PlyElement& vertices, const std::vector<Change>& changes, Index v,
+                 const NewVertices<MovedNormals>& now);
 
     [[nodiscard]] bool rounded() const { return rounded_; }
 
   private:
-    Row read(const PlyElement& vertices, const std::vector<Change>& changes, Index v);
-    void exchange(std::string_view part, const Change& change, double number);
+    void read(const PlyElement& vertices, const std::vector<Change>& changes, Index v);
+    void write(ByteWriter& file, const Change& change, double number);
 
     Source& source_;
     Splicer& splicer_;
     Encoding encoding_;
-    /// For one vertex, one entry per property: its bytes if it may change.
+    /// For one vertex, one entry per property: its bytes and its number if it may change.
     std::vector<std::string_view> parts_;
+    std::vector<double> numbers_;
+    Point normal_ = Point::Zero();
+    /// The place behind the vertex.
+    std::string_view end_;
     bool rounded_ = false;
 };
 
 template <class Source>
-Row VertexRewriter<Source>::read(const PlyElement& vertices, const std::vector<Change>& changes, Index v)
+void VertexRewriter<Source>::read(const PlyElement& vertices, const std::vector<Change>& changes, Index v)
 {
-    Row row = Row::Zero();
-    parts_.assign(changes.size(), {});
+    const std::size_t n_properties = vertices.properties.size();
+    parts_.resize(n_properties);
+    numbers_.resize(n_properties);
     source_.begin_element(vertices, at(v));
-    for (std::size_t p = 0; p < changes.size(); ++p) {
+    for (std::size_t p = 0; p < n_properties; ++p) {
         const PlyProperty& property = vertices.properties[p];
-        if (changes[p].column < 0) {
+        const Index column = changes[p].column;
+        if (column < 0) {
             pass_over(source_, property);
             continue;
         }
         parts_[p] = source_.peek(property.type);
-        row[changes[p].column] = source_.number(property.type);
+        numbers_[p] = source_.number(property.type);
+        if (column >= 3 && column < first_field)
+            normal_[column - 3] = numbers_[p];
     }
+    end_ = source_.behind();
     source_.end_element();
-    return row;
 }
 
 template <class Source>
 void VertexRewriter<Source>::rewrite(const PlyElement& vertices, const std::vector<Change>& changes, Index v,
-                                     const Point& position, const MovedNormals* normals)
+                                     const NewVertices<MovedNormals>& now)
 {
-    const Row before = read(vertices, changes, v);
-    Row after = before;
-    after.head<3>() = position;
-    if (normals != nullptr)
-        if (const auto now = normals->around_vertex(v, before.tail<3>()))
-            after.tail<3>() = *now;
-    for (std::size_t p = 0; p < changes.size(); ++p) {
-        const Index column = changes[p].column;
-        const bool wider = encoding_ != Encoding::Ascii && changes[p].type != vertices.properties[p].type;
-        if (column >= 0 && (wider || differ(before[column], after[column])))
-            exchange(parts_[p], changes[p], after[column]);
+    read(vertices, changes, v);
+    const Point position = now.position(v);
+    const Point normal = now.normals != nullptr ? now.normals->around_vertex(v, normal_).value_or(normal_) : normal_;
+    for (std::size_t p = 0; p < parts_.size(); ++p) {
+        const auto [column, type] = changes[p];
+        if (column < 0)
+            continue;
+        const double after = column < 3             ? position[column]
+                             : column < first_field ? normal[column - 3]
+                                                    : now.field(v, column - first_field);
+        const bool wider = encoding_ != Encoding::Ascii && type != vertices.properties[p].type;
+        if (wider || differ_as_data(numbers_[p], after))
+            write(splicer_.exchange(parts_[p]), changes[p], after);
+    }
+    if (parts_.size() == changes.size())
+        return;
+    ByteWriter& file = splicer_.exchange(end_);
+    for (std::size_t p = parts_.size(); p < changes.size(); ++p) {
+        file.text(encoding_ == Encoding::Ascii ? " " : "");
+        write(file, changes[p], now.field(v, changes[p].column - first_field));
     }
 }
 
 template <class Source>
-void VertexRewriter<Source>::exchange(std::string_view part, const Change& change, double number)
+void VertexRewriter<Source>::write(ByteWriter& file, const Change& change, double number)
 {
-    ByteWriter& file = splicer_.exchange(part);
     const bool is_position = change.column < 3;
-    if (encoding_ != Encoding::Ascii) {
-        with_type(change.type,
-                  [&](auto zero) { file.binary(static_cast<decltype(zero)>(number), order_of(encoding_)); });
-        const bool single = change.type == PlyType::Float32;
-        rounded_ = rounded_ || (is_position && single && double{static_cast<float>(number)} != number);
-    } else if (is_position || change.type == PlyType::Float64) {
-        file.number(number);
-    } else {
-        file.number(static_cast<float>(number));
-    }
+    if (is_position && encoding_ == Encoding::Ascii)
+        return file.number(number);
+    with_type(change.type, [&](auto zero) {
+        const auto stored = stored_as<decltype(zero)>(number);
+        if (encoding_ == Encoding::Ascii)
+            file.number(stored);
+        else
+            file.binary(stored, order_of(encoding_));
+    });
+    const bool single = change.type == PlyType::Float32;
+    rounded_ = rounded_ || (is_position && single && double{static_cast<float>(number)} != number);
 }
 
-/// Declares wider types where that is necessary.
-std::vector<std::string> rewrite_header(Splicer& splicer, const std::filesystem::path& path, const PlyElement& vertices,
-                                        const std::vector<Change>& changes)
+/// The end of a line of the header.
+/// @param place in it.
+std::string_view line_end_behind(std::string_view header, std::string_view place)
 {
+    const std::size_t begin = header.find_first_of("\r\n", static_cast<std::size_t>(place.data() - header.data()));
+    return header.substr(begin, header.substr(begin).starts_with("\r\n") ? 2 : 1);
+}
+
+/// Declares wider types where that is necessary, and new properties.
+std::vector<std::string> rewrite_header(ByteWriter& file, const std::filesystem::path& path, std::string_view header,
+                                        const PlyElement& vertices, const std::vector<Change>& changes,
+                                        const FileFields& fields)
+{
+    Splicer splicer(file, header);
     std::vector<std::string> remarks;
-    for (std::size_t p = 0; p < changes.size(); ++p) {
+    const std::size_t n_properties = vertices.properties.size();
+    for (std::size_t p = 0; p < n_properties; ++p) {
         const PlyProperty& property = vertices.properties[p];
         if (changes[p].column < 0 || changes[p].type == property.type)
             continue;
@@ -176,70 +233,41 @@ std::vector<std::string> rewrite_header(Splicer& splicer, const std::filesystem:
         remarks.push_back("the type of " + property.name + " is double instead of " + std::string(property.type_word) +
                           ": the type in " + path.string() + " cannot hold the result");
     }
+    const std::string_view line_end = line_end_behind(header, vertices.properties.back().type_word);
+    splicer.exchange(line_end).text(line_end);
+    for (std::size_t p = n_properties; p < changes.size(); ++p) {
+        file.text("property double " + fields.names[changes[p].column - first_field]);
+        file.text(line_end);
+    }
+    splicer.finish();
     return remarks;
 }
 
 /// Writes a slice.
 /// @returns whether positions were rounded.
 template <class Source>
-bool rewrite_slice(Source source, Splicer splicer, const PlyHeader& header, const PlySlice& slice,
+bool rewrite_slice(Source& source, Splicer splicer, const PlyHeader& header, const PlySlice& slice,
                    const std::vector<Change>& changes, const NewVertices<MovedNormals>& now)
 {
     VertexRewriter<Source> rewriter(source, splicer, header.encoding);
-    const PlyElement* const vertices = header.element("vertex");
-    const auto n_elements = static_cast<std::size_t>(vertices - header.elements.data()) + 1;
-    for_each_kind(std::span(header.elements).first(n_elements), slice,
-                  [&](const PlyElement& element, std::uint64_t begin, std::uint64_t end) {
-                      for (std::uint64_t i = begin; i < end; ++i)
-                          if (&element != vertices)
-                              pass_over(source, element, i);
-                          else
-                              rewriter.rewrite(element, changes, static_cast<Index>(i),
-                                               now.position(static_cast<std::int64_t>(i)), now.normals);
-                  });
+    const PlyElement& vertices = *header.element("vertex");
+    for_each_vertex(source, header, slice, [&](Index v) { rewriter.rewrite(vertices, changes, v, now); });
     splicer.finish();
     return rewriter.rounded();
 }
 
-/// A file as it was read.
-struct ReadPly {
-    const std::filesystem::path& path;
-    std::string_view content;
-    const PlyHeader& header;
-    /// At the last line of the header.
-    const TextScanner& after_header;
-};
-
 /// Writes all that follows the header.
 /// @returns whether positions were rounded.
-bool rewrite_elements(OutputFile& file, const ReadPly& read, const std::vector<Change>& changes,
-                      const NewVertices<MovedNormals>& now, const Slicing& slicing)
+bool rewrite_elements(OutputFile& file, const PlyVertexSlices& slices, const PlyHeader& header,
+                      const std::vector<Change>& changes, const NewVertices<MovedNormals>& now, const Executor& exec)
 {
-    const PlyHeader& header = read.header;
-    const PlyElement* const vertices = header.element("vertex");
-    const std::span<const PlyElement> elements(header.elements.data(), vertices + 1);
-    std::vector<PlySlice> slices = slice_ply(read.content, read.after_header, header.encoding, elements, slicing);
-    const bool crosses_lines = header.encoding == Encoding::Ascii && slices.back().end != header.n_elements();
-    if (crosses_lines)
-        slices = {{0, header.n_elements(), read.after_header.rest()}};
-    std::vector<std::uint8_t> rounded(slices.size());
-    file.slices(static_cast<Index>(slices.size()), slicing.exec, [&](Index i, OutputBuffer& slice) {
-        // Those that the reader has accepted.
-        FaultLog known_faults{.of_faces_alone = true};
-        const auto rewrite = [&](auto source) {
-            source.note_faults_in(&known_faults);
-            return rewrite_slice(std::move(source), Splicer(slice, slices[i].bytes), header, slices[i], changes, now);
-        };
-        const auto offset = static_cast<std::size_t>(slices[i].bytes.data() - read.content.data());
-        TextScanner scanner(read.after_header, slices[i].bytes);
-        if (crosses_lines)
-            scanner.cross_lines();
-        rounded[i] = header.encoding == Encoding::Ascii
-                         ? rewrite(PlyTextSource(scanner))
-                         : rewrite(PlyBinarySource(read.path, read.content, offset, header.encoding));
+    std::vector<std::uint8_t> rounded(at(slices.count()));
+    file.slices(slices.count(), exec, [&](Index i, OutputBuffer& slice) {
+        rounded[i] = slices.with_source(i, [&](auto& source) {
+            return rewrite_slice(source, Splicer(slice, slices[i].bytes), header, slices[i], changes, now);
+        });
     });
-    const std::string_view last = slices.back().bytes;
-    file.text(read.content.substr(static_cast<std::size_t>(last.data() - read.content.data()) + last.size()));
+    file.text(slices.rest());
     return std::ranges::find(rounded, 1) != rounded.end();
 }
 
@@ -266,9 +294,7 @@ std::vector<std::string> rewrite_ply_header(ByteWriter& file, const std::filesys
                                             std::string_view header, const PlyElement& vertices,
                                             const std::vector<PlyChange>& changes)
 {
-    Splicer splicer(file, header);
-    std::vector<std::string> remarks = rewrite_header(splicer, path, vertices, changes);
-    splicer.finish();
+    std::vector<std::string> remarks = rewrite_header(file, path, header, vertices, changes, {});
     if (normals_of(vertices) != Normals::None)
         remarks.push_back(kept_normals_remark(path, "normals"));
     return remarks;
@@ -283,7 +309,7 @@ bool rewrite_ply_vertices(ByteWriter& file, const PlyRanges& ply, Index begin, c
     Splicer splicer(file, bytes);
     VertexRewriter<PlyBinarySource> rewriter(source, splicer, ply.header().encoding);
     for (Index v = 0; v < positions.rows(); ++v)
-        rewriter.rewrite(ply.vertex_element(), changes, v, positions.row(v), nullptr);
+        rewriter.rewrite(ply.vertex_element(), changes, v, {positions});
     splicer.finish();
     return rewriter.rounded();
 }
@@ -295,28 +321,32 @@ void rewrite_ply_text(ByteWriter& file, const TextScanner& after_header, const P
     PlyTextSource source(TextScanner(after_header, slice.bytes));
     source.note_faults_in(&known_faults);
     const std::vector<Change> changes = changes_of_positions(*header.element("vertex"), {true, true, true});
-    rewrite_slice(std::move(source), Splicer(file, slice.bytes), header, slice, changes, {positions, first});
+    rewrite_slice(source, Splicer(file, slice.bytes), header, slice, changes, {positions, first});
 }
 
 std::vector<std::string> rewrite_ply(OutputFile& file, const std::filesystem::path& path, std::string_view content,
-                                     const PolygonMesh& mesh, const Slicing& slicing)
+                                     const PolygonMesh& mesh, const Slicing& slicing, const FileFields& fields)
 {
     TextScanner scanner(path, content, ply_syntax);
     const PlyHeader header = read_ply_header(scanner);
-    const ReadPly read{path, content, header, scanner};
     const PlyElement& vertices = *header.element("vertex");
-    const std::vector<Change> changes =
-        changes_of(vertices, coordinates_fit(vertices, mesh.vertices), normals_of(vertices) == Normals::Usable);
+    const bool are_given = std::any_of(columns.begin() + 3, columns.end(),
+                                       [&](std::string_view name) { return fields.column(name) >= 0; });
+    const Normals kind = are_given ? Normals::None : normals_of(vertices);
+    std::vector<Change> changes =
+        changes_of(vertices, coordinates_fit(vertices, mesh.vertices), kind == Normals::Usable);
+    std::vector<std::string> remarks = add_fields(changes, vertices, fields, file.path());
     std::optional<MovedNormals> normals;
     FaultLog known_faults{.of_faces_alone = true};
-    if (normals_of(vertices) == Normals::Usable)
+    if (kind == Normals::Usable)
         normals.emplace(mesh, read_ply(path, content, slicing, &known_faults).mesh.vertices, slicing.exec);
-    Splicer splicer(file, content.substr(0, content.size() - scanner.rest().size()));
-    std::vector<std::string> remarks = rewrite_header(splicer, path, vertices, changes);
-    splicer.finish();
-    const bool rounded =
-        rewrite_elements(file, read, changes, {mesh.vertices, 0, normals ? &*normals : nullptr}, slicing);
-    if (normals_of(vertices) == Normals::Other)
+    const std::string_view before_elements = content.substr(0, content.size() - scanner.rest().size());
+    for (std::string& remark : rewrite_header(file, path, before_elements, vertices, changes, fields))
+        remarks.push_back(std::move(remark));
+    const PlyVertexSlices slices(path, content, header, scanner, slicing);
+    const NewVertices<MovedNormals> now{mesh.vertices, 0, normals ? &*normals : nullptr, &fields.values};
+    const bool rounded = rewrite_elements(file, slices, header, changes, now, slicing.exec);
+    if (kind == Normals::Other)
         remarks.push_back("the normals of " + path.string() +
                           " are written as they were: they are not three floating-point numbers nx, ny, nz");
     if (rounded)

@@ -67,6 +67,14 @@ double PlyBinarySource::number(PlyType type)
     return with_type(type, [&](auto zero) { return static_cast<double>(scanner_.read<decltype(zero)>()); });
 }
 
+double PlyBinarySource::field(PlyType type, const char* name)
+{
+    const double value = number(type);
+    if (std::isinf(value))
+        scanner_.fail(fmt::format("{} is infinite; write a finite number, or NaN where there is none", name));
+    return value;
+}
+
 std::int64_t PlyBinarySource::integer(PlyType type)
 {
     if (!is_integer(type))

@@ -41,8 +41,15 @@ class PlyTextSource {
     /// The next number, finite or not; NaN if it is none.
     double number(PlyType) { return scanner_.number_or_nan(); }
 
+    /// The next number of a field (see FileFields), which is not infinite.
+    /// @param name of the field, in messages.
+    double field(PlyType, const char* name) { return scanner_.real_or_nan(name); }
+
     /// The characters of the next number.
     std::string_view peek(PlyType) { return scanner_.peek(); }
+
+    /// The place behind the number before: no characters.
+    [[nodiscard]] std::string_view behind() const { return scanner_.rest_of_token().substr(0, 0); }
 
     std::int64_t integer(PlyType) { return scanner_.integer("a whole number"); }
 
@@ -75,7 +82,9 @@ class PlyBinarySource {
     void end_element() {}
     double real(PlyType type);
     double number(PlyType type);
+    double field(PlyType type, const char* name);
     std::string_view peek(PlyType type) const { return scanner_.peek(size_in_bytes(type)); }
+    [[nodiscard]] std::string_view behind() const { return scanner_.peek(0); }
     std::int64_t integer(PlyType type);
     void pass_over(PlyType type, std::int64_t n);
 

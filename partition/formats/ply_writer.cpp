@@ -34,6 +34,9 @@ std::string header_of(const PlyCounts& counts, Encoding encoding, const PlyExtra
     header += extras.vertex_colours.empty() ? "" : colour;
     for (const VertexValues& list : extras.vertex_values)
         header += "property double " + list.name + "\n";
+    if (extras.vertex_fields != nullptr)
+        for (const std::string& name : extras.vertex_fields->names)
+            header += "property double " + name + "\n";
     header += fmt::format("element face {}\nproperty list {} int vertex_indices\n", counts.faces,
                           counts.has_long_face ? "int" : "uchar");
     header += extras.face_labels.empty() ? "" : colour + "property int label\n";
@@ -112,6 +115,9 @@ void PlyWriter::write_vertex(Index v)
         write_colour(extras_.vertex_colours[v]);
     for (const VertexValues& list : extras_.vertex_values)
         write(list.values[v]);
+    if (extras_.vertex_fields != nullptr)
+        for (const double value : extras_.vertex_fields->values.row(v))
+            write(value);
     end_element();
 }
 

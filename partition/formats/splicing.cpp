@@ -35,6 +35,11 @@ bool differ(double a, double b)
     return std::bit_cast<std::uint64_t>(a) != std::bit_cast<std::uint64_t>(b);
 }
 
+bool differ_as_data(double a, double b)
+{
+    return differ(a, b) && !(std::isnan(a) && std::isnan(b));
+}
+
 void exchange_position(TextScanner& scanner, Splicer& splicer, const Point& position)
 {
     for (Index k = 0; k < 3; ++k) {
@@ -108,6 +113,12 @@ std::string kept_normals_remark(const std::filesystem::path& source, const std::
 {
     return "the " + normals + " of " + source.string() +
            " stay as they were: ranks that each have a slice of the file do not recompute them";
+}
+
+std::string clamping_remark(std::string_view name, std::string_view range)
+{
+    return "some values of " + in_quotes(name) + " are beyond the range " + std::string(range) +
+           " and are written as its least or largest number";
 }
 
 std::string rounding_remark(const std::filesystem::path& source)

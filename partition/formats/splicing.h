@@ -40,6 +40,9 @@ class Splicer {
 /// Whether two numbers differ in any bit: 0 and -0 do, a NaN and itself do not.
 bool differ(double a, double b);
 
+/// The same for data, of which any NaN means that there are none.
+bool differ_as_data(double a, double b);
+
 /// Reads the next three numbers of the line and replaces those that differ from the coordinates of `position`.
 void exchange_position(TextScanner& scanner, Splicer& splicer, const Point& position);
 
@@ -99,8 +102,11 @@ struct NewVertices {
     std::int64_t first = 0;
     /// Null: normals stay as they are.
     const Normals* normals = nullptr;
+    /// See FileFields::values. Null: there are none.
+    const Eigen::MatrixXd* fields = nullptr;
 
     [[nodiscard]] Point position(std::int64_t v) const { return positions.row(v - first); }
+    [[nodiscard]] double field(std::int64_t v, Index column) const { return (*fields)(v - first, column); }
 };
 
 /// The message for a file changed since it was read.
@@ -108,6 +114,10 @@ std::string changed_since_read(const std::filesystem::path& source);
 
 /// A sentence for the user of a file in slices. @param normals which, in a few words.
 std::string kept_normals_remark(const std::filesystem::path& source, const std::string& normals);
+
+/// A sentence for the user of whole numbers that are too small or too large.
+/// @param name of the field. @param range in which they must be, or the type that has it.
+std::string clamping_remark(std::string_view name, std::string_view range);
 
 /// A sentence for the user of a file less precise than the results.
 /// @param source the file that decides about their type.

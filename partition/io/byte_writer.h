@@ -32,10 +32,13 @@ class ByteWriter {
     void number(std::integral auto value) { append_chars(value); }
 
     /// A number with the fewest digits (at most 17) that read back to the same value, independently of the locale.
+    /// NaN has no sign.
     void number(std::floating_point auto value)
     {
         if (std::abs(value) < 1e17)
             append_chars(value);
+        else if (std::isnan(value))
+            text("nan");
         else
             append_chars(value, std::chars_format::scientific);
     }

@@ -73,7 +73,7 @@ class NoPosition final : public InputPosition {
 /// Reads a file slice by slice. Which slice fails first is a matter of chance: a file with a fault is read again in one
 /// go, which reports the first fault with its line.
 template <class InSlices, class InOneGo>
-PolygonMesh read_in_slices_if_faultless(InSlices&& in_slices, InOneGo&& in_one_go)
+auto read_in_slices_if_faultless(InSlices&& in_slices, InOneGo&& in_one_go)
 {
     try {
         return in_slices();

@@ -235,6 +235,19 @@ double TextScanner::real(const char* what)
     return std::numeric_limits<double>::quiet_NaN();
 }
 
+double TextScanner::real_or_nan(const char* what)
+{
+    const std::string_view text = peek();
+    const bool has_sign = text.starts_with('-') || text.starts_with('+');
+    const std::string_view word = text.substr(has_sign ? 1 : 0);
+    if (!word.starts_with('n') && !word.starts_with('N'))
+        return real(what);
+    if (lower_case(word) != "nan")
+        fail(complaint_at_number(what, "a finite number, or nan where there is none"));
+    skip(text.size());
+    return std::numeric_limits<double>::quiet_NaN();
+}
+
 std::array<double, 3> TextScanner::coordinates()
 {
     const double x = real("coordinate x");

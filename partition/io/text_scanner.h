@@ -92,6 +92,9 @@ class TextScanner final : public InputPosition {
     /// @throws InputError as for `real`.
     std::array<double, 3> coordinates();
 
+    /// The same, where a number may also be NaN: "nan" in upper or lower case, perhaps with a sign.
+    double real_or_nan(const char* what);
+
     /// The next token as a number; NaN if it is missing or not a finite number.
     double number_or_nan();
 

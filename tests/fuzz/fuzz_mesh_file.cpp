@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "partition/errors.h"
 #include "partition/formats/mesh_io.h"
@@ -74,8 +76,30 @@ bool is_written(Write&& write)
     }
 }
 
+/// Reads the colours, if the file has any, and writes them again.
+void write_colours_again(const FuzzedFile& file, const MeshFile& read)
+{
+    FileFields colours;
+    try {
+        const std::vector<std::string> names = {"colour"};
+        colours = read_fields(*read.source, names);
+    } catch (const InputError&) {
+        return;
+    }
+    const std::string same = "same" + extension;
+    write_mesh_like(*read.source, file.beside(same), read.mesh);
+    const std::string coloured = "coloured" + extension;
+    std::vector<std::string> remarks;
+    const auto write = [&] { remarks = write_mesh_like(*read.source, file.beside(coloured), read.mesh, colours); };
+    // With a remark a type may be another one.
+    if (is_written(write) && remarks.empty())
+        demand(test::content_of(file.beside(coloured)) == test::content_of(file.beside(same)),
+               "colours that stay change no byte");
+}
+
 void write_and_read_again(const FuzzedFile& file, const MeshFile& read)
 {
+    write_colours_again(file, read);
     require_valid(read.mesh);
     static_cast<void>(extras_of(*read.source));
     const bool stl = read.kind.format == FileFormat::Stl;

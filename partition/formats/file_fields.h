@@ -1,0 +1,41 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "partition/executor.h"
+#include "partition/index.h"
+
+namespace seamflow {
+
+/// Numbers of the vertices of a file besides their positions, such as colours, normals or measurements.
+struct FileFields {
+    /// One for each column, each once.
+    std::vector<std::string> names = {};
+    /// #V by names. NaN means that a vertex has no data.
+    Eigen::MatrixXd values = {};
+
+    /// The column of that name; -1 if there is none.
+    [[nodiscard]] Index column(std::string_view name) const;
+};
+
+/// The names of fields, each once, with nx, ny, nz for `normal`, and red, green, blue for `colour` or `color`.
+/// @param is_there whether the file itself has a field of that name, which then is meant.
+/// @throws InputError naming the file for x, y and z, which are no fields.
+std::vector<std::string> names_of_fields(const std::filesystem::path& path, std::span<const std::string> names,
+                                         const std::function<bool(std::string_view name)>& is_there);
+
+/// Checks that fields can be written: one number for each vertex, none infinite; names that are one word each, all
+/// different, and none a coordinate.
+/// @param path of the file to write.
+/// @throws OutputError
+void require_writable(const std::filesystem::path& path, const FileFields& fields, Index n_vertices,
+                      const Executor& exec);
+
+}  // namespace seamflow

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <type_traits>
+
+#include "partition/formats/ply_header.h"
+
+/// Which numbers the types of a PLY file can hold.
+namespace seamflow {
+
+/// Whether that type can represent the numbers, floats after rounding.
+bool can_hold(PlyType type, const auto& numbers)
+{
+    return with_type(type, [&numbers](auto zero) {
+        using Limits = std::numeric_limits<decltype(zero)>;
+        return std::all_of(numbers.begin(), numbers.end(), [](double number) {
+            const bool in_range =
+                number >= static_cast<double>(Limits::lowest()) && number <= static_cast<double>(Limits::max());
+            return in_range && (!Limits::is_integer || std::trunc(number) == number);
+        });
+    });
+}
+
+/// The number that a property of that type stores for a field: whole numbers are rounded to the nearest, and those
+/// beyond the range of their type become its ends.
+template <class Number>
+Number stored_as(double number)
+{
+    if constexpr (std::is_floating_point_v<Number>) {
+        return static_cast<Number>(number);
+    } else {
+        using Limits = std::numeric_limits<Number>;
+        const double nearest = std::round(number);
+        if (nearest >= static_cast<double>(Limits::max()))
+            return Limits::max();
+        return nearest > static_cast<double>(Limits::lowest()) ? static_cast<Number>(nearest) : Limits::lowest();
+    }
+}
+
+/// Whether that type reaches as far as the numbers. NaN does not matter.
+bool reaches(PlyType type, const auto& numbers)
+{
+    return with_type(type, [&numbers](auto zero) {
+        using Limits = std::numeric_limits<decltype(zero)>;
+        return std::none_of(numbers.begin(), numbers.end(), [](double number) {
+            const double nearest = Limits::is_integer ? std::round(number) : number;
+            return nearest < static_cast<double>(Limits::lowest()) || nearest > static_cast<double>(Limits::max());
+        });
+    });
+}
+
+}  // namespace seamflow
