@@ -39,6 +39,7 @@
 #include "samples/report/report_json.h"
 #include "samples/report/report_text.h"
 #include "samples/report/schedule_files.h"
+#include "samples/runs/field_run.h"
 #include "samples/runs/long_run.h"
 #include "samples/runs/smoothing_run.h"
 #include "samples/tiles/tiled_run.h"
@@ -251,7 +252,7 @@ ExitStatus smooth(int argc, char** argv)
         return smooth_tiles(command);
     RunRecord record = begin_record(command);
     try {
-        return run(command, record);
+        return command.fields.exists() ? run_fields(command, record) : run(command, record);
     } catch (...) {
         // The report has the message of standard error, if it can be written.
         try {

@@ -288,6 +288,11 @@ double time_for_fwhm(double fwhm)
     return fwhm * fwhm / (16.0 * std::numbers::ln2);
 }
 
+double fwhm_for_time(double time)
+{
+    return std::sqrt(16.0 * std::numbers::ln2 * time);
+}
+
 FieldReport diffuse(const PolygonMesh& mesh, Eigen::MatrixXd& fields, const FlowOptions& options,
                     const FieldOptions& field_options, const FlowControl& control)
 {

@@ -60,4 +60,7 @@ FieldReport diffuse(const PolygonMesh& mesh, Eigen::MatrixXd& fields, const Flow
 /// The time of a kernel of that width, FWHM² / (16 ln 2), in length².
 double time_for_fwhm(double fwhm);
 
+/// Its inverse: the full width at half maximum, in length, after a time in length².
+double fwhm_for_time(double time);
+
 }  // namespace seamflow

@@ -15,6 +15,7 @@ namespace option_group {
 inline constexpr const char* amount = "How much is smoothed";
 inline constexpr const char* kind = "What kind of mesh";
 inline constexpr const char* kept = "What stays";
+inline constexpr const char* fields = "Fields on the surface";
 inline constexpr const char* written = "What is written";
 inline constexpr const char* accuracy = "Accuracy";
 inline constexpr const char* sub_meshes = "Sub-meshes";

@@ -9,6 +9,7 @@
 #include "partition/io/input_file.h"
 #include "samples/command/command_help.h"
 #include "samples/command/command_line.h"
+#include "samples/command/field_options.h"
 #include "samples/command/settled_options.h"
 #include "samples/command/smooth_options.h"
 #include "samples/command/tile_options.h"
@@ -53,8 +54,11 @@ void require_usable_files(const SmoothCommand& command)
         results.push_back(command.report);
     if (command.edges_from_file && is_input_stream(command.input))
         throw OptionError("--edges-from-file reads INPUT a second time: name a file instead of -");
-    require_files({command.labels, command.fix, command.edges, command.attach_weights});
-    for (const auto& input : {command.input, command.labels, command.fix, command.edges, command.attach_weights}) {
+    const auto inputs = {command.labels, command.fix, command.edges, command.attach_weights, command.fields.from};
+    require_files(inputs);
+    std::vector<std::filesystem::path> all_inputs(inputs);
+    all_inputs.push_back(command.input);
+    for (const auto& input : all_inputs) {
         std::vector<std::filesystem::path> files = results;
         if (!input.empty())
             files.push_back(input);
@@ -91,6 +95,7 @@ std::optional<ExitStatus> parse_smooth_command(int argc, char** argv, SmoothComm
     CLI::App app(program.description, program.name);
     std::string every_step;
     add_flow_options(app, command);
+    add_fields(app, command);
     add_files(app, command, every_step);
     if (names_tiles({argv, static_cast<std::size_t>(argc)}))
         take_tiles(app, command);
@@ -102,6 +107,8 @@ std::optional<ExitStatus> parse_smooth_command(int argc, char** argv, SmoothComm
         return end;
     require_known(app, program);
     command.arguments.assign(argv + 1, argv + argc);
+    if (command.fields.exists())
+        require_fields(app, command);
     if (app.count("--out-dir") > 0) {
         require_tiles(app, command);
         settle(app, command);

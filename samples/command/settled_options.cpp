@@ -125,6 +125,9 @@ bool keeps_edges(const CLI::App& app)
 /// Takes options that were not given from the preset that was, or that is the default without an amount.
 void apply_preset(const CLI::App& app, SmoothCommand& command)
 {
+    // Amounts of fields are checked with them.
+    if (command.fields.exists())
+        return;
     const bool has_amount = !first_given(app, {"--time-step", "--time-step-edges", "--radius"}).empty();
     if (app.count("--time-step") + app.count("--time-step-edges") + app.count("--radius") > 1)
         throw OptionError("--time-step, --time-step-edges and --radius all say how much to smooth: give one of them");

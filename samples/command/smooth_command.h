@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/fields/diffuse.h"
 #include "engine/measure/flow_report.h"
 #include "engine/options/flow_options.h"
 #include "samples/files/checkpoints.h"
@@ -14,6 +15,19 @@
 #include "samples/report/smoothing_request.h"
 
 namespace seamflow {
+
+/// What is to be done with fields on a surface that stays.
+struct FieldRequest {
+    /// Those that diffuse; empty: none.
+    std::vector<std::string> names;
+    /// In place of FieldOptions::fwhm.
+    std::optional<LengthOnMesh> fwhm;
+    FieldOptions options;
+    /// File with the vertices to measure geodesic distances from; empty: none are measured.
+    std::filesystem::path from;
+
+    [[nodiscard]] bool exists() const { return !names.empty() || !from.empty(); }
+};
 
 /// The command line of `smooth`.
 struct SmoothCommand {
@@ -26,6 +40,7 @@ struct SmoothCommand {
     /// All options except `labels`, `fixed_vertices`, the attachment of vertices, and `time_step`, which need the mesh.
     FlowOptions options;
     SmoothingRequest amount;
+    FieldRequest fields;
     /// Whether the preset chooses the amount, and the noise on which to base it, if that is known.
     bool chooses_amount = false;
     std::optional<LengthOnMesh> noise;

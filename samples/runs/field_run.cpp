@@ -1,0 +1,174 @@
+#include "samples/runs/field_run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "engine/fields/diffuse.h"
+#include "engine/fields/geodesic_distance.h"
+#include "engine/tasks/stopwatch.h"
+#include "engine/tasks/workers.h"
+#include "partition/errors.h"
+#include "partition/formats/index_files.h"
+#include "partition/formats/mesh_io.h"
+#include "partition/io/input_file.h"
+#include "partition/io/input_position.h"
+#include "samples/files/mesh_results.h"
+#include "samples/files/output_files.h"
+#include "samples/process/interruption.h"
+#include "samples/process/peak_memory.h"
+#include "samples/report/field_report.h"
+#include "samples/report/report_text.h"
+#include "samples/runs/smoothing_run.h"
+
+namespace seamflow {
+
+namespace {
+
+constexpr const char* distance = "distance";
+
+/// Columns nx, ny and nz are normals: of length 1 again, unless nothing is left of them.
+void renormalise(FileFields& fields)
+{
+    const Index x = fields.column("nx");
+    const Index y = fields.column("ny");
+    const Index z = fields.column("nz");
+    if (x < 0 || y < 0 || z < 0)
+        return;
+    for (Eigen::Index v = 0; v < fields.values.rows(); ++v) {
+        const double length = std::hypot(fields.values(v, x), fields.values(v, y), fields.values(v, z));
+        if (length > 0.0)
+            for (const Index column : {x, y, z})
+                fields.values(v, column) /= length;
+    }
+}
+
+/// Completes options that the command line leaves to the mesh.
+void complete_options(SmoothCommand& command, const MeshFile& file, const FaultLog& left_out, const Executor& exec,
+                      RunRecord& run)
+{
+    if (!command.labels.empty())
+        command.options.cut.labels = labels_of_faces(command.labels, file.mesh.n_faces(), left_out.faces_left_out);
+    if (!command.fix.empty())
+        command.options.motion.fixed_vertices =
+            read_vertex_set(command.fix, file.mesh.n_vertices(), command.fix_property);
+    run.scale = measure_scale(file.mesh, exec);
+    resolve_lengths(command, run);
+    FieldOptions& options = command.fields.options;
+    if (command.fields.fwhm) {
+        const LengthOnMesh& fwhm = *command.fields.fwhm;
+        options.fwhm = fwhm.of_diagonal ? fwhm.value * run.scale.diagonal : fwhm.value;
+        command.options.time_step = time_for_fwhm(*options.fwhm) / std::max(command.options.steps, 1);
+    } else {
+        command.options.time_step =
+            time_step_of(command.amount, run.scale, command.options.steps, filter_of(command.options));
+    }
+    command.options.uniform_edge = uniform_edge_of(command.options, file.mesh);
+}
+
+/// @returns the fields after all steps.
+FileFields diffused(SmoothCommand& command, const MeshFile& file, const FlowControl& control, const Executor& exec,
+                    FieldSummary& summary)
+{
+    FileFields fields = read_fields(*file.source, command.fields.names, exec);
+    summary.names = fields.names;
+    summary.before = fields.values;
+    FlowOptions options = command.options;
+    FieldOptions of_fields = command.fields.options;
+    // It is the same, from steps that are told.
+    if (of_fields.fwhm)
+        options.time_step = 0.0;
+    summary.report = diffuse(file.mesh, fields.values, options, of_fields, control);
+    renormalise(fields);
+    summary.after = fields.values;
+    return fields;
+}
+
+FileFields distances(const SmoothCommand& command, const MeshFile& file, const FlowControl& control,
+                     FieldSummary& summary)
+{
+    const std::vector<Index> from = read_vertex_set(command.fields.from, file.mesh.n_vertices(), command.fix_property);
+    if (from.empty())
+        throw InputError(command.fields.from.string() + ": names no vertex: write one number at least");
+    const Stopwatch watch;
+    FileFields fields{.names = {distance},
+                      .values = geodesic_distance(file.mesh, from, command.options.resources, control)};
+    summary.report.flow.seconds.step = watch.seconds();
+    for (double& one : fields.values.reshaped())
+        if (std::isinf(one)) {
+            one = std::numeric_limits<double>::quiet_NaN();
+            ++summary.report.without_data;
+        }
+    if (summary.report.without_data > 0)
+        summary.report.remarks.push_back(
+            fmt::format("The surface leads from none of them to {}: the distance there is NaN.",
+                        counted(static_cast<std::uint64_t>(summary.report.without_data), "vertex", "vertices")));
+    summary.names = fields.names;
+    summary.after = fields.values;
+    return fields;
+}
+
+/// In the form of the input where the format stays.
+std::vector<std::string> write_fields(const SmoothCommand& command, const MeshFile& file, const FileFields& fields,
+                                      const Executor& exec)
+{
+    const FileKind kind = kind_for_writing(command.output, file.kind);
+    std::vector<std::string> remarks =
+        kind.format == file.kind.format ? write_mesh_like(*file.source, command.output, file.mesh, fields, exec)
+                                        : write_mesh(command.output, file.mesh, kind, fields, exec);
+    return remarks;
+}
+
+}  // namespace
+
+ExitStatus run_fields(SmoothCommand& command, RunRecord& run)
+{
+    Interruption interruption("smooth");
+    std::ostream silence(nullptr);
+    const bool is_taken = is_standard_stream(command.output) || is_standard_stream(command.report);
+    std::ostream& out = command.quiet ? silence : is_taken ? std::cerr : std::cout;
+    const Stopwatch whole;
+    Workers workers(command.options.resources.threads);
+    const Executor exec = workers.exec();
+    FaultLog left_out{.of_faces_alone = true};
+    MeshFile file = read_faulty_mesh(command.input, left_out, exec);
+    require_faces(command.input, file.mesh.n_faces(), left_out);
+    FieldSummary summary;
+    complete_options(command, file, left_out, exec, run);
+    run.read_seconds = whole.seconds();
+    print_input(out, run, file.mesh.n_vertices(), file.mesh.n_faces());
+    if (!command.fields.names.empty())
+        print_field_amount(out, run.scale, command.options, command.fields.options);
+    FileFields fields;
+    try {
+        interruption.begin_work();
+        const FlowControl control{.stop = interruption.token()};
+        fields = command.fields.names.empty() ? distances(command, file, control, summary)
+                                              : diffused(command, file, control, exec, summary);
+    } catch (const InputError& error) {
+        throw InputError(command.input.string() + ": " + error.what());
+    } catch (const Cancelled&) {
+        std::cerr << "smooth: interrupted; no mesh was written\n";
+        return interruption.status();
+    }
+    const Stopwatch writing;
+    for (const auto& remarks :
+         {remarks_on_losses(command.output, true, file, exec), write_fields(command, file, fields, exec)})
+        summary.report.remarks.insert(summary.report.remarks.end(), remarks.begin(), remarks.end());
+    if (left_out.count > 0)
+        summary.report.remarks.push_back(remark_on_faces(left_out, command.output, true, file.kind));
+    run.write_seconds = writing.seconds();
+    run.seconds = whole.seconds();
+    if (!command.report.empty())
+        write_text(command.report, field_report_json(run, command.options, summary));
+    print_fields(out, run, summary);
+    return ExitStatus::Success;
+}
+
+}  // namespace seamflow
