@@ -170,9 +170,31 @@ double part_between(const PolygonMesh& mesh, const IndexLists& blocks, const Exe
     return n_between / static_cast<double>(std::max<std::size_t>(mesh.face_vertices.size(), 1));
 }
 
-/// Blocks of consecutive vertices need no set-up; but the order of the vertices in most scans separates neighbours.
-IndexLists make_blocks(const PolygonMesh& mesh, const Executor& exec)
+/// The vertices without faces where they are most of all, as outside a region that flows alone: they need no rows.
+std::vector<Index> vertices_without_rows(const Topology& topology, const Executor& exec)
 {
+    const auto n = static_cast<Index>(topology.kind.size());
+    std::vector<Index> isolated = select(exec, n, [&](Index v) { return topology.kind[v] == VertexKind::Isolated; });
+    return 2 * isolated.size() > topology.kind.size() ? std::move(isolated) : std::vector<Index>();
+}
+
+/// Boxes of the vertices that have faces.
+IndexLists divide_vertices_of_faces(const PolygonMesh& mesh, const Topology& topology, const Executor& exec)
+{
+    const std::vector<Index> vertices =
+        select(exec, mesh.n_vertices(), [&](Index v) { return topology.kind[v] != VertexKind::Isolated; });
+    const auto n = static_cast<Index>(vertices.size());
+    IndexLists blocks = divide_into_boxes(mesh.vertices(vertices, Eigen::all), number_of_blocks(n), exec);
+    for (Index& v : blocks.values)
+        v = vertices[v];
+    return blocks;
+}
+
+/// Blocks of consecutive vertices need no set-up; but the order of the vertices in most scans separates neighbours.
+IndexLists make_blocks(const PolygonMesh& mesh, const Topology& topology, bool have_all_rows, const Executor& exec)
+{
+    if (!have_all_rows)
+        return divide_vertices_of_faces(mesh, topology, exec);
     const Index n = number_of_blocks(mesh.n_vertices());
     IndexLists blocks = consecutive_blocks(mesh.n_vertices(), n);
     if (part_between(mesh, blocks, exec) <= most_between_blocks)
@@ -180,10 +202,10 @@ IndexLists make_blocks(const PolygonMesh& mesh, const Executor& exec)
     return divide_into_boxes(mesh.vertices, n, exec);
 }
 
-std::vector<Index> make_row_of(const IndexLists& blocks, const Executor& exec)
+std::vector<Index> make_row_of(const IndexLists& blocks, Index n_vertices, const Executor& exec)
 {
-    std::vector<Index> row_of(blocks.values.size());
-    for_each(exec, static_cast<Index>(row_of.size()), [&](Index i) { row_of[blocks.values[i]] = i; });
+    std::vector<Index> row_of(at(n_vertices), -1);
+    for_each(exec, static_cast<Index>(blocks.values.size()), [&](Index i) { row_of[blocks.values[i]] = i; });
     return row_of;
 }
 
@@ -218,19 +240,24 @@ WholeMeshSystem::WholeMeshSystem(const PolygonMesh& mesh, const Topology& topolo
     : mesh_(&mesh)
     , topology_(&topology)
     , laplacian_(laplacian)
-    , blocks_(make_blocks(mesh, exec))
-    , row_of_(make_row_of(blocks_, exec))
+    , without_rows_(vertices_without_rows(topology, exec))
+    , blocks_(make_blocks(mesh, topology, without_rows_.empty(), exec))
+    , row_of_(make_row_of(blocks_, mesh.n_vertices(), exec))
     , matrix_(make_matrix(mesh, topology, blocks_, row_of_, traits_of(laplacian).reach, exec))
-    , moves_(at(mesh.n_vertices()))
-    , masses_(is_applied_again ? at(mesh.n_vertices()) : 0)
+    , moves_(blocks_.values.size())
+    , masses_(is_applied_again ? moves_.size() : 0)
 {
     for_each(exec, matrix_.n_rows(), [&](Index i) { moves_[i] = topology.moves(blocks_.values[i]) ? 1 : 0; });
+    if (!terms.strengths.empty()) {
+        strengths_.resize(moves_.size());
+        for_each(exec, matrix_.n_rows(), [&](Index i) { strengths_[i] = terms.strength(blocks_.values[i]); });
+    }
     if (!terms.attaches())
         return;
     screenings_.resize(moves_.size());
-    first_.resize(mesh.n_vertices(), 3);
+    first_.resize(matrix_.n_rows(), 3);
     for_each(exec, matrix_.n_rows(), [&](Index i) {
-        screenings_[i] = terms.weight(blocks_.values[i]);
+        screenings_[i] = terms.weight(blocks_.values[i]) * strength(i);
         first_.row(i) = terms.first->row(blocks_.values[i]);
     });
 }
@@ -252,7 +279,7 @@ WholeMeshSystem::Sizes WholeMeshSystem::assemble(const Points& of_rows, const Ex
             double diagonal = 0.0;
             Eigen::Array4d size = Eigen::Array4d::Zero();
             Point residual = Point::Zero();
-            const double mass = visit(place, [&](auto&& value, Index j, double k) {
+            const double whole_mass = visit(place, [&](auto&& value, Index j, double k) {
                 const double entry = units_.stiffness * k;
                 const Point share = entry * (of_rows.row(j) - here);
                 // Vertices that stay have no equation.
@@ -262,6 +289,7 @@ WholeMeshSystem::Sizes WholeMeshSystem::assemble(const Points& of_rows, const Ex
                 residual -= share;
                 size.head<3>() += share.array().abs().transpose();
             });
+            const double mass = whole_mass / strength(i);
             if (!masses_.empty())
                 masses_[i] = units_.mass * mass;
             diagonal += units_.mass * mass * (1.0 + screening(i));
@@ -301,8 +329,10 @@ double WholeMeshSystem::measure(const Points& of_rows, const Points& data, const
                 return Sum::Zero();
             const Point there = after_.row(i);
             Point residual = Point::Zero();
-            const double mass = visit(
-                place, [&](auto&&, Index j, double k) { residual -= units_.stiffness * k * (after_.row(j) - there); });
+            const auto add_product = [&](auto&&, Index j, double k) {
+                residual -= units_.stiffness * k * (after_.row(j) - there);
+            };
+            const double mass = visit(place, add_product) / strength(i);
             residual -= units_.mass * mass * (there - data.row(i));
             if (screening(i) > 0.0)
                 residual +=
@@ -385,7 +415,7 @@ WholeMeshSystem::Result WholeMeshSystem::apply(const Points& data, const Iterati
         return Sum::Constant(residual.squaredNorm() / matrix_.diagonal(i));
     });
     if (!(squared.value() > 0.0)) {
-        for_each(exec, matrix_.n_rows(), [&](Index i) { result.row(i).setZero(); });
+        for_each(exec, static_cast<Index>(result.rows()), [&](Index v) { result.row(v).setZero(); });
         return {};
     }
     list_before(result, exec);
@@ -404,7 +434,8 @@ WholeMeshSystem::Result WholeMeshSystem::solve(double squared, const Points& dat
     double left = 1.0;
     double distance = 0.0;
     // Whether the current solution is in after_, by rows; if not, it is V.
-    bool is_in_rows = &data != &after;
+    const bool is_step = &data == &after;
+    bool is_in_rows = !is_step;
     bool is_written = false;
     if (is_in_rows) {
         after_.resize(matrix_.n_rows(), 3);
@@ -465,6 +496,10 @@ WholeMeshSystem::Result WholeMeshSystem::solve(double squared, const Points& dat
     }
     if (!is_written)
         for_each(exec, matrix_.n_rows(), [&](Index i) { after.row(blocks_.values[i]) = current(i); });
+    for_each(exec, static_cast<Index>(without_rows_.size()), [&](Index i) {
+        const Index v = without_rows_[i];
+        after.row(v) = is_step ? Point(before_->row(v)) : Point::Zero();
+    });
     return {criterion.result(left), distance};
 }
 
