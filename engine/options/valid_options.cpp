@@ -169,7 +169,8 @@ void require_valid_strength(const FlowOptions& options)
     if (strength.empty())
         return;
     if (options.motion.rescale != Rescale::None)
-        throw OptionError("rescale moves every vertex, but strength is for a region: leave one of them out");
+        throw OptionError(
+            "rescale moves every vertex, but those with a strength of 0 are to stay: leave one of them out");
     std::string_view other = first_set(options, concern::sweeps);
     if (other.empty() && options.accuracy.approach == Approach::Sweep && !options.accuracy.tolerance)
         other = "the approach";

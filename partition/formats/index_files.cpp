@@ -262,9 +262,9 @@ std::vector<double> read_vertex_strengths(const std::filesystem::path& path, Ind
     }
     read_ply_property(path, n_vertices, property, [&](Index v, double value, auto& source) {
         if (!(value >= 0.0 && value <= 1.0))
-            source.position().fail(fmt::format("{} of vertex {} is {:g}; write a number from 0 (the vertex stays) to 1 "
+            source.position().fail(fmt::format("{} is {:g}; write a number from 0 (the vertex stays) to 1 "
                                                "(it moves like without a region) for each vertex",
-                                               in_quotes(property), v, value));
+                                               in_quotes(property), value));
         strengths[v] = value;
     });
     return strengths;

@@ -352,7 +352,7 @@ TEST_CASE("what a region and a direction do not go with is refused by name")
     options = region;
     options.motion.rescale = Rescale::Area;
     CHECK(refusal_of_region(options) ==
-          "rescale moves every vertex, but strength is for a region: leave one of them out");
+          "rescale moves every vertex, but those with a strength of 0 are to stay: leave one of them out");
     options = region;
     options.motion.strength[5] = 1.5;
     CHECK(refusal_of_region(options) == "the strength of vertex 5 is 1.5, but must be from 0 to 1");
