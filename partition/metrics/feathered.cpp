@@ -143,7 +143,7 @@ std::vector<double> feathered(const PolygonMesh& mesh, std::vector<double> stren
     for_each(exec, mesh.n_vertices(), [&](Index v) {
         const double t = std::min(distances[first[v]] / length, 1.0);
         if (first[v] == v)
-            strength[v] *= t * t * (3.0 - 2.0 * t);
+            strength[v] *= t * t * t * (10.0 + t * (6.0 * t - 15.0));
     });
     for (std::size_t v = 0; v < first.size(); ++v)
         strength[v] = strength[first[v]];

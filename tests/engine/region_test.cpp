@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <cmath>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,6 +11,7 @@
 #include "engine/flow.h"
 #include "engine/mean_curvature_flow.h"
 #include "engine/state/flow_identity.h"
+#include "engine/state/flow_state.h"
 #include "partition/errors.h"
 #include "partition/metrics/feathered.h"
 #include "partition/metrics/vertex_normals.h"
@@ -136,7 +139,7 @@ double sharpest_bend(const Points& heights, Index n)
 
 TEST_CASE("steps of a region are those of the dense equations with M / s, however they are solved")
 {
-    for (const Laplacian laplacian : all_laplacians)
+    for (const Laplacian laplacian : geometric_laplacians)
         for (const PolygonMesh& mesh : height_fields(120)) {
             CAPTURE(name_of(laplacian));
             CAPTURE(mesh.n_vertices());
@@ -152,7 +155,7 @@ TEST_CASE("steps of a region are those of the dense equations with M / s, howeve
 
 TEST_CASE("the strength of a region scales an attachment, too")
 {
-    for (const Laplacian laplacian : symmetric_laplacians)
+    for (const Laplacian laplacian : symmetric_geometric_laplacians)
         for (const PolygonMesh& mesh : height_fields(120)) {
             FlowOptions options = region_options(mesh, laplacian);
             options.motion.attachment = 1.0 / options.time_step;
@@ -200,6 +203,9 @@ TEST_CASE("explicit steps of a region scale dt, and steps that keep edges scale 
     const PolygonMesh mesh = make_triangles(400);
     FlowOptions options = region_options(mesh, Laplacian::Fujiwara);
     options.steps = 1;
+    // Edges are kept by fits to normals, which notice vertices that are held.
+    for (double& s : options.motion.strength)
+        s = std::max(s, 0.1);
     for (const bool keeps_edges : {false, true}) {
         options.time_step = keeps_edges ? options.time_step : 1e-6;
         options.scheme = keeps_edges ? Scheme::BackwardEuler : Scheme::ExplicitEuler;
@@ -276,9 +282,11 @@ TEST_CASE("a region with a feather has no crease at its rim")
     for (const auto& row : mesh.vertices.rowwise())
         options.motion.strength.push_back(row.x() > 24.5 ? 1.0 : 0.0);
     const double sharp = sharpest_bend(flowed(mesh, options), n);
-    options.motion.strength = feathered(mesh, options.motion.strength, 20.0);
+    options.motion.strength = feathered(mesh, options.motion.strength, 30.0);
     const double soft = sharpest_bend(flowed(mesh, options), n);
-    CHECK(soft < 0.25 * sharp);
+    const double before = sharpest_bend(mesh.vertices, n);
+    CHECK(sharp > 3.0 * before);
+    CHECK(soft < 1.05 * before);
 }
 
 TEST_CASE("motion along an axis leaves the other coordinates bit for bit, however steps are taken")
@@ -304,8 +312,9 @@ TEST_CASE("motion along an axis leaves the other coordinates bit for bit, howeve
     ways.back().motion.limits.slide = 1e-4;
     for (const FlowOptions& way : ways) {
         const Points after = flowed(mesh, way);
-        CHECK(same_bits(Points(after * Point(1, 1, 0).asDiagonal()),
-                        Points(mesh.vertices * Point(1, 1, 0).asDiagonal())));
+        Points flat = after;
+        flat.col(2) = mesh.vertices.col(2);
+        CHECK(same_bits(flat, mesh.vertices));
         CHECK((after - mesh.vertices).col(2).cwiseAbs().maxCoeff() > 1e-6);
     }
 }
@@ -313,16 +322,16 @@ TEST_CASE("motion along an axis leaves the other coordinates bit for bit, howeve
 TEST_CASE("a step along lines is the projection of the step, and the flow continues from there")
 {
     const PolygonMesh mesh = make_quads(400);
-    FlowOptions options = in_one_factor(region_options(mesh, Laplacian::VirtualRefinement));
+    FlowOptions options = region_options(mesh, Laplacian::VirtualRefinement);
     options.motion.strength.clear();
     options.steps = 1;
-    for (const MotionDirection direction : {MotionDirection{MotionDirection::Kind::Vector, Point(1.0, -2.0, 3.0)},
-                                            MotionDirection{MotionDirection::Kind::Normal, Point(0.0, 0.0, 0.0)}}) {
+    for (const MotionDirection& direction : {MotionDirection{MotionDirection::Kind::Vector, Point(1.0, -2.0, 3.0)},
+                                             MotionDirection{MotionDirection::Kind::Normal, Point(0.0, 0.0, 0.0)}}) {
         PolygonMesh expected = mesh;
         const Topology topology = make_topology(mesh);
         const VertexNormals normals(mesh, topology);
         for (int i = 0; i < 3; ++i) {
-            const Points way = flowed(expected, options) - expected.vertices;
+            const Points way = flowed(expected, in_one_factor(options)) - expected.vertices;
             const Points before = expected.vertices;
             for (Index v = 0; v < mesh.n_vertices(); ++v) {
                 const Point d = direction.kind == MotionDirection::Kind::Normal ? normals(v, before)

@@ -32,7 +32,7 @@ std::vector<double> strengths_right_of(const PolygonMesh& mesh, double x)
 double rise(double t)
 {
     t = std::min(t, 1.0);
-    return 3.0 * t * t - 2.0 * t * t * t;
+    return 10.0 * std::pow(t, 3) - 15.0 * std::pow(t, 4) + 6.0 * std::pow(t, 5);
 }
 
 }  // namespace
@@ -52,7 +52,7 @@ TEST_CASE("distances from a straight rim are exact on flat grids, and infinite b
     }
 }
 
-TEST_CASE("distances from a point are at least straight, and at most a tenth longer than that, on a scattered mesh")
+TEST_CASE("distances from a point are at least straight, and at most a quarter longer than that, on a scattered mesh")
 {
     PolygonMesh mesh = triangle_grid(40, 40);
     RandomNumbers random(3);
@@ -64,7 +64,7 @@ TEST_CASE("distances from a point are at least straight, and at most a tenth lon
     for (Index v = 0; v < mesh.n_vertices(); ++v) {
         const double straight = (mesh.vertices.row(v) - mesh.vertices.row(source.front())).norm();
         CHECK(distances[at(v)] > straight - 1e-9);
-        CHECK(distances[at(v)] <= 1.1 * straight);
+        CHECK(distances[at(v)] <= 1.25 * straight);
     }
 }
 
