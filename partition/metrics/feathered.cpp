@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include "partition/errors.h"
+#include "partition/vector_area.h"
 #include "partition/weld.h"
 
 namespace seamflow {

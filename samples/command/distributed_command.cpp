@@ -20,7 +20,8 @@ std::vector<SmoothProgram::Lack> lacks()
     for (const OptionTraits& one : all_options())
         if ((one.concerns & concern::one_process) != 0 && !one.option.empty())
             list.push_back({std::string(one.option), one_process});
-    for (const char* const own : {"--edges-from-file", "--self-intersections", "--trace", "--task-graph", "--html"})
+    for (const char* const own : {"--edges-from-file", "--region-property", "--feather", "--self-intersections",
+                                  "--trace", "--task-graph", "--html"})
         list.push_back({own, one_process});
     return list;
 }
