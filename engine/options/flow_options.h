@@ -268,7 +268,7 @@ struct MotionOptions {
     std::vector<double> attachment_weights = {};
     /// The strength of each step at each vertex, #V, from 0 to 1: dt there is the strength times time_step, so that 0
     /// holds a vertex bit for bit, and a mask of 0 and 1 smooths a region alone (see feathered for one without a crease
-    /// at its rim). Where most faces have only vertices of strength 0, steps cost as much as the others do. Not for
+    /// at its rim). Faces without a moving vertex cost next to nothing. Not for
     /// sweeps. With keep_edges it scales the displacement of each step. Empty: 1 everywhere.
     std::vector<double> strength = {};
     /// Motion along lines alone: after each step the displacement of every vertex is projected on its line, and the

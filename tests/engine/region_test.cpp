@@ -428,3 +428,38 @@ TEST_CASE("a flow of a region resumes from its state, and holds and moves vertic
     flow.move(outside, to);
     CHECK(same_bits(changed.vertices.row(0), to));
 }
+
+TEST_CASE("copies of a vertex along a seam have the least of their strengths, and move as one")
+{
+    const PolygonMesh whole = make_triangles(900);
+    std::vector<Index> labels;
+    for (Index f = 0; f < whole.n_faces(); ++f)
+        labels.push_back(whole.vertices(whole.face(f).front(), 0) < 0.5 ? 0 : 1);
+    const PolygonMesh mesh = split(whole, labels);
+    REQUIRE(mesh.n_vertices() > whole.n_vertices());
+    FlowOptions options = in_four_sub_meshes(region_options(mesh, Laplacian::Fujiwara));
+    FlowOptions of_whole = options;
+    of_whole.motion.strength.resize(at(whole.n_vertices()));
+    for (Index v = whole.n_vertices(); v < mesh.n_vertices(); ++v)
+        for (Index w = 0; w < whole.n_vertices(); ++w)
+            if (mesh.vertices.row(v) == whole.vertices.row(w)) {
+                double& strength = of_whole.motion.strength[at(w)];
+                strength = std::min(strength, options.motion.strength[at(v)]);
+            }
+    const Points expected = flowed(whole, of_whole);
+    CHECK(largest_difference(flowed(mesh, options).topRows(whole.n_vertices()), expected) < 1e-9);
+}
+
+TEST_CASE("the way of taking steps that is chosen for a region is never by sweeps")
+{
+    PolygonMesh mesh = make_triangles(12'000);
+    for (const Laplacian laplacian : all_laplacians)
+        for (const int subdomains : {0, 8}) {
+            FlowOptions options = region_options(mesh, laplacian);
+            options.time_step *= 0.1;
+            options.cut.subdomains = subdomains;
+            options.steps = 1;
+            PolygonMesh flowing = mesh;
+            CHECK(mean_curvature_flow(flowing, options).convergence.approach != Approach::Sweep);
+        }
+}
