@@ -14,6 +14,7 @@
 #include "engine/measure/rescaling.h"
 #include "engine/measure/surface_measures.h"
 #include "engine/measure/update_limit.h"
+#include "engine/steppers/directed_motion.h"
 #include "engine/steppers/make_stepper.h"
 #include "engine/steppers/switching_stepper.h"
 #include "engine/steppers/vanishing_components.h"
@@ -132,8 +133,11 @@ struct FlowRun::StepTools {
         : is_scaled(goes_on_scaled(options))
         , is_scaled_apart(options.motion.rescale != Rescale::None && !is_scaled)
         , rescaling(mesh, topology, options.motion.rescale)
-        , vanishing(options, mesh.vertices, find_small_components(mesh, topology))
+        , vanishing(options, mesh.vertices, find_small_components(mesh, topology, options.motion.strength))
+        , mesh_(&mesh)
     {
+        if (options.motion.direction.kind != MotionDirection::Kind::Any)
+            directed_.emplace(mesh, topology, options.motion.direction);
         limit.emplace(mesh, options.accuracy.largest_update);
         if (options.motion.limits.exist())
             limited.emplace(mesh, topology, options.motion.limits);
@@ -153,6 +157,19 @@ struct FlowRun::StepTools {
             bound->apply(positions);
         if (limited)
             limited->apply(positions);
+        if (directed_ && directed_->is_parallel() && has_results_apart())
+            directed_->project(mesh_->vertices, positions, run_in_parallel);
+    }
+
+    /// Leaves of a step only the motion along the lines that the options ask for.
+    /// @param before #V by 3: where the step began.
+    void direct(Stepper& stepper, const Points& before) const
+    {
+        if (!directed_)
+            return;
+        Points directed = stepper.positions();
+        directed_->project(before, directed, run_in_parallel);
+        stepper.continue_from(directed, {});
     }
 
     /// Rescales the surface that the next step begins with, where steps begin with results.
@@ -176,6 +193,10 @@ struct FlowRun::StepTools {
 
     VanishingComponents vanishing;
     std::optional<UpdateLimit> limit;
+
+  private:
+    const PolygonMesh* mesh_;
+    std::optional<DirectedMotion> directed_;
 };
 
 FlowRun::FlowRun(FlowingMesh& mesh, std::unique_ptr<PreparedFlow> prepared, Progress& progress, double setup,
@@ -215,7 +236,8 @@ void FlowRun::free_topology()
     // Steps of sub-meshes do not use the whole mesh.
     const bool is_whole = options().keep_edges || options().scheme == Scheme::ExplicitEuler ||
                           takes_whole_mesh(options().accuracy.approach);
-    if (is_whole || options().report.measures || tools_->limited)
+    const bool needs_normals = options().motion.direction.kind == MotionDirection::Kind::Normal;
+    if (is_whole || options().report.measures || tools_->limited || needs_normals)
         return;
     topology.vertex_offsets = std::vector<Index>();
     topology.vertex_corners = std::vector<Index>();
@@ -307,7 +329,7 @@ void FlowRun::hold(std::span<const Index> vertices, bool is_held)
     stepper_->hold(flowing, is_held);
     for (const Index v : flowing)
         topology.fixed[v] = is_held_[v] = is_held ? 1 : 0;
-    tools_->vanishing.look_again(find_small_components(mesh_.mesh(), topology));
+    tools_->vanishing.look_again(find_small_components(mesh_.mesh(), topology, options().motion.strength));
     was_changed_ = true;
 }
 
@@ -413,6 +435,7 @@ void FlowRun::compare_with_reference(int step, StepReport& of_step)
     const Points before = reference_->positions();
     named("step " + std::to_string(step) + " of the undecomposed flow", [&] {
         tools_->vanishing.step(*reference_, before);
+        tools_->direct(*reference_, before);
         tools_->rescale(*reference_);
     });
     of_step.reference_seconds = watch.lap();
@@ -462,7 +485,10 @@ void FlowRun::take_step(const StepObserver& on_step)
     const std::string name = "step " + std::to_string(step);
     progress_.enter(FlowPhase::Step, step, fractions_->begin(), fractions_->end_of_tasks());
     Stopwatch watch;
-    named(name, [&] { tools_->vanishing.step(*stepper_, before); });
+    named(name, [&] {
+        tools_->vanishing.step(*stepper_, before);
+        tools_->direct(*stepper_, before);
+    });
     StepReport of_step;
     of_step.seconds = watch.lap();
     stepper_->describe(of_step);

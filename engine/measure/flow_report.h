@@ -112,7 +112,7 @@ struct SubMeshReport {
 /// How the mesh was cut.
 struct CutReport {
     std::vector<SubMeshReport> sub_meshes;
-    /// Sub-mesh of every face after repair.
+    /// Sub-mesh of every face after repair; n of sub_meshes for those that no vertex of a region moves.
     std::vector<Index> labels;
     /// Number of vertices on the interface Γ.
     std::int64_t interface_vertices = 0;

@@ -38,6 +38,11 @@ std::string remark_on_unmoving_mesh(Boundary boundary)
     return boundary == Boundary::Free ? why : why + " A free boundary would move.";
 }
 
+std::string remark_on_empty_region()
+{
+    return "The region is empty: no vertex has a strength above 0, and nothing moves.";
+}
+
 void remark_on_drift(const FlowOptions& options, FlowReport& report)
 {
     if (report.steps.empty() || report.steps.back().estimated_v_max.value_or(0.0) <= 1.0)

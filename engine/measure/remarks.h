@@ -24,6 +24,9 @@ std::string remark_on_undefined_vertices(std::int64_t n, std::int64_t first, Lap
 /// On a mesh none of whose vertices can move.
 std::string remark_on_unmoving_mesh(Boundary boundary);
 
+/// On a region without vertices (see MotionOptions::strength).
+std::string remark_on_empty_region();
+
 /// Adds what the estimate after the last step means for the user, if it means anything.
 void remark_on_drift(const FlowOptions& options, FlowReport& report);
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "partition/polygon_mesh.h"
+#include "partition/vector_area.h"
 #include "solvers/conditions/robin_parameter.h"
 #include "solvers/direct/factorisation.h"
 #include "solvers/filters/step_filter.h"
@@ -168,7 +169,7 @@ struct InterfaceOptions {
     int overlap = 1;
     /// Order of sub-meshes in a step.
     Colouring colouring = Colouring::Greedy;
-    /// Direction of the sweep over the colours.
+    /// MotionDirection of the sweep over the colours.
     Sweep sweep = Sweep::Automatic;
     /// Treatment of the interface after a step.
     Correction correction = Correction::Automatic;
@@ -216,8 +217,31 @@ struct ComponentLimits {
     [[nodiscard]] bool exist() const { return std::isfinite(volume) || std::isfinite(move) || std::isfinite(slide); }
 };
 
+/// The lines along which vertices move: whatever a step does beside them is left out.
+struct MotionDirection {
+    enum class Kind {
+        /// Vertices move freely.
+        Any,
+        /// Along `vector`. Coordinates that it does not have stay bit for bit, as x and y of a terrain with (0, 0, 1).
+        Vector,
+        /// Along the normal that each vertex has before the step: parameters and textures hardly slide.
+        Normal,
+    };
+    Kind kind = Kind::Any;
+    /// Of any length above 0.
+    Point vector = Point::Zero();
+
+    friend bool operator==(const MotionDirection& a, const MotionDirection& b)
+    {
+        return a.kind == b.kind && a.vector.cwiseEqual(b.vector).all();
+    }
+};
+
 /// Constraints on the motion of vertices.
 struct MotionOptions {
+    /// Strengths below this hold a vertex, as 0 does.
+    static constexpr double least_strength = 1e-9;
+
     /// Distance, in units of length, within which boundary vertices count as coincident where two boundary edges can
     /// become one (see weld). Such vertices move as one, but stay separate in the mesh, so that the surface continues
     /// across seams of its texture. Moving copies come to one place; fixed ones stay where they are. 0: coordinates
@@ -242,6 +266,14 @@ struct MotionOptions {
     /// The same with a w for each vertex, #V, in place of `attachment`: soft constraints, beside fixed_vertices. Empty:
     /// `attachment` applies.
     std::vector<double> attachment_weights = {};
+    /// The strength of each step at each vertex, #V, from 0 to 1: dt there is the strength times time_step, so that 0
+    /// holds a vertex bit for bit, and a mask of 0 and 1 smooths a region alone (see feathered for one without a crease
+    /// at its rim). Faces without a moving vertex cost next to nothing. Not for
+    /// sweeps. With keep_edges it scales the displacement of each step. Empty: 1 everywhere.
+    std::vector<double> strength = {};
+    /// Motion along lines alone: after each step the displacement of every vertex is projected on its line, and the
+    /// flow continues from there. Not with rescale, nor for the classical conditions.
+    MotionDirection direction = {};
     /// Scales the result of each step. The flow itself continues unscaled, and distances to the undecomposed flow are
     /// unscaled; the conformalized flow continues from the scaled result, so that it does not vanish on its way to a
     /// sphere. Every vertex with faces moves: none of them may be fixed.

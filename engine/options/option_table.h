@@ -77,8 +77,8 @@ auto option_table(Options& options)
     auto& [subdomains, labels] = cut;
     auto& [conditions, transmission, p, p_rule, p_edge, q, overlap, colouring, sweep, correction] = interface;
     auto& [tolerance, approach, converge_iterations, largest_update] = accuracy;
-    auto& [weld, boundary, fixed_vertices, feature_edges, strict, attachment, attachment_weights, rescale, within,
-           limits] = motion;
+    auto& [weld, boundary, fixed_vertices, feature_edges, strict, attachment, attachment_weights, strength, direction,
+           rescale, within, limits] = motion;
     auto& [volume, move, slide] = limits;
     auto& [threads, tune_for, memory_limit, factorisation, precision] = resources;
     auto& [reference, record_schedule, keep_gaps, measures] = report;
@@ -137,6 +137,8 @@ auto option_table(Options& options)
         row("fixed_vertices", "--fix", part, fixed_vertices),
         row("attachment", "--attach", 0, attachment, not_negative("at least 0 and finite (1/length²)")),
         row("attachment_weights", "--attach-weights", part, attachment_weights),
+        row("strength", "--region", one_process, strength),
+        row("direction", "--direction", one_process, direction),
         row("weld", "--weld", 0, weld, not_negative("at least 0 and finite (a length; empty: never)")),
         row("strict", "--strict", one_process | no_result, strict),
         row("rescale", "--rescale", one_process, rescale),

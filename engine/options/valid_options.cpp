@@ -158,6 +158,49 @@ void require_valid_attachment(const MotionOptions& motion)
             "attachment and attachment_weights both say how vertices are attached: leave one of them out");
 }
 
+/// A region: not for sweeps, whose conditions on Γ know one dt only.
+void require_valid_strength(const FlowOptions& options)
+{
+    const std::vector<double>& strength = options.motion.strength;
+    const auto wrong = std::ranges::find_if_not(strength, [](double s) { return s >= 0.0 && s <= 1.0; });
+    if (wrong != strength.end())
+        throw InputError(fmt::format("the strength of vertex {} is {:.17g}, but must be from 0 to 1",
+                                     wrong - strength.begin(), *wrong));
+    if (strength.empty())
+        return;
+    if (options.motion.rescale != Rescale::None)
+        throw OptionError(
+            "rescale moves every vertex, but those with a strength of 0 are to stay: leave one of them out");
+    std::string_view other = first_set(options, concern::sweeps);
+    if (other.empty() && options.accuracy.approach == Approach::Sweep && !options.accuracy.tolerance)
+        other = "the approach";
+    if (!other.empty())
+        throw OptionError(fmt::format("strength is given, whose steps are converged or undecomposed, but {} is for "
+                                      "sweeps: leave one of them out",
+                                      other));
+    if (is_foreign(options.resources.factorisation) && is_symmetric(options.laplacian) &&
+        options.accuracy.approach != Approach::Undecomposed)
+        throw OptionError("strength is given, whose steps in sub-meshes need this library's own factorisation: leave "
+                          "the factorisation automatic, or take undecomposed steps");
+}
+
+void require_valid_direction(const FlowOptions& options)
+{
+    const MotionDirection& direction = options.motion.direction;
+    if (direction.kind == MotionDirection::Kind::Any)
+        return;
+    if (direction.kind == MotionDirection::Kind::Vector &&
+        !(direction.vector.allFinite() && direction.vector.norm() > 0.0 && std::isfinite(direction.vector.norm())))
+        throw OptionError("direction must be a finite vector other than 0, like 0,0,1");
+    if (options.motion.rescale != Rescale::None || !options.motion.feature_edges.empty())
+        throw OptionError("direction lets vertices move along lines alone, which rescale and feature_edges do not: "
+                          "leave one of them out");
+    if (is_classical(options.interface.conditions))
+        throw OptionError(
+            "direction is for flows with one copy of each vertex, but with the classical conditions every "
+            "sub-mesh has its own: use other conditions");
+}
+
 /// The option that asks for more than plain mean curvature flow.
 std::string further_flow(const FlowOptions& options)
 {
@@ -236,6 +279,8 @@ void require_valid(const FlowOptions& options)
         require_valid_schwarz(options);
     require_valid_copies(options);
     require_valid_constraints(options);
+    require_valid_strength(options);
+    require_valid_direction(options);
     require_valid_flow(options);
     require_valid_tolerance(options);
     require_valid_approach(options);

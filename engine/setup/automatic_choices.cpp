@@ -114,6 +114,9 @@ ToleranceChoice choose_tolerance(const PolygonMesh& mesh, const MeshSize& size, 
         return {loose_tolerance, ""};
     if (options.accuracy.approach == Approach::Undecomposed)
         return {};
+    if (!options.motion.strength.empty() && options.scheme == Scheme::BackwardEuler && !options.keep_edges &&
+        mesh.n_faces() > 0)
+        return {loose_tolerance, "in a region steps differ from vertex to vertex, which single sweeps do not support"};
     if (boundary_moves && !speaks_of_sweeps(options) && (options.cut.subdomains != 1 || !options.cut.labels.empty()))
         return {loose_tolerance, "sub-meshes that share a free boundary need it"};
     if (speaks_of_sweeps(options) || mesh.n_faces() == 0)

@@ -27,6 +27,23 @@ void require_manifold(const Topology& topology)
             found - topology.kind.begin()));
 }
 
+/// Holds vertices without strength.
+void hold_still(Topology& topology, const PolygonMesh& mesh, const std::vector<double>& strength,
+                std::vector<std::string>& remarks)
+{
+    if (strength.empty())
+        return;
+    if (strength.size() != at(mesh.n_vertices()))
+        throw InputError(fmt::format("there are {} strengths, but the mesh has {} vertices: give one for each",
+                                     strength.size(), mesh.n_vertices()));
+    const auto is_still = [](double s) { return s < MotionOptions::least_strength; };
+    for (std::size_t v = 0; v < strength.size(); ++v)
+        if (is_still(strength[v]))
+            topology.fixed[v] = 1;
+    if (std::ranges::all_of(strength, is_still))
+        remarks.push_back(remark_on_empty_region());
+}
+
 std::size_t count_moving(const Topology& topology)
 {
     return static_cast<std::size_t>(std::count(topology.fixed.begin(), topology.fixed.end(), 0));
@@ -44,6 +61,7 @@ void constrain(Topology& topology, const PolygonMesh& mesh, const FlowOptions& o
     if (n_weights > 0 && n_weights != at(mesh.n_vertices()))
         throw InputError(fmt::format("there are {} attachment weights, but the mesh has {} vertices: give one for each",
                                      n_weights, mesh.n_vertices()));
+    hold_still(topology, mesh, options.motion.strength, remarks);
     if (options.motion.strict)
         require_manifold(topology);
     const bool is_sound = has_lengths && traits_of(options.laplacian).divisor == Divisor::EdgeLengths;

@@ -15,8 +15,8 @@ namespace seamflow {
 /// @param has_lengths whether all edges are known to have a length that is a normal double.
 /// @param remarks gets a sentence about those.
 /// @throws InputError for a number in MotionOptions::fixed_vertices that is not a vertex; if there are not as many
-///         attachment weights as vertices; with MotionOptions::strict, naming the first vertex, edge or face at which
-///         the flow is not defined; also without it if the flow is defined nowhere.
+///         attachment weights or strengths as vertices; with MotionOptions::strict, naming the first vertex, edge or
+///         face at which the flow is not defined; also without it if the flow is defined nowhere.
 void constrain(Topology& topology, const PolygonMesh& mesh, const FlowOptions& options, bool has_lengths,
                const Executor& exec, std::vector<std::string>& remarks);
 

@@ -73,6 +73,11 @@ void FlowingMesh::weld_seams(Topology& topology, MotionOptions& motion, const Ex
             double& weight = motion.attachment_weights[first_[v]];
             weight = std::max(weight, motion.attachment_weights[v]);
         }
+    if (motion.strength.size() == first_.size())
+        for (const Index v : copies_) {
+            double& strength = motion.strength[first_[v]];
+            strength = std::min(strength, motion.strength[v]);
+        }
     remark_on_seams_ = remark_on_seams(welded->n_vertices, welded->n_edges);
     topology = std::move(welded->topology);
     copy_ = std::move(welded->mesh);
@@ -86,6 +91,52 @@ void FlowingMesh::move_isolated(std::span<const Index> vertices, const Points& t
             of_isolated_.row(place - isolated_.begin()) = to.row(static_cast<Eigen::Index>(i));
 }
 
+Index FlowingMesh::leave_out_still_faces(std::span<const double> strength, Reach reach)
+{
+    const PolygonMesh& all = mesh();
+    const auto select_faces = [&](const std::vector<std::uint8_t>& has) {
+        return select(run_in_parallel, all.n_faces(),
+                      [&](Index f) { return std::ranges::any_of(all.face(f), [&](Index v) { return has[v] != 0; }); });
+    };
+    std::vector<std::uint8_t> is_near(strength.size());
+    for_each(run_in_parallel, all.n_vertices(),
+             [&](Index v) { is_near[v] = strength[v] >= MotionOptions::least_strength ? 1 : 0; });
+    std::vector<Index> faces = select_faces(is_near);
+    const auto mark_corners = [&] {
+        for (const Index f : faces)
+            for (const Index v : all.face(f))
+                is_near[v] = 1;
+    };
+    mark_corners();
+    if (reach == Reach::TwoRings) {
+        faces = select_faces(is_near);
+        mark_corners();
+    }
+    if (std::ssize(faces) == all.n_faces())
+        return 0;
+    std::vector<Index> number(at(all.n_faces()), -1);
+    PolygonMesh left;
+    for (const Index f : faces) {
+        number[f] = left.n_faces();
+        left.add_face(all.face(f));
+    }
+    left.vertices = all.vertices;
+    renumber(std::move(number));
+    n_still_ = static_cast<Index>(std::ranges::count(is_near, 0));
+    copy_ = std::move(left);
+    return n_still_;
+}
+
+/// @param number per face of mesh(), among those that stay; -1: the face is still.
+void FlowingMesh::renumber(std::vector<Index> number)
+{
+    if (number_.empty())
+        number_ = std::move(number);
+    else
+        for (Index& of_face : number_)
+            of_face = of_face < 0 ? -1 : number[of_face];
+}
+
 bool FlowingMesh::leave_out_repeated_faces(const Topology& topology)
 {
     if (std::ranges::find(topology.kind, VertexKind::NonManifold) == topology.kind.end())
@@ -96,18 +147,20 @@ bool FlowingMesh::leave_out_repeated_faces(const Topology& topology)
     const std::vector<RepeatedFace> repeated = find_repeated_faces(mesh(), candidates);
     if (repeated.empty())
         return false;
-    number_.assign(mesh().n_faces(), -1);
+    std::vector<Index> number(at(mesh().n_faces()), -1);
     PolygonMesh left;
     auto next = repeated.begin();
     for (Index f = 0; f < mesh().n_faces(); ++f) {
         if (next != repeated.end() && next->face == f) {
-            number_[f] = number_[next++->first];
+            number[f] = number[next++->first];
             continue;
         }
-        number_[f] = left.n_faces();
+        number[f] = left.n_faces();
         left.add_face(mesh().face(f));
     }
     left.vertices = mesh().vertices;
+    n_repeated_ = static_cast<Index>(repeated.size());
+    renumber(std::move(number));
     copy_ = std::move(left);
     return true;
 }
@@ -118,7 +171,7 @@ std::vector<Index> FlowingMesh::of_faces_left(const std::vector<Index>& labels) 
         return labels;
     std::vector<Index> left;
     for (std::size_t f = 0; f < labels.size(); ++f)
-        if (at(number_[f]) == left.size())
+        if (number_[f] >= 0 && at(number_[f]) == left.size())
             left.push_back(labels[f]);
     return left;
 }
@@ -196,13 +249,14 @@ void FlowingMesh::complete(FlowReport& report) const
     }
     if (number_.empty())
         return;
-    const Index n_left_out = given_->n_faces() - mesh().n_faces();
-    report.mesh.faces += n_left_out;
+    report.mesh.faces += given_->n_faces() - mesh().n_faces();
     std::vector<Index> labels(number_.size());
+    const auto of_still = static_cast<Index>(report.cut.sub_meshes.size());
     std::transform(number_.begin(), number_.end(), labels.begin(),
-                   [&](Index number) { return report.cut.labels[number]; });
+                   [&](Index number) { return number < 0 ? of_still : report.cut.labels[number]; });
     report.cut.labels = std::move(labels);
-    report.remarks.push_back(remark_on_repeated_faces(n_left_out));
+    if (n_repeated_ > 0)
+        report.remarks.push_back(remark_on_repeated_faces(n_repeated_));
 }
 
 }  // namespace seamflow

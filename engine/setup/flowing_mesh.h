@@ -9,6 +9,7 @@
 #include "engine/options/flow_options.h"
 #include "partition/polygon_mesh.h"
 #include "partition/topology.h"
+#include "solvers/laplacian/laplacian.h"
 
 namespace seamflow {
 
@@ -41,6 +42,11 @@ class FlowingMesh {
     /// Puts those of the vertices that have no faces elsewhere, which move_to does not do.
     /// @param vertices of the given mesh. @param to #vertices by 3.
     void move_isolated(std::span<const Index> vertices, const Points& to);
+
+    /// Leaves out the faces on which no row of a moving vertex depends. To be called at most once, first of all.
+    /// @param strength see MotionOptions::strength: one per vertex of mesh(). @param reach of the Laplacian.
+    /// @returns how many vertices are left without faces by that.
+    Index leave_out_still_faces(std::span<const double> strength, Reach reach);
 
     /// Leaves out faces that repeat others. A surface whose faces occur twice (to be seen from both sides, say) is
     /// manifold nowhere, but flows like the single one. To be called at most once, before anything refers to mesh().
@@ -77,7 +83,8 @@ class FlowingMesh {
     /// @param positions #V by 3, of mesh().
     void take_along(Points& positions) const;
 
-    /// Converts the report to the given mesh: faces that were left out get the sub-mesh of the face that they repeat.
+    /// Converts the report to the given mesh: faces that were left out get the sub-mesh of the face that they repeat,
+    /// or the number after that of the last sub-mesh where nothing moves.
     void complete(FlowReport& report) const;
 
   private:
@@ -92,6 +99,7 @@ class FlowingMesh {
     /// Whether the given mesh lies elsewhere.
     [[nodiscard]] bool is_shifted() const { return !offset_.isZero(0.0); }
     void shift_back(Points& positions) const;
+    void renumber(std::vector<Index> number);
 
     PolygonMesh* given_;
     Point offset_;
@@ -104,9 +112,11 @@ class FlowingMesh {
     std::vector<Index> copies_;
     std::vector<Apart> apart_;
     std::string remark_on_seams_;
-    /// Per face of the given mesh: its number, or that of the face that it repeats, among those that are left. Empty if
-    /// none is repeated.
+    /// Per face of the given mesh: its number, or that of the face that it repeats, among those that are left; -1 where
+    /// nothing moves. Empty if none is left out.
     std::vector<Index> number_;
+    Index n_still_ = 0;
+    Index n_repeated_ = 0;
 };
 
 }  // namespace seamflow

@@ -47,11 +47,29 @@ Cut make_cut(const PolygonMesh& mesh, const MeshSize& size, const Topology& topo
     return cut_into(mesh, topology, choice.count, exec, alongside);
 }
 
+/// Whether only the faces around a region need to flow: where nothing else asks for the whole surface, and no seam of a
+/// moving boundary could open.
+bool flows_alone(const FlowOptions& options)
+{
+    return !options.motion.strength.empty() && !options.keep_edges && !options.motion.limits.exist() &&
+           !options.motion.strict && !options.report.reference && !options.report.keep_gaps &&
+           options.motion.boundary == Boundary::Fixed;
+}
+
 /// Joins the faces and determines which vertices move.
 void examine(PreparedFlow& prepared, FlowingMesh& mesh, Progress& progress)
 {
     FlowOptions& options = prepared.options;
     Topology& topology = prepared.topology;
+    std::vector<double>& strength = options.motion.strength;
+    if (std::ranges::all_of(strength, [](double s) { return s == 1.0; }))
+        strength.clear();
+    Index n_still = 0;
+    if (flows_alone(options) && strength.size() == at(mesh.mesh().n_vertices()))
+        n_still = mesh.leave_out_still_faces(strength, traits_of(options.laplacian).reach);
+    if (n_still > 0)
+        prepared.choices.push_back(
+            fmt::format("Only the {} faces around the region flow, and are measured.", mesh.mesh().n_faces()));
     const auto look = [&] {
         // Part of the topology is made by one thread.
         run_both([&] { topology = make_topology(mesh.mesh(), progress.exec()); },
@@ -62,17 +80,17 @@ void examine(PreparedFlow& prepared, FlowingMesh& mesh, Progress& progress)
         // Vertices that are joined may have edges without length.
         const bool has_lengths = prepared.size.has_lengths && mesh.n_copies() == 0;
         constrain(topology, mesh.mesh(), options, has_lengths, progress.exec(), prepared.remarks);
-        prepared.size.vertices -= mesh.n_copies();
+        prepared.size.vertices -= mesh.n_copies() + n_still;
     };
     look();
     mesh.weld_seams(topology, options.motion, progress.exec());
     constrain_it();
     // The sub-meshes as they are have all faces.
-    if (options.report.keep_gaps || !mesh.leave_out_repeated_faces(topology))
-        return;
+    if (!options.report.keep_gaps && mesh.leave_out_repeated_faces(topology)) {
+        look();
+        constrain_it();
+    }
     options.cut.labels = mesh.of_faces_left(options.cut.labels);
-    look();
-    constrain_it();
 }
 
 /// METIS has one thread: the others measure in the meantime; if it has nothing to do, measuring comes afterwards.
@@ -143,8 +161,12 @@ void describe(const PreparedFlow& prepared, const FlowingMesh& mesh, FlowReport&
     report.cut.repaired_faces = prepared.cut.repaired_faces;
     report.choices = prepared.choices;
     report.remarks = prepared.remarks;
-    report.mesh.non_manifold_vertices =
-        static_cast<Index>(std::count(topology.kind.begin(), topology.kind.end(), VertexKind::NonManifold));
+    // At the rim of a region faces may be left out, which is nothing to report.
+    const std::vector<double>& strength = options.motion.strength;
+    for (Index v = 0; v < mesh.mesh().n_vertices(); ++v)
+        if (topology.kind[v] == VertexKind::NonManifold &&
+            (strength.empty() || strength[v] >= MotionOptions::least_strength))
+            ++report.mesh.non_manifold_vertices;
     if (report.mesh.non_manifold_vertices > 0)
         report.remarks.push_back(remark_on_non_manifold_vertices(report.mesh.non_manifold_vertices));
     for (Index v = 0; v < mesh.mesh().n_vertices(); ++v)

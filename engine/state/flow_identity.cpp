@@ -43,6 +43,20 @@ std::string text_of(const LengthOnMesh& length)
     return text_of(length.value) + (length.of_diagonal ? " diagonals" : "");
 }
 
+std::string text_of(const MotionDirection& direction)
+{
+    switch (direction.kind) {
+    case MotionDirection::Kind::Any:
+        return std::string(none);
+    case MotionDirection::Kind::Normal:
+        return "normal";
+    case MotionDirection::Kind::Vector:
+        break;
+    }
+    const Point& d = direction.vector;
+    return text_of(d[0]) + "," + text_of(d[1]) + "," + text_of(d[2]);
+}
+
 template <class Value>
 std::string text_of(const std::optional<Value>& value)
 {

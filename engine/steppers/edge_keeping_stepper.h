@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "engine/measure/flow_report.h"
 #include "engine/options/flow_options.h"
 #include "engine/steppers/stepper.h"
@@ -38,6 +40,8 @@ class EdgeKeepingStepper final : public Stepper {
     const Topology* topology_;
     double time_step_;
     double angle_;
+    /// #V: the part of each displacement that vertices go; empty: 1.
+    std::vector<double> strengths_;
     FeatureLines lines_;
     NormalDiffusion diffusion_;
     Points positions_;

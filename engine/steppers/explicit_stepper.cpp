@@ -62,6 +62,7 @@ ExplicitStepper::ExplicitStepper(const PolygonMesh& mesh, const Topology& topolo
     , progress_(&progress)
     , laplacian_(laplacian_of(options))
     , time_step_(options.time_step)
+    , strengths_(options.motion.strength)
     , positions_(mesh.vertices)
     , first_limit_(infinity)
     , smallest_limit_(infinity)
@@ -86,11 +87,11 @@ void ExplicitStepper::step(const Points& before)
 {
     assert(&before != &positions_);
     require_stable(before);
-    // Vⁿ⁺¹ = Vⁿ - dt Δ(Vⁿ) Vⁿ
+    // Vⁿ⁺¹ = Vⁿ - s dt Δ(Vⁿ) Vⁿ
     for_each(progress_->counted_loop(), mesh_->n_vertices(), [&](Index v) {
         if (topology_->moves(v))
-            positions_.row(v) =
-                before.row(v) - time_step_ * mean_curvature_vector(*mesh_, *topology_, before, laplacian_, v);
+            positions_.row(v) = before.row(v) - (strengths_.empty() ? 1.0 : strengths_[v]) * time_step_ *
+                                                    mean_curvature_vector(*mesh_, *topology_, before, laplacian_, v);
     });
     if (!positions_.allFinite())
         throw ComputationError("the result is not finite: use a smaller time step or backward Euler steps");

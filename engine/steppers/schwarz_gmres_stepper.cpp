@@ -56,8 +56,8 @@ void SchwarzGmresStepper::make_blocks(const FlowOptions& options, Progress& prog
     for_each(run_in_parallel, static_cast<Index>(parts_.size()), [&](Index s) {
         progress.require_going_on();
         run_for_sub_mesh(parts_[s].sub_mesh, s, [&] {
-            blocks_.of[s] =
-                std::make_unique<SchwarzBlock>(parts_[s], options.laplacian, options.resources.factorisation);
+            blocks_.of[s] = std::make_unique<SchwarzBlock>(parts_[s], options.laplacian,
+                                                           options.resources.factorisation, options.motion.strength);
         });
         progress.count();
     });

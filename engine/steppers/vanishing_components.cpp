@@ -53,9 +53,15 @@ Point spread_point(std::size_t i, std::size_t n)
     return 0.5 * Point(radius * std::cos(angle), radius * std::sin(angle), height);
 }
 
-/// Components of the vertices of faces, none of which is fixed.
-IndexLists free_components(const PolygonMesh& mesh, const Topology& topology)
+/// Steps of less strength may leave something of the shape of a small component.
+constexpr double least_strength = 0.01;
+
+/// Components of the vertices of faces, none of which is fixed or hardly moves.
+IndexLists free_components(const PolygonMesh& mesh, const Topology& topology, std::span<const double> strength)
 {
+    const auto is_held = [&](Index v) {
+        return !topology.moves(v) || (!strength.empty() && strength[v] < least_strength);
+    };
     IndexLists free;
     const IndexLists faces_at = make_lists(mesh.n_vertices(), [&](auto&& add) {
         for (Index f = 0; f < mesh.n_faces(); ++f)
@@ -69,7 +75,7 @@ IndexLists free_components(const PolygonMesh& mesh, const Topology& topology)
     });
     for (Index c = 0; c < all.count(); ++c) {
         const auto vertices = all.nodes[c];
-        if (vertices.size() == 1 || std::ranges::any_of(vertices, [&](Index v) { return !topology.moves(v); }))
+        if (vertices.size() == 1 || std::ranges::any_of(vertices, is_held))
             continue;
         free.values.insert(free.values.end(), vertices.begin(), vertices.end());
         std::sort(free.values.end() - static_cast<std::ptrdiff_t>(vertices.size()), free.values.end());
@@ -104,15 +110,16 @@ bool is_smaller(const Points& positions, std::span<const Index> vertices, double
     return true;
 }
 
-FindSmallComponents find_small_components(const PolygonMesh& mesh, const Topology& topology)
+FindSmallComponents find_small_components(const PolygonMesh& mesh, const Topology& topology,
+                                          std::span<const double> strength)
 {
     auto known = std::make_shared<std::optional<IndexLists>>();
-    return [&mesh, &topology, known](const Points& positions, double extent) {
+    return [&mesh, &topology, strength, known](const Points& positions, double extent) {
         SmallComponents small;
         if (!has_small_face(mesh, positions, extent))
             return small;
         if (!*known)
-            *known = free_components(mesh, topology);
+            *known = free_components(mesh, topology, strength);
         for (Index c = 0; c < (*known)->size(); ++c) {
             const auto vertices = (**known)[c];
             if (!is_smaller(positions, vertices, extent))
@@ -191,6 +198,9 @@ void VanishingComponents::step(Stepper& stepper, const Points& before)
         Points of_vertices = Points::Constant(first_.rows(), 3, options_.motion.attachment);
         if (!each.empty())
             of_vertices.colwise() = Eigen::Map<const Eigen::VectorXd>(each.data(), first_.rows());
+        const std::vector<double>& strength = options_.motion.strength;
+        for (std::size_t v = 0; v < strength.size(); ++v)
+            of_vertices.row(static_cast<Eigen::Index>(v)) *= strength[v];
         weights = small.table(of_vertices);
     }
     for (Index c = 0; c < n; ++c)

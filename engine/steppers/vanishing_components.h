@@ -35,8 +35,9 @@ bool has_small_face(const PolygonMesh& mesh, const Points& positions, double ext
 bool is_smaller(const Points& positions, std::span<const Index> vertices, double extent);
 
 /// Finds them where the mesh is known as a whole.
-/// @param mesh, topology must outlive it.
-FindSmallComponents find_small_components(const PolygonMesh& mesh, const Topology& topology);
+/// @param mesh, topology, strength must outlive it; the last is MotionOptions::strength.
+FindSmallComponents find_small_components(const PolygonMesh& mesh, const Topology& topology,
+                                          std::span<const double> strength = {});
 
 /// Takes steps of surfaces whose components differ much in size. A backward Euler step shrinks a component that is
 /// small compared to √dt to about a point: its centroid, which stays. But next to dt K its masses are then lost to

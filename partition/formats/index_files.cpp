@@ -242,4 +242,23 @@ std::vector<double> read_vertex_weights(const std::filesystem::path& path, Index
     return weights;
 }
 
+std::vector<double> read_vertex_strengths(const std::filesystem::path& path, Index n_vertices,
+                                          std::string_view property)
+{
+    std::vector<double> strengths(at(n_vertices), 0.0);
+    if (format_of(path) != FileFormat::Ply) {
+        for (const Index v : from_lines(path, n_vertices))
+            strengths[v] = 1.0;
+        return strengths;
+    }
+    read_ply_property(path, n_vertices, property, [&](Index v, double value, auto& source) {
+        if (!(value >= 0.0 && value <= 1.0))
+            source.position().fail(fmt::format("{} is {:g}; write a number from 0 (the vertex stays) to 1 "
+                                               "(it moves like without a region) for each vertex",
+                                               in_quotes(property), value));
+        strengths[v] = value;
+    });
+    return strengths;
+}
+
 }  // namespace seamflow

@@ -26,4 +26,11 @@ std::vector<Index> read_vertex_set(const std::filesystem::path& path, Index n_ve
 /// @throws InputError naming file and line, element or property, and what to do.
 std::vector<double> read_vertex_weights(const std::filesystem::path& path, Index n_vertices, std::string_view property);
 
+/// Reads the strength of a flow at each vertex of a mesh (see MotionOptions::strength): from a .ply file, as above, its
+/// property `property`, from 0 to 1; from any other file the vertices whose strength is 1, all others having 0.
+/// @returns n_vertices.
+/// @throws InputError naming file and line, element or property, and what to do.
+std::vector<double> read_vertex_strengths(const std::filesystem::path& path, Index n_vertices,
+                                          std::string_view property);
+
 }  // namespace seamflow

@@ -113,6 +113,30 @@ LengthOnMesh parse_length(std::string_view text)
     }
 }
 
+MotionDirection parse_direction(std::string_view text)
+{
+    if (text == "normal")
+        return {.kind = MotionDirection::Kind::Normal};
+    MotionDirection direction{.kind = MotionDirection::Kind::Vector};
+    constexpr std::string_view axes = "xyz";
+    if (const std::size_t axis = axes.find(text); text.size() == 1 && axis != std::string_view::npos) {
+        direction.vector[static_cast<Eigen::Index>(axis)] = 1.0;
+        return direction;
+    }
+    const std::size_t first = text.find(',');
+    const std::size_t second = first != std::string_view::npos ? text.find(',', first + 1) : first;
+    try {
+        if (second != std::string_view::npos)
+            direction.vector = {parse_real(text.substr(0, first), {}),
+                                parse_real(text.substr(first + 1, second - first - 1), {}),
+                                parse_real(text.substr(second + 1), {})};
+        if (direction.vector.norm() > 0.0)
+            return direction;
+    } catch (const OptionError&) {
+    }
+    throw OptionError("\"" + std::string(text) + "\" is neither x, y, z nor normal, nor a vector like 0,0.5,1");
+}
+
 CheckpointPeriod parse_checkpoint_period(std::string_view text)
 {
     constexpr std::array<std::pair<std::string_view, double>, 3> units{{{"s", 1.0}, {"min", 60.0}, {"h", 3600.0}}};

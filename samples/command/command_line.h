@@ -43,6 +43,9 @@ LengthOnMesh parse_length(std::string_view text);
 /// @throws OptionError saying what was expected.
 CheckpointPeriod parse_checkpoint_period(std::string_view text);
 
+/// "x", "y", "z", "normal", or a vector: "0,0.5,1". @throws OptionError for anything else.
+MotionDirection parse_direction(std::string_view text);
+
 /// Adds an option whose text `parse` turns into the target's value; an OptionError that it throws gets the name of the
 /// option.
 template <class Target, class Parse>

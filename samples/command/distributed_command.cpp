@@ -21,8 +21,8 @@ std::vector<SmoothProgram::Lack> lacks()
         if ((one.concerns & concern::one_process) != 0 && !one.option.empty())
             list.push_back({std::string(one.option), one_process});
     for (const char* const own :
-         {"--edges-from-file", "--self-intersections", "--trace", "--task-graph", "--html", "--out-dir",
-                                  "--fields", "--fwhm", "--fill", "--keep-field-edges", "--from"})
+         {"--edges-from-file", "--region-property", "--feather", "--self-intersections", "--trace", "--task-graph",
+          "--html", "--out-dir", "--fields", "--fwhm", "--fill", "--keep-field-edges", "--from"})
         list.push_back({own, one_process});
     return list;
 }

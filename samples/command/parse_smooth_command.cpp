@@ -32,6 +32,19 @@ void require_usable_results(const SmoothCommand& command)
         throw OptionError("--parts " + command.parts.string() + ": the cut is written as .ply only");
 }
 
+/// @returns the file with the region, if it is one; empty: it is a property of INPUT.
+std::filesystem::path region_file(const SmoothCommand& command)
+{
+    std::error_code ignored;
+    if (command.region.empty() || std::filesystem::exists(command.region, ignored))
+        return command.region;
+    if (is_input_stream(command.input) || format_of(command.input) != FileFormat::Ply)
+        throw OptionError(fmt::format("--region {}: there is no such file, and INPUT is no .ply file with properties: "
+                                      "name a file",
+                                      command.region.string()));
+    return {};
+}
+
 /// The most files that --every-step may write.
 constexpr int most_files = 100'000;
 
@@ -54,11 +67,12 @@ void require_usable_files(const SmoothCommand& command)
         results.push_back(command.report);
     if (command.edges_from_file && is_input_stream(command.input))
         throw OptionError("--edges-from-file reads INPUT a second time: name a file instead of -");
-    const auto inputs = {command.labels, command.fix, command.edges, command.attach_weights, command.fields.from};
-    require_files(inputs);
-    std::vector<std::filesystem::path> all_inputs(inputs);
-    all_inputs.push_back(command.input);
-    for (const auto& input : all_inputs) {
+    const std::vector<std::filesystem::path> further{command.labels,         command.fix,         command.edges,
+                                                     command.attach_weights, command.fields.from, region_file(command)};
+    require_files(further);
+    std::vector<std::filesystem::path> inputs = further;
+    inputs.push_back(command.input);
+    for (const auto& input : inputs) {
         std::vector<std::filesystem::path> files = results;
         if (!input.empty())
             files.push_back(input);

@@ -93,6 +93,9 @@ void require_effective(const CLI::App& app, const SmoothCommand& command)
             throw OptionError(rule + " is about p*, but --p sets p itself: leave one of them out");
     if (app.count("--fix-property") > 0 && format_of(command.fix) != FileFormat::Ply)
         throw OptionError("--fix-property is for a .ply file; " + command.fix.string() + " has vertex numbers");
+    if (app.count("--region-property") > 0 && format_of(command.region) != FileFormat::Ply)
+        throw OptionError("--region-property is for a .ply file; " + command.region.string() +
+                          " has vertex numbers, or is a property itself");
     if (app.count("--attach-property") > 0 && format_of(command.attach_weights) != FileFormat::Ply)
         throw OptionError("--attach-property is for a .ply file; " + command.attach_weights.string() +
                           " has one number per line");

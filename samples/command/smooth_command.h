@@ -37,7 +37,8 @@ struct SmoothCommand {
     /// `input` and `output`. Empty: there is one input.
     std::vector<std::filesystem::path> tiles;
     std::filesystem::path out_dir;
-    /// All options except `labels`, `fixed_vertices`, the attachment of vertices, and `time_step`, which need the mesh.
+    /// All options except `labels`, `fixed_vertices`, the attachment and strength of vertices, and `time_step`, which
+    /// need the mesh.
     FlowOptions options;
     SmoothingRequest amount;
     FieldRequest fields;
@@ -71,6 +72,12 @@ struct SmoothCommand {
     std::optional<LengthOnMesh> attach;
     std::filesystem::path attach_weights;
     std::string attach_property = "weight";
+    /// A file with the region that moves, or the property of the vertices of the input that has it; and the property of
+    /// the file, if that is a PLY file. Empty: everything moves.
+    std::filesystem::path region;
+    std::string region_property = "region";
+    /// The distance from the rim of the region over which its strength rises.
+    std::optional<LengthOnMesh> feather;
     /// The distance within which vertices along seams move as one; empty: they do not.
     std::optional<LengthOnMesh> weld = LengthOnMesh{};
     /// The folder of the checkpoint; empty: none is kept.

@@ -93,6 +93,27 @@ void add_feature_edges(CLI::App& app, SmoothCommand& command)
         ->excludes(edges);
 }
 
+/// Where vertices move, and along which lines.
+void add_region(CLI::App& app, SmoothCommand& command)
+{
+    auto* region =
+        app.add_option("--region", command.region,
+                       "smooth only there: vertex numbers from 0, one a line, or a .ply that has the strength of each\n"
+                       "The strength, from 0 to 1, scales the time step at its vertex; 0 holds it. A name that is no "
+                       "file is that of a property of INPUT, a .ply. Not for sweeps.")
+            ->type_name("FILE|PROPERTY");
+    app.add_option("--region-property", command.region_property,
+                   "the name of the property of the .ply with the strength [region]")
+        ->needs(region)
+        ->type_name("NAME");
+    add_length(app, "--feather", command.feather,
+               "the strength of the region rises from 0 at its rim over this distance, so that no crease appears\n"
+               "The boundary of the surface is no rim.");
+    add_parsed(app, "--direction", command.options.motion.direction, parse_direction, "x|y|z|normal|X,Y,Z",
+               "vertices move along this direction only; with z, x and y of a terrain stay bit for bit\n"
+               "normal is that of each vertex before the step.");
+}
+
 void add_what_stays(CLI::App& app, SmoothCommand& command)
 {
     app.option_defaults()->group(option_group::kept);
@@ -118,6 +139,7 @@ void add_what_stays(CLI::App& app, SmoothCommand& command)
     app.add_option("--attach-property", command.attach_property, "the name of the property with the weight [weight]")
         ->needs(weights)
         ->type_name("NAME");
+    add_region(app, command);
     const auto parse = [](const std::string& text) -> std::optional<LengthOnMesh> {
         try {
             return text == "never" ? std::nullopt : std::optional(parse_length(text));

@@ -177,19 +177,20 @@ std::vector<Value> to_vector(const Array<Value>& array)
     return {array.data(), array.data() + array.size()};
 }
 
-/// Options that are arrays here: fixed vertices, labels, edges, weights.
-using ArrayOptions = std::tuple<Array<Index>, Array<Index>, Array<Index>, Array<double>>;
+/// Options that are arrays here: fixed vertices, labels, edges, weights, strengths.
+using ArrayOptions = std::tuple<Array<Index>, Array<Index>, Array<Index>, Array<double>, Array<double>>;
 
 /// @param words see parse_flow_options.
 SmoothCommand make_command(const std::vector<std::string>& words, const ArrayOptions& arrays)
 {
-    const auto& [fixed, labels, edges, weights] = arrays;
+    const auto& [fixed, labels, edges, weights, strengths] = arrays;
     SmoothCommand command = parse_flow_options(words);
     command.options.motion.fixed_vertices = to_vector(fixed);
     command.options.cut.labels = to_vector(labels);
     for (py::ssize_t i = 0; i + 1 < edges.size(); i += 2)
         command.options.motion.feature_edges.push_back({edges.data()[i], edges.data()[i + 1]});
     command.options.motion.attachment_weights = to_vector(weights);
+    command.options.motion.strength = to_vector(strengths);
     return command;
 }
 
@@ -231,8 +232,8 @@ void define_run(py::module_& module, py::class_<FlowCall>& flow)
 /// Options that are arrays here, or that concern files.
 bool is_of_files(const FlowOptionText& option)
 {
-    constexpr std::array names{"fix",       "fix-property", "labels",         "attach-weights", "attach-property",
-                               "keep-gaps", "edges",        "edges-from-file"};
+    constexpr std::array names{"fix",       "fix-property", "labels",          "attach-weights", "attach-property",
+                               "keep-gaps", "edges",        "edges-from-file", "region",         "region-property"};
     return std::ranges::find(names, option.name) != names.end();
 }
 

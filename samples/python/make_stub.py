@@ -49,7 +49,8 @@ def load_core():
 
 ARGUMENTS = ["V: npt.ArrayLike | Any", "F: npt.ArrayLike | Iterable[Sequence[int]] | None = None", "*",
              "fixed: npt.ArrayLike | None = None", "labels: npt.ArrayLike | None = None",
-             "edges: npt.ArrayLike | None = None", "attach_weights: npt.ArrayLike | None = None"]
+             "edges: npt.ArrayLike | None = None", "attach_weights: npt.ArrayLike | None = None",
+             "region: npt.ArrayLike | None = None"]
 OPTIONS = [f"{name.replace('-', '_')}: {type_of(kind, is_flag)} | None = None"
            for name, kind, _, is_flag in load_core().options()]
 

@@ -7,6 +7,8 @@
 
 #include "engine/setup/presets.h"
 #include "engine/setup/smoothed_radius.h"
+#include "partition/errors.h"
+#include "partition/metrics/feathered.h"
 #include "samples/command/parse_smooth_command.h"
 #include "samples/command/presets.h"
 
@@ -70,6 +72,13 @@ void resolve_amount(SmoothCommand& command, const PolygonMesh& mesh, const Execu
     else
         command.options.time_step =
             time_step_of(command.amount, run.scale, command.options.steps, filter_of(command.options));
+    if (command.feather) {
+        MotionOptions& motion = command.options.motion;
+        if (motion.strength.empty())
+            throw OptionError("--feather is for the rim of a region: give --region as well");
+        motion.strength =
+            feathered(mesh, std::move(motion.strength), length_of(*command.feather, run.scale.diagonal), exec);
+    }
     // As the identity of checkpoints has it.
     command.options.uniform_edge = uniform_edge_of(command.options, mesh);
     run.has_attachment_weights = !command.options.motion.attachment_weights.empty();

@@ -28,6 +28,15 @@ std::span<double> LuMatrix::fill(const Points& positions, double time_step)
     return std::span(values_).first(values_.size() - 1);
 }
 
+void LuMatrix::scale_rows(std::span<const double> strengths, std::span<const Index> further)
+{
+    const std::size_t n_entries = pattern_.rows.size();
+    for (std::size_t slot = 0; slot < n_entries; ++slot)
+        values_[slot] *= strengths[at(pattern_.rows[slot])];
+    for (std::size_t i = 0; i < further.size(); ++i)
+        values_[n_entries + i] *= strengths[at(further[i])];
+}
+
 std::optional<DirectSolver::Factor> LuMatrix::factorise(std::span<const double> values, FactorMemory& memory,
                                                         SolverWorkspace& workspace)
 {

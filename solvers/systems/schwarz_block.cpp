@@ -18,7 +18,8 @@ void keep_one_of_each(std::vector<Value>& values)
 
 }  // namespace
 
-SchwarzBlock::SchwarzBlock(const GrownPart& part, Laplacian laplacian, Factorisation factorisation)
+SchwarzBlock::SchwarzBlock(const GrownPart& part, Laplacian laplacian, Factorisation factorisation,
+                           std::span<const double> strengths)
     : part_(&part)
     , right_hand_side_(static_cast<Eigen::Index>(part.unknowns.size()), 3)
 {
@@ -40,6 +41,13 @@ SchwarzBlock::SchwarzBlock(const GrownPart& part, Laplacian laplacian, Factorisa
     std::vector<Index> slots = make_slots(of_laplacian, unknown_of, pattern);
     matrix_.emplace(std::move(assembler), std::move(pattern), std::move(slots),
                     beyond_couplings_.size() + fixed_couplings_.size(), factorisation);
+    if (strengths.empty())
+        return;
+    for (const Index v : part.unknowns)
+        strengths_.push_back(strengths[at(part.sub_mesh.local_to_global[v])]);
+    for (const auto* couplings : {&beyond_couplings_, &fixed_couplings_})
+        for (const Coupling& coupling : *couplings)
+            further_.push_back(coupling.unknown);
 }
 
 void SchwarzBlock::list_couplings(const std::vector<MatrixEntry>& entries, const std::vector<Index>& unknown_of)
@@ -83,6 +91,8 @@ SchwarzBlock::Assembled SchwarzBlock::assemble(const Points& positions, double t
 {
     // (I + dt Δ) Vᵏ⁺¹ = Vᵏ
     const Assembled equations{matrix_->fill(positions, time_step)};
+    if (!strengths_.empty())
+        matrix_->scale_rows(strengths_, further_);
     for (Index u = 0; u < matrix_->n(); ++u) {
         matrix_->diagonal(u) += 1.0;
         right_hand_side_.row(u) = positions.row(part_->unknowns[u]);

@@ -19,8 +19,10 @@ class SchwarzBlock {
     static constexpr int reach = 2;
 
     /// @param part must outlive the block.
+    /// @param strengths one per vertex of the mesh (see FlowTerms::strengths), needed only during the call.
     /// @throws ComputationError if the analysis fails.
-    SchwarzBlock(const GrownPart& part, Laplacian laplacian, Factorisation factorisation = Factorisation::Automatic);
+    SchwarzBlock(const GrownPart& part, Laplacian laplacian, Factorisation factorisation = Factorisation::Automatic,
+                 std::span<const double> strengths = {});
 
     /// The vertices of the equations, and those others that may move and occur in them, local to the part; ascending.
     [[nodiscard]] const std::vector<Index>& unknowns() const { return part_->unknowns; }
@@ -95,6 +97,9 @@ class SchwarzBlock {
     std::vector<Coupling> fixed_couplings_;
     /// Its further values are those of `beyond_couplings_`, then of `fixed_couplings_`.
     std::optional<LuMatrix> matrix_;
+    /// Per unknown its strength, and the unknown of each further value; empty: 1 everywhere.
+    std::vector<double> strengths_;
+    std::vector<Index> further_;
     /// #unknowns by 3, with contributions of fixed vertices.
     Columns right_hand_side_;
 };

@@ -44,7 +44,8 @@ struct UpperPattern {
 /// @param order the unknowns in the order of the matrix.
 UpperPattern upper_pattern(const PairsOfUnknowns& pairs, const std::vector<Index>& order);
 
-/// The symmetric matrix M + dt K + dt M w of a sub-mesh at its unknowns, refilled in each step.
+/// The symmetric matrix M + dt K + dt M w of a sub-mesh at its unknowns, refilled in each step. M is that of the
+/// Laplacian over the strength (see Screening).
 struct SymmetricMatrix {
     std::unique_ptr<SymmetricLaplacian> laplacian;
     /// Of the sub-mesh, its halo included.

@@ -170,9 +170,31 @@ double part_between(const PolygonMesh& mesh, const IndexLists& blocks, const Exe
     return n_between / static_cast<double>(std::max<std::size_t>(mesh.face_vertices.size(), 1));
 }
 
-/// Blocks of consecutive vertices need no set-up; but the order of the vertices in most scans separates neighbours.
-IndexLists make_blocks(const PolygonMesh& mesh, const Executor& exec)
+/// The vertices without faces where they are most of all, as outside a region that flows alone: they need no rows.
+std::vector<Index> vertices_without_rows(const Topology& topology, const Executor& exec)
 {
+    const auto n = static_cast<Index>(topology.kind.size());
+    std::vector<Index> isolated = select(exec, n, [&](Index v) { return topology.kind[v] == VertexKind::Isolated; });
+    return 2 * isolated.size() > topology.kind.size() ? std::move(isolated) : std::vector<Index>();
+}
+
+/// Boxes of the vertices that have faces.
+IndexLists divide_vertices_of_faces(const PolygonMesh& mesh, const Topology& topology, const Executor& exec)
+{
+    const std::vector<Index> vertices =
+        select(exec, mesh.n_vertices(), [&](Index v) { return topology.kind[v] != VertexKind::Isolated; });
+    const auto n = static_cast<Index>(vertices.size());
+    IndexLists blocks = divide_into_boxes(mesh.vertices(vertices, Eigen::all), number_of_blocks(n), exec);
+    for (Index& v : blocks.values)
+        v = vertices[v];
+    return blocks;
+}
+
+/// Blocks of consecutive vertices need no set-up; but the order of the vertices in most scans separates neighbours.
+IndexLists make_blocks(const PolygonMesh& mesh, const Topology& topology, bool have_all_rows, const Executor& exec)
+{
+    if (!have_all_rows)
+        return divide_vertices_of_faces(mesh, topology, exec);
     const Index n = number_of_blocks(mesh.n_vertices());
     IndexLists blocks = consecutive_blocks(mesh.n_vertices(), n);
     if (part_between(mesh, blocks, exec) <= most_between_blocks)
@@ -180,10 +202,10 @@ IndexLists make_blocks(const PolygonMesh& mesh, const Executor& exec)
     return divide_into_boxes(mesh.vertices, n, exec);
 }
 
-std::vector<Index> make_row_of(const IndexLists& blocks, const Executor& exec)
+std::vector<Index> make_row_of(const IndexLists& blocks, Index n_vertices, const Executor& exec)
 {
-    std::vector<Index> row_of(blocks.values.size());
-    for_each(exec, static_cast<Index>(row_of.size()), [&](Index i) { row_of[blocks.values[i]] = i; });
+    std::vector<Index> row_of(at(n_vertices), -1);
+    for_each(exec, static_cast<Index>(blocks.values.size()), [&](Index i) { row_of[blocks.values[i]] = i; });
     return row_of;
 }
 
@@ -218,11 +240,12 @@ WholeMeshSystem::WholeMeshSystem(const PolygonMesh& mesh, const Topology& topolo
     : mesh_(&mesh)
     , topology_(&topology)
     , laplacian_(laplacian)
-    , blocks_(make_blocks(mesh, exec))
-    , row_of_(make_row_of(blocks_, exec))
+    , without_rows_(vertices_without_rows(topology, exec))
+    , blocks_(make_blocks(mesh, topology, without_rows_.empty(), exec))
+    , row_of_(make_row_of(blocks_, mesh.n_vertices(), exec))
     , matrix_(make_matrix(mesh, topology, blocks_, row_of_, traits_of(laplacian).reach, exec))
-    , moves_(at(mesh.n_vertices()))
-    , masses_(is_applied_again ? at(mesh.n_vertices()) : 0)
+    , moves_(blocks_.values.size())
+    , masses_(is_applied_again ? moves_.size() : 0)
     , keeps_matrix_(terms.keeps_mass)
 {
     for_each(exec, matrix_.n_rows(), [&](Index i) { moves_[i] = topology.moves(blocks_.values[i]) ? 1 : 0; });
@@ -231,12 +254,16 @@ WholeMeshSystem::WholeMeshSystem(const PolygonMesh& mesh, const Topology& topolo
         kept_of_rows_.resize(matrix_.n_rows(), 3);
         for_each(exec, matrix_.n_rows(), [&](Index i) { kept_of_rows_.row(i) = kept_.row(blocks_.values[i]); });
     }
+    if (!terms.strengths.empty()) {
+        strengths_.resize(moves_.size());
+        for_each(exec, matrix_.n_rows(), [&](Index i) { strengths_[i] = terms.strength(blocks_.values[i]); });
+    }
     if (!terms.attaches())
         return;
     screenings_.resize(moves_.size());
-    first_.resize(mesh.n_vertices(), 3);
+    first_.resize(matrix_.n_rows(), 3);
     for_each(exec, matrix_.n_rows(), [&](Index i) {
-        screenings_[i] = terms.weight(blocks_.values[i]);
+        screenings_[i] = terms.weight(blocks_.values[i]) * strength(i);
         first_.row(i) = terms.first->row(blocks_.values[i]);
     });
 }
@@ -258,7 +285,7 @@ WholeMeshSystem::Sizes WholeMeshSystem::assemble(const Points& of_rows, const Ex
             double diagonal = 0.0;
             Eigen::Array4d size = Eigen::Array4d::Zero();
             Point residual = Point::Zero();
-            const double mass = visit(place, [&](auto&& value, Index j, double k) {
+            const double whole_mass = visit(place, [&](auto&& value, Index j, double k) {
                 const double entry = units_.stiffness * k;
                 const Point share = entry * (of_rows.row(j) - here);
                 // Vertices that stay have no equation.
@@ -268,6 +295,7 @@ WholeMeshSystem::Sizes WholeMeshSystem::assemble(const Points& of_rows, const Ex
                 residual -= share;
                 size.head<3>() += share.array().abs().transpose();
             });
+            const double mass = whole_mass / strength(i);
             if (!masses_.empty())
                 masses_[i] = units_.mass * mass;
             diagonal += units_.mass * mass * (1.0 + screening(i));
@@ -307,8 +335,10 @@ double WholeMeshSystem::measure(const Points& of_rows, const Points& data, bool 
                 return Sum::Zero();
             const Point there = after_.row(i);
             Point residual = Point::Zero();
-            const double mass = visit(
-                place, [&](auto&&, Index j, double k) { residual -= units_.stiffness * k * (after_.row(j) - there); });
+            const auto add_product = [&](auto&&, Index j, double k) {
+                residual -= units_.stiffness * k * (after_.row(j) - there);
+            };
+            const double mass = visit(place, add_product) / strength(i);
             residual -= units_.mass * mass * (there - data.row(i));
             if (screening(i) > 0.0)
                 residual +=
@@ -374,11 +404,11 @@ WholeMeshSystem::Result WholeMeshSystem::step_with_kept_matrix(const Points& bef
     for_each(exec, matrix_.n_rows(), [&](Index i) { data_.row(i) = before.row(blocks_.values[i]); });
     after_ = data_;
     const double squared = measure(kept_of_rows_, data_, true, exec);
-    if (!(squared > 0.0)) {
+    if (squared == 0.0) {
         copy(exec, before, after);
         return {};
     }
-    return solve({squared, kept_of_rows_, data_, true, true}, stop, after, exec);
+    return solve({squared, kept_of_rows_, data_, &before, true}, stop, after, exec);
 }
 
 WholeMeshSystem::Result WholeMeshSystem::step(const Points& before, double time_step, const IterationStop& stop,
@@ -396,7 +426,7 @@ WholeMeshSystem::Result WholeMeshSystem::step(const Points& before, double time_
         return {};
     }
     matrix_.factorise(exec);
-    return solve({sizes.residual.sum(), after, after, true, false, guess}, stop, after, exec);
+    return solve({sizes.residual.sum(), after, after, &before, false, guess}, stop, after, exec);
 }
 
 /// Saves memory: a result has room for V, by rows, until it is known itself.
@@ -420,7 +450,7 @@ WholeMeshSystem::Result WholeMeshSystem::apply(const Points& data, const Iterati
         return Sum::Constant(residual.squaredNorm() / matrix_.diagonal(i));
     });
     if (!(squared.value() > 0.0)) {
-        for_each(exec, matrix_.n_rows(), [&](Index i) { result.row(i).setZero(); });
+        for_each(exec, static_cast<Index>(result.rows()), [&](Index v) { result.row(v).setZero(); });
         return {};
     }
     list_before(result, exec);
@@ -431,7 +461,7 @@ WholeMeshSystem::Result WholeMeshSystem::apply(const Points& data, const Iterati
         else
             after_.row(i).setZero();
     });
-    return solve({squared.value(), result, data_, false, true}, stop, result, exec);
+    return solve({squared.value(), result, data_, nullptr, true}, stop, result, exec);
 }
 
 /// Solves for the result of the step on V, or on data.
@@ -447,7 +477,7 @@ WholeMeshSystem::Result WholeMeshSystem::solve(const Beginning& beginning, const
     bool is_in_rows = beginning.is_in_rows;
     bool is_written = false;
     const auto renew = [&] {
-        const double renewed = measure(beginning.of_rows, beginning.data, beginning.is_pulled, exec);
+        const double renewed = measure(beginning.of_rows, beginning.data, beginning.before != nullptr, exec);
         if (renewed > 0.0)
             start = start_pass(renewed, exec);
         // Not a number, if that is what the residual is.
@@ -496,6 +526,10 @@ WholeMeshSystem::Result WholeMeshSystem::solve(const Beginning& beginning, const
     }
     if (!is_written)
         for_each(exec, matrix_.n_rows(), [&](Index i) { after.row(blocks_.values[i]) = current(i); });
+    for_each(exec, static_cast<Index>(without_rows_.size()), [&](Index i) {
+        const Index v = without_rows_[i];
+        after.row(v) = beginning.before != nullptr ? Point(beginning.before->row(v)) : Point::Zero();
+    });
     return {criterion.result(left), distance};
 }
 

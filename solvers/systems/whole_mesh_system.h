@@ -84,8 +84,8 @@ class WholeMeshSystem {
         const Points& of_rows;
         /// By rows: V, or what the step is applied to.
         const Points& data;
-        /// Whether an attachment pulls to V⁰, not to 0.
-        bool is_pulled;
+        /// By vertices: Vᵏ of a step, in which an attachment pulls to V⁰; null: the step is applied to other data.
+        const Points* before;
         /// Whether the solution that iterations begin with is in after_, by rows; if not, it is V.
         bool is_in_rows;
         /// What they begin with instead if its residual is smaller; may be null.
@@ -98,7 +98,8 @@ class WholeMeshSystem {
     double measure(const Points& of_rows, const Points& data, bool is_pulled, const Executor& exec);
     Result step_with_kept_matrix(const Points& before, const IterationStop& stop, Points& after, const Executor& exec);
     Result solve(const Beginning& beginning, const IterationStop& stop, Points& after, const Executor& exec);
-    /// dt w of a row.
+    [[nodiscard]] double strength(Index i) const { return strengths_.empty() ? 1.0 : strengths_[i]; }
+    /// dt w s of a row.
     [[nodiscard]] double screening(Index i) const { return screenings_.empty() ? 0.0 : time_step_ * screenings_[i]; }
     PassStart start_pass(double squared, const Executor& exec);
     [[nodiscard]] double farthest_move(const Executor& exec) const;
@@ -110,6 +111,8 @@ class WholeMeshSystem {
     /// Those of this step.
     Units units_;
     double time_step_ = 0.0;
+    /// The vertices that have no rows, not even that of the identity.
+    std::vector<Index> without_rows_;
     /// The vertices of rows, by blocks; and the rows of vertices.
     IndexLists blocks_;
     std::vector<Index> row_of_;
@@ -119,7 +122,8 @@ class WholeMeshSystem {
     /// By rows: whether they move, and where they are after the step so far if the residual is renewed.
     std::vector<std::uint8_t> moves_;
     Points after_ = Points(0, 3);
-    /// With an attachment, by rows: w, and V⁰.
+    /// By rows: the strength s, by which M is divided; empty: 1. With an attachment, w s, and V⁰.
+    std::vector<double> strengths_;
     std::vector<double> screenings_;
     Points first_ = Points(0, 3);
     /// For `apply`: by rows, M in the unit of the matrix. For that and for a kept matrix: by rows, D, which is then Vᵏ.

@@ -56,6 +56,46 @@ TEST_CASE("vertices of a file stay, by their numbers or by a property")
     CHECK_FALSE(w.has("out.obj"));
 }
 
+TEST_CASE("a region of a file, of another one, or of the mesh's own file is smoothed alone")
+{
+    const Workshop w;
+    const PolygonMesh before = read_mesh(w.directory / "mesh.obj").mesh;
+    std::vector<double> strength(before.n_vertices(), 0.0);
+    std::string numbers;
+    for (Index v = 300; v < 600; ++v) {
+        strength[v] = 1.0;
+        numbers += std::to_string(v) + "\n";
+    }
+    (void)w.directory.with("numbers.txt", numbers);
+    const std::vector<Colour> grey(strength.size(), Colour{128, 128, 128});
+    const std::vector<VertexValues> values{{"paint", strength}};
+    write_valued_ply(w.directory / "painted.ply", before, grey, values);
+    const auto result = [&](const std::string& arguments) {
+        REQUIRE(w.smooth(arguments + " --time-step-edges 5 --converge 1e-8") == 0);
+        return read_mesh(w.directory / arguments.substr(arguments.find("out"), 7)).mesh.vertices;
+    };
+    const Points after = result("mesh.obj out.obj --region numbers.txt");
+    CHECK(after.topRows(300) == before.vertices.topRows(300));
+    CHECK(after.bottomRows(before.n_vertices() - 600) == before.vertices.bottomRows(before.n_vertices() - 600));
+    CHECK(after.middleRows(300, 300) != before.vertices.middleRows(300, 300));
+    CHECK(result("mesh.obj out.obj --region painted.ply --region-property paint") == after);
+    CHECK(result("painted.ply out.ply --region paint") == result("painted.ply out.ply --region numbers.txt"));
+    const Points soft = result("mesh.obj out.obj --region numbers.txt --feather 10%");
+    CHECK(soft.topRows(300) == before.vertices.topRows(300));
+    CHECK((soft - before.vertices).norm() < 0.9 * (after - before.vertices).norm());
+    const Points along_z = result("mesh.obj out.obj --direction z");
+    CHECK(along_z.leftCols(2) == before.vertices.leftCols(2));
+    CHECK(along_z.col(2) != before.vertices.col(2));
+
+    CHECK(w.smooth("mesh.obj no.obj --time-step-edges 5 --region painted.ply") == 3);
+    CHECK(w.said().find("'region'") != std::string::npos);
+    CHECK(w.smooth("painted.ply no.ply --time-step-edges 5 --region red") == 3);
+    CHECK(w.said().find("'red' is 128; write a number from 0") != std::string::npos);
+    CHECK(w.smooth("mesh.obj no.obj --time-step-edges 5 --region numbers.txt --converge never") == 2);
+    CHECK(w.said().find("--region is given, whose steps are converged or undecomposed") != std::string::npos);
+    CHECK_FALSE(w.has("no.obj"));
+}
+
 TEST_CASE("rims draw in where they are free, and the size stays where that is asked for")
 {
     const Workshop w;

@@ -337,7 +337,7 @@ class Described(unittest.TestCase):
         compile(stub, "__init__.pyi", "exec")
         of_files = {"help", "version", "every-step", "parts", "report", "csv", "trace", "task-graph", "html", "checkpoint"}
         of_files |= {"checkpoint-every", "quiet", "verbose", "fix", "fix-property", "attach-property", "keep-gaps"}
-        of_files |= {"edges", "edges-from-file"}
+        of_files |= {"edges", "edges-from-file", "region-property"}
         headings = [line.strip().split("  ")[0] for line in text.splitlines() if line.strip().startswith("--")]
         named = {word.strip(",")[2:] for heading in headings for word in heading.split() if word.startswith("--")} - of_files
         self.assertGreater(len(named), 30)

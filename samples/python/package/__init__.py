@@ -30,7 +30,8 @@ class Progress(NamedTuple):
     """The part of the whole that is done, from 0 to 1."""
 
 
-def smooth(V, F=None, *, fixed=None, labels=None, edges=None, attach_weights=None, progress=None, **options):
+def smooth(V, F=None, *, fixed=None, labels=None, edges=None, attach_weights=None, region=None,
+           progress=None, **options):
     """Smooths a mesh by mean curvature flow; with the same options the result has the same bits as that of the program
     `smooth`. Without an amount it removes the measured noise.
 
@@ -41,6 +42,7 @@ def smooth(V, F=None, *, fixed=None, labels=None, edges=None, attach_weights=Non
     labels: the sub-mesh of every face, (#F,), at least 0.
     edges: edges that are kept, however little they bend, by their vertices, (#E, 2); with keep_edges or preset="cad".
     attach_weights: how strongly each vertex is pulled back to where it was, (#V,), in 1/length².
+    region: the strength of the flow at each vertex, (#V,), from 0 (it stays) to 1, or a mask of those that move.
     progress: called with a Progress a few times a second, in the calling thread; what it raises stops the flow.
 
     Returns the positions, in the type of V (float32, or else float64), and a dict with what `smooth --report` writes,
@@ -53,7 +55,7 @@ def smooth(V, F=None, *, fixed=None, labels=None, edges=None, attach_weights=Non
     The other keywords are the options of the program, with underscores for hyphens: a number or the text that the
     program takes, True for those without a value.
     """
-    mesh, single = _arguments(V, F, options, fixed, labels, edges, attach_weights)
+    mesh, single = _arguments(V, F, options, fixed, labels, edges, attach_weights, region)
 
     def tell(*state):
         progress(Progress(*state))
@@ -77,10 +79,11 @@ class Flow:
     steps that are being taken.
     """
 
-    def __init__(self, V, F=None, *, fixed=None, labels=None, edges=None, attach_weights=None, **options):
+    def __init__(self, V, F=None, *, fixed=None, labels=None, edges=None, attach_weights=None, region=None,
+                 **options):
         if "progress" in options:
             raise TypeError("Flow has no progress: take its steps one by one")
-        mesh, self._single = _arguments(V, F, options, fixed, labels, edges, attach_weights)
+        mesh, self._single = _arguments(V, F, options, fixed, labels, edges, attach_weights, region)
         self._flow = _core.Flow(*mesh)
         self._count = len(mesh[0])
 
@@ -155,7 +158,7 @@ def _report(text, parts):
     return report
 
 
-def _arguments(V, F, options, fixed, labels, edges, attach_weights):
+def _arguments(V, F, options, fixed, labels, edges, attach_weights, region):
     """Positions, corners, offsets, words and arrays as the module takes them; and whether V is in single precision."""
     if F is None:
         V, F = _of_mesh(V)
@@ -174,6 +177,7 @@ def _arguments(V, F, options, fixed, labels, edges, attach_weights):
         ("labels", _labels, np.int32, labels, len(offsets) - 1),
         ("edges", _edges, np.int32, edges, len(V)),
         ("attach-weights", _weights, np.float64, attach_weights, len(V)),
+        ("region", _strengths, np.float64, region, len(V)),
     ):
         array = [] if value is None else convert(value, count)
         arrays.append(np.ascontiguousarray(array, dtype=kind))
@@ -298,10 +302,18 @@ def _weights(value, count):
     return weights
 
 
+def _strengths(value, count):
+    strengths = _array_of("region", value, count, "bfiu", "a mask or numbers from 0 to 1")
+    wrong = np.flatnonzero(~((strengths >= 0) & (strengths <= 1)))
+    if wrong.size > 0:
+        raise ValueError(f"region[{wrong[0]}] is {strengths[wrong[0]]}, which is not a number from 0 to 1")
+    return strengths
+
+
 def _words(keyword, value):
     """A keyword as on a command line; nothing where it is None or False."""
     if keyword not in _OPTIONS:
-        known = sorted({*_OPTIONS, "fixed", "labels", "edges", "attach_weights", "progress"})
+        known = sorted({*_OPTIONS, "fixed", "labels", "edges", "attach_weights", "region", "progress"})
         nearest = difflib.get_close_matches(keyword, known, 1)
         meant = f", did you mean {nearest[0]}?" if nearest else f"; there are {', '.join(known)}"
         raise TypeError(f"there is no keyword {keyword}{meant}")

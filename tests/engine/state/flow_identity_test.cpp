@@ -56,6 +56,11 @@ std::vector<Change> all_changes()
          }},
         {"attachment", [](FlowOptions& o) { o.motion.attachment = 4.0; }},
         {"attachment_weights", [](FlowOptions& o) { o.motion.attachment_weights.back() = 2.0; }},
+        {"strength", [](FlowOptions& o) { o.motion.strength.back() = 0.5; }},
+        {"direction",
+         [](FlowOptions& o) {
+             o.motion.direction = {MotionDirection::Kind::Vector, Point(0.0, 0.0, 1.0)};
+         }},
         {"rescale", [](FlowOptions& o) { o.motion.rescale = Rescale::Area; }},
         {"within", [](FlowOptions& o) { o.motion.within = 0.5; }},
         {"limit_of_volume", [](FlowOptions& o) { o.motion.limits.volume = 0.1; }},
@@ -83,6 +88,8 @@ TEST_CASE("a state is refused by a flow that differs from its own in any one opt
     options.cut.labels.assign(9, 0);
     options.motion.fixed_vertices = {3};
     options.motion.attachment_weights.assign(16, 1.0);
+    options.motion.strength.assign(16, 1.0);
+    options.motion.direction.kind = MotionDirection::Kind::Vector;
     const FlowIdentity identity = identify(mesh, options);
     CHECK_NOTHROW(require_same(identity, identify(mesh, options)));
     std::set<std::string> tried{"version", "mesh"};

@@ -210,6 +210,8 @@ TEST_CASE("every option that changes results tells flows apart, by its own name"
         {"limit_of_move", [](FlowOptions& o) { o.motion.limits.move = 0.5; }},
         {"attachment", [](FlowOptions& o) { o.motion.attachment = 2.0; }},
         {"attachment_weights", [](FlowOptions& o) { o.motion.attachment_weights = {2.0}; }},
+        {"strength", [](FlowOptions& o) { o.motion.strength = {0.5}; }},
+        {"direction", [](FlowOptions& o) { o.motion.direction.kind = MotionDirection::Kind::Normal; }},
         {"time_step", [](FlowOptions& o) { o.time_step = 0.5; }},
         {"subdomains", [](FlowOptions& o) { o.cut.subdomains = 3; }},
         {"labels",

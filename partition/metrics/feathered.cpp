@@ -1,0 +1,154 @@
+#include "partition/metrics/feathered.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <numeric>
+#include <optional>
+#include <queue>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "partition/errors.h"
+#include "partition/vector_area.h"
+#include "partition/weld.h"
+
+namespace seamflow {
+
+namespace {
+
+constexpr double never = std::numeric_limits<double>::infinity();
+
+/// When a front reaches w that is straight in the triangle and reaches u and v at given distances; infinite where it
+/// does not come from between them.
+double reach_across(const Point& u, double at_u, const Point& v, double at_v, const Point& w)
+{
+    const double edge = (v - u).norm();
+    const double cosine = (at_v - at_u) / edge;
+    const double sine = std::sqrt(1.0 - cosine * cosine);
+    if (!(sine > 0.0))
+        return never;
+    const double x = (w - u).dot(v - u) / edge;
+    const double y = std::sqrt(std::max((w - u).squaredNorm() - x * x, 0.0));
+    const double comes_from = x - y * cosine / sine;
+    return comes_from >= 0.0 && comes_from <= edge ? at_u + x * cosine + y * sine : never;
+}
+
+/// The front that moves from the sources over a surface.
+class Front {
+  public:
+    Front(const PolygonMesh& mesh, const Topology& topology)
+        : mesh_(mesh)
+        , topology_(topology)
+        , is_reached_(at(mesh.n_vertices()), 0)
+        , distances_(at(mesh.n_vertices()), never)
+    {
+    }
+
+    void put(Index v, double distance)
+    {
+        if (distance < distances_[v]) {
+            distances_[v] = distance;
+            next_.emplace(distance, v);
+        }
+    }
+
+    std::vector<double> march(double farthest)
+    {
+        while (!next_.empty() && next_.top().first <= farthest) {
+            const Index v = next_.top().second;
+            next_.pop();
+            if (std::exchange(is_reached_[v], 1) == 0)
+                for (const Index corner : topology_.corners_at(v))
+                    cross_face(corner);
+        }
+        for (std::size_t v = 0; v < distances_.size(); ++v)
+            if (is_reached_[v] == 0)
+                distances_[v] = never;
+        return std::move(distances_);
+    }
+
+  private:
+    /// From the vertex at a corner to the others of its face.
+    void cross_face(Index corner)
+    {
+        const Index v = mesh_.face_vertices[corner];
+        const Index beside[] = {mesh_.face_vertices[topology_.next(mesh_, corner)],
+                                mesh_.face_vertices[topology_.previous(mesh_, corner)]};
+        for (const Index w : mesh_.face(topology_.face_of[corner])) {
+            if (is_reached_[w] != 0)
+                continue;
+            put(w, distances_[v] + (place(w) - place(v)).norm());
+            for (const Index u : beside)
+                if (is_reached_[u] != 0)
+                    put(w, reach_across(place(u), distances_[u], place(v), distances_[v], place(w)));
+        }
+    }
+
+    [[nodiscard]] Point place(Index v) const { return mesh_.vertices.row(v); }
+
+    using Candidate = std::pair<double, Index>;
+    const PolygonMesh& mesh_;
+    const Topology& topology_;
+    std::vector<std::uint8_t> is_reached_;
+    std::vector<double> distances_;
+    std::priority_queue<Candidate, std::vector<Candidate>, std::greater<>> next_;
+};
+
+/// Whether v has no strength, but another vertex of its faces has.
+bool is_on_rim(const PolygonMesh& mesh, const Topology& topology, std::span<const double> strength, Index v)
+{
+    return !(strength[v] > 0.0) && std::ranges::any_of(topology.corners_at(v), [&](Index corner) {
+        return std::ranges::any_of(mesh.face(topology.face_of[corner]), [&](Index w) { return strength[w] > 0.0; });
+    });
+}
+
+}  // namespace
+
+std::vector<double> distances_from(const PolygonMesh& mesh, const Topology& topology, std::span<const Index> sources,
+                                   double most)
+{
+    Front front(mesh, topology);
+    for (const Index v : sources)
+        front.put(v, 0.0);
+    return front.march(most);
+}
+
+std::vector<double> feathered(const PolygonMesh& mesh, std::vector<double> strength, double length,
+                              const Executor& exec)
+{
+    if (!(length >= 0.0 && std::isfinite(length)))
+        throw OptionError(
+            fmt::format("the feather is {:.17g} long, but must be at least 0 and finite (a length)", length));
+    if (strength.size() != at(mesh.n_vertices()))
+        throw InputError(fmt::format("there are {} strengths, but the mesh has {} vertices: give one for each",
+                                     strength.size(), mesh.n_vertices()));
+    if (length == 0.0)
+        return strength;
+    const Topology topology = make_topology(mesh, exec);
+    const std::optional<Weld> welded = weld(mesh, topology, 0.0, exec);
+    std::vector<Index> first(strength.size());
+    std::iota(first.begin(), first.end(), 0);
+    if (welded)
+        first = welded->first;
+    for (std::size_t v = 0; v < first.size(); ++v)
+        strength[first[v]] = std::min(strength[first[v]], strength[v]);
+    const PolygonMesh& joined = welded ? welded->mesh : mesh;
+    const Topology& of_joined = welded ? welded->topology : topology;
+    const std::vector<Index> rim =
+        select(exec, mesh.n_vertices(), [&](Index v) { return is_on_rim(joined, of_joined, strength, v); });
+    const std::vector<double> distances = distances_from(joined, of_joined, rim, length);
+    for_each(exec, mesh.n_vertices(), [&](Index v) {
+        const double t = std::min(distances[first[v]] / length, 1.0);
+        if (first[v] == v)
+            strength[v] *= t * t * t * (10.0 + t * (6.0 * t - 15.0));
+    });
+    for (std::size_t v = 0; v < first.size(); ++v)
+        strength[v] = strength[first[v]];
+    return strength;
+}
+
+}  // namespace seamflow
