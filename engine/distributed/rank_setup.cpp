@@ -339,7 +339,7 @@ RankMesh make_rank_mesh(Communicator& comm, const MeshPart& own, const Point& of
     hold_undefined(comm, options, mesh);
     if (options.accuracy.approach == Approach::Sweep)
         comm.look_together([&] {
-            std::vector<Index> rim = moving_boundary(mesh.part.mesh, mesh.topology);
+            std::vector<Index> rim = moving_rim(mesh.part.mesh, mesh.topology);
             std::erase_if(rim, [&](Index v) { return !mesh.has_own_faces(v); });
             require_boundary_unshared(mesh.topology, mesh.part.labels, rim);
         });
@@ -347,7 +347,8 @@ RankMesh make_rank_mesh(Communicator& comm, const MeshPart& own, const Point& of
     mesh.n_non_manifold = count_vertices(comm, mesh, is_not_manifold).n;
     mesh.n_vertices = count_vertices(comm, mesh, [](Index /*v*/) { return true; }).n;
     if (mesh.n_non_manifold > 0)
-        mesh.remarks.push_back(remark_on_non_manifold_vertices(mesh.n_non_manifold));
+        mesh.remarks.push_back(remark_on_non_manifold_vertices(
+            mesh.n_non_manifold, options.motion.junctions == Junctions::Flow ? "In a single process" : ""));
     return mesh;
 }
 

@@ -116,7 +116,8 @@ void LimitedComponents::limit_slides(Points& positions) const
         const Point move = positions.row(v) - first_.row(v);
         const Point normal = normals_(v, positions);
         const Point slide = move - move.dot(normal) * normal;
-        if (const double length = slide.norm(); length > limits_.slide)
+        // Where sheets meet there is no normal, nor a direction along the surface.
+        if (const double length = slide.norm(); length > limits_.slide && !normal.isZero(0.0))
             limited.row(v) -= (1.0 - limits_.slide / length) * slide;
     });
     positions = std::move(limited);

@@ -88,9 +88,13 @@ void FlowingMesh::move_isolated(std::span<const Index> vertices, const Points& t
 
 bool FlowingMesh::leave_out_repeated_faces(const Topology& topology)
 {
-    if (std::ranges::find(topology.kind, VertexKind::NonManifold) == topology.kind.end())
+    // Where junctions that move end on the boundary, vertices are of kind Boundary.
+    const auto is_suspicious = [&](Index v) {
+        return topology.kind[v] == VertexKind::NonManifold ||
+               (!topology.junctions.empty() && topology.kind[v] == VertexKind::Boundary);
+    };
+    if (topology.junctions.empty() && std::ranges::find(topology.kind, VertexKind::NonManifold) == topology.kind.end())
         return false;
-    const auto is_suspicious = [&](Index v) { return topology.kind[v] == VertexKind::NonManifold; };
     const auto candidates = select(run_in_parallel, mesh().n_faces(),
                                    [&](Index f) { return std::ranges::any_of(mesh().face(f), is_suspicious); });
     const std::vector<RepeatedFace> repeated = find_repeated_faces(mesh(), candidates);

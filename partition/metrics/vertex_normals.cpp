@@ -38,6 +38,8 @@ VertexNormals::VertexNormals(const PolygonMesh& mesh, const Topology& topology)
 
 Point VertexNormals::operator()(Index v, const Points& positions) const
 {
+    if (topology_.kind[v] == VertexKind::NonManifold && topology_.moves(v))
+        return Point::Zero();
     return (*this)(topology_.corners_at(v), positions);
 }
 
