@@ -9,10 +9,12 @@
 
 #include "engine/measure/remarks.h"
 #include "engine/measure/surface_measures.h"
+#include "engine/options/option_names.h"
 #include "engine/setup/automatic_choices.h"
 #include "partition/connected_components.h"
 #include "partition/cut/cut.h"
 #include "partition/errors.h"
+#include "samples/meshes/random_numbers.h"
 #include "tests/support/flows.h"
 #include "tests/support/junction_meshes.h"
 #include "tests/support/relative.h"
@@ -173,7 +175,7 @@ TEST_CASE("plates at other angles move to the point of the shortest connection, 
     double area = total_area(mesh);
     PolygonMesh now = mesh;
     mean_curvature_flow(mesh, options, [&](const StepState& state) {
-        now.vertices = state.positions();
+        now.vertices = state.positions;
         CHECK(total_area(now) < area * (1.0 + 1e-12));
         area = total_area(now);
     });
@@ -197,7 +199,7 @@ TEST_CASE("two balls with a common wall shrink alike")
     double area = total_area(mesh);
     PolygonMesh now = mesh;
     const FlowReport report = mean_curvature_flow(mesh, options, [&](const StepState& state) {
-        now.vertices = state.positions();
+        now.vertices = state.positions;
         CHECK(total_area(now) < area);
         area = total_area(now);
     });
