@@ -116,8 +116,7 @@ void LimitedComponents::limit_slides(Points& positions) const
         const Point move = positions.row(v) - first_.row(v);
         const Point normal = normals_(v, positions);
         const Point slide = move - move.dot(normal) * normal;
-        // Where sheets meet there is no normal, nor a direction along the surface.
-        if (const double length = slide.norm(); length > limits_.slide && !normal.isZero(0.0))
+        if (const double length = slide.norm(); length > limits_.slide)
             limited.row(v) -= (1.0 - limits_.slide / length) * slide;
     });
     positions = std::move(limited);

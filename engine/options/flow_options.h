@@ -221,7 +221,8 @@ struct ComponentLimits {
     double volume = std::numeric_limits<double>::infinity();
     /// Root mean square of the displacements along the normals, over the component, in length.
     double move = std::numeric_limits<double>::infinity();
-    /// Displacement of a vertex along the surface, in length: beyond it the vertex moves along the normal only.
+    /// Displacement of a vertex along the surface, in length: beyond it the vertex moves along the normal only. At
+    /// junctions, which have no normal, it bounds the whole displacement.
     double slide = std::numeric_limits<double>::infinity();
 
     [[nodiscard]] bool exist() const { return std::isfinite(volume) || std::isfinite(move) || std::isfinite(slide); }
