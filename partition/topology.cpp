@@ -231,10 +231,10 @@ void free_junctions(const PolygonMesh& mesh, Topology& topology, const Executor&
             for (std::size_t i = 0; edge.size() > 2 && edge[0].neighbour > v && i < edge.size(); ++i)
                 topology.junctions.push_back({edge[i].halfedge, edge[(i + 1) % edge.size()].halfedge});
         });
-        if (is_at_junction && is_on_boundary)
-            topology.kind[v] = VertexKind::Boundary;
-        else if (is_at_junction)
-            topology.fixed[v] = 0;
+        if (!is_at_junction)
+            continue;
+        topology.kind[v] = is_on_boundary ? VertexKind::Boundary : VertexKind::Junction;
+        topology.fixed[v] = is_on_boundary ? 1 : 0;
     }
     std::ranges::sort(topology.junctions, {}, &JunctionLink::halfedge);
 }

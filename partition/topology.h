@@ -18,6 +18,8 @@ enum class VertexKind : std::uint8_t {
     Boundary,
     /// On an edge of three or more faces, or its faces form several fans, none of them open.
     NonManifold,
+    /// On edges of three or more faces, but of no single one, after free_junctions.
+    Junction,
     /// No faces.
     Isolated,
 };
@@ -123,10 +125,9 @@ inline double edge_length(const PolygonMesh& mesh, const Topology& topology, Ind
 /// Lets the vertices of kind Boundary move.
 void free_boundary(Topology& topology);
 
-/// Lets vertices at junctions move: those of kind NonManifold at an edge of three faces or more. Where such an edge
-/// ends on the boundary, its vertex becomes one of kind Boundary. Where merely several fans touch, vertices stay held,
-/// because that is usually a defect. Faces at junctions become connected (see Topology::junctions). To be called before
-/// free_boundary.
+/// Lets vertices at junctions, the edges of three faces or more, move: they become of kind Junction, or where such an
+/// edge ends on the boundary, of kind Boundary. Where merely several fans touch, vertices stay held, because that is
+/// usually a defect. Faces at junctions become connected (see Topology::junctions). To be called before free_boundary.
 void free_junctions(const PolygonMesh& mesh, Topology& topology, const Executor& exec = run_serially);
 
 /// The vertices that share an edge with v, ascending.

@@ -348,16 +348,11 @@ RankMesh make_rank_mesh(Communicator& comm, const MeshPart& own, const Point& of
             std::erase_if(rim, [&](Index v) { return !mesh.has_own_faces(v); });
             require_boundary_unshared(mesh.topology, mesh.part.labels, rim);
         });
-    const auto count_not_manifold = [&](bool that_move) {
-        return count_vertices(comm, mesh,
-                              [&](Index v) {
-                                  return mesh.topology.kind[v] == VertexKind::NonManifold &&
-                                         mesh.topology.moves(v) == that_move;
-                              })
-            .n;
+    const auto count_kind = [&](VertexKind kind) {
+        return count_vertices(comm, mesh, [&](Index v) { return mesh.topology.kind[v] == kind; }).n;
     };
-    mesh.n_non_manifold = count_not_manifold(false);
-    mesh.n_junctions = count_not_manifold(true);
+    mesh.n_non_manifold = count_kind(VertexKind::NonManifold);
+    mesh.n_junctions = count_kind(VertexKind::Junction);
     mesh.n_vertices = count_vertices(comm, mesh, [](Index /*v*/) { return true; }).n;
     if (mesh.n_non_manifold > 0)
         mesh.remarks.push_back(remark_on_non_manifold_vertices(mesh.n_non_manifold, need));

@@ -88,10 +88,10 @@ void FlowingMesh::move_isolated(std::span<const Index> vertices, const Points& t
 
 bool FlowingMesh::leave_out_repeated_faces(const Topology& topology)
 {
-    // Where junctions that move end on the boundary, vertices are of kind Boundary.
     const auto is_suspicious = [&](Index v) {
-        return topology.kind[v] == VertexKind::NonManifold ||
-               (!topology.junctions.empty() && topology.kind[v] == VertexKind::Boundary);
+        const VertexKind kind = topology.kind[v];
+        return kind == VertexKind::NonManifold || kind == VertexKind::Junction ||
+               (kind == VertexKind::Boundary && !topology.junctions.empty());
     };
     if (topology.junctions.empty() && std::ranges::find(topology.kind, VertexKind::NonManifold) == topology.kind.end())
         return false;

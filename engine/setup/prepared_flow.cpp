@@ -146,9 +146,8 @@ void describe(const PreparedFlow& prepared, const FlowingMesh& mesh, FlowReport&
     report.cut.repaired_faces = prepared.cut.repaired_faces;
     report.choices = prepared.choices;
     report.remarks = prepared.remarks;
-    for (Index v = 0; v < mesh.mesh().n_vertices(); ++v)
-        if (topology.kind[v] == VertexKind::NonManifold)
-            ++(topology.moves(v) ? report.mesh.junction_vertices : report.mesh.non_manifold_vertices);
+    report.mesh.non_manifold_vertices = std::ranges::count(topology.kind, VertexKind::NonManifold);
+    report.mesh.junction_vertices = std::ranges::count(topology.kind, VertexKind::Junction);
     if (report.mesh.non_manifold_vertices > 0)
         report.remarks.push_back(
             remark_on_non_manifold_vertices(report.mesh.non_manifold_vertices, prepared.need_of_junctions));

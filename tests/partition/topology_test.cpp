@@ -289,7 +289,7 @@ TEST_CASE("faces at an edge of three are linked in a circle, and its ends move u
     }
     topology = make_topology(closed);
     free_junctions(closed, topology);
-    CHECK(count(topology, VertexKind::NonManifold) == 5);
+    CHECK(count(topology, VertexKind::Junction) == 5);
     CHECK(std::count(topology.fixed.begin(), topology.fixed.end(), 0) == 5);
     CHECK(topology.junctions.size() == 21);
     Topology touching = make_topology(hourglass());
