@@ -1,7 +1,11 @@
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numbers>
 #include <set>
+#include <string_view>
+#include <vector>
 
 #include <Eigen/Dense>
 #include <Eigen/Geometry>

@@ -1,5 +1,6 @@
 #include "tests/support/junction_meshes.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <vector>

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <span>
 
 #include "partition/polygon_mesh.h"
+#include "partition/vector_area.h"
 
 /// Meshes of sheets that meet along edges of three faces or more.
 namespace seamflow::test {
