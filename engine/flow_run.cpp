@@ -233,6 +233,7 @@ void FlowRun::free_topology()
     if (traits_of(options().laplacian).reach == Reach::TwoRings)
         return;
     topology.twin = std::vector<Index>();
+    topology.junctions = std::vector<JunctionLink>();
     // Steps of sub-meshes do not use the whole mesh.
     const bool is_whole = options().keep_edges || options().scheme == Scheme::ExplicitEuler ||
                           takes_whole_mesh(options().accuracy.approach);

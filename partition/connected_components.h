@@ -56,17 +56,22 @@ Components connected_components(Index n_nodes, ForEachNeighbour&& for_each_neigh
     return found;
 }
 
-/// Calls visit(half-edge, face across it) for the half-edges of face f that have a twin.
+/// Calls visit(half-edge, face across it) for the half-edges of face f that have a twin, and for every further face at
+/// those of a junction (see free_junctions).
 template <class Visit>
 void for_each_neighbour(const PolygonMesh& mesh, const Topology& topology, Index f, Visit&& visit)
 {
     for (Index h = mesh.face_offsets[f]; h < mesh.face_offsets[f + 1]; ++h)
         if (const Index twin = topology.twin[h]; twin >= 0)
             visit(h, topology.face_of[twin]);
+        else
+            for (Index other = topology.next_at_junction(h); other != h; other = topology.next_at_junction(other))
+                visit(h, topology.face_of[other]);
 }
 
 /// The connected components of the faces of a mesh. Faces are connected through edges of exactly two faces: a shared
-/// vertex or an edge of three or more faces connects nothing. Linear in the size of the mesh.
+/// vertex connects nothing, nor does an edge of three or more faces without free_junctions. Linear in the size of the
+/// mesh.
 inline Components face_components(const PolygonMesh& mesh, const Topology& topology)
 {
     return connected_components(mesh.n_faces(), [&](Index f, auto&& visit) {

@@ -37,31 +37,46 @@ struct Spoke {
     friend auto operator<=>(const Spoke&, const Spoke&) = default;
 };
 
+/// Lists the half-edges between v and vertices of an index higher than `lowest`, in ascending order.
+void list_spokes(const PolygonMesh& mesh, const Topology& topology, Index v, Index lowest, std::vector<Spoke>& spokes)
+{
+    spokes.clear();
+    for (const Index h : topology.corners_at(v))
+        for (const auto& [neighbour_corner, halfedge] :
+             {std::pair(topology.next(mesh, h), h), std::pair(topology.previous(mesh, h), topology.previous(mesh, h))})
+            if (const Index neighbour = mesh.face_vertices[neighbour_corner]; neighbour > lowest)
+                spokes.push_back({neighbour, halfedge});
+    std::sort(spokes.begin(), spokes.end());
+}
+
+/// Calls action with the spokes of each edge.
+template <class Action>
+void for_each_edge(std::span<const Spoke> spokes, Action&& action)
+{
+    for (auto first = spokes.begin(); first != spokes.end();) {
+        const auto last =
+            std::find_if(first, spokes.end(), [&](const Spoke& s) { return s.neighbour != first->neighbour; });
+        action(std::span(first, last));
+        first = last;
+    }
+}
+
 /// Pairs the half-edges between v and vertices of higher index.
 /// @returns whether those of every pair run in opposite directions.
 bool pair_halfedges_at(const PolygonMesh& mesh, Index v, std::vector<Spoke>& spokes, Topology& topology)
 {
     bool opposite = true;
-    spokes.clear();
-    for (const Index h : topology.corners_at(v))
-        for (const auto& [neighbour_corner, halfedge] :
-             {std::pair(topology.next(mesh, h), h), std::pair(topology.previous(mesh, h), topology.previous(mesh, h))})
-            if (const Index neighbour = mesh.face_vertices[neighbour_corner]; neighbour > v)
-                spokes.push_back({neighbour, halfedge});
-    std::sort(spokes.begin(), spokes.end());
-    for (auto first = spokes.begin(); first != spokes.end();) {
-        const auto last =
-            std::find_if(first, spokes.end(), [&](const Spoke& s) { return s.neighbour != first->neighbour; });
-        if (last - first == 2) {
-            topology.twin[first[0].halfedge] = first[1].halfedge;
-            topology.twin[first[1].halfedge] = first[0].halfedge;
-            opposite &= mesh.face_vertices[first[0].halfedge] != mesh.face_vertices[first[1].halfedge];
-        } else if (last - first > 2) {
-            for (auto spoke = first; spoke != last; ++spoke)
-                topology.twin[spoke->halfedge] = non_manifold_edge;
+    list_spokes(mesh, topology, v, v, spokes);
+    for_each_edge(spokes, [&](std::span<const Spoke> edge) {
+        if (edge.size() == 2) {
+            topology.twin[edge[0].halfedge] = edge[1].halfedge;
+            topology.twin[edge[1].halfedge] = edge[0].halfedge;
+            opposite &= mesh.face_vertices[edge[0].halfedge] != mesh.face_vertices[edge[1].halfedge];
+        } else if (edge.size() > 2) {
+            for (const Spoke& spoke : edge)
+                topology.twin[spoke.halfedge] = non_manifold_edge;
         }
-        first = last;
-    }
+    });
     return opposite;
 }
 
@@ -192,6 +207,36 @@ void free_boundary(Topology& topology)
     for (std::size_t v = 0; v < topology.kind.size(); ++v)
         if (topology.kind[v] == VertexKind::Boundary)
             topology.fixed[v] = 0;
+}
+
+Index Topology::next_at_junction(Index h) const
+{
+    if (junctions.empty())
+        return h;
+    const auto found = std::ranges::lower_bound(junctions, h, {}, &JunctionLink::halfedge);
+    return found != junctions.end() && found->halfedge == h ? found->next : h;
+}
+
+void free_junctions(const PolygonMesh& mesh, Topology& topology, const Executor& exec)
+{
+    std::vector<Spoke> spokes;
+    for (const Index v :
+         select(exec, mesh.n_vertices(), [&](Index v) { return topology.kind[v] == VertexKind::NonManifold; })) {
+        bool is_at_junction = false;
+        bool is_on_boundary = false;
+        list_spokes(mesh, topology, v, -1, spokes);
+        for_each_edge(spokes, [&](std::span<const Spoke> edge) {
+            is_at_junction |= edge.size() > 2;
+            is_on_boundary |= edge.size() == 1;
+            for (std::size_t i = 0; edge.size() > 2 && edge[0].neighbour > v && i < edge.size(); ++i)
+                topology.junctions.push_back({edge[i].halfedge, edge[(i + 1) % edge.size()].halfedge});
+        });
+        if (!is_at_junction)
+            continue;
+        topology.kind[v] = is_on_boundary ? VertexKind::Boundary : VertexKind::Junction;
+        topology.fixed[v] = is_on_boundary ? 1 : 0;
+    }
+    std::ranges::sort(topology.junctions, {}, &JunctionLink::halfedge);
 }
 
 std::vector<Index> neighbours_of(const PolygonMesh& mesh, const Topology& topology, Index v)

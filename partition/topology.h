@@ -18,6 +18,8 @@ enum class VertexKind : std::uint8_t {
     Boundary,
     /// On an edge of three or more faces, or its faces form several fans, none of them open.
     NonManifold,
+    /// On edges of three or more faces, but of no single one, after free_junctions.
+    Junction,
     /// No faces.
     Isolated,
 };
@@ -61,6 +63,13 @@ class FaceOfHalfedge {
     std::vector<Index> faces_;
 };
 
+/// Two half-edges at an edge of three faces or more: each is followed by the next higher one there, the highest by the
+/// lowest.
+struct JunctionLink {
+    Index halfedge;
+    Index next;
+};
+
 /// How the faces of a mesh are connected. Half-edge h runs from corner h to the next corner of the same face, so that
 /// half-edges are numbered like `face_vertices`. Orientation does not matter: an edge pairs its two half-edges whether
 /// they run in opposite directions or in the same one, so that a Möbius band is a valid mesh.
@@ -74,14 +83,19 @@ struct Topology {
     std::vector<Index> vertex_corners;
     /// #V.
     std::vector<VertexKind> kind;
-    /// #V: 1 where a flow does not move the vertex. Initially 1 except at interior vertices; see free_boundary and
-    /// hold.
+    /// #V: 1 where a flow does not move the vertex. Initially 1 except at interior vertices; see free_boundary,
+    /// free_junctions and hold.
     std::vector<std::uint8_t> fixed;
+    /// Every half-edge of a junction, ascending; empty before free_junctions. Faces that meet there are then connected.
+    std::vector<JunctionLink> junctions;
     /// Whether the half-edges of every pair run in opposite directions.
     bool oriented = true;
 
     /// Whether a flow moves vertex v.
     [[nodiscard]] bool moves(Index v) const { return fixed[v] == 0; }
+
+    /// The half-edge that follows h at a junction (see JunctionLink); h itself elsewhere.
+    [[nodiscard]] Index next_at_junction(Index h) const;
 
     /// The corners (each one in its own face) at vertex v.
     [[nodiscard]] std::span<const Index> corners_at(Index v) const
@@ -110,6 +124,11 @@ inline double edge_length(const PolygonMesh& mesh, const Topology& topology, Ind
 
 /// Lets the vertices of kind Boundary move.
 void free_boundary(Topology& topology);
+
+/// Lets vertices at junctions, the edges of three faces or more, move: they become of kind Junction, or where such an
+/// edge ends on the boundary, of kind Boundary. Where merely several fans touch, vertices stay held, because that is
+/// usually a defect. Faces at junctions become connected (see Topology::junctions). To be called before free_boundary.
+void free_junctions(const PolygonMesh& mesh, Topology& topology, const Executor& exec = run_serially);
 
 /// The vertices that share an edge with v, ascending.
 std::vector<Index> neighbours_of(const PolygonMesh& mesh, const Topology& topology, Index v);

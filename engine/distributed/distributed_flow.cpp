@@ -284,6 +284,7 @@ class RankFlow {
         report.mesh.vertices = mesh.n_vertices;
         report.mesh.faces = mesh.n_faces;
         report.mesh.non_manifold_vertices = mesh.n_non_manifold;
+        report.mesh.junction_vertices = mesh.n_junctions;
         report.time_step = options_.time_step;
         report.remarks = mesh.remarks;
         FlowReport own;

@@ -5,12 +5,14 @@
 #include <iterator>
 #include <memory>
 #include <numeric>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "engine/distributed/rank_peers.h"
 #include "engine/measure/remarks.h"
+#include "engine/setup/automatic_choices.h"
 #include "engine/setup/constraints.h"
 #include "engine/steppers/sweep_order.h"
 #include "engine/tasks/parallel_executor.h"
@@ -327,6 +329,9 @@ RankMesh make_rank_mesh(Communicator& comm, const MeshPart& own, const Point& of
     RankMesh mesh;
     require_alike_attached(comm, own);
     grow(comm, own, mesh);
+    const std::string_view need = need_of_junctions(options);
+    if (options.motion.junctions == Junctions::Flow && need.empty())
+        free_junctions(mesh.part.mesh, mesh.topology, run_in_parallel);
     mesh.part.mesh.vertices.rowwise() -= offset;
     mesh.known = localise_labels(mesh.all, mesh.part);
     for (const KnownSubMesh& sub_mesh : mesh.known)
@@ -339,15 +344,20 @@ RankMesh make_rank_mesh(Communicator& comm, const MeshPart& own, const Point& of
     hold_undefined(comm, options, mesh);
     if (options.accuracy.approach == Approach::Sweep)
         comm.look_together([&] {
-            std::vector<Index> rim = moving_boundary(mesh.part.mesh, mesh.topology);
+            std::vector<Index> rim = moving_rim(mesh.part.mesh, mesh.topology);
             std::erase_if(rim, [&](Index v) { return !mesh.has_own_faces(v); });
             require_boundary_unshared(mesh.topology, mesh.part.labels, rim);
         });
-    const auto is_not_manifold = [&](Index v) { return mesh.topology.kind[v] == VertexKind::NonManifold; };
-    mesh.n_non_manifold = count_vertices(comm, mesh, is_not_manifold).n;
+    const auto count_kind = [&](VertexKind kind) {
+        return count_vertices(comm, mesh, [&](Index v) { return mesh.topology.kind[v] == kind; }).n;
+    };
+    mesh.n_non_manifold = count_kind(VertexKind::NonManifold);
+    mesh.n_junctions = count_kind(VertexKind::Junction);
     mesh.n_vertices = count_vertices(comm, mesh, [](Index /*v*/) { return true; }).n;
     if (mesh.n_non_manifold > 0)
-        mesh.remarks.push_back(remark_on_non_manifold_vertices(mesh.n_non_manifold));
+        mesh.remarks.push_back(remark_on_non_manifold_vertices(mesh.n_non_manifold, need));
+    if (mesh.n_junctions > 0)
+        mesh.remarks.push_back(remark_on_junctions(mesh.n_junctions));
     return mesh;
 }
 

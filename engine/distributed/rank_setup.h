@@ -36,9 +36,11 @@ struct RankMesh {
     /// By local label.
     std::vector<KnownSubMesh> known;
     std::vector<std::uint8_t> is_own;
-    /// Of all ranks: faces that were left out, and vertices held because they are not manifold.
+    /// Of all ranks: faces that were left out, vertices held because they are not manifold, and those at junctions that
+    /// move.
     std::int64_t n_repeated = 0;
     std::int64_t n_non_manifold = 0;
+    std::int64_t n_junctions = 0;
     /// Of all ranks: all faces, and their vertices.
     std::int64_t n_faces = 0;
     std::int64_t n_vertices = 0;

@@ -93,6 +93,8 @@ struct MeshReport {
     std::int64_t fixed_vertices = 0;
     /// Those held fixed because they lie on an edge of three or more faces, or where two fans of faces touch.
     std::int64_t non_manifold_vertices = 0;
+    /// Those of kind Junction, which move unless they are held for another reason (see Junctions).
+    std::int64_t junction_vertices = 0;
     /// #V: the lowest of the vertices joined with each along seams (see MotionOptions::weld), its own number if there
     /// are no others. Empty if none were joined.
     std::vector<Index> moved_with;

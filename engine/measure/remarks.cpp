@@ -17,9 +17,18 @@ std::string remark_on_repeated_faces(std::int64_t n)
         n == 1 ? "face has" : "faces have");
 }
 
-std::string remark_on_non_manifold_vertices(std::int64_t n)
+std::string remark_on_non_manifold_vertices(std::int64_t n, std::string_view remedy)
 {
-    return fmt::format("{} vertices are held fixed because the mesh is not manifold there.", n);
+    std::string remark = fmt::format("{} vertices are held fixed because the mesh is not manifold there.", n);
+    if (!remedy.empty())
+        remark += fmt::format(" {}, those on edges of three faces or more would move.", remedy);
+    return remark;
+}
+
+std::string remark_on_junctions(std::int64_t n)
+{
+    return fmt::format("{} on edges of three faces or more {} with all of these faces.",
+                       n == 1 ? "1 vertex" : fmt::format("{} vertices", n), n == 1 ? "moves" : "move");
 }
 
 std::string remark_on_undefined_vertices(std::int64_t n, std::int64_t first, Laplacian laplacian)

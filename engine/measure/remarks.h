@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "engine/measure/flow_report.h"
 #include "engine/options/flow_options.h"
@@ -15,7 +16,11 @@ namespace seamflow {
 std::string remark_on_repeated_faces(std::int64_t n);
 
 /// On vertices that are held.
-std::string remark_on_non_manifold_vertices(std::int64_t n);
+/// @param remedy when those at junctions would move, as in "In converged steps"; empty: it is not said.
+std::string remark_on_non_manifold_vertices(std::int64_t n, std::string_view remedy = {});
+
+/// On vertices that move where sheets meet.
+std::string remark_on_junctions(std::int64_t n);
 
 /// On vertices that are held where the Laplacian is not defined.
 /// @param first the lowest of them.

@@ -42,10 +42,11 @@ void require_closed(const PolygonMesh& mesh, const Topology& topology)
     const std::string edge = fmt::format("the edge from vertex {} to {} of face {}", starts_at(h),
                                          starts_at(topology.next(mesh, h)), topology.face_of[h]);
     if (topology.twin[h] < 0)
-        throw InputError(fmt::format("only a closed surface has a volume to keep, but {} lies on the boundary: close "
-                                     "the mesh, keep its area instead (--rescale area), or use the low-pass filter "
-                                     "(--filter low-pass), which hardly shrinks large features",
-                                     edge));
+        throw InputError(fmt::format(
+            "only a closed surface has a volume to keep, but {} lies on the boundary, or has "
+            "three faces or more: close the mesh, keep its area instead (--rescale area), or use the low-pass filter "
+            "(--filter low-pass), which hardly shrinks large features",
+            edge));
     throw InputError(fmt::format("the volume needs consistently oriented faces, but those at {} are not: orient the "
                                  "mesh, or keep its area instead",
                                  edge));

@@ -111,6 +111,17 @@ enum class Boundary {
     Free,
 };
 
+/// Vertices at junctions: on edges of three faces or more, where sheets of a surface meet.
+enum class Junctions {
+    /// They move like others: K and M are sums over the faces of all sheets, so that the lines of three sheets tend to
+    /// angles of 120°. Sub-meshes can share such lines only in converged steps, which are then chosen. Held instead
+    /// with Δ_P, with keep_edges, and where an option asks for sweeps over sub-meshes; a remark says so. Vertices where
+    /// merely several fans of faces touch stay held: they are usually a defect.
+    Flow,
+    /// They stay where they are, and so do all other vertices where the mesh is not manifold.
+    Hold,
+};
+
 /// Compensation for the shrinking of the surface.
 enum class Rescale {
     None,
@@ -211,7 +222,8 @@ struct ComponentLimits {
     double volume = std::numeric_limits<double>::infinity();
     /// Root mean square of the displacements along the normals, over the component, in length.
     double move = std::numeric_limits<double>::infinity();
-    /// Displacement of a vertex along the surface, in length: beyond it the vertex moves along the normal only.
+    /// Displacement of a vertex along the surface, in length: beyond it the vertex moves along the normal only. At
+    /// junctions, which have no normal, it bounds the whole displacement.
     double slide = std::numeric_limits<double>::infinity();
 
     [[nodiscard]] bool exist() const { return std::isfinite(volume) || std::isfinite(move) || std::isfinite(slide); }
@@ -249,6 +261,8 @@ struct MotionOptions {
     std::optional<double> weld = 0.0;
     /// Boundary conditions.
     Boundary boundary = Boundary::Fixed;
+    /// Vertices where sheets meet.
+    Junctions junctions = Junctions::Flow;
     /// Vertices that stay where they are, bit for bit; in any order, repetitions are allowed.
     std::vector<Index> fixed_vertices = {};
     /// Edges that keep_edges keeps whatever their angle: pairs of vertices that share an edge of a face. Faces on the
@@ -257,7 +271,7 @@ struct MotionOptions {
     std::vector<Edge> feature_edges = {};
     /// Refuses meshes on which the flow is not defined everywhere: those that are not manifold, or on which edges
     /// without length (Δ_F) or faces without area (the others) leave the Laplacian undefined at vertices that should
-    /// move. If false, such vertices stay fixed, and a remark gives their number.
+    /// move. If false, such vertices stay fixed, except at junctions, and a remark gives their number.
     bool strict = false;
     /// w of a screening term that pulls towards the first positions, in 1/length², at least 0:
     /// ∂V/∂t = -ΔV - w (V - V⁰). Features larger than about 1/√w stay, because the flow ends at the solution of

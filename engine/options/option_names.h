@@ -84,6 +84,11 @@ struct OptionNames<Boundary> {
 };
 
 template <>
+struct OptionNames<Junctions> {
+    static constexpr NamedOption<Junctions> list[]{{"flow", Junctions::Flow}, {"hold", Junctions::Hold}};
+};
+
+template <>
 struct OptionNames<Rescale> {
     static constexpr NamedOption<Rescale> list[]{
         {"none", Rescale::None}, {"area", Rescale::Area}, {"volume", Rescale::Volume}};

@@ -77,8 +77,8 @@ auto option_table(Options& options)
     auto& [subdomains, labels] = cut;
     auto& [conditions, transmission, p, p_rule, p_edge, q, overlap, colouring, sweep, correction] = interface;
     auto& [tolerance, approach, converge_iterations, largest_update] = accuracy;
-    auto& [weld, boundary, fixed_vertices, feature_edges, strict, attachment, attachment_weights, strength, direction,
-           rescale, within, limits] = motion;
+    auto& [weld, boundary, junctions, fixed_vertices, feature_edges, strict, attachment, attachment_weights, strength,
+           direction, rescale, within, limits] = motion;
     auto& [volume, move, slide] = limits;
     auto& [threads, tune_for, memory_limit, factorisation, precision] = resources;
     auto& [reference, record_schedule, keep_gaps, measures] = report;
@@ -134,6 +134,7 @@ auto option_table(Options& options)
             Limits{0.0, 180.0, true, true, "above 0 and below 180 (degrees)"}),
         row("feature_edges", "--edges", one_process, feature_edges),
         row("boundary", "--boundary", 0, boundary),
+        row("junctions", "--junctions", 0, junctions),
         row("fixed_vertices", "--fix", part, fixed_vertices),
         row("attachment", "--attach", 0, attachment, not_negative("at least 0 and finite (1/length²)")),
         row("attachment_weights", "--attach-weights", part, attachment_weights),

@@ -76,6 +76,11 @@ bool speaks_of_sweeps(const FlowOptions& options)
            is_foreign(options.resources.factorisation);
 }
 
+bool may_be_cut(const FlowOptions& options)
+{
+    return options.cut.subdomains != 1 || !options.cut.labels.empty();
+}
+
 /// Whether sweeps would have at most two sub-meshes.
 bool has_few_sub_meshes(const MeshSize& size, const FlowOptions& options)
 {
@@ -102,7 +107,7 @@ bool has_polygons(const PolygonMesh& mesh)
 }  // namespace
 
 ToleranceChoice choose_tolerance(const PolygonMesh& mesh, const MeshSize& size, const FlowOptions& options,
-                                 bool boundary_moves)
+                                 bool rim_moves)
 {
     if (options.accuracy.tolerance)
         return {options.accuracy.tolerance, ""};
@@ -117,8 +122,10 @@ ToleranceChoice choose_tolerance(const PolygonMesh& mesh, const MeshSize& size, 
     if (!options.motion.strength.empty() && options.scheme == Scheme::BackwardEuler && !options.keep_edges &&
         mesh.n_faces() > 0)
         return {loose_tolerance, "in a region steps differ from vertex to vertex, which single sweeps do not support"};
-    if (boundary_moves && !speaks_of_sweeps(options) && (options.cut.subdomains != 1 || !options.cut.labels.empty()))
-        return {loose_tolerance, "sub-meshes that share a free boundary need it"};
+    if (rim_moves && !speaks_of_sweeps(options) && may_be_cut(options))
+        return {loose_tolerance, options.motion.boundary == Boundary::Free
+                                     ? "sub-meshes that share a free boundary need it"
+                                     : "sub-meshes that share lines where sheets meet need it"};
     if (speaks_of_sweeps(options) || mesh.n_faces() == 0)
         return {};
     if (traits_of(options.laplacian).reach == Reach::TwoRings && has_long_faces(mesh) && options.cut.subdomains != 1)
@@ -135,6 +142,20 @@ ToleranceChoice choose_tolerance(const PolygonMesh& mesh, const MeshSize& size, 
     if (traits_of(options.laplacian).reach == Reach::Faces && has_polygons(mesh))
         return {loose_tolerance, "on polygons it costs no more than single sweeps"};
     return {};
+}
+
+std::string_view need_of_junctions(const FlowOptions& options)
+{
+    if (options.motion.junctions == Junctions::Hold)
+        return {};
+    if (!is_symmetric(options.laplacian))
+        return "With a symmetric Laplacian";
+    if (options.keep_edges)
+        return "Without edges that are kept";
+    const bool is_whole = options.scheme == Scheme::ExplicitEuler || takes_whole_mesh(options.accuracy.approach);
+    const bool converges = options.accuracy.tolerance || options.accuracy.approach == Approach::Converged ||
+                           options.flow == FlowEquation::Linear;
+    return !is_whole && !converges && may_be_cut(options) && speaks_of_sweeps(options) ? "In converged steps" : "";
 }
 
 namespace {
@@ -166,7 +187,7 @@ std::string reason_for(const PredictedCost& cost)
 ApproachChoice choose_approach(const PolygonMesh& mesh, const Topology& topology, const MeshSize& size,
                                const FlowOptions& options, std::optional<Approach> earlier)
 {
-    const ToleranceChoice tolerance = choose_tolerance(mesh, size, options, !moving_boundary(mesh, topology).empty());
+    const ToleranceChoice tolerance = choose_tolerance(mesh, size, options, !moving_rim(mesh, topology).empty());
     const Approach asked = options.accuracy.approach;
     if (takes_whole_mesh(asked))
         return {.approach = asked, .tolerance = tolerance.tolerance};

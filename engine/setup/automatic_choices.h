@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "engine/measure/surface_measures.h"
@@ -56,10 +57,15 @@ struct ToleranceChoice {
 
 /// The tolerance of the options, if they have one. Where they leave open how sub-meshes are used, and unless another
 /// option asks for sweeps, steps are also converged, loosely, where a sweep would drift from the undecomposed step or
-/// cost more. They also are if the boundary moves, which sub-meshes can share only in converged steps.
-/// @param boundary_moves whether any boundary vertex moves.
+/// cost more. They also are if the boundary moves, or vertices at junctions, which sub-meshes can share only in
+/// converged steps.
+/// @param rim_moves whether any such vertex moves (see moving_rim).
 ToleranceChoice choose_tolerance(const PolygonMesh& mesh, const MeshSize& size, const FlowOptions& options,
-                                 bool boundary_moves = false);
+                                 bool rim_moves = false);
+
+/// When vertices at junctions would move if they do not with these options, as in "In converged steps"; empty: they
+/// move, or are to be held.
+std::string_view need_of_junctions(const FlowOptions& options);
 
 /// How steps are taken: one of Sweep, Converged, ConjugateGradients and Undecomposed.
 struct ApproachChoice {

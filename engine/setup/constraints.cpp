@@ -23,7 +23,7 @@ void require_manifold(const Topology& topology)
     if (found != topology.kind.end())
         throw InputError(fmt::format(
             "the mesh is not manifold at vertex {} (numbered from 0): three faces or more share an edge there, or "
-            "several fans of faces meet; mend it, or leave strict out to hold such vertices fixed",
+            "several fans of faces meet; mend it, or leave strict out",
             found - topology.kind.begin()));
 }
 
@@ -54,6 +54,10 @@ std::size_t count_moving(const Topology& topology)
 void constrain(Topology& topology, const PolygonMesh& mesh, const FlowOptions& options, bool has_lengths,
                const Executor& exec, std::vector<std::string>& remarks)
 {
+    if (options.motion.strict)
+        require_manifold(topology);
+    if (options.motion.junctions == Junctions::Flow)
+        free_junctions(mesh, topology, exec);
     if (options.motion.boundary == Boundary::Free)
         free_boundary(topology);
     hold(topology, options.motion.fixed_vertices);
@@ -62,8 +66,6 @@ void constrain(Topology& topology, const PolygonMesh& mesh, const FlowOptions& o
         throw InputError(fmt::format("there are {} attachment weights, but the mesh has {} vertices: give one for each",
                                      n_weights, mesh.n_vertices()));
     hold_still(topology, mesh, options.motion.strength, remarks);
-    if (options.motion.strict)
-        require_manifold(topology);
     const bool is_sound = has_lengths && traits_of(options.laplacian).divisor == Divisor::EdgeLengths;
     const std::vector<Index> undefined =
         is_sound ? std::vector<Index>() : vertices_without_row(mesh, topology, options.laplacian, exec);
@@ -78,10 +80,10 @@ void constrain(Topology& topology, const PolygonMesh& mesh, const FlowOptions& o
         remarks.push_back(remark_on_unmoving_mesh(options.motion.boundary));
 }
 
-std::vector<Index> moving_boundary(const PolygonMesh& mesh, const Topology& topology)
+std::vector<Index> moving_rim(const PolygonMesh& mesh, const Topology& topology)
 {
     return select(run_in_parallel, mesh.n_vertices(),
-                  [&](Index v) { return topology.kind[v] == VertexKind::Boundary && topology.moves(v); });
+                  [&](Index v) { return topology.kind[v] != VertexKind::Interior && topology.moves(v); });
 }
 
 void require_boundary_unshared(const Topology& topology, std::span<const Index> labels, std::span<const Index> vertices)

@@ -10,7 +10,8 @@
 
 namespace seamflow {
 
-/// Fixes the vertices that the options name and those at which the flow is not defined.
+/// Lets the boundary and junctions move, if the options say so, and fixes the vertices that these name and those at
+/// which the flow is not defined.
 /// @param topology of the mesh, as make_topology makes it.
 /// @param has_lengths whether all edges are known to have a length that is a normal double.
 /// @param remarks gets a sentence about those.
@@ -20,8 +21,8 @@ namespace seamflow {
 void constrain(Topology& topology, const PolygonMesh& mesh, const FlowOptions& options, bool has_lengths,
                const Executor& exec, std::vector<std::string>& remarks);
 
-/// The vertices on the boundary that move.
-std::vector<Index> moving_boundary(const PolygonMesh& mesh, const Topology& topology);
+/// The vertices on the boundary or at junctions that move.
+std::vector<Index> moving_rim(const PolygonMesh& mesh, const Topology& topology);
 
 /// Conditions on Γ are not defined where Γ meets a moving boundary.
 /// @param labels #F. @param vertices all, or those to check.

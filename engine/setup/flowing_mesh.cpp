@@ -139,9 +139,13 @@ void FlowingMesh::renumber(std::vector<Index> number)
 
 bool FlowingMesh::leave_out_repeated_faces(const Topology& topology)
 {
-    if (std::ranges::find(topology.kind, VertexKind::NonManifold) == topology.kind.end())
+    const auto is_suspicious = [&](Index v) {
+        const VertexKind kind = topology.kind[v];
+        return kind == VertexKind::NonManifold || kind == VertexKind::Junction ||
+               (kind == VertexKind::Boundary && !topology.junctions.empty());
+    };
+    if (topology.junctions.empty() && std::ranges::find(topology.kind, VertexKind::NonManifold) == topology.kind.end())
         return false;
-    const auto is_suspicious = [&](Index v) { return topology.kind[v] == VertexKind::NonManifold; };
     const auto candidates = select(run_in_parallel, mesh().n_faces(),
                                    [&](Index f) { return std::ranges::any_of(mesh().face(f), is_suspicious); });
     const std::vector<RepeatedFace> repeated = find_repeated_faces(mesh(), candidates);

@@ -122,6 +122,9 @@ std::unique_ptr<PreparedFlow> prepare(FlowingMesh& mesh, const FlowOptions& opti
 {
     auto prepared = std::make_unique<PreparedFlow>();
     prepared->options = options;
+    prepared->need_of_junctions = need_of_junctions(options);
+    if (!prepared->need_of_junctions.empty())
+        prepared->options.motion.junctions = Junctions::Hold;
     prepared->identity = require_sound(mesh.mesh(), options, is_observed, resume, progress);
     examine(*prepared, mesh, progress);
     progress.count();
@@ -145,7 +148,7 @@ std::unique_ptr<PreparedFlow> prepare(FlowingMesh& mesh, const FlowOptions& opti
         prepared->choices.insert(prepared->choices.begin(), choice.reason);
     }
     if (!accuracy.tolerance && options.scheme == Scheme::BackwardEuler)
-        require_boundary_unshared(topology, prepared->cut.labels, moving_boundary(mesh.mesh(), topology));
+        require_boundary_unshared(topology, prepared->cut.labels, moving_rim(mesh.mesh(), topology));
     return prepared;
 }
 
@@ -163,12 +166,19 @@ void describe(const PreparedFlow& prepared, const FlowingMesh& mesh, FlowReport&
     report.remarks = prepared.remarks;
     // At the rim of a region faces may be left out, which is nothing to report.
     const std::vector<double>& strength = options.motion.strength;
-    for (Index v = 0; v < mesh.mesh().n_vertices(); ++v)
-        if (topology.kind[v] == VertexKind::NonManifold &&
-            (strength.empty() || strength[v] >= MotionOptions::least_strength))
-            ++report.mesh.non_manifold_vertices;
+    const auto count_in_region = [&](VertexKind kind) {
+        Index n = 0;
+        for (Index v = 0; v < mesh.mesh().n_vertices(); ++v)
+            n += topology.kind[v] == kind && (strength.empty() || strength[v] >= MotionOptions::least_strength) ? 1 : 0;
+        return n;
+    };
+    report.mesh.non_manifold_vertices = count_in_region(VertexKind::NonManifold);
+    report.mesh.junction_vertices = count_in_region(VertexKind::Junction);
     if (report.mesh.non_manifold_vertices > 0)
-        report.remarks.push_back(remark_on_non_manifold_vertices(report.mesh.non_manifold_vertices));
+        report.remarks.push_back(
+            remark_on_non_manifold_vertices(report.mesh.non_manifold_vertices, prepared.need_of_junctions));
+    if (report.mesh.junction_vertices > 0)
+        report.remarks.push_back(remark_on_junctions(report.mesh.junction_vertices));
     for (Index v = 0; v < mesh.mesh().n_vertices(); ++v)
         report.mesh.fixed_vertices += topology.moves(mesh.moves_with(v)) ? 0 : 1;
     if (prepared.cut.n_parts > 1 && options.steps > 0 && !options.accuracy.tolerance) {

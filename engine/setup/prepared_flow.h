@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "engine/measure/displacement_meter.h"
@@ -29,6 +30,8 @@ struct PreparedFlow {
     MeshSize size;
     /// Which vertices move, too.
     Topology topology;
+    /// See the function of this name.
+    std::string_view need_of_junctions;
     /// The sub-mesh of every face.
     Cut cut;
     /// #V: ‖ΔV⁰‖, in 1/length; empty if it is not needed per vertex.

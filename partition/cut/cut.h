@@ -15,7 +15,7 @@ namespace seamflow {
 /// How the faces of a mesh are divided into sub-meshes.
 struct Cut {
     /// #F: the part each face belongs to, from 0 to n_parts - 1; each label occurs. Unless n_parts is 1, each part is a
-    /// manifold with boundary (see repair).
+    /// manifold with boundary, except at junctions (see repair, free_junctions).
     std::vector<Index> labels;
     /// 0 for a mesh without faces.
     Index n_parts = 0;

@@ -88,12 +88,10 @@ std::vector<BlockOfArcs> list_arcs_by_length(const PolygonMesh& mesh, const Topo
     return list_arcs(clusters.size(), exec, [&](Index cluster, std::vector<Arc>& arcs) {
         const auto begin = std::ssize(arcs);
         for (const Index f : clusters.faces[cluster])
-            for (Index h = mesh.face_offsets[f]; h < mesh.face_offsets[f + 1]; ++h) {
-                const Index twin = topology.twin[h];
-                const Index target = twin < 0 ? cluster : clusters.cluster_of[topology.face_of[twin]];
-                if (target != cluster)
+            for_each_neighbour(mesh, topology, f, [&](Index h, Index across) {
+                if (const Index target = clusters.cluster_of[across]; target != cluster)
                     arcs.push_back({target, edge_length(mesh, topology, h)});
-            }
+            });
         add_up(begin, arcs);
     });
 }
@@ -117,9 +115,11 @@ std::vector<std::vector<ClusterPair>> list_cut_edges(const PolygonMesh& mesh, co
             const Index own = clusters.cluster_of[f];
             for (Index h = mesh.face_offsets[f]; h < mesh.face_offsets[f + 1]; ++h) {
                 const Index twin = topology.twin[h];
-                const Index other = clusters.cluster_of[topology.face_of[twin < 0 ? h : twin]];
-                found[n] = {own, other};
-                n += own < other ? 1 : 0;
+                const Index other =
+                    clusters.cluster_of[topology.face_of[twin < 0 ? topology.next_at_junction(h) : twin]];
+                // The half-edges of a junction form a cycle of pairs; others meet from both sides.
+                found[n] = {std::min(own, other), std::max(own, other)};
+                n += own < other || (twin < 0 && own != other) ? 1 : 0;
             }
         }
         blocks[b].assign(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(n));

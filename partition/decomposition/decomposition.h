@@ -56,7 +56,7 @@ Decomposition connect(std::vector<SubMesh> sub_meshes, const Topology& topology,
 
 /// Cuts a mesh into its sub-meshes.
 /// @param labels #F, each in 0 to n_parts - 1, every value used; each part connected and with one fan of faces around
-///        each of its vertices (see cut_into and cut_by_labels).
+///        each of its vertices, except at junctions (see cut_into and cut_by_labels).
 Decomposition decompose(const PolygonMesh& mesh, const Topology& topology, std::span<const Index> labels, Index n_parts,
                         const Executor& exec = run_serially);
 

@@ -16,7 +16,7 @@ namespace seamflow {
 struct SubMeshInterface {
     /// In ascending order.
     std::vector<Index> vertices;
-    /// The neighbours v_{i-1} and v_{i+1} along the sub-mesh's boundary.
+    /// The neighbours v_{i-1} and v_{i+1} along the sub-mesh's boundary; at a junction those of the first of its fans.
     std::vector<Index> before;
     std::vector<Index> after;
     /// The own faces around the vertex, as indices into SubMesh::face_vertices.

@@ -38,6 +38,8 @@ VertexNormals::VertexNormals(const PolygonMesh& mesh, const Topology& topology)
 
 Point VertexNormals::operator()(Index v, const Points& positions) const
 {
+    if (topology_.kind[v] == VertexKind::Junction)
+        return Point::Zero();
     return (*this)(topology_.corners_at(v), positions);
 }
 

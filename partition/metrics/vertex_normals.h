@@ -18,7 +18,8 @@ class VertexNormals {
     /// @param mesh, topology must outlive the normals.
     VertexNormals(const PolygonMesh& mesh, const Topology& topology);
 
-    /// Of length 1, or 0 where there is none: without faces, or if their vector areas add up to 0.
+    /// Of length 1, or 0 where there is none: without faces, if their vector areas add up to 0, or at vertices of kind
+    /// Junction.
     /// @param positions #V by 3, not necessarily those of the mesh.
     [[nodiscard]] Point operator()(Index v, const Points& positions) const;
 

@@ -121,6 +121,8 @@ void add_what_stays(CLI::App& app, SmoothCommand& command)
     add_feature_edges(app, command);
     add_field(app, options, "--boundary",
               "boundary conditions: the boundary of an open surface stays, or shrinks freely [fixed]");
+    add_field(app, options, "--junctions",
+              "edges of three faces or more, where sheets meet: they move with all sheets, or stay [flow]");
     auto* fix = app.add_option("--fix", command.fix,
                                "fixed vertices: their numbers from 0, one a line, or a .ply that marks them\n"
                                "The .ply has as many vertices, and a property that is not 0 at fixed ones.")

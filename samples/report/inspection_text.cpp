@@ -116,9 +116,9 @@ void print_inspection(std::ostream& out, const std::string& file, const FaultLog
     printer.print(found.defects.vertices_not_finite, "vertices with coordinates that are not finite numbers",
                   "smooth refuses them: give them positions, or remove them and their faces");
     printer.print(found.defects.non_manifold_edges, "edges of three faces or more",
-                  "smooth holds their vertices fixed");
+                  "smooth moves their vertices with all of these faces, or holds them (--junctions hold)");
     printer.print(found.defects.non_manifold_vertices, "vertices around which the mesh is not manifold",
-                  "smooth holds them fixed");
+                  "smooth holds those fixed that are on no edge of three faces or more");
     printer.print(found.defects.inconsistent_edges, "edges whose faces are oriented against each other",
                   found.orientable ? "smooth does not mind; normals that it writes do"
                                    : "smooth does not mind; no orientation fits all faces, as on a Möbius band");

@@ -154,6 +154,7 @@ std::string smooth_report_json(const RunRecord& run, const FlowReport& report)
     json["interface_vertices"] = report.cut.interface_vertices;
     json["repaired_faces"] = report.cut.repaired_faces;
     json["non_manifold_vertices"] = report.mesh.non_manifold_vertices;
+    json["junction_vertices"] = report.mesh.junction_vertices;
     if (run.ranks.empty())
         json["fixed_vertices"] = report.mesh.fixed_vertices;
     json["laplacian"] = run.laplacian;

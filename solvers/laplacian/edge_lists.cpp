@@ -17,7 +17,7 @@ void for_each_halfedge(const IndexListsView& faces, Action&& action)
     }
 }
 
-/// Each of them once, in ascending order.
+/// In ascending order.
 OuterEdges by_number_of_faces(const std::vector<VertexPair>& edges, Index n_vertices)
 {
     IndexLists seconds = make_lists(n_vertices, [&](auto&& add) {
@@ -31,7 +31,9 @@ OuterEdges by_number_of_faces(const std::vector<VertexPair>& edges, Index n_vert
         std::sort(second, end);
         while (second != end) {
             const auto next = std::find_if(second, end, [&](Index v) { return v != *second; });
-            (next - second == 1 ? outer.rim : outer.inner).push_back({first, *second});
+            outer.inner.insert(outer.inner.end(), at(static_cast<Index>(next - second) / 2), {first, *second});
+            if ((next - second) % 2 != 0)
+                outer.rim.push_back({first, *second});
             second = next;
         }
     }

@@ -34,15 +34,16 @@ struct FacesOnBothSides {
     Contributions contributions = Contributions::BothSides;
 };
 
-/// Edges by the number of their faces here.
+/// Edges by the number of their faces here, each of which has half of the edge: one of k faces is listed k / 2 times
+/// among the inner ones, rounded down, and once more on the rim if k is odd.
 struct OuterEdges {
-    /// Of several faces.
+    /// Of two faces.
     std::vector<VertexPair> inner;
-    /// Of one face. Those at a vertex that may move are on the boundary of the whole mesh.
+    /// Of one face. Those at a vertex that may move are on the boundary of the whole mesh, or at a junction.
     std::vector<VertexPair> rim;
 };
 
-/// The edges of own faces on the rim of the sub-mesh, and all edges of the faces beyond, each once and ascending.
+/// The edges of own faces on the rim of the sub-mesh, and all edges of the faces beyond, ascending.
 OuterEdges list_outer_edges(const FacesOnBothSides& faces);
 
 /// Appends the edges between two own faces, or those on the rim, each once.

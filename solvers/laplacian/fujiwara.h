@@ -6,8 +6,8 @@
 namespace seamflow {
 
 /// Δ_F (paper, eq. 14; see method of Fujiwara 1995). Rows: (nᵥ / Σ‖e‖) Σⱼ (v - vⱼ) / ‖v - vⱼ‖, sums over the edges at
-/// v, those on the boundary counted half, nᵥ their number. So the edge e has K = [1 -1; -1 1] / ‖e‖, and M_v is the
-/// mean of ‖e‖ over the edges at v.
+/// v, each counted half for each of its faces, nᵥ their number. So the edge e has K = [1 -1; -1 1] / ‖e‖, and M_v is
+/// the mean of ‖e‖ over the edges at v.
 struct Fujiwara {
     static constexpr LaplacianTraits traits{Laplacian::Fujiwara, "fujiwara",           "Δ_F",
                                             Reach::Edges,        Divisor::EdgeLengths, true};

@@ -6,7 +6,7 @@
 namespace seamflow {
 
 /// Δ_U (Taubin, A signal processing approach to fair surface design, 1995, with uniform weights). The edge e has K =
-/// [1 -1; -1 1], and M_v is h²/4 for each edge at v, those on the boundary counted half.
+/// [1 -1; -1 1], and M_v is h²/4 for each edge at v, counted half for each of its faces.
 struct Uniform {
     static constexpr LaplacianTraits traits{Laplacian::Uniform, "uniform", "Δ_U", Reach::Edges, Divisor::Nothing, true};
     static constexpr bool averages_mass = false;

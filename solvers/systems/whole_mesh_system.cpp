@@ -37,8 +37,8 @@ double visit_matrix_row(Kernel kernel, const RowGeometry& g, const BlockRowMatri
 {
     const Index v = g.blocks.values[place.row];
     if constexpr (EdgeKernel<Kernel>)
-        // The entries of the matrix are the edges.
-        if (g.topology.kind[v] != VertexKind::Boundary) {
+        // The entries of the matrix are the edges, of two faces each.
+        if (g.topology.kind[v] == VertexKind::Interior) {
             const Point here = g.of_rows.row(place.row);
             double mass = 0.0;
             int n_edges = 0;

@@ -265,6 +265,40 @@ TEST_CASE("an edge of three faces pairs nothing and its ends are not manifold")
                                                    VertexKind::Boundary, VertexKind::Boundary, VertexKind::Boundary});
 }
 
+TEST_CASE("faces at an edge of three are linked in a circle, and its ends move unless they are on the boundary")
+{
+    const PolygonMesh wings = three_wings();
+    Topology topology = make_topology(wings);
+    CHECK(topology.next_at_junction(0) == 0);
+    free_junctions(wings, topology);
+    CHECK(topology.kind == std::vector<VertexKind>(5, VertexKind::Boundary));
+    CHECK(std::count(topology.fixed.begin(), topology.fixed.end(), 0) == 0);
+    REQUIRE(topology.junctions.size() == 3);
+    for (const JunctionLink& link : topology.junctions) {
+        CHECK(topology.next_at_junction(link.halfedge) == link.next);
+        CHECK(topology.next_at_junction(topology.next_at_junction(link.next)) == link.halfedge);
+    }
+    // Three tetrahedra around an edge.
+    PolygonMesh closed;
+    closed.vertices = Points::Random(5, 3);
+    for (const Index v : {2, 3, 4}) {
+        const Index w = v == 4 ? 2 : v + 1;
+        closed.add_face(std::array<Index, 3>{0, 1, v});
+        closed.add_face(std::array<Index, 3>{0, v, w});
+        closed.add_face(std::array<Index, 3>{1, w, v});
+    }
+    topology = make_topology(closed);
+    free_junctions(closed, topology);
+    CHECK(count(topology, VertexKind::Junction) == 5);
+    CHECK(std::count(topology.fixed.begin(), topology.fixed.end(), 0) == 5);
+    CHECK(topology.junctions.size() == 21);
+    Topology touching = make_topology(hourglass());
+    free_junctions(hourglass(), touching);
+    CHECK(touching.junctions.empty());
+    CHECK(touching.kind[0] == VertexKind::NonManifold);
+    CHECK_FALSE(touching.moves(0));
+}
+
 TEST_CASE("where two open fans meet is boundary, where two closed ones meet is not manifold")
 {
     const Topology open = make_topology(bow_tie());

@@ -162,6 +162,23 @@ TEST_CASE("a surface whose file doubles vertices along seams is smoothed as the 
     CHECK(w.smooth("gaps.obj out.obj --time-step .01 --weld sometimes") == 2);
 }
 
+TEST_CASE("sheets that meet flow unless they are to be held, and the report counts their vertices")
+{
+    const Workshop w;
+    // Three tetrahedra around an edge.
+    (void)w.directory.with("cells.obj", "v 0 0 1\nv 0 0 -1\nv 1 0 0\nv -.5 .8 0\nv -.5 -.8 0\n"
+                                        "f 1 2 3\nf 1 2 4\nf 1 2 5\nf 1 3 4\nf 1 4 5\nf 1 5 3\n"
+                                        "f 2 4 3\nf 2 5 4\nf 2 3 5\n");
+    REQUIRE(w.smooth("cells.obj out.obj --time-step .01 --report report.json") == 0);
+    CHECK(w.said().find("5 vertices on edges of three faces or more move") != std::string::npos);
+    CHECK(w.json("report.json")["junction_vertices"] == 5);
+    CHECK(w.json("report.json")["non_manifold_vertices"] == 0);
+    CHECK(w.json("report.json")["surface"]["before"]["volume"].is_null());
+    REQUIRE(w.smooth("cells.obj out.obj --time-step .01 --junctions hold --report report.json") == 0);
+    CHECK(w.json("report.json")["junction_vertices"] == 0);
+    CHECK(w.json("report.json")["non_manifold_vertices"] == 5);
+}
+
 TEST_CASE("the manual page and what shells complete have every option that --help has")
 {
     const Workshop w;

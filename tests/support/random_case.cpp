@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "engine/measure/origin_offset.h"
+#include "engine/setup/automatic_choices.h"
 #include "engine/state/checkpoint.h"
 #include "partition/topology.h"
 #include "solvers/laplacian/geometry.h"
@@ -55,8 +56,9 @@ std::vector<Index> vertices_that_stay(const PolygonMesh& mesh, const FlowOptions
             ++edges[std::minmax(a, b)];
         }
     std::vector<Index> stay = options.motion.fixed_vertices;
+    const bool hold_junctions = options.motion.junctions == Junctions::Hold || !need_of_junctions(options).empty();
     for (const auto& [edge, n_faces] : edges)
-        if (n_faces > 2 || (n_faces == 1 && options.motion.boundary == Boundary::Fixed))
+        if ((n_faces > 2 && hold_junctions) || (n_faces == 1 && options.motion.boundary == Boundary::Fixed))
             stay.insert(stay.end(), {edge.first, edge.second});
     for (Index v = 0; v < mesh.n_vertices(); ++v)
         if (has_face[v] == 0)

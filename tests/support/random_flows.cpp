@@ -115,6 +115,8 @@ void choose_constraints(const PolygonMesh& mesh, RandomNumbers& random, FlowOpti
     options.motion.strict = random.unit() < 0.05;
     options.report.reference = random.unit() < 0.1;
     options.report.record_schedule = random.unit() < 0.1;
+    if (random.unit() < 0.2)
+        options.motion.junctions = Junctions::Hold;
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <Eigen/LU>
 
 #include "engine/measure/origin_offset.h"
+#include "engine/setup/automatic_choices.h"
 #include "engine/setup/constraints.h"
 #include "engine/setup/flowing_mesh.h"
 #include "tests/support/matrices.h"
@@ -75,6 +76,8 @@ std::optional<UndecomposedStep> undecomposed_step(const PolygonMesh& mesh, const
     std::vector<std::string> remarks;
     Topology topology = make_topology(flowing.mesh());
     FlowOptions of_joined = options;
+    if (!need_of_junctions(options).empty())
+        of_joined.motion.junctions = Junctions::Hold;
     flowing.weld_seams(topology, of_joined.motion, run_serially);
     constrain(topology, flowing.mesh(), of_joined, false, run_serially, remarks);
     if (!options.report.keep_gaps && flowing.leave_out_repeated_faces(topology)) {

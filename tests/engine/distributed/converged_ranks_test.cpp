@@ -1,9 +1,11 @@
+#include <array>
 #include <vector>
 
 #include <doctest/doctest.h>
 
 #include "tests/engine/distributed/rank_flows.h"
 #include "tests/support/flows.h"
+#include "tests/support/junction_meshes.h"
 
 using namespace seamflow;
 using test::check_bits;
@@ -78,4 +80,18 @@ TEST_CASE("ranks find the bits of one machine in converged steps: what else ther
     options = defaults;
     options.resources.memory_limit = 150'000;
     check_bits({"scarce", mesh, options}, 20, {1, 3});
+}
+
+TEST_CASE("ranks share sheets that meet: they move in converged steps, and are held in sweeps")
+{
+    const PolygonMesh mesh = test::foam(12, 5, 3);
+    for (const Laplacian laplacian : {Laplacian::Fujiwara, Laplacian::VirtualRefinement}) {
+        check_bits({"converged", mesh, converged(laplacian, 1.0)}, 8, {1, 3});
+        check_bits({"sweeps", mesh, test::by_sweeps(laplacian, 1.0)}, 8, {1, 3});
+    }
+    FlowOptions options = converged(Laplacian::VirtualRefinement, 1.0);
+    options.motion.boundary = Boundary::Free;
+    check_bits({"free boundary", test::plates(std::array{0.0, 1.5, 3.0}, 8, 20), options}, 8, {1, 3});
+    options.motion.junctions = Junctions::Hold;
+    check_bits({"held", mesh, options}, 8, {1, 3});
 }

@@ -82,6 +82,7 @@ inline void check_report(const FlowReport& rank, const FlowReport& report)
     }
     CHECK(rank.cut.interface_vertices == report.cut.interface_vertices);
     CHECK(rank.mesh.non_manifold_vertices == report.mesh.non_manifold_vertices);
+    CHECK(rank.mesh.junction_vertices == report.mesh.junction_vertices);
     CHECK(rank.mesh.faces == report.mesh.faces);
     CHECK(rank.time_step == report.time_step);
     CHECK(rank.convergence.approach == report.convergence.approach);

@@ -49,6 +49,7 @@ std::vector<Change> all_changes()
         {"sweep", [](FlowOptions& o) { o.interface.sweep = Sweep::Fixed; }},
         {"weld", [](FlowOptions& o) { o.motion.weld = 1e-9; }},
         {"boundary", [](FlowOptions& o) { o.motion.boundary = Boundary::Free; }},
+        {"junctions", [](FlowOptions& o) { o.motion.junctions = Junctions::Hold; }},
         {"fixed_vertices", [](FlowOptions& o) { o.motion.fixed_vertices.push_back(5); }},
         {"feature_edges",
          [](FlowOptions& o) {

@@ -231,6 +231,7 @@ TEST_CASE("every option that changes results tells flows apart, by its own name"
         {"sweep", [](FlowOptions& o) { o.interface.sweep = Sweep::Fixed; }},
         {"weld", [](FlowOptions& o) { o.motion.weld.reset(); }},
         {"boundary", [](FlowOptions& o) { o.motion.boundary = Boundary::Free; }},
+        {"junctions", [](FlowOptions& o) { o.motion.junctions = Junctions::Hold; }},
         {"fixed_vertices", [](FlowOptions& o) { o.motion.fixed_vertices = {1}; }},
         {"rescale", [](FlowOptions& o) { o.motion.rescale = Rescale::Area; }},
         {"correction", [](FlowOptions& o) { o.interface.correction = Correction::None; }},
