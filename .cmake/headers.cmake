@@ -20,6 +20,8 @@ set(SEAMFLOW_HEADERS
     engine/distributed/ranks/packing.h
     engine/distributed/ranks/thread_transport.h
     engine/eigen.h
+    engine/fields/diffuse.h
+    engine/fields/geodesic_distance.h
     engine/flow.h
     engine/mean_curvature_flow.h
     engine/measure/displacement_meter.h
@@ -37,6 +39,7 @@ set(SEAMFLOW_HEADERS
     engine/tasks/parallel_executor.h
     partition/eigen.h
     partition/errors.h
+    partition/formats/file_fields.h
     partition/formats/mesh_file.h
     partition/formats/mesh_io.h
     partition/formats/palette.h
@@ -44,6 +47,7 @@ set(SEAMFLOW_HEADERS
     partition/io/fault_log.h
     partition/executor.h
     partition/metrics/displacement.h
+    partition/metrics/feathered.h
     partition/metrics/length_statistics.h
     partition/metrics/roughness.h
     partition/metrics/surface_distance.h

@@ -217,9 +217,8 @@ void Flow::keep_field_edges(const Eigen::Ref<const Eigen::MatrixXd>& fields, dou
         throw OptionError(fmt::format("the difference of fields to keep is {}, but must be positive", difference));
     // A copy by rows: those of two vertices are compared.
     const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> rows = fields / difference;
-    session_->change([&](FlowRun& run) {
-        run.weigh([&](Index v, Index w) { return (rows.row(v) - rows.row(w)).squaredNorm(); });
-    });
+    session_->change(
+        [&](FlowRun& run) { run.weigh([&](Index v, Index w) { return (rows.row(v) - rows.row(w)).squaredNorm(); }); });
 }
 
 FlowReport Flow::report() const

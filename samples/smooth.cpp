@@ -234,12 +234,14 @@ ExitStatus run(SmoothCommand& command, RunRecord& run)
     if (page && !page->has_undecomposed() && page->states().back().step < command.options.steps)
         page->add_step(command.options.steps, file.mesh.vertices, nullptr);
 
+    // Before the result is there: memory may not suffice.
+    if (change)
+        run.surface = change->measure(file.mesh, report.mesh.moved_with, command.self_intersections, exec);
     const Stopwatch writing;
     for (const auto& remarks : {losses, write_results(command, file, report, exec)})
         report.remarks.insert(report.remarks.end(), remarks.begin(), remarks.end());
     run.write_seconds += writing.seconds();
     if (change) {
-        run.surface = change->measure(file.mesh, report.mesh.moved_with, command.self_intersections, exec);
         remark_on_loss(command.options, run.surface, report.remarks);
         remark_on_folds(command.options, run.surface, report.remarks);
     }

@@ -78,7 +78,8 @@ class WholeMeshHeat {
         Points increments = Points::Zero(positions_.rows(), 3);
         const NeumannSystem::Assembled equations =
             system_->assemble(positions_, increments, local, time_step, workspace_);
-        auto factor = system_->factorise(equations, Precision::Double, *std::pmr::new_delete_resource(), workspace_.ldl);
+        auto factor =
+            system_->factorise(equations, Precision::Double, *std::pmr::new_delete_resource(), workspace_.ldl);
         Points on_interface(0, 3);
         system_->condense(equations, *factor, on_interface);
         system_->back_substitute(*factor, on_interface, increments);
@@ -120,8 +121,8 @@ std::array<double, 3> flux(const std::array<Point, 3>& corners, const Point& dir
     return result;
 }
 
-/// ∫ X · ∇φ for the hat functions φ of the corners of a face, X the direction in which heat decreases. That is where its
-/// logarithm does, which is nearly linear: the error is a fifth of that with the heat itself on regular meshes.
+/// ∫ X · ∇φ for the hat functions φ of the corners of a face, X the direction in which heat decreases. That is where
+/// its logarithm does, which is nearly linear: the error is a fifth of that with the heat itself on regular meshes.
 /// @param heat #V: its logarithm.
 void add_fluxes(std::span<const Index> face, const Points& positions, const Eigen::VectorXd& heat,
                 std::span<double> of_corners)
@@ -159,8 +160,7 @@ Eigen::VectorXd divergence(const PolygonMesh& mesh, const Topology& topology, co
     std::vector<double> masses(at(mesh.n_faces()));
     for_each(run_in_parallel, mesh.n_faces(), [&](Index f) {
         const auto face = mesh.face(f);
-        add_fluxes(face, mesh.vertices, heat,
-                   std::span(of_corners).subspan(at(mesh.face_offsets[f]), face.size()));
+        add_fluxes(face, mesh.vertices, heat, std::span(of_corners).subspan(at(mesh.face_offsets[f]), face.size()));
         masses[f] = VirtualRefinement::corner_mass(VirtualRefinement::size(face, mesh.vertices), face.size());
     });
     Eigen::VectorXd result(mesh.n_vertices());

@@ -398,8 +398,7 @@ void SchurStepper::weigh(const std::function<double(Index v, Index w)>& squared_
         if (!is_own(s))
             return;
         const std::vector<Index>& global = sub_meshes_[s]->vertices().local_to_global;
-        sub_meshes_[s]->system().weigh(
-            [&](Index v, Index w) { return squared_difference(global[v], global[w]); });
+        sub_meshes_[s]->system().weigh([&](Index v, Index w) { return squared_difference(global[v], global[w]); });
     });
 }
 

@@ -61,9 +61,9 @@ class Stepper {
     /// Sets w of the attachment of vertices, in 1/length², one for each. Only for flows that attach.
     virtual void attach(std::span<const Index>, std::span<const double>) {}
 
-    /// Weighs the K of all faces, or edges of Laplacians that are sums over these, from now on by 1 / (1 + d²), where d²
-    /// is the largest squared_difference(v, w) of two of its vertices: it lessens with differences of a field (Perona
-    /// and Malik 1990). Only for steppers that can change, with one matrix for all steps.
+    /// Weighs the K of all faces, or edges of Laplacians that are sums over these, from now on by 1 / (1 + d²), where
+    /// d² is the largest squared_difference(v, w) of two of its vertices: it lessens with differences of a field
+    /// (Perona and Malik 1990). Only for steppers that can change, with one matrix for all steps.
     virtual void weigh(const std::function<double(Index v, Index w)>&) {}
 
     /// Moves vertices in what is kept of V⁰ to other positions (#vertices by 3), as if the flow had begun with them

@@ -30,7 +30,8 @@ std::vector<PlySlice> slice_ply(std::string_view file, const TextScanner& after_
                                 std::span<const PlyElement> elements, const Slicing& slicing);
 
 /// Cuts the elements of a binary file into slices.
-/// @param begin the byte at which the first of them begins. @param elements, and what is returned: see slice_ply.
+/// @param begin the byte at which the first of them begins. @param elements see slice_ply.
+/// @returns see slice_ply.
 /// @throws InputError if some are missing.
 std::vector<PlySlice> slice_elements(std::string_view file, std::size_t begin, Encoding encoding,
                                      std::span<const PlyElement> elements, const Slicing& slicing);

@@ -15,9 +15,9 @@ namespace seamflow {
 
 namespace {
 
-constexpr std::array groups{
-    option_group::amount,   option_group::kind,       option_group::kept, option_group::fields, option_group::written,
-    option_group::accuracy, option_group::sub_meshes, option_group::machine, "Options"};
+constexpr std::array groups{option_group::amount,     option_group::kind,    option_group::kept,
+                            option_group::fields,     option_group::written, option_group::accuracy,
+                            option_group::sub_meshes, option_group::machine, "Options"};
 
 std::vector<const CLI::Option*> positionals_of(const CLI::App& app)
 {

@@ -17,18 +17,30 @@ namespace {
 constexpr int steps_of_fwhm = 10;
 
 /// Options about where the surface goes, which stays.
-constexpr std::array of_moving_surfaces = {"--preset",         "--noise",          "--within",      "--rescale",
-                                           "--keep-edges",     "--edges",          "--edges-from-file",
-                                           "--attach",         "--attach-weights", "--reference",   "--keep-gaps",
-                                           "--every-step",     "--checkpoint",     "--self-intersections",
-                                           "--scheme",         "--csv",            "--html",        "--strict"};
+constexpr std::array of_moving_surfaces = {"--preset",
+                                           "--noise",
+                                           "--within",
+                                           "--rescale",
+                                           "--keep-edges",
+                                           "--edges",
+                                           "--edges-from-file",
+                                           "--attach",
+                                           "--attach-weights",
+                                           "--reference",
+                                           "--keep-gaps",
+                                           "--every-step",
+                                           "--checkpoint",
+                                           "--self-intersections",
+                                           "--scheme",
+                                           "--csv",
+                                           "--html",
+                                           "--strict"};
 
 /// Options that only one of the two has.
-constexpr std::array of_diffusion = {"--fwhm",  "--radius",    "--time-step",        "--time-step-edges",
-                                     "--fill",  "--steps",     "--keep-field-edges", "--flow",
-                                     "--order", "--filter",    "--laplacian",        "--boundary",
-                                     "--fix",   "--subdomains", "--labels",          "--approach",
-                                     "--converge"};
+constexpr std::array of_diffusion = {
+    "--fwhm",   "--radius",   "--time-step", "--time-step-edges", "--fill",     "--steps", "--keep-field-edges",
+    "--flow",   "--order",    "--filter",    "--laplacian",       "--boundary", "--fix",   "--subdomains",
+    "--labels", "--approach", "--converge"};
 
 void refuse_any(const CLI::App& app, auto&& names, const char* with, const char* reason)
 {

@@ -21,12 +21,17 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include "engine/fields/diffuse.h"
+#include "engine/fields/geodesic_distance.h"
 #include "partition/errors.h"
 #include "partition/version.h"
+#include "samples/command/command_line.h"
 #include "samples/command/parse_smooth_command.h"
 #include "samples/command/smooth_command.h"
 #include "samples/process/option_words.h"
 #include "samples/python/flow_call.h"
+#include "samples/runs/field_run.h"
+#include "samples/runs/smoothing_run.h"
 
 namespace py = pybind11;
 
@@ -247,6 +252,87 @@ py::list options()
     return list;
 }
 
+/// What diffuse() has besides the options of the program.
+struct FieldWords {
+    /// A number or a percentage; empty: another amount is among the options.
+    std::string fwhm;
+    /// 0: all diffuse alike.
+    double keep_edges = 0.0;
+    bool fill = false;
+    bool is_free = true;
+};
+
+/// @param fields #V by n, which receives the result.
+FieldReport diffuse_fields(PolygonMesh mesh, std::vector<std::string> words, const std::vector<Index>& fixed,
+                           const FieldWords& of_fields, Eigen::MatrixXd& fields)
+{
+    // So that no preset chooses an amount.
+    if (!of_fields.fwhm.empty())
+        words.emplace_back("--time-step=1");
+    SmoothCommand command = parse_flow_options(words);
+    command.fields.names = {"fields"};
+    if (!of_fields.fwhm.empty())
+        command.fields.fwhm = parse_length(of_fields.fwhm);
+    command.options.motion.fixed_vertices = fixed;
+    RunRecord record = begin_record(command);
+    require_valid(mesh);
+    resolve_field_amount(command, mesh, run_serially, record);
+    FieldOptions options = command.fields.options;
+    if (of_fields.keep_edges != 0.0)
+        options.keep_edges = of_fields.keep_edges;
+    options.fill = of_fields.fill;
+    options.boundary = of_fields.is_free ? Boundary::Free : Boundary::Fixed;
+    if (options.fwhm)
+        command.options.time_step = 0.0;
+    return diffuse(mesh, fields, command.options, options);
+}
+
+template <class Integer>
+py::tuple diffuse_arrays(const Array<double>& positions, const Array<Integer>& corners,
+                         const Array<std::int64_t>& offsets, const std::vector<std::string>& words,
+                         const Array<Index>& fixed, const Array<double>& fields,
+                         const std::tuple<std::string, double, bool, bool>& of_fields)
+{
+    using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+    PolygonMesh mesh = make_mesh(positions, corners, offsets);
+    Eigen::MatrixXd values = Eigen::Map<const Rows>(fields.data(), fields.shape(0), fields.shape(1));
+    const auto& [fwhm, keep_edges, fill, is_free] = of_fields;
+    FieldReport report;
+    {
+        const py::gil_scoped_release release;
+        report = diffuse_fields(std::move(mesh), words, to_vector(fixed), {fwhm, keep_edges, fill, is_free}, values);
+    }
+    py::array_t<double> result({fields.shape(0), fields.shape(1)});
+    Eigen::Map<Rows>(result.mutable_data(), fields.shape(0), fields.shape(1)) = values;
+    std::vector<std::string> remarks = report.remarks;
+    for (std::string& remark : remarks)
+        remark = in_words_of_keywords(remark);
+    return py::make_tuple(result, report.fwhm, report.without_data, report.filled, report.flow.time_step, remarks);
+}
+
+template <class Integer>
+py::array_t<double> distance_arrays(const Array<double>& positions, const Array<Integer>& corners,
+                                    const Array<std::int64_t>& offsets, const Array<Index>& from, int threads)
+{
+    const PolygonMesh mesh = make_mesh(positions, corners, offsets);
+    Eigen::VectorXd distance;
+    {
+        const py::gil_scoped_release release;
+        distance = geodesic_distance(mesh, to_vector(from), {.threads = threads});
+    }
+    return py::array_t<double>(static_cast<py::ssize_t>(distance.size()), distance.data());
+}
+
+template <class Integer>
+void define_fields(py::module_& module)
+{
+    module.def("diffuse", &diffuse_arrays<Integer>, py::arg("positions").noconvert(), py::arg("corners").noconvert(),
+               py::arg("offsets").noconvert(), py::arg("words"), py::arg("fixed"), py::arg("fields"),
+               py::arg("of_fields"));
+    module.def("geodesic_distance", &distance_arrays<Integer>, py::arg("positions").noconvert(),
+               py::arg("corners").noconvert(), py::arg("offsets").noconvert(), py::arg("from"), py::arg("threads"));
+}
+
 std::vector<Index> vertices_of(const Array<Index>& vertices)
 {
     return {vertices.data(), vertices.data() + vertices.size()};
@@ -300,6 +386,8 @@ PYBIND11_MODULE(_core, module)
     define_run<std::int32_t>(module, flow);
     define_run<std::int64_t>(module, flow);
     define_changes(flow);
+    define_fields<std::int32_t>(module);
+    define_fields<std::int64_t>(module);
     flow.def("step", &FlowCall::step, py::call_guard<py::gil_scoped_release>())
         .def("n_steps", &FlowCall::n_steps, py::call_guard<py::gil_scoped_release>())
         .def("positions",

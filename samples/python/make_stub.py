@@ -64,5 +64,16 @@ lines = function("smooth", [*ARGUMENTS, "progress: Callable[[Progress], Any] | N
                  f"tuple[{ARRAY}, dict[str, Any]]")
 lines += ["", "class Flow:", *function("__init__", ["self", *ARGUMENTS, *OPTIONS], "None", "    ")]
 lines += ["    def step(self, n: int = 1) -> None: ...", "    @property", "    def n_steps(self) -> int: ...",
-          "    @property", f"    def positions(self) -> {ARRAY}: ...", "    def report(self) -> dict[str, Any]: ..."]
+          "    @property", f"    def positions(self) -> {ARRAY}: ...", "    def report(self) -> dict[str, Any]: ...",
+          "    def hold(self, vertices: npt.ArrayLike) -> None: ...",
+          "    def release(self, vertices: npt.ArrayLike) -> None: ...",
+          "    def move(self, vertices: npt.ArrayLike, to: npt.ArrayLike) -> None: ...",
+          "    def attach(self, vertices: npt.ArrayLike, weights: npt.ArrayLike) -> None: ...", ""]
+MESH = ARGUMENTS[:2]
+lines += function("diffuse", [*MESH, "fields: npt.ArrayLike | None = None", "*", "fwhm: float | str | None = None",
+                              "keep_edges: float | None = None", "fill: bool = False",
+                              'boundary: Literal["free", "fixed"] = "free"', "fixed: npt.ArrayLike | None = None",
+                              *(option for option in OPTIONS if not option.startswith(("keep_edges", "boundary")))],
+                  f"tuple[{ARRAY}, dict[str, Any]]")
+lines += function("geodesic_distance", [*MESH, "sources: npt.ArrayLike | None = None", "*", "threads: int = 0"], ARRAY)
 (folder / "__init__.pyi").write_text(HEAD + "\n".join(lines) + "\n")

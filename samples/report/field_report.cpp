@@ -61,8 +61,8 @@ void print_field_amount(std::ostream& out, const MeshScale& scale, const FlowOpt
                         const FieldOptions& of_fields)
 {
     out << fmt::format("amount     {} of {:.6g} squared mean edge lengths (dt {:.6g})",
-                       counted(options.steps, "step", "steps"),
-                       options.time_step / (scale.mean_edge * scale.mean_edge), options.time_step);
+                       counted(options.steps, "step", "steps"), options.time_step / (scale.mean_edge * scale.mean_edge),
+                       options.time_step);
     const double time = options.time_step * options.steps;
     out << fmt::format(": a kernel {:.6g} wide at half its height", of_fields.fwhm.value_or(fwhm_for_time(time)));
     if (of_fields.keep_edges)

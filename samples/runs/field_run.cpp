@@ -58,18 +58,7 @@ void complete_options(SmoothCommand& command, const MeshFile& file, const FaultL
     if (!command.fix.empty())
         command.options.motion.fixed_vertices =
             read_vertex_set(command.fix, file.mesh.n_vertices(), command.fix_property);
-    run.scale = measure_scale(file.mesh, exec);
-    resolve_lengths(command, run);
-    FieldOptions& options = command.fields.options;
-    if (command.fields.fwhm) {
-        const LengthOnMesh& fwhm = *command.fields.fwhm;
-        options.fwhm = fwhm.of_diagonal ? fwhm.value * run.scale.diagonal : fwhm.value;
-        command.options.time_step = time_for_fwhm(*options.fwhm) / std::max(command.options.steps, 1);
-    } else {
-        command.options.time_step =
-            time_step_of(command.amount, run.scale, command.options.steps, filter_of(command.options));
-    }
-    command.options.uniform_edge = uniform_edge_of(command.options, file.mesh);
+    resolve_field_amount(command, file.mesh, exec, run);
 }
 
 /// @returns the fields after all steps.
@@ -114,18 +103,43 @@ FileFields distances(const SmoothCommand& command, const MeshFile& file, const F
     return fields;
 }
 
+/// So that nothing is computed in vain. @throws OutputError
+void require_place(const SmoothCommand& command, const MeshFile& file)
+{
+    const FileFormat format = kind_for_writing(command.output, file.kind).format;
+    if (format != FileFormat::Ply && (format != file.kind.format || command.fields.names.empty()))
+        throw OutputError(
+            fmt::format("{}: cannot be written: only .ply files hold such fields; write one", command.output.string()));
+}
+
 /// In the form of the input where the format stays.
 std::vector<std::string> write_fields(const SmoothCommand& command, const MeshFile& file, const FileFields& fields,
                                       const Executor& exec)
 {
     const FileKind kind = kind_for_writing(command.output, file.kind);
-    std::vector<std::string> remarks =
-        kind.format == file.kind.format ? write_mesh_like(*file.source, command.output, file.mesh, fields, exec)
-                                        : write_mesh(command.output, file.mesh, kind, fields, exec);
+    std::vector<std::string> remarks = kind.format == file.kind.format
+                                           ? write_mesh_like(*file.source, command.output, file.mesh, fields, exec)
+                                           : write_mesh(command.output, file.mesh, kind, fields, exec);
     return remarks;
 }
 
 }  // namespace
+
+void resolve_field_amount(SmoothCommand& command, const PolygonMesh& mesh, const Executor& exec, RunRecord& run)
+{
+    run.scale = measure_scale(mesh, exec);
+    resolve_lengths(command, run);
+    FieldOptions& options = command.fields.options;
+    if (command.fields.fwhm) {
+        const LengthOnMesh& fwhm = *command.fields.fwhm;
+        options.fwhm = fwhm.of_diagonal ? fwhm.value * run.scale.diagonal : fwhm.value;
+        command.options.time_step = time_for_fwhm(*options.fwhm) / std::max(command.options.steps, 1);
+    } else if (!command.fields.names.empty()) {
+        command.options.time_step =
+            time_step_of(command.amount, run.scale, command.options.steps, filter_of(command.options));
+    }
+    command.options.uniform_edge = uniform_edge_of(command.options, mesh);
+}
 
 ExitStatus run_fields(SmoothCommand& command, RunRecord& run)
 {
@@ -139,6 +153,7 @@ ExitStatus run_fields(SmoothCommand& command, RunRecord& run)
     FaultLog left_out{.of_faces_alone = true};
     MeshFile file = read_faulty_mesh(command.input, left_out, exec);
     require_faces(command.input, file.mesh.n_faces(), left_out);
+    require_place(command, file);
     FieldSummary summary;
     complete_options(command, file, left_out, exec, run);
     run.read_seconds = whole.seconds();

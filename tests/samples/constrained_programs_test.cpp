@@ -82,7 +82,9 @@ TEST_CASE("a region of a file, of another one, or of the mesh's own file is smoo
     CHECK(result("painted.ply out.ply --region paint") == result("painted.ply out.ply --region numbers.txt"));
     const Points soft = result("mesh.obj out.obj --region numbers.txt --feather 10%");
     CHECK(soft.topRows(300) == before.vertices.topRows(300));
-    CHECK((soft - before.vertices).norm() < 0.9 * (after - before.vertices).norm());
+    // The rim, beside vertex 300, is soft.
+    CHECK((soft - before.vertices).middleRows(300, 25).norm() <
+          0.75 * (after - before.vertices).middleRows(300, 25).norm());
     const Points along_z = result("mesh.obj out.obj --direction z");
     CHECK(along_z.leftCols(2) == before.vertices.leftCols(2));
     CHECK(along_z.col(2) != before.vertices.col(2));

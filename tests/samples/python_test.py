@@ -50,6 +50,72 @@ class WithFolder(unittest.TestCase):
         return read_obj(self.folder / "output.obj")[0]
 
 
+class Fields(unittest.TestCase):
+    """What lives on a surface that stays."""
+
+    def setUp(self):
+        x, y = np.meshgrid(np.linspace(0, 1, 30), np.linspace(0, 1, 30))
+        self.V = np.c_[x.ravel(), y.ravel(), 0.1 * x.ravel() ** 2]
+        i = np.arange(900).reshape(30, 30)
+        self.F = np.c_[i[:-1, :-1].ravel(), i[:-1, 1:].ravel(), i[1:, 1:].ravel(), i[1:, :-1].ravel()]
+        self.fields = np.random.default_rng(1).standard_normal((900, 5))
+
+    def test_columns(self):
+        smooth, report = seamflow.diffuse(self.V, self.F, self.fields, fwhm=0.2, laplacian="virtual-refinement")
+        self.assertEqual(smooth.shape, (900, 5))
+        self.assertLess(smooth.std(), 0.3 * self.fields.std())
+        self.assertLess(abs(report["fwhm"] - 0.2), 0.03)
+        self.assertEqual(report["without_data"], 0)
+        one, _ = seamflow.diffuse(self.V, self.F, self.fields[:, 3].astype(np.float32), fwhm=0.2,
+                                  laplacian="virtual-refinement")
+        self.assertEqual((one.shape, one.dtype), ((900,), np.float32))
+        np.testing.assert_allclose(one, smooth[:, 3], atol=1e-6)
+        constant, _ = seamflow.diffuse(self.V, self.F, np.full(900, 0.1), radius="5%", steps=2)
+        np.testing.assert_array_equal(constant, 0.1)
+
+    def test_no_data_and_what_stays(self):
+        self.fields[5, 0] = np.nan
+        smooth, report = seamflow.diffuse(self.V, self.F, self.fields, radius=0.1, fixed=[400, 401])
+        self.assertEqual(np.flatnonzero(np.isnan(smooth)).tolist(), [25])
+        np.testing.assert_array_equal(smooth[[400, 401]], self.fields[[400, 401]])
+        self.assertEqual((report["without_data"], report["filled"]), (1, 0))
+        filled, report = seamflow.diffuse(self.V, self.F, self.fields, radius=0.1, fill=True)
+        self.assertTrue(np.isfinite(filled).all())
+        self.assertEqual(report["filled"], 1)
+        fixed, _ = seamflow.diffuse(self.V, self.F, self.fields[:, 1], radius=0.1, boundary="fixed")
+        np.testing.assert_array_equal(fixed[:30], self.fields[:30, 1])
+
+    def test_edges_stay(self):
+        step = np.where(self.V[:, 0] > 0.5, 100.0, 0.0)
+        kept, _ = seamflow.diffuse(self.V, self.F, step, radius=0.1, keep_edges=5)
+        plain, _ = seamflow.diffuse(self.V, self.F, step, radius=0.1)
+        self.assertLess(abs(kept - step).max(), 5)
+        self.assertGreater(abs(plain - step).max(), 30)
+
+    def test_distances(self):
+        self.V[:, 2] = 0
+        distance = seamflow.geodesic_distance(self.V, self.F, [0])
+        np.testing.assert_allclose(distance, np.hypot(self.V[:, 0], self.V[:, 1]), atol=0.06)
+        mask = np.zeros(900, bool)
+        mask[0] = True
+        np.testing.assert_array_equal(seamflow.geodesic_distance(self.V, self.F, mask, threads=1), distance)
+
+    def test_refusals(self):
+        for keywords, words in (
+            ({}, "needs one amount"),
+            ({"fwhm": 1, "radius": 1}, "needs one amount"),
+            ({"fwhm": 1, "preset": "scan"}, "no preset"),
+            ({"fwhm": 1, "boundary": "open"}, "free or fixed"),
+            ({"fwhm": 1, "approach": "sweep"}, "sweeps"),
+        ):
+            with self.subTest(keywords), self.assertRaisesRegex(ValueError, words):
+                seamflow.diffuse(self.V, self.F, self.fields, **keywords)
+        with self.assertRaisesRegex(ValueError, "7 rows"):
+            seamflow.diffuse(self.V, self.F, self.fields[:7], fwhm=1)
+        with self.assertRaisesRegex(ValueError, "vertex 900"):
+            seamflow.geodesic_distance(self.V, self.F, [900])
+
+
 class SameBits(WithFolder):
     """Every number of the result is that of the program."""
 
@@ -338,6 +404,8 @@ class Described(unittest.TestCase):
         of_files = {"help", "version", "every-step", "parts", "report", "csv", "trace", "task-graph", "html", "checkpoint"}
         of_files |= {"checkpoint-every", "quiet", "verbose", "fix", "fix-property", "attach-property", "keep-gaps"}
         of_files |= {"edges", "edges-from-file", "region-property"}
+        # Of the functions for fields.
+        of_files |= {"fields", "fwhm", "fill", "keep-field-edges", "from", "out-dir"}
         headings = [line.strip().split("  ")[0] for line in text.splitlines() if line.strip().startswith("--")]
         named = {word.strip(",")[2:] for heading in headings for word in heading.split() if word.startswith("--")} - of_files
         self.assertGreater(len(named), 30)

@@ -11,7 +11,7 @@ import numpy as np
 
 from . import _core
 
-__all__ = ["Flow", "Progress", "smooth"]
+__all__ = ["Flow", "Progress", "diffuse", "geodesic_distance", "smooth"]
 __version__ = _core.version
 
 _OPTIONS = {name.replace("-", "_"): (name, kind.split(":")[0], *rest) for name, kind, *rest in _core.options()}
@@ -148,6 +148,60 @@ class Flow:
         if missed:
             warnings.warn(missed, RuntimeWarning, stacklevel=2)
         return _report(report, parts)
+
+
+def diffuse(V, F=None, fields=None, *, fwhm=None, keep_edges=None, fill=False, boundary="free", fixed=None, **options):
+    """Smooths fields on a surface by its heat equation, while the surface stays. All columns share one factorisation.
+
+    V, F: as for smooth(); with a mesh in place of V, F is None.
+    fields: values at the vertices, (#V,) or (#V, n). NaN is no data: such vertices take no part and stay NaN.
+    fwhm: full width at half maximum of the smoothing, a length or "2%" of the diagonal; or give radius, time_step or
+        time_step_edges. With fwhm, steps is 10 unless it is given.
+    keep_edges: differences of fields well above this stay (Perona and Malik); all columns count together.
+    fill: gives vertices without data the harmonic extension of the others.
+    boundary: "free": nothing flows across it; "fixed": values there stay.
+    fixed: vertices whose values stay, as a mask or by their numbers.
+
+    Returns the fields, in the type of `fields` (float32, or else float64), and a dict: "fwhm", the width that was
+    reached, as white noise shows (None without fwhm), "time_step", "without_data", "filled", "remarks".
+
+    The other keywords are those options of smooth() that concern how steps are solved: laplacian, steps, converge,
+    approach, threads, weld and so on. Raises as smooth().
+    """
+    values = np.asarray(fields)
+    if values.ndim not in (1, 2) or values.dtype.kind not in "fiu":
+        raise ValueError(f"fields has to be real numbers, (#V,) or (#V, n), but is {values.dtype}, {values.shape}")
+    if boundary not in ("free", "fixed"):
+        raise ValueError(f"boundary is free or fixed, not {boundary!r}")
+    for name in ("preset", "noise"):
+        if options.get(name) is not None:
+            raise ValueError(f"diffuse has no {name}: the surface stays")
+    amounts = [fwhm, *(options.get(name) for name in ("radius", "time_step", "time_step_edges"))]
+    if sum(amount is not None for amount in amounts) != 1:
+        raise ValueError("diffuse needs one amount: give fwhm, radius, time_step or time_step_edges")
+    if fwhm is not None:
+        options.setdefault("steps", 10)
+    (V, corners, offsets, words, arrays), _ = _arguments(V, F, options, fixed, None, None, None, None)
+    if len(values) != len(V):
+        raise ValueError(f"fields has {len(values)} rows, but the mesh has {len(V)} vertices")
+    # The boundary is an argument of its own, and fixed vertices are an array.
+    words = [word for word in words if word != "--fix=array"]
+    result, reached, without_data, filled, time_step, remarks = _core.diffuse(
+        V, corners, offsets, words, arrays[0], np.ascontiguousarray(values.reshape(len(V), -1), dtype=np.float64),
+        ("" if fwhm is None else str(fwhm), float(keep_edges or 0.0), bool(fill), boundary == "free"))
+    report = {"fwhm": reached, "time_step": time_step, "without_data": without_data, "filled": filled,
+              "remarks": remarks}
+    return result.reshape(values.shape).astype(np.float32 if values.dtype == np.float32 else np.float64), report
+
+
+def geodesic_distance(V, F=None, sources=None, *, threads=0):
+    """Distances along the surface from some vertices, (#V,), by the heat method: infinite where it does not lead.
+
+    V, F: as for smooth(); with a mesh in place of V, F is None.
+    sources: vertices to measure from, as a mask or by their numbers.
+    """
+    (V, corners, offsets, _, arrays), _ = _arguments(V, F, {}, np.atleast_1d(sources), None, None, None, None)
+    return _core.geodesic_distance(V, corners, offsets, arrays[0], threads)
 
 
 def _report(text, parts):

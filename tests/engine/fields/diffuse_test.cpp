@@ -1,5 +1,3 @@
-#include "engine/fields/diffuse.h"
-
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -10,6 +8,7 @@
 #include <Eigen/Dense>
 #include <doctest/doctest.h>
 
+#include "engine/fields/diffuse.h"
 #include "engine/fields/white_noise.h"
 #include "partition/errors.h"
 #include "partition/metrics/vertex_distance.h"
@@ -91,7 +90,8 @@ double largest_difference(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b)
 FlowOptions steps_of(const PolygonMesh& mesh, double squared_edges, int steps, Approach approach, Index subdomains)
 {
     const double edge = mean_edge_length(mesh);
-    FlowOptions options{.laplacian = Laplacian::AlexaWardetzky, .time_step = squared_edges * edge * edge, .steps = steps};
+    FlowOptions options{
+        .laplacian = Laplacian::AlexaWardetzky, .time_step = squared_edges * edge * edge, .steps = steps};
     options.accuracy.approach = approach;
     options.accuracy.tolerance = 1e-11;
     if (approach == Approach::Undecomposed)

@@ -1,5 +1,3 @@
-#include "engine/fields/geodesic_distance.h"
-
 #include <array>
 #include <cmath>
 #include <limits>
@@ -8,6 +6,7 @@
 
 #include <doctest/doctest.h>
 
+#include "engine/fields/geodesic_distance.h"
 #include "partition/errors.h"
 #include "partition/metrics/vertex_distance.h"
 #include "samples/meshes/meshes.h"
@@ -115,8 +114,8 @@ TEST_CASE("geodesic distances continue across seams, and are infinite where the 
 TEST_CASE("geodesic distances refuse vertices that are not there")
 {
     const PolygonMesh mesh = test::triangle_grid(3, 3);
-    CHECK_THROWS_WITH_AS(geodesic_distance(mesh, {}),
-                         "there is no vertex to measure distances from: name one at least", InputError);
+    CHECK_THROWS_WITH_AS(geodesic_distance(mesh, {}), "there is no vertex to measure distances from: name one at least",
+                         InputError);
     CHECK_THROWS_WITH_AS(geodesic_distance(mesh, std::array<Index, 1>{16}),
                          "distances are wanted from vertex 16, but the mesh has 16 vertices, numbered from 0",
                          InputError);

@@ -1,0 +1,140 @@
+// What lives on a surface, from the command line: fields that diffuse, and distances.
+
+#include <array>
+#include <cmath>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "engine/fields/diffuse.h"
+#include "engine/fields/geodesic_distance.h"
+#include "partition/formats/mesh_io.h"
+#include "samples/meshes/meshes.h"
+#include "tests/samples/workshop.h"
+#include "tests/support/relative.h"
+
+using namespace seamflow;
+using test::content_of;
+using test::Json;
+using test::relative;
+using test::Workshop;
+
+namespace {
+
+/// A flat sheet with a property of each sort.
+class FieldWorkshop : public Workshop {
+  public:
+    FieldWorkshop()
+        : mesh_(make_triangles(900))
+    {
+        std::ostringstream text;
+        text << "ply\nformat ascii 1.0\ncomment kept\nelement vertex " << mesh_.n_vertices()
+             << "\nproperty double x\nproperty double y\nproperty double z\nproperty double thickness\n"
+                "property uchar red\nproperty uchar green\nproperty uchar blue\nproperty int id\nelement face "
+             << mesh_.n_faces() << "\nproperty list uchar int vertex_indices\nend_header\n";
+        for (Index v = 0; v < mesh_.n_vertices(); ++v) {
+            text << mesh_.vertices.row(v) << ' ';
+            (v == 5 ? text << "nan" : text << (v * 37) % 10) << ' ' << (v * 31) % 256 << " 0 255 " << v << '\n';
+        }
+        for (Index f = 0; f < mesh_.n_faces(); ++f) {
+            const auto face = mesh_.face(f);
+            text << "3 " << face[0] << ' ' << face[1] << ' ' << face[2] << '\n';
+        }
+        (void)directory.with("in.ply", text.str());
+        file_ = read_mesh(directory / "in.ply");
+    }
+
+    [[nodiscard]] FileFields fields_of(const std::string& name, const std::vector<std::string>& names) const
+    {
+        const MeshFile file = read_mesh(directory / name);
+        return read_fields(*file.source, names);
+    }
+
+    [[nodiscard]] const MeshFile& file() const { return file_; }
+
+  private:
+    PolygonMesh mesh_;
+    MeshFile file_;
+};
+
+}  // namespace
+
+TEST_CASE("fields of a file are those that the library makes, and all else stays")
+{
+    const FieldWorkshop w;
+    REQUIRE(w.smooth("in.ply out.ply --fields thickness,colour --fwhm 0.1 --report report.json") == 0);
+    CHECK(w.said().find("thickness: 0 to 9") != std::string::npos);
+    CHECK(w.said().find("no data    at 1 vertex\n") != std::string::npos);
+    const std::vector<std::string> names{"thickness", "red", "green", "blue"};
+    Eigen::MatrixXd expected = w.fields_of("in.ply", names).values;
+    const FieldReport report = diffuse(w.file().mesh, expected, {.steps = 10}, {.fwhm = 0.1});
+    const FileFields after = w.fields_of("out.ply", names);
+    for (Index v = 0; v < expected.rows(); ++v) {
+        CHECK((after.values(v, 0) == expected(v, 0) || (v == 5 && std::isnan(after.values(v, 0)))));
+        CHECK(after.values(v, 1) == std::nearbyint(expected(v, 1)));
+        CHECK(after.values(v, 2) == 0.0);
+        CHECK(after.values(v, 3) == 255.0);
+    }
+    CHECK(w.fields_of("out.ply", {"id"}).values == w.fields_of("in.ply", {"id"}).values);
+    CHECK(read_mesh(w.directory / "out.ply").mesh.vertices == w.file().mesh.vertices);
+    CHECK(content_of(w.directory / "out.ply").find("comment kept") != std::string::npos);
+    const Json json = w.json("report.json");
+    CHECK(json["fwhm"].get<double>() == relative(*report.fwhm, 1e-12));
+    CHECK(json["steps"] == 10);
+    CHECK(json["without_data"] == 1);
+    CHECK(json["fields"]["red"]["after"]["vertices"] == w.file().mesh.n_vertices());
+    CHECK(json["fields"]["thickness"]["after"]["vertices"] == w.file().mesh.n_vertices() - 1);
+}
+
+TEST_CASE("fields are filled, keep their edges, and stay on a boundary that is fixed")
+{
+    const FieldWorkshop w;
+    REQUIRE(w.smooth("in.ply filled.ply --fields thickness --radius 2% --fill") == 0);
+    CHECK(w.said().find("of which 1 were filled") != std::string::npos);
+    CHECK(w.fields_of("filled.ply", {"thickness"}).values.allFinite());
+    REQUIRE(w.smooth("in.ply kept.ply --fields red --radius 2% --keep-field-edges 10") == 0);
+    REQUIRE(w.smooth("in.ply plain.ply --fields red --radius 2%") == 0);
+    const Eigen::MatrixXd before = w.fields_of("in.ply", {"red"}).values;
+    const double kept = (w.fields_of("kept.ply", {"red"}).values - before).squaredNorm();
+    CHECK(kept < 0.1 * (w.fields_of("plain.ply", {"red"}).values - before).squaredNorm());
+    CHECK(kept > 0.0);
+    REQUIRE(w.smooth("in.ply fixed.ply --fields thickness --radius 2% --boundary fixed") == 0);
+    CHECK(w.fields_of("fixed.ply", {"thickness"}).values(0, 0) == 0.0);
+}
+
+TEST_CASE("distances from vertices of a file are those that the library makes")
+{
+    const FieldWorkshop w;
+    (void)w.directory.with("from.txt", "17\n400\n");
+    REQUIRE(w.smooth("in.ply out.ply --from from.txt") == 0);
+    const Eigen::MatrixXd expected = geodesic_distance(w.file().mesh, std::array<Index, 2>{17, 400});
+    CHECK(w.fields_of("out.ply", {"distance"}).values == expected);
+    CHECK(w.fields_of("out.ply", {"id"}).values == w.fields_of("in.ply", {"id"}).values);
+    REQUIRE(w.smooth("mesh.obj from_obj.ply --from from.txt") == 0);
+    CHECK(w.fields_of("from_obj.ply", {"distance"}).values(17, 0) == 0.0);
+    CHECK(w.smooth("mesh.obj out.obj --from from.txt") == 5);
+    CHECK(w.said().find("only .ply files hold such fields") != std::string::npos);
+    CHECK_FALSE(w.has("out.obj"));
+}
+
+TEST_CASE("what fields do not have is refused by name, and nothing is written")
+{
+    const FieldWorkshop w;
+    for (const auto& [arguments, message] :
+         {std::pair("--fields thickness", "--fields needs an amount: give --fwhm"),
+          {"--fields thickness --fwhm 1 --radius 1", "all say how much to smooth"},
+          {"--fields thickness --fwhm 1 --preset scan", "--fields cannot be combined with --preset: the surface stays"},
+          {"--fields thickness --fwhm 1 --every-step a%d.ply", "--fields cannot be combined with --every-step"},
+          {"--fields thickness --fwhm 1 --approach sweep", "not by sweeps over sub-meshes"},
+          {"--fields x --fwhm 1", "x"},
+          {"--fwhm 1", "--fwhm requires --fields"},
+          {"--fields thickness --fwhm 1 --from in.ply", "excludes"},
+          {"--from in.ply --radius 1", "--from cannot be combined with --radius"},
+          {"--fields width --fwhm 1", "the vertices have no number 'width', but x, y, z, thickness"}}) {
+        CAPTURE(arguments);
+        CHECK(w.smooth("in.ply out.ply " + std::string(arguments)) != 0);
+        CAPTURE(w.said());
+        CHECK(w.said().find(message) != std::string::npos);
+        CHECK_FALSE(w.has("out.ply"));
+    }
+}
