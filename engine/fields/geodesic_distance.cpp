@@ -3,16 +3,18 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
+#include <functional>
 #include <limits>
 #include <memory_resource>
 #include <optional>
+#include <queue>
 #include <utility>
 #include <vector>
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
+#include "engine/fields/thin_faces.h"
 #include "engine/tasks/parallel_executor.h"
 #include "engine/tasks/progress.h"
 #include "engine/tasks/workers.h"
@@ -22,6 +24,7 @@
 #include "partition/metrics/vertex_distance.h"
 #include "partition/topology.h"
 #include "partition/weld.h"
+#include "solvers/direct/ldl_solver.h"
 #include "solvers/direct/solver_workspace.h"
 #include "solvers/laplacian/degenerate.h"
 #include "solvers/laplacian/virtual_refinement.h"
@@ -36,6 +39,8 @@ constexpr double most_diffusion_lengths = 400.0;
 
 /// √dt in mean edge lengths: less makes the directions depend on those of edges, more smooths over ridges.
 constexpr double edges_of_diffusion = 2.0;
+/// Between several vertices to measure from there are ridges.
+constexpr double edges_of_diffusion_from_several = 1.0;
 
 /// After this time, in squared diagonals, K alone decides.
 constexpr double squared_diagonals_to_rest_of_distance = 1e4;
@@ -176,74 +181,84 @@ Eigen::VectorXd divergence(const PolygonMesh& mesh, const Topology& topology, co
     return result;
 }
 
-/// How faces connect vertices with some of them.
-struct Reached {
-    /// #V: the number of the component, -1 where none of them leads there.
-    std::vector<Index> component;
-    /// #V: which of them was the first to lead there, and over how many faces.
+/// Distances along edges, which are too long, by the algorithm of Dijkstra.
+struct EdgePaths {
+    /// #V: infinite where no path leads; and the vertex from which the path comes, or -1.
+    std::vector<double> length;
     std::vector<Index> from;
-    std::vector<Index> n_faces;
 };
 
-Reached reach_from(const PolygonMesh& mesh, const Topology& topology, std::span<const Index> from)
+EdgePaths paths_along_edges(const PolygonMesh& mesh, const Topology& topology, std::span<const Index> from)
 {
-    const std::size_t n = at(mesh.n_vertices());
-    Reached reached{std::vector<Index>(n, -1), std::vector<Index>(n, -1), std::vector<Index>(n, 0)};
-    const auto for_each_around = [&](Index v, auto&& action) {
-        for (const Index corner : topology.corners_at(v))
-            for (const Index w : mesh.face(topology.face_of[at(corner)]))
-                action(w);
-    };
-    std::vector<Index> nodes;
+    using Front = std::pair<double, Index>;
+    EdgePaths paths{std::vector<double>(at(mesh.n_vertices()), std::numeric_limits<double>::infinity()),
+                    std::vector<Index>(at(mesh.n_vertices()), -1)};
+    std::priority_queue<Front, std::vector<Front>, std::greater<>> fronts;
     for (const Index v : from) {
-        if (reached.component[v] >= 0)
-            continue;
-        reached.component[v] = v;
-        append_reachable(v, nodes, [&](Index node, auto&& reach) {
-            for_each_around(node, [&](Index w) {
-                if (std::exchange(reached.component[w], v) < 0)
-                    reach(w);
-            });
-        });
+        paths.length[v] = 0.0;
+        paths.from[v] = v;
+        fronts.emplace(0.0, v);
     }
-    nodes.assign(from.begin(), from.end());
-    for (const Index v : from)
-        reached.from[v] = v;
-    for (std::size_t i = 0; i < nodes.size(); ++i)
-        for_each_around(nodes[i], [&](Index w) {
-            if (reached.from[w] >= 0)
-                return;
-            reached.from[w] = reached.from[nodes[i]];
-            reached.n_faces[w] = reached.n_faces[nodes[i]] + 1;
-            nodes.push_back(w);
-        });
-    return reached;
+    while (!fronts.empty()) {
+        const auto [length, v] = fronts.top();
+        fronts.pop();
+        if (length > paths.length[v])
+            continue;
+        for (const Index corner : topology.corners_at(v))
+            for (const Index end : {topology.next(mesh, corner), topology.previous(mesh, corner)}) {
+                const Index w = mesh.face_vertices[end];
+                const double to_w = length + (mesh.vertices.row(w) - mesh.vertices.row(v)).norm();
+                if (to_w < paths.length[w]) {
+                    paths.length[w] = to_w;
+                    paths.from[w] = paths.from[v];
+                    fronts.emplace(to_w, w);
+                }
+            }
+    }
+    return paths;
 }
 
-/// Shifts the function of each component so that it is, on average, the straight distance a few faces from where it is
-/// measured from: there it is nearly exact, while right there the direction of the gradient means nothing. Within the
-/// faces there, distances are straight.
-void measure_from(const PolygonMesh& mesh, const Reached& reached, Eigen::VectorXd& distance)
+/// Straight distances from the vertices of whose faces some are: to the nearest of these. Infinite elsewhere.
+std::vector<double> straight_within_faces(const PolygonMesh& mesh, const Topology& topology,
+                                          std::span<const Index> from)
 {
-    constexpr Index most_faces = 3;
-    const std::size_t n_vertices = reached.from.size();
-    const auto straight = [&](Index v) { return (mesh.vertices.row(v) - mesh.vertices.row(reached.from[v])).norm(); };
-    std::vector<double> sums(n_vertices, 0.0);
-    std::vector<double> n(n_vertices, 0.0);
+    std::vector<double> straight(at(mesh.n_vertices()), std::numeric_limits<double>::infinity());
+    for (const Index v : from)
+        for (const Index corner : topology.corners_at(v))
+            for (const Index w : mesh.face(topology.face_of[at(corner)]))
+                straight[w] = std::min(straight[w], (mesh.vertices.row(w) - mesh.vertices.row(v)).norm());
+    return straight;
+}
+
+/// The straight distance of each vertex to the nearest of some, which is too short; 0 if they are very many.
+std::vector<double> straight_distances(const PolygonMesh& mesh, std::span<const Index> from)
+{
+    constexpr double most_pairs = 1e9;
+    std::vector<double> straight(at(mesh.n_vertices()), 0.0);
+    if (static_cast<double>(from.size()) * mesh.n_vertices() > most_pairs)
+        return straight;
+    for_each(run_in_parallel, mesh.n_vertices(), [&](Index v) {
+        double least = std::numeric_limits<double>::infinity();
+        for (const Index w : from)
+            least = std::min(least, (mesh.vertices.row(v) - mesh.vertices.row(w)).squaredNorm());
+        straight[v] = std::sqrt(least);
+    });
+    return straight;
+}
+
+/// Shifts the function so that it is, on average, the straight distance a few edges from where it is measured from:
+/// there it is nearly exact, while right there the direction of the gradient means nothing.
+void measure_from(const PolygonMesh& mesh, const EdgePaths& paths, double edge, Eigen::VectorXd& distance)
+{
+    constexpr double most_edges = 3.5;
+    double sum = 0.0;
+    double n = 0.0;
     for (Index v = 0; v < mesh.n_vertices(); ++v)
-        if (reached.from[v] >= 0 && reached.n_faces[v] > 0 && reached.n_faces[v] <= most_faces) {
-            sums[at(reached.component[v])] += distance[v] - straight(v);
-            n[at(reached.component[v])] += 1.0;
+        if (paths.from[v] >= 0 && paths.from[v] != v && paths.length[v] <= most_edges * edge) {
+            sum += distance[v] - (mesh.vertices.row(v) - mesh.vertices.row(paths.from[v])).norm();
+            n += 1.0;
         }
-    for (Index v = 0; v < mesh.n_vertices(); ++v) {
-        const Index c = reached.component[v];
-        if (c < 0)
-            distance[v] = std::numeric_limits<double>::infinity();
-        else if (reached.n_faces[v] <= 1)
-            distance[v] = straight(v);
-        else
-            distance[v] = std::max(distance[v] - sums[at(c)] / std::max(n[at(c)], 1.0), 0.0);
-    }
+    distance.array() -= sum / std::max(n, 1.0);
 }
 
 /// Lets all vertices have equations but for those of the boundary, if it is held, and those without a row.
@@ -277,17 +292,98 @@ Eigen::VectorXd logarithm_of_heat(const PolygonMesh& mesh, Topology& topology, W
     return heat;
 }
 
-Eigen::VectorXd distance_on(const PolygonMesh& mesh, Topology& topology, std::span<const Index> from,
-                            const Progress& progress)
+/// The heat method, on one component.
+/// @param from vertices of it.
+Eigen::VectorXd distance_on(const PolygonMesh& mesh, std::span<const Index> from, const Progress& progress)
 {
+    Topology topology = make_topology(mesh, progress.exec());
     const double diagonal = (mesh.vertices.colwise().maxCoeff() - mesh.vertices.colwise().minCoeff()).norm();
-    const double length = std::max(edges_of_diffusion * mean_edge_length(mesh), diagonal / most_diffusion_lengths);
+    const double edge = mean_edge_length(mesh);
+    const double length = std::max((from.size() > 1 ? edges_of_diffusion_from_several : edges_of_diffusion) * edge,
+                                   diagonal / most_diffusion_lengths);
     take_all(mesh, topology, Boundary::Free, progress.exec());
     WholeMeshHeat free(mesh, topology, progress);
     const Eigen::VectorXd heat = logarithm_of_heat(mesh, topology, free, from, length * length, progress);
     const double time_step = squared_diagonals_to_rest_of_distance * diagonal * diagonal;
     Eigen::VectorXd distance = time_step * free.solve(divergence(mesh, topology, heat), time_step);
-    measure_from(mesh, reach_from(mesh, topology, from), distance);
+    measure_from(mesh, paths_along_edges(mesh, topology, from), edge, distance);
+    return distance;
+}
+
+/// The part of a surface that faces connect with some vertices, in a unit of length of about its size.
+struct Component {
+    PolygonMesh mesh;
+    /// Of the whole surface.
+    std::vector<Index> vertices;
+    /// In the component.
+    std::vector<Index> from;
+    double unit = 1.0;
+};
+
+/// @param from vertices of a surface. @returns those with faces, in components.
+std::vector<Component> components_of(const PolygonMesh& surface, std::span<const Index> from)
+{
+    const Topology topology = make_topology(surface, run_in_parallel);
+    std::vector<Index> component_of(at(surface.n_vertices()), -1);
+    std::vector<Index> local(at(surface.n_vertices()), -1);
+    std::vector<Component> components;
+    for (const Index source : from) {
+        if (topology.corners_at(source).empty())
+            continue;
+        if (component_of[source] < 0) {
+            const auto c = static_cast<Index>(components.size());
+            std::vector<Index>& vertices = components.emplace_back().vertices;
+            component_of[source] = c;
+            append_reachable(source, vertices, [&](Index node, auto&& reach) {
+                for (const Index corner : topology.corners_at(node))
+                    for (const Index w : surface.face(topology.face_of[at(corner)]))
+                        if (std::exchange(component_of[w], c) < 0)
+                            reach(w);
+            });
+            std::ranges::sort(vertices);
+            for (std::size_t i = 0; i < vertices.size(); ++i)
+                local[vertices[i]] = static_cast<Index>(i);
+        }
+        components[at(component_of[source])].from.push_back(local[source]);
+    }
+    std::vector<Index> corners;
+    for (Index f = 0; f < surface.n_faces(); ++f)
+        if (const Index c = component_of[surface.face(f).front()]; c >= 0) {
+            corners.clear();
+            for (const Index v : surface.face(f))
+                corners.push_back(local[v]);
+            components[at(c)].mesh.add_face(corners);
+        }
+    for (Component& one : components) {
+        one.mesh.vertices = rows_of(surface.vertices, one.vertices);
+        const Point corner = one.mesh.vertices.row(0);
+        one.mesh.vertices.rowwise() -= corner;
+        one.unit = power_of_two_near(one.mesh.vertices.cwiseAbs().maxCoeff());
+        one.mesh.vertices /= one.unit;
+        sort_unique(one.from);
+    }
+    return components;
+}
+
+/// On a surface whose seams are joined.
+Eigen::VectorXd distance_over(const PolygonMesh& surface, const Topology& topology, std::span<const Index> from,
+                              const Progress& progress)
+{
+    const EdgePaths paths = paths_along_edges(surface, topology, from);
+    Eigen::VectorXd distance = Eigen::Map<const Eigen::VectorXd>(paths.length.data(), surface.n_vertices());
+    const PolygonMesh sound =
+        with_faces(surface, [&](Index f) { return !is_thin(surface.face(f), surface.vertices); });
+    for (const Component& one : components_of(sound, from)) {
+        const Eigen::VectorXd of_component = one.unit * distance_on(one.mesh, one.from, progress);
+        for (std::size_t i = 0; i < one.vertices.size(); ++i)
+            distance[one.vertices[i]] = of_component[static_cast<Eigen::Index>(i)];
+    }
+    const std::vector<double> straight = straight_distances(surface, from);
+    const std::vector<double> within_faces = straight_within_faces(surface, topology, from);
+    for (Index v = 0; v < surface.n_vertices(); ++v)
+        distance[v] = std::isfinite(within_faces[v])
+                          ? within_faces[v]
+                          : std::min(std::max(distance[v], straight[v]), paths.length[v]);
     return distance;
 }
 
@@ -298,20 +394,22 @@ Eigen::VectorXd geodesic_distance(const PolygonMesh& mesh, std::span<const Index
 {
     require_valid(mesh);
     require_sources(mesh, from);
-    Topology topology = make_topology(mesh);
-    std::optional<Weld> welded = weld(mesh, topology, 0.0);
-    std::vector<Index> sources(from.begin(), from.end());
-    if (welded)
-        for (Index& v : sources)
-            v = welded->first[v];
-    PolygonMesh surface = welded ? std::move(welded->mesh) : mesh;
-    if (welded)
-        topology = std::move(welded->topology);
-    Eigen::VectorXd distance;
+    const Topology topology = make_topology(mesh);
+    const std::optional<Weld> welded = weld(mesh, topology, 0.0);
+    const auto joined = [&](Index v) { return welded ? welded->first[v] : v; };
+    std::vector<Index> sources;
+    for (const Index v : from)
+        sources.push_back(joined(v));
+    sort_unique(sources);
+    Eigen::VectorXd of_surface;
     const Progress progress(control);
-    Workers(resources.threads).execute([&] { distance = distance_on(surface, topology, sources, progress); });
-    for (Index v = 0; welded && v < mesh.n_vertices(); ++v)
-        distance[v] = distance[welded->first[v]];
+    Workers(resources.threads).execute([&] {
+        of_surface = welded ? distance_over(welded->mesh, welded->topology, sources, progress)
+                            : distance_over(mesh, topology, sources, progress);
+    });
+    Eigen::VectorXd distance(mesh.n_vertices());
+    for (Index v = 0; v < mesh.n_vertices(); ++v)
+        distance[v] = of_surface[joined(v)];
     return distance;
 }
 

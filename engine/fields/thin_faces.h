@@ -1,0 +1,16 @@
+#pragma once
+
+#include <functional>
+
+#include "partition/polygon_mesh.h"
+
+namespace seamflow {
+
+/// Whether a face has next to no area for the length of its edges: the entries of its K would be so large that their
+/// rounding errors outweigh M.
+bool is_thin(std::span<const Index> face, const Points& positions);
+
+/// The same vertices, and the faces for which keeps(f) holds.
+PolygonMesh with_faces(const PolygonMesh& mesh, const std::function<bool(Index f)>& keeps);
+
+}  // namespace seamflow
