@@ -527,7 +527,8 @@ void FlowRun::take_step(const StepObserver& on_step)
 
 void FlowRun::complete(FlowReport& report) const
 {
-    if (const std::string remark = tools_->remark(); !remark.empty())
+    // It is about positions, which flows of fields do not move.
+    if (const std::string remark = tools_->remark(); !remark.empty() && !report_.steps.empty())
         report.remarks.push_back(remark);
     remark_on_drift(options(), report);
     remark_on_collapse(extent_before_, mesh_.mesh().vertices, report);

@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/fields/thin_faces.h"
 #include "engine/fields/white_noise.h"
 #include "engine/flow.h"
 #include "engine/options/option_names.h"
@@ -20,6 +21,7 @@
 #include "partition/errors.h"
 #include "partition/weld.h"
 #include "solvers/direct/ldl_solver.h"
+#include "solvers/laplacian/degenerate.h"
 #include "solvers/laplacian/laplacian.h"
 
 namespace seamflow {
@@ -61,6 +63,8 @@ void require_for_fields(const FlowOptions& options, const FieldOptions& of_field
     const MotionOptions& motion = options.motion;
     if (attaches(motion) || motion.rescale != Rescale::None || motion.within || motion.limits.exist())
         refuse("fields diffuse on a surface that stays", "attachments, rescale, within and limits");
+    if (!motion.strength.empty() || motion.direction.kind != MotionDirection::Kind::Any)
+        refuse("fields diffuse on a surface that stays", "strength and direction");
     if (options.keep_edges)
         refuse("keep_edges is about the angles of a surface, which stays while fields diffuse", "it");
     if (options.report.reference)
@@ -114,21 +118,24 @@ std::vector<Group> group_columns(const Eigen::MatrixXd& fields)
     return groups;
 }
 
-/// The same vertices, and the faces whose vertices all have data; their labels, if there are any.
-PolygonMesh surface_of(const PolygonMesh& mesh, const Group& group, std::vector<Index>& labels)
+/// Whether K of a face cannot be used.
+bool is_unusable(const PolygonMesh& mesh, Index f, Laplacian laplacian)
 {
-    if (group.n_lacking == 0)
-        return mesh;
-    PolygonMesh surface;
-    surface.vertices = mesh.vertices;
+    return traits_of(laplacian).divisor == Divisor::FaceAreas && is_thin(mesh.face(f), mesh.vertices);
+}
+
+/// The same vertices, and the faces whose vertices all have data, but for faces without area; their labels, if there
+/// are any.
+PolygonMesh surface_of(const PolygonMesh& mesh, const Group& group, Laplacian laplacian, std::vector<Index>& labels)
+{
     std::vector<Index> left;
-    for (Index f = 0; f < mesh.n_faces(); ++f) {
-        if (std::ranges::any_of(mesh.face(f), [&](Index v) { return group.lacks[v] != 0; }))
-            continue;
-        surface.add_face(mesh.face(f));
-        if (f < std::ssize(labels))
+    PolygonMesh surface = with_faces(mesh, [&](Index f) {
+        const bool lacks = std::ranges::any_of(mesh.face(f), [&](Index v) { return group.lacks[v] != 0; });
+        const bool is_kept = !lacks && !is_unusable(mesh, f, laplacian);
+        if (is_kept && f < std::ssize(labels))
             left.push_back(labels[f]);
-    }
+        return is_kept;
+    });
     labels = std::move(left);
     return surface;
 }
@@ -251,11 +258,45 @@ class SeamsOfFields {
     std::optional<Weld> weld_;
 };
 
+/// The faces over which data are extended: not those of vertices without data that would be held, and so would act as
+/// data, because they have no row or because sheets merely touch there.
+PolygonMesh surface_for_extension(const PolygonMesh& mesh, const Group& group, Laplacian laplacian)
+{
+    const PolygonMesh sound = with_faces(mesh, [&](Index f) { return !is_unusable(mesh, f, laplacian); });
+    Topology topology = make_topology(sound);
+    free_junctions(sound, topology, run_serially);
+    free_boundary(topology);
+    std::vector<std::uint8_t> is_held(at(mesh.n_vertices()), 0);
+    for (const Index v : vertices_without_row(sound, topology, laplacian))
+        is_held[v] = group.lacks[v];
+    for (Index v = 0; v < mesh.n_vertices(); ++v)
+        if (topology.kind[v] == VertexKind::NonManifold)
+            is_held[v] = group.lacks[v];
+    return with_faces(
+        sound, [&](Index f) { return std::ranges::none_of(sound.face(f), [&](Index v) { return is_held[v] != 0; }); });
+}
+
+/// The means of columns over the vertices with data.
+Eigen::RowVectorXd means_of(const Eigen::MatrixXd& fields, const Group& group)
+{
+    Eigen::RowVectorXd means = Eigen::RowVectorXd::Zero(fields.cols());
+    double n = 0.0;
+    for (Eigen::Index v = 0; v < fields.rows(); ++v)
+        if (group.lacks[static_cast<std::size_t>(v)] == 0) {
+            n += 1.0;
+            for (const Eigen::Index c : group.columns)
+                means[c] += (fields(v, c) - means[c]) / n;
+        }
+    return means;
+}
+
 /// The harmonic extension, as what a long step makes of it.
 void extend(const PolygonMesh& mesh, Group& group, const FlowOptions& options, const FlowControl& control,
             Eigen::MatrixXd& fields, FieldReport& report)
 {
-    const SeamsOfFields seams(mesh, options.motion);
+    const Index n_lacking = group.n_lacking;
+    PolygonMesh surface = surface_for_extension(mesh, group, options.laplacian);
+    const SeamsOfFields seams(surface, options.motion);
     seams.complete(group, fields);
     const std::vector<std::uint8_t> reached = seams.reached_from_data(group);
     FlowOptions own = options;
@@ -265,20 +306,33 @@ void extend(const PolygonMesh& mesh, Group& group, const FlowOptions& options, c
     own.accuracy.approach = Approach::Automatic;
     own.accuracy.tolerance = default_tolerance;
     own.cut = {};
+    own.motion.boundary = Boundary::Free;
+    own.motion.junctions = Junctions::Flow;
+    own.motion.fixed_vertices.clear();
     own.time_step =
         time_to_rest * (mesh.vertices.colwise().maxCoeff() - mesh.vertices.colwise().minCoeff()).squaredNorm();
     for (Index v = 0; v < mesh.n_vertices(); ++v)
         if (group.lacks[v] == 0 || reached[v] == 0)
             own.motion.fixed_vertices.push_back(v);
-    PolygonMesh whole = mesh;
-    Flow flow(whole, own, {}, control);
-    ScaledFields scaled(fields, group, own.time_step);
+    // Far from 0, M would pull towards it.
+    const Eigen::RowVectorXd means = means_of(fields, group);
+    Eigen::MatrixXd extended = fields.rowwise() - means;
+    Flow flow(surface, own, {}, control);
+    ScaledFields scaled(extended, group, own.time_step);
     flow.diffuse(scaled.values());
     const std::vector<std::uint8_t> lacked = group.lacks;
     for (Index v = 0; v < mesh.n_vertices(); ++v)
         group.lacks[v] = lacked[v] != 0 && reached[v] != 0 ? 0 : 1;
-    scaled.write(group, fields);
-    report.filled += static_cast<Index>(std::ranges::count(group.lacks, 0));
+    scaled.write(group, extended);
+    for (Index v = 0; v < mesh.n_vertices(); ++v)
+        for (const Eigen::Index c : group.columns)
+            if (group.lacks[v] == 0)
+                fields(v, c) = extended(v, c) + means[c];
+    const auto is_known = [&](Index v) { return !std::isnan(fields(v, group.columns.front())); };
+    Index n_known = 0;
+    for (Index v = 0; v < mesh.n_vertices(); ++v)
+        n_known += is_known(v) ? 1 : 0;
+    report.filled += n_known - (mesh.n_vertices() - n_lacking);
 }
 
 }  // namespace
@@ -303,7 +357,7 @@ FieldReport diffuse(const PolygonMesh& mesh, Eigen::MatrixXd& fields, const Flow
     const FlowOptions of_flow = options_of_flow(mesh, options, field_options);
     for (Group& group : group_columns(fields)) {
         FlowOptions own = of_flow;
-        PolygonMesh surface = surface_of(mesh, group, own.cut.labels);
+        PolygonMesh surface = surface_of(mesh, group, own.laplacian, own.cut.labels);
         report.without_data = std::max(report.without_data, group.n_lacking);
         const bool measures = field_options.fwhm && !report.fwhm && options.steps > 0;
         own.steps = options.steps * (n_blocks(std::ssize(group.columns)) + (measures ? 1 : 0));

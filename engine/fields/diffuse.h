@@ -47,8 +47,9 @@ struct FieldReport {
 /// matrix is factorised once for all steps and columns, but for FieldOptions::keep_edges. The integral Σ M X of each
 /// column stays, with a free boundary and without fixed vertices.
 /// @param fields #V by n: values at the vertices; NaN is no data. Vertices without data take no part: the surface of a
-///        column is that of the faces whose vertices all have data. Vertices that are fixed, have no such face, or no
-///        row in the Laplacian, keep their values.
+///        column is that of the faces whose vertices all have data, but for faces without area. Vertices that are
+///        fixed, have no such face, or no row in the Laplacian, keep their values; those joined along seams get one
+///        value.
 /// @param options of the flow: amount, steps, Laplacian, sub-meshes, threads. AccuracyOptions::tolerance is 1e-8 where
 ///        it is left open. MotionOptions::boundary does not count.
 /// @throws InputError for a mesh or fields that cannot be used: another number of rows, infinite values; OptionError

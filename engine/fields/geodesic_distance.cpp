@@ -371,8 +371,7 @@ Eigen::VectorXd distance_over(const PolygonMesh& surface, const Topology& topolo
 {
     const EdgePaths paths = paths_along_edges(surface, topology, from);
     Eigen::VectorXd distance = Eigen::Map<const Eigen::VectorXd>(paths.length.data(), surface.n_vertices());
-    const PolygonMesh sound =
-        with_faces(surface, [&](Index f) { return !is_thin(surface.face(f), surface.vertices); });
+    const PolygonMesh sound = with_faces(surface, [&](Index f) { return !is_thin(surface.face(f), surface.vertices); });
     for (const Component& one : components_of(sound, from)) {
         const Eigen::VectorXd of_component = one.unit * distance_on(one.mesh, one.from, progress);
         for (std::size_t i = 0; i < one.vertices.size(); ++i)
@@ -381,9 +380,8 @@ Eigen::VectorXd distance_over(const PolygonMesh& surface, const Topology& topolo
     const std::vector<double> straight = straight_distances(surface, from);
     const std::vector<double> within_faces = straight_within_faces(surface, topology, from);
     for (Index v = 0; v < surface.n_vertices(); ++v)
-        distance[v] = std::isfinite(within_faces[v])
-                          ? within_faces[v]
-                          : std::min(std::max(distance[v], straight[v]), paths.length[v]);
+        distance[v] = std::isfinite(within_faces[v]) ? within_faces[v]
+                                                     : std::min(std::max(distance[v], straight[v]), paths.length[v]);
     return distance;
 }
 

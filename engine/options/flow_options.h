@@ -180,7 +180,7 @@ struct InterfaceOptions {
     int overlap = 1;
     /// Order of sub-meshes in a step.
     Colouring colouring = Colouring::Greedy;
-    /// MotionDirection of the sweep over the colours.
+    /// Direction of the sweep over the colours.
     Sweep sweep = Sweep::Automatic;
     /// Treatment of the interface after a step.
     Correction correction = Correction::Automatic;

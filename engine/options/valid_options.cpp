@@ -195,10 +195,9 @@ void require_valid_direction(const FlowOptions& options)
     if (options.motion.rescale != Rescale::None || !options.motion.feature_edges.empty())
         throw OptionError("direction lets vertices move along lines alone, which rescale and feature_edges do not: "
                           "leave one of them out");
-    if (is_classical(options.interface.conditions))
-        throw OptionError(
-            "direction is for flows with one copy of each vertex, but with the classical conditions every "
-            "sub-mesh has its own: use other conditions");
+    if (is_classical(options.interface.conditions) || options.interface.conditions == Conditions::Schwarz)
+        throw OptionError("direction is for flows with one copy of each vertex, but with the classical and the Schwarz "
+                          "conditions every sub-mesh has its own: use other conditions");
 }
 
 /// The option that asks for more than plain mean curvature flow.

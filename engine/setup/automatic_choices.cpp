@@ -152,6 +152,9 @@ std::string_view need_of_junctions(const FlowOptions& options)
         return "With a symmetric Laplacian";
     if (options.keep_edges)
         return "Without edges that are kept";
+    // There is no normal.
+    if (options.motion.direction.kind == MotionDirection::Kind::Normal)
+        return "In any direction but normals";
     const bool is_whole = options.scheme == Scheme::ExplicitEuler || takes_whole_mesh(options.accuracy.approach);
     const bool converges = options.accuracy.tolerance || options.accuracy.approach == Approach::Converged ||
                            options.flow == FlowEquation::Linear;

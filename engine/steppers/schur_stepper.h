@@ -121,7 +121,7 @@ class SchurStepper final : public ConvergedStepper {
     [[nodiscard]] Point interior_residual() const;
     [[nodiscard]] std::array<bool, 3> at_rest(const Executor& exec) const;
     bool refine_interiors(double tolerance, const Point& first, const Executor& exec);
-    void leave_out_held();
+    void leave_out_held(Points& update) const;
     InterfaceResult solve_on_interface(bool has_matrix, const IterationStop& stop, const Executor& exec);
     InterfaceResult solve_equation(const IterationStop& stop, const Executor& exec) override;
     void restore_further(StepMemoryReader& memory) override;

@@ -118,7 +118,7 @@ std::vector<double> distances_from(const PolygonMesh& mesh, const Topology& topo
 }
 
 std::vector<double> feathered(const PolygonMesh& mesh, std::vector<double> strength, double length,
-                              const Executor& exec)
+                              std::optional<double> joined_within, const Executor& exec)
 {
     if (!(length >= 0.0 && std::isfinite(length)))
         throw OptionError(
@@ -129,7 +129,8 @@ std::vector<double> feathered(const PolygonMesh& mesh, std::vector<double> stren
     if (length == 0.0)
         return strength;
     const Topology topology = make_topology(mesh, exec);
-    const std::optional<Weld> welded = weld(mesh, topology, 0.0, exec);
+    const std::optional<Weld> welded =
+        joined_within ? weld(mesh, topology, *joined_within, exec) : std::optional<Weld>();
     std::vector<Index> first(strength.size());
     std::iota(first.begin(), first.end(), 0);
     if (welded)

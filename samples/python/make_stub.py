@@ -73,7 +73,9 @@ MESH = ARGUMENTS[:2]
 lines += function("diffuse", [*MESH, "fields: npt.ArrayLike | None = None", "*", "fwhm: float | str | None = None",
                               "keep_edges: float | None = None", "fill: bool = False",
                               'boundary: Literal["free", "fixed"] = "free"', "fixed: npt.ArrayLike | None = None",
-                              *(option for option in OPTIONS if not option.startswith(("keep_edges", "boundary")))],
+                              *(option for option in OPTIONS if not option.startswith(
+                                  ("keep_edges", "boundary", "preset", "noise", "direction", "feather", "strict",
+                                   "self_intersections")))],
                   f"tuple[{ARRAY}, dict[str, Any]]")
 lines += function("geodesic_distance", [*MESH, "sources: npt.ArrayLike | None = None", "*", "threads: int = 0"], ARRAY)
 (folder / "__init__.pyi").write_text(HEAD + "\n".join(lines) + "\n")

@@ -17,6 +17,7 @@
 #include "partition/errors.h"
 #include "partition/formats/index_files.h"
 #include "partition/formats/mesh_io.h"
+#include "partition/formats/ply_header.h"
 #include "partition/io/input_file.h"
 #include "partition/io/input_position.h"
 #include "samples/files/mesh_results.h"
@@ -33,8 +34,8 @@ namespace {
 
 constexpr const char* distance = "distance";
 
-/// Columns nx, ny and nz are normals: of length 1 again, unless nothing is left of them.
-void renormalise(FileFields& fields)
+/// Columns nx, ny and nz are normals: as long as they were, unless nothing is left of them.
+void renormalise(FileFields& fields, const Eigen::MatrixXd& before)
 {
     const Index x = fields.column("nx");
     const Index y = fields.column("ny");
@@ -43,9 +44,10 @@ void renormalise(FileFields& fields)
         return;
     for (Eigen::Index v = 0; v < fields.values.rows(); ++v) {
         const double length = std::hypot(fields.values(v, x), fields.values(v, y), fields.values(v, z));
-        if (length > 0.0)
+        const double wanted = std::hypot(before(v, x), before(v, y), before(v, z));
+        if (length > 0.0 && wanted > 0.0)
             for (const Index column : {x, y, z})
-                fields.values(v, column) /= length;
+                fields.values(v, column) *= wanted / length;
     }
 }
 
@@ -62,10 +64,9 @@ void complete_options(SmoothCommand& command, const MeshFile& file, const FaultL
 }
 
 /// @returns the fields after all steps.
-FileFields diffused(SmoothCommand& command, const MeshFile& file, const FlowControl& control, const Executor& exec,
+FileFields diffused(SmoothCommand& command, const MeshFile& file, FileFields fields, const FlowControl& control,
                     FieldSummary& summary)
 {
-    FileFields fields = read_fields(*file.source, command.fields.names, exec);
     summary.names = fields.names;
     summary.before = fields.values;
     FlowOptions options = command.options;
@@ -74,17 +75,14 @@ FileFields diffused(SmoothCommand& command, const MeshFile& file, const FlowCont
     if (of_fields.fwhm)
         options.time_step = 0.0;
     summary.report = diffuse(file.mesh, fields.values, options, of_fields, control);
-    renormalise(fields);
+    renormalise(fields, summary.before);
     summary.after = fields.values;
     return fields;
 }
 
-FileFields distances(const SmoothCommand& command, const MeshFile& file, const FlowControl& control,
-                     FieldSummary& summary)
+FileFields distances(const SmoothCommand& command, const MeshFile& file, const std::vector<Index>& from,
+                     const FlowControl& control, FieldSummary& summary)
 {
-    const std::vector<Index> from = read_vertex_set(command.fields.from, file.mesh.n_vertices(), command.fix_property);
-    if (from.empty())
-        throw InputError(command.fields.from.string() + ": names no vertex: write one number at least");
     const Stopwatch watch;
     FileFields fields{.names = {distance},
                       .values = geodesic_distance(file.mesh, from, command.options.resources, control)};
@@ -101,6 +99,30 @@ FileFields distances(const SmoothCommand& command, const MeshFile& file, const F
     summary.names = fields.names;
     summary.after = fields.values;
     return fields;
+}
+
+/// Distances would be rounded in a property of whole numbers. @throws OutputError
+void require_no_whole_distances(const MeshFile& file, const std::filesystem::path& input)
+{
+    if (file.kind.format != FileFormat::Ply || is_input_stream(input))
+        return;
+    const InputFile read{OpenFile(input)};
+    TextScanner scanner(input, read.content(), ply_syntax);
+    const PlyHeader header = read_ply_header(scanner);
+    for (const PlyProperty& property : header.element("vertex")->properties)
+        if (property.name == distance && (property.length_type || is_integer(property.type)))
+            throw OutputError(fmt::format("{}: has whole numbers or lists named distance, which cannot hold distances: "
+                                          "rename that property",
+                                          input.string()));
+}
+
+/// The vertices of --from. @throws InputError
+std::vector<Index> read_sources(const SmoothCommand& command, Index n_vertices)
+{
+    std::vector<Index> from = read_vertex_set(command.fields.from, n_vertices, command.fix_property);
+    if (from.empty())
+        throw InputError(command.fields.from.string() + ": names no vertex: write one number at least");
+    return from;
 }
 
 /// So that nothing is computed in vain. @throws OutputError
@@ -132,6 +154,8 @@ void resolve_field_amount(SmoothCommand& command, const PolygonMesh& mesh, const
     FieldOptions& options = command.fields.options;
     if (command.fields.fwhm) {
         const LengthOnMesh& fwhm = *command.fields.fwhm;
+        if (fwhm.of_diagonal && !(run.scale.diagonal > 0.0))
+            throw InputError("has no size to measure a part of: give --fwhm as a length");
         options.fwhm = fwhm.of_diagonal ? fwhm.value * run.scale.diagonal : fwhm.value;
         command.options.time_step = time_for_fwhm(*options.fwhm) / std::max(command.options.steps, 1);
     } else if (!command.fields.names.empty()) {
@@ -161,11 +185,18 @@ ExitStatus run_fields(SmoothCommand& command, RunRecord& run)
     if (!command.fields.names.empty())
         print_field_amount(out, run.scale, command.options, command.fields.options);
     FileFields fields;
+    std::vector<Index> from;
+    if (!command.fields.names.empty())
+        fields = read_fields(*file.source, command.fields.names, exec);
+    else
+        from = read_sources(command, file.mesh.n_vertices());
+    if (!from.empty())
+        require_no_whole_distances(file, command.input);
     try {
         interruption.begin_work();
         const FlowControl control{.stop = interruption.token()};
-        fields = command.fields.names.empty() ? distances(command, file, control, summary)
-                                              : diffused(command, file, control, exec, summary);
+        fields = command.fields.names.empty() ? distances(command, file, from, control, summary)
+                                              : diffused(command, file, std::move(fields), control, summary);
     } catch (const InputError& error) {
         throw InputError(command.input.string() + ": " + error.what());
     } catch (const Cancelled&) {

@@ -76,8 +76,8 @@ void resolve_amount(SmoothCommand& command, const PolygonMesh& mesh, const Execu
         MotionOptions& motion = command.options.motion;
         if (motion.strength.empty())
             throw OptionError("--feather is for the rim of a region: give --region as well");
-        motion.strength =
-            feathered(mesh, std::move(motion.strength), length_of(*command.feather, run.scale.diagonal), exec);
+        motion.strength = feathered(mesh, std::move(motion.strength), length_of(*command.feather, run.scale.diagonal),
+                                    motion.weld, exec);
     }
     // As the identity of checkpoints has it.
     command.options.uniform_edge = uniform_edge_of(command.options, mesh);

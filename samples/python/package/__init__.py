@@ -173,14 +173,14 @@ def diffuse(V, F=None, fields=None, *, fwhm=None, keep_edges=None, fill=False, b
         raise ValueError(f"fields has to be real numbers, (#V,) or (#V, n), but is {values.dtype}, {values.shape}")
     if boundary not in ("free", "fixed"):
         raise ValueError(f"boundary is free or fixed, not {boundary!r}")
-    for name in ("preset", "noise"):
+    for name in ("preset", "noise", "direction", "feather", "strict", "self_intersections"):
         if options.get(name) is not None:
             raise ValueError(f"diffuse has no {name}: the surface stays")
     amounts = [fwhm, *(options.get(name) for name in ("radius", "time_step", "time_step_edges"))]
     if sum(amount is not None for amount in amounts) != 1:
         raise ValueError("diffuse needs one amount: give fwhm, radius, time_step or time_step_edges")
-    if fwhm is not None:
-        options.setdefault("steps", 10)
+    if fwhm is not None and options.get("steps") is None:
+        options["steps"] = 10
     (V, corners, offsets, words, arrays), _ = _arguments(V, F, options, fixed, None, None, None, None)
     if len(values) != len(V):
         raise ValueError(f"fields has {len(values)} rows, but the mesh has {len(V)} vertices")

@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -235,6 +237,41 @@ TEST_CASE("vertices without data take no part, and stay without, or get the harm
             CHECK(std::abs(of_mesh.stiffness.row(v).dot(filled.col(0))) < 1e-5);
         else
             CHECK(filled(v, 0) == fields(v, 0));
+}
+
+TEST_CASE("data are extended in the range of the others, whatever is held, and far from 0")
+{
+    const PolygonMesh mesh = bumpy_triangles(900);
+    Eigen::MatrixXd fields(mesh.n_vertices(), 1);
+    for (Index v = 0; v < mesh.n_vertices(); ++v)
+        fields(v, 0) = 1e6 + mesh.vertices(v, 0);
+    for (const Index v : {0, 1, 2, 400, 401, 430})
+        fields(v, 0) = no_data;
+    FlowOptions options = steps_of(mesh, 1.0, 1, Approach::Automatic, 0);
+    options.motion.fixed_vertices = {400};
+    for (const Boundary boundary : {Boundary::Fixed, Boundary::Free}) {
+        Eigen::MatrixXd filled = fields;
+        const FieldReport report = diffuse(mesh, filled, options, {.fill = true, .boundary = boundary});
+        CHECK(report.filled == 6);
+        CHECK((filled.array() >= 1e6 - 1e-6).all());
+        CHECK((filled.array() <= 1e6 + 1.0 + 1e-6).all());
+        CHECK(filled(400, 0) == relative(1e6 + mesh.vertices(400, 0), 1e-7));
+    }
+}
+
+TEST_CASE("faces without area take no part")
+{
+    PolygonMesh mesh = bumpy_triangles(600);
+    Eigen::MatrixXd without = waves_on(mesh);
+    const FlowOptions options = steps_of(mesh, 10.0, 2, Approach::Automatic, 0);
+    diffuse(mesh, without, options);
+    const Index n = mesh.n_vertices();
+    mesh.vertices.conservativeResize(n + 1, 3);
+    mesh.vertices.row(n) = 0.5 * (mesh.vertices.row(0) + mesh.vertices.row(1));
+    mesh.add_face(std::array{Index{0}, n, Index{1}});
+    Eigen::MatrixXd with = waves_on(mesh);
+    diffuse(mesh, with, options);
+    CHECK(largest_difference(with.topRows(n), without) < 1e-9);
 }
 
 TEST_CASE("a column without any data, and a component without any, stay so")

@@ -120,3 +120,51 @@ TEST_CASE("geodesic distances refuse vertices that are not there")
                          "distances are wanted from vertex 16, but the mesh has 16 vertices, numbered from 0",
                          InputError);
 }
+
+TEST_CASE("geodesic distances lie between the straight ones and those along edges, from the nearest of many vertices")
+{
+    PolygonMesh mesh = make_triangles(1600);
+    mesh.vertices.col(2).setZero();
+    std::vector<Index> from;
+    for (Index v = 0; v < mesh.n_vertices(); ++v)
+        if (v % 97 == 3)
+            from.push_back(v);
+    const Eigen::VectorXd distance = geodesic_distance(mesh, from);
+    Eigen::VectorXd exact = from_place(mesh, from.front());
+    for (const Index v : from)
+        exact = exact.cwiseMin(from_place(mesh, v));
+    CHECK((distance - exact).minCoeff() > -1e-12);
+    CHECK(mean_error(distance, exact) < 0.1);
+    // Vertices of one face with several of them: the nearest counts.
+    const PolygonMesh grid = test::quad_grid(5, 2);
+    CHECK(geodesic_distance(grid, std::array<Index, 2>{0, 7})[6] == 1.0);
+    CHECK(geodesic_distance(grid, std::array<Index, 2>{7, 0})[6] == 1.0);
+}
+
+TEST_CASE("geodesic distances bear meshes without faces, faces without area, and parts of any size")
+{
+    PolygonMesh empty;
+    empty.vertices = Points::Random(4, 3);
+    const Eigen::VectorXd of_empty = geodesic_distance(empty, std::array<Index, 1>{2});
+    CHECK(of_empty[2] == 0.0);
+    CHECK(std::isinf(of_empty[0]));
+
+    // A vertex far away, a sliver on an edge, and a tiny component that is reached, too.
+    PolygonMesh mesh = make_triangles(1500);
+    mesh.vertices.col(2).setZero();
+    const std::array<Index, 1> from{700};
+    const Eigen::VectorXd alone = geodesic_distance(mesh, from);
+    const Index n = mesh.n_vertices();
+    mesh.vertices.conservativeResize(n + 5, 3);
+    mesh.vertices.row(n) << 1e9, 0.0, 0.0;
+    mesh.vertices.row(n + 1) = 0.5 * (mesh.vertices.row(0) + mesh.vertices.row(1));
+    mesh.add_face(std::array{Index{0}, n + 1, Index{1}});
+    for (Index i = 0; i < 3; ++i)
+        mesh.vertices.row(n + 2 + i) << 3.0 + 1e-6 * i, 1e-6 * (i % 2), 0.0;
+    mesh.add_face(std::array{n + 2, n + 3, n + 4});
+    const Eigen::VectorXd distance = geodesic_distance(mesh, std::array{Index{700}, n + 3});
+    CHECK((distance.head(n) - alone).cwiseAbs().maxCoeff() < 0.1);
+    CHECK(std::isinf(distance[n]));
+    CHECK(std::isfinite(distance[n + 1]));
+    CHECK(distance[n + 4] == relative(std::sqrt(2.0) * 1e-6, 1e-6));
+}
