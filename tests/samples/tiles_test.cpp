@@ -355,9 +355,11 @@ TEST_CASE("--out-dir refuses what it cannot do, with the reason")
     refused(w.inputs() + "--out-dir out --preset fair", "cannot be combined with --preset: ");
     refused(w.inputs() + "--out-dir out --noise 1%", "cannot be combined with --noise: ");
     for (const std::string option :
-         {"--rescale area", "--reference", "--keep-edges 30", "--html page.html", "--checkpoint kept", "--fix f.txt",
-          "--labels l.txt", "--report report.json", "--every-step at-%d.ply", "--strict", "--self-intersections",
-          "--parts parts.ply", "--trace t.json", "--task-graph t.dot", "--csv s.csv", "--attach-weights w.txt"})
+         {"--rescale area",         "--reference",        "--keep-edges 30",      "--html page.html",
+          "--checkpoint kept",      "--fix f.txt",        "--labels l.txt",       "--report report.json",
+          "--every-step at-%d.ply", "--strict",           "--self-intersections", "--parts parts.ply",
+          "--trace t.json",         "--task-graph t.dot", "--csv s.csv",          "--attach-weights w.txt",
+          "--region r.txt",         "--feather 2%",       "--edges e.txt",        "--edges-from-file"})
         refused(all + option, "cannot be combined with " + option.substr(0, option.find(' ')) + ": ");
     refused(all + "--steps 0", "takes at least one step");
     refused(all + "--steps 2 --attach 2%", "--out-dir supports --attach with one step only");
