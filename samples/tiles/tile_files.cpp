@@ -40,6 +40,8 @@ void TileFolder::make() const
 void TileFolder::remove() const
 {
     std::error_code ignored;
+    // First, so that a kill leaves no run that lacks files.
+    std::filesystem::remove(run_file(), ignored);
     std::filesystem::remove_all(folder_, ignored);
 }
 
