@@ -16,6 +16,9 @@ namespace seamflow {
 
 namespace {
 
+/// Vertices at one place may be a chain of pairs within the distance of --weld, of several files.
+constexpr double distances_of_chain = 8.0;
+
 std::uint64_t checksum_of(const PolygonMesh& mesh)
 {
     Checksum checksum;
@@ -30,7 +33,7 @@ std::vector<BorderOfTile> borders_near(const TileFolder& folder, std::span<const
                                        double distance)
 {
     std::vector<BorderOfTile> near;
-    const BoundingBox box = inflated(tiles[at(tile)].box, distance);
+    const BoundingBox box = inflated(tiles[at(tile)].box, distances_of_chain * distance);
     for (Index other = 0; std::cmp_less(other, tiles.size()); ++other)
         if (meet(box, tiles[at(other)].box))
             near.push_back({other, folder.border(other), other < tile ? folder.owners(other) : TileOwners{}});
