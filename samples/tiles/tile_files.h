@@ -97,8 +97,13 @@ class TileFolder {
     /// @param folder created by `make`.
     explicit TileFolder(std::filesystem::path folder);
 
-    /// Makes the folder if there is none, and empties it unless it has a run to resume.
-    void make() const;
+    ~TileFolder();
+    TileFolder(const TileFolder&) = delete;
+    TileFolder& operator=(const TileFolder&) = delete;
+
+    /// Makes the folder if there is none, locks it, and empties it unless it has a run to resume.
+    /// @throws OutputError if another process has locked it.
+    void make();
     /// Removes it with all files.
     void remove() const;
 
@@ -133,7 +138,12 @@ class TileFolder {
     [[nodiscard]] std::filesystem::path file(Index tile, const char* what) const;
     [[nodiscard]] std::filesystem::path state_file(Index tile, int step) const;
 
+    /// @throws OutputError.
+    void lock();
+
     std::filesystem::path folder_;
+    /// The descriptor of a locked file, -1 if there is none.
+    int lock_ = -1;
 };
 
 }  // namespace seamflow

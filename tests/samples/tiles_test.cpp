@@ -302,6 +302,9 @@ TEST_CASE("a signal ends a run over files with 130; other options and changed fi
     RunningProgram program(w.directory.path(), SMOOTH, arguments);
     while (program.runs() && w.said().find("\nstep 2 of 200  tile0.ply") == std::string::npos)
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    // What follows # is a comment.
+    CHECK(w.run(SMOOTH " tile0.ply --time-step 1 --out-dir out >second 2>&1 #") == 5);
+    CHECK(test::content_of(w.directory / "second").find("another run works in this folder") != std::string::npos);
     program.send(SIGINT);
     CHECK(program.wait() == 130);
     CHECK(w.said().find("interrupted in step 2 of 200; the same command continues there") != std::string::npos);
