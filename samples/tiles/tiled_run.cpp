@@ -83,10 +83,26 @@ class TiledRun {
 
     ExitStatus run()
     {
+        folder_.make();
+        has_resumed_ = folder_.has_run();
+        try {
+            return take_steps();
+        } catch (...) {
+            // Refused: there is nothing to continue.
+            if (!has_resumed_ && !has_stepped_)
+                folder_.remove();
+            throw;
+        }
+    }
+
+  private:
+    ExitStatus take_steps()
+    {
         read_all();
         report_.print_input(tiles_, scale_, options_, run_, width_);
         interruption_.begin_work();
         const int first = first_step();
+        write_missing();
         for (int step = first; step <= options_.steps; ++step)
             if (!take_step(step))
                 return end_early(step);
@@ -99,13 +115,13 @@ class TiledRun {
         return report_.status();
     }
 
-  private:
     [[nodiscard]] Index n_tiles() const { return static_cast<Index>(tiles_.size()); }
     void read_all();
     int first_step();
     bool take_step(int step);
     bool take_step(Index tile, int step);
     void write(Index tile, const Points& positions);
+    void write_missing();
     FlowControl control_for(Index tile, int step);
     ExitStatus end_early(int step);
 
@@ -128,13 +144,13 @@ class TiledRun {
     std::vector<BoundingBox> boxes_;
     std::vector<BoundingBox> next_boxes_;
     bool has_resumed_ = false;
+    /// Whether a tile has the state of a step.
+    bool has_stepped_ = false;
 };
 
 /// Reads all tiles, to keep them or to find that they are those that were kept.
 void TiledRun::read_all()
 {
-    folder_.make();
-    has_resumed_ = folder_.has_run();
     for (const std::filesystem::path& path : command_.tiles) {
         TileInput input = read_tile(path, exec_);
         require_storable(input.file.mesh, command_.out_dir / path.filename(), input.file.kind);
@@ -213,7 +229,22 @@ bool TiledRun::take_step(Index tile, int step)
     if (step == options_.steps)
         write(tile, positions);
     folder_.keep_state(tile, step, std::move(positions));
+    has_stepped_ = true;
     return true;
+}
+
+/// Of tiles that have the state of the last step: an earlier run has written them.
+void TiledRun::write_missing()
+{
+    std::error_code ignored;
+    for (Index tile = 0; tile < n_tiles(); ++tile) {
+        if (!folder_.has_state(tile, options_.steps))
+            continue;
+        if (std::filesystem::exists(command_.out_dir / tiles_[at(tile)].path.filename(), ignored))
+            report_.add_earlier_result();
+        else
+            write(tile, folder_.state(tile, options_.steps));
+    }
 }
 
 void TiledRun::write(Index tile, const Points& positions)

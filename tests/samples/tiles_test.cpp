@@ -287,7 +287,12 @@ TEST_CASE("a run over files that was killed goes on to the same bytes, also in t
             program.wait();
         }
         REQUIRE(w.has("out/.seamflow-tiles/run"));
+        const bool has_result = w.has("out/.seamflow-tiles/tile-0.step-3");
+        CHECK(has_result == words.last.starts_with("\nstep 3"));
+        // Written again.
+        std::filesystem::remove(w.directory / "out/tile0.ply");
         REQUIRE(w.smooth(arguments + "out") == 0);
+        CHECK(w.said().find("\nresult     4 files in out") != std::string::npos);
         CHECK(w.said().find("resumed    after step ") != std::string::npos);
         CHECK(w.said().find(words.not_repeated) == std::string::npos);
         CHECK(w.are_same("out", "expected"));
@@ -368,6 +373,8 @@ TEST_CASE("--out-dir refuses what it cannot do, with the reason")
     refused(all + "--steps 2 --attach 2%", "--out-dir supports --attach with one step only");
     refused(all + "--steps 2 --within 0.1", "--out-dir supports --within with one step only");
     refused(all + "--steps 2 --flow linear", "--out-dir supports --flow with one step only");
+    refused(w.inputs() + "--out-dir out --time-step-edges 1e5 --scheme explicit", "for explicit Euler steps");
+    CHECK_FALSE(w.has("out/.seamflow-tiles"));
     refused("tile0.ply ./tile0.ply --out-dir out --time-step 1", "have the same name");
     refused("tile0.ply --out-dir . --time-step 1", "would be replaced");
     refused("tile0.ply - --out-dir out --time-step 1", "can be read only once");
