@@ -45,6 +45,13 @@ void with_name_of(const std::filesystem::path& path, Work&& work)
     }
 }
 
+bool has_normals(const MeshFile& input, const Executor& exec)
+{
+    return std::ranges::any_of(extras_of(*input.source, exec), [](const std::string& extra) {
+        return extra == "normals" || extra.find("(nx") != std::string::npos || extra.find(" nx") != std::string::npos;
+    });
+}
+
 /// The options of the steps.
 FlowOptions options_for(const SmoothCommand& command, const MeshScale& scale)
 {
@@ -258,6 +265,10 @@ void TiledRun::write(Index tile, const Points& positions)
     for (const std::string& remark :
          write_state(command_.out_dir / summary.path.filename(), input.file.mesh, nullptr, input.file, exec_))
         report_.add_remark(summary.path, remark);
+    if (run_.n_shared > 0 && has_normals(input.file, exec_))
+        report_.add_remark(summary.path, summary.path.string() +
+                                             ": normals of vertices on borders are those of the faces of this file "
+                                             "alone; compute them again where borders must not show in shading.");
 }
 
 FlowControl TiledRun::control_for(Index tile, int step)
