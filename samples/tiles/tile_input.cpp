@@ -11,6 +11,7 @@
 #include "samples/files/mesh_results.h"
 #include "samples/tiles/tile_borders.h"
 #include "samples/tiles/tile_union.h"
+#include "samples/tiles/unjoined_borders.h"
 
 namespace seamflow {
 
@@ -105,6 +106,8 @@ void join_tiles(const TileFolder& folder, std::span<const TileSummary> tiles, st
         run.n_border += std::ssize(owners.vertices);
         run.n_shared += std::count(owners.is_shared.begin(), owners.is_shared.end(), 1);
     }
+    if (weld && tiles.size() > 1)
+        run.n_held = hold_unjoined(folder, tiles, distances_of_chain * *weld);
 }
 
 FlowIdentity identify(std::span<const TileSummary> tiles, const FlowOptions& options)

@@ -115,7 +115,12 @@ class TiledRun {
                 return end_early(step);
         folder_.remove();
         bar_.erase();
-        if (tiles_.size() > 1 && run_.n_shared == 0)
+        if (run_.n_held > 0)
+            report_.add_remark({}, fmt::format("{} where borders of files meet but cannot be joined (three sheets, or "
+                                               "faces turned round) {}: cut the files along other edges.",
+                                               counted(static_cast<std::uint64_t>(run_.n_held), "vertex", "vertices"),
+                                               run_.n_held == 1 ? "stays" : "stay"));
+        else if (tiles_.size() > 1 && run_.n_shared == 0 && options_.motion.weld)
             report_.add_remark({}, "No borders of two files coincide, so that each was smoothed alone; --weld with a "
                                    "small length joins borders that differ a little.");
         report_.print_result(whole_.seconds(), workers_.threads(), scale_);

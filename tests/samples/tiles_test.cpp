@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <regex>
 #include <string>
@@ -161,6 +162,31 @@ Index block(const Point& p)
     return static_cast<Index>(hash >> 30U);
 }
 
+/// Three sheets around a line, like a Y, rough and one mesh; the file of each face by its sheet and its half of the
+/// line.
+PolygonMesh sheets_around_line(int n, const std::function<Index(int, bool)>& file_of, std::vector<Index>& files)
+{
+    PolygonMesh mesh;
+    mesh.vertices.resize(3 * n * (n + 1) + n + 1, 3);
+    const auto number = [&](int sheet, int i, int j) { return i == 0 ? j : n + 1 + (sheet * n + i - 1) * (n + 1) + j; };
+    for (int sheet = 0; sheet < 3; ++sheet)
+        for (int i = 0; i <= n; ++i)
+            for (int j = 0; j <= n; ++j) {
+                const Index v = number(sheet, i, j);
+                const double angle = 2.1 * sheet;
+                mesh.vertices.row(v) << i * std::cos(angle) + 0.2 * std::sin(37.0 * v),
+                    i * std::sin(angle) + 0.2 * std::sin(59.0 * v), j + 0.2 * std::sin(83.0 * v);
+            }
+    for (int sheet = 0; sheet < 3; ++sheet)
+        for (int i = 0; i < n; ++i)
+            for (int j = 0; j < n; ++j) {
+                mesh.add_face(std::vector<Index>{number(sheet, i, j), number(sheet, i + 1, j),
+                                                 number(sheet, i + 1, j + 1), number(sheet, i, j + 1)});
+                files.push_back(file_of(sheet, 2 * j >= n));
+            }
+    return mesh;
+}
+
 constexpr double most_edges = 1e-5;
 const std::string exact = " --approach undecomposed";
 
@@ -263,6 +289,43 @@ TEST_CASE("borders with a gap are joined by --weld, and a remark says where none
     REQUIRE(w.smooth(w.inputs() + flow + " --weld 2e-4") == 0);
     CHECK(w.said().find("No borders") == std::string::npos);
     CHECK(w.distance("out", "expected.ply") < 0.02);
+}
+
+TEST_CASE("sheets that meet at a border of files and cannot be joined stay together")
+{
+    for (const std::function<Index(int, bool)>&file_of :
+         {std::function<Index(int, bool)>([](int sheet, bool) { return sheet; }),
+          std::function<Index(int, bool)>([](int sheet, bool) { return sheet / 2; }),
+          std::function<Index(int, bool)>([](int, bool is_second) { return is_second ? 1 : 0; })})
+        for (const std::string flow : {" --boundary free", ""}) {
+            const Workshop w;
+            std::vector<Index> files;
+            const PolygonMesh whole = sheets_around_line(10, file_of, files);
+            std::string words;
+            std::map<Index, Point> places;
+            const Index n_files = 1 + *std::ranges::max_element(files);
+            for (Index file = 0; file < n_files; ++file) {
+                words += "sheet" + std::to_string(file) + ".ply ";
+                write_mesh(w.directory / ("sheet" + std::to_string(file) + ".ply"), tile_of(whole, files, file).mesh,
+                           {FileFormat::Ply, Encoding::BinaryLittleEndian});
+            }
+            REQUIRE(w.smooth(words + "--out-dir out --time-step-edges 1 --steps 2" + flow + exact) == 0);
+            CAPTURE(w.said());
+            CHECK(w.said().find("where borders of files meet but cannot be joined") != std::string::npos);
+            CHECK(w.said().find("No borders of two files coincide") == std::string::npos);
+            double most = 0.0;
+            for (Index file = 0; file < n_files; ++file) {
+                const CutTile tile = tile_of(whole, files, file);
+                const Points after =
+                    read_mesh(w.directory / ("out/sheet" + std::to_string(file) + ".ply")).mesh.vertices;
+                for (std::size_t i = 0; i < tile.vertices.size(); ++i) {
+                    const Point now = after.row(static_cast<Eigen::Index>(i));
+                    CHECK(places.try_emplace(tile.vertices[i], now).first->second == now);
+                    most = std::max(most, (now - whole.vertices.row(tile.vertices[i])).norm());
+                }
+            }
+            CHECK(most > 0.05);
+        }
 }
 
 TEST_CASE("a run over files that was killed goes on to the same bytes, also in the last step")
