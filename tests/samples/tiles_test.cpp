@@ -242,11 +242,12 @@ TEST_CASE("files in text and with floats keep all else, and their borders are eq
 {
     const TiledWorkshop w("triangles", 2000, quarter, {FileFormat::Obj, Encoding::Ascii});
     for (const std::string& name : w.names())
-        static_cast<void>(w.directory.with(name, "# " + name + "\n" + test::content_of(w.directory / name)));
+        static_cast<void>(w.directory.with(name, "# " + name + "\nvn 0 0 1\n" + test::content_of(w.directory / name)));
     const std::string flow = " --time-step-edges 3 --steps 2" + exact;
     REQUIRE(w.smooth("whole.ply expected.ply" + flow) == 0);
     REQUIRE(w.smooth(w.inputs() + "--out-dir out" + flow) == 0);
     CHECK(w.distance("out", "expected.ply") < most_edges);
+    CHECK(w.said().find("remark     tile0.obj: normals of vertices on borders") != std::string::npos);
     CHECK(w.content("out", 2).starts_with("# tile2.obj\n"));
     // Another format of one file changes nothing.
     write_mesh(w.directory / "tile1.ply", w.tiles()[1].mesh, TiledWorkshop::binary_ply);
