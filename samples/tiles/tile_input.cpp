@@ -106,8 +106,12 @@ void join_tiles(const TileFolder& folder, std::span<const TileSummary> tiles, st
         run.n_border += std::ssize(owners.vertices);
         run.n_shared += std::count(owners.is_shared.begin(), owners.is_shared.end(), 1);
     }
-    if (weld && tiles.size() > 1)
-        run.n_held = hold_unjoined(folder, tiles, distances_of_chain * *weld);
+    if (!weld || tiles.size() == 1)
+        return;
+    std::vector<BoundingBox> boxes;
+    for (const TileSummary& tile : tiles)
+        boxes.push_back(inflated(tile.box, distances_of_chain * *weld));
+    run.n_held = hold_unjoined(folder, boxes);
 }
 
 FlowIdentity identify(std::span<const TileSummary> tiles, const FlowOptions& options)

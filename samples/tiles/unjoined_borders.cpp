@@ -89,22 +89,21 @@ class SuspectPlaces {
 
 }  // namespace
 
-std::int64_t hold_unjoined(const TileFolder& folder, std::span<const TileSummary> tiles, double distance)
+std::int64_t hold_unjoined(const TileFolder& folder, std::span<const BoundingBox> boxes)
 {
-    std::vector<std::vector<Index>> held(tiles.size());
-    for (Index tile = 0; std::cmp_less(tile, tiles.size()); ++tile) {
+    std::vector<std::vector<Index>> held(boxes.size());
+    for (Index tile = 0; std::cmp_less(tile, boxes.size()); ++tile) {
         const auto suspects = suspects_of(folder, tile, folder.owners(tile));
         if (suspects.empty())
             continue;
         SuspectPlaces places(folder.state(tile, 0), suspects);
-        const BoundingBox box = inflated(tiles[at(tile)].box, distance);
-        for (Index other = 0; std::cmp_less(other, tiles.size()); ++other)
-            if (meet(box, inflated(tiles[at(other)].box, distance)))
+        for (Index other = 0; std::cmp_less(other, boxes.size()); ++other)
+            if (meet(boxes[at(tile)], boxes[at(other)]))
                 places.add(other, folder.state(other, 0), folder.owners(other));
         places.select_unjoined(held);
     }
     std::int64_t n_held = 0;
-    for (Index tile = 0; std::cmp_less(tile, tiles.size()); ++tile) {
+    for (Index tile = 0; std::cmp_less(tile, boxes.size()); ++tile) {
         if (held[at(tile)].empty())
             continue;
         TileOwners owners = folder.owners(tile);
