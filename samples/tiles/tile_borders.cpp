@@ -83,6 +83,8 @@ TileBorder border_of(const PolygonMesh& mesh, const Topology& topology, const Ex
     const std::vector<Index> faces =
         select(exec, mesh.n_faces(), [&](Index f) { return std::ranges::any_of(mesh.face(f), is_on_border); });
     TileBorder border;
+    border.non_manifold =
+        select(exec, mesh.n_vertices(), [&](Index v) { return topology.kind[v] == VertexKind::NonManifold; });
     for (const Index f : faces)
         border.vertices.insert(border.vertices.end(), mesh.face(f).begin(), mesh.face(f).end());
     sort_unique(border.vertices);

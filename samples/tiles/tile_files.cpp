@@ -1,6 +1,7 @@
 #include "samples/tiles/tile_files.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdlib>
 #include <functional>
 #include <map>
@@ -9,14 +10,19 @@
 #include <system_error>
 #include <utility>
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
 
 #include "engine/state/checkpoint.h"
+#include "partition/errors.h"
 
 namespace seamflow {
 
 namespace {
 
+constexpr const char* name_of_lock = "lock";
 constexpr std::string_view line_of_run = "seamflow run over tiles\n";
 constexpr std::string_view line_of_faces = "seamflow faces of a tile\n";
 constexpr std::string_view line_of_border = "seamflow border of a tile\n";
@@ -30,16 +36,37 @@ TileFolder::TileFolder(std::filesystem::path folder)
 {
 }
 
-void TileFolder::make() const
+TileFolder::~TileFolder()
 {
-    if (!has_run())
-        remove();
+    if (lock_ >= 0)
+        close(lock_);
+}
+
+void TileFolder::make()
+{
     make_checkpoint_folder(folder_);
+    lock();
+    if (has_run())
+        return;
+    std::error_code ignored;
+    for (const auto& entry : std::filesystem::directory_iterator(folder_))
+        if (entry.path().filename() != name_of_lock)
+            std::filesystem::remove_all(entry.path(), ignored);
+}
+
+void TileFolder::lock()
+{
+    lock_ = open((folder_ / name_of_lock).c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    // Some network file systems have no locks.
+    if (lock_ >= 0 && flock(lock_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+        throw OutputError(folder_.string() + ": another run works in this folder: wait for it, or name another folder");
 }
 
 void TileFolder::remove() const
 {
     std::error_code ignored;
+    // First, so that a kill leaves no run that lacks files.
+    std::filesystem::remove(run_file(), ignored);
     std::filesystem::remove_all(folder_, ignored);
 }
 

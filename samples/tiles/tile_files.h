@@ -28,6 +28,8 @@ struct TileBorder {
     std::vector<Index> is_on_border;
     /// #B by 3, in units of length.
     Points positions = Points(0, 3);
+    /// Ascending: the vertices of the tile where its surface is not manifold.
+    std::vector<Index> non_manifold;
     /// As in PolygonMesh; corners are positions in `vertices`.
     std::vector<Index> face_offsets{0};
     std::vector<Index> face_vertices;
@@ -43,6 +45,8 @@ struct TileOwners {
     std::vector<Index> numbers;
     /// 1 where another tile has a copy of the vertex.
     std::vector<Index> is_shared;
+    /// Ascending: vertices that are held, see hold_unjoined.
+    std::vector<Index> held;
 };
 
 /// The vertices of a tile after a step.
@@ -58,6 +62,8 @@ struct TileRun {
     /// How many vertices all borders have, and how many of these another tile has, too.
     std::int64_t n_border = 0;
     std::int64_t n_shared = 0;
+    /// How many vertices are held because borders meet there but cannot be joined.
+    std::int64_t n_held = 0;
 };
 
 auto fields(Is<TileFaces> auto& of)
@@ -68,14 +74,14 @@ auto fields(Is<TileFaces> auto& of)
 
 auto fields(Is<TileBorder> auto& of)
 {
-    auto& [vertices, is_on_border, positions, face_offsets, face_vertices] = of;
-    return std::tie(vertices, is_on_border, positions, face_offsets, face_vertices);
+    auto& [vertices, is_on_border, positions, non_manifold, face_offsets, face_vertices] = of;
+    return std::tie(vertices, is_on_border, positions, non_manifold, face_offsets, face_vertices);
 }
 
 auto fields(Is<TileOwners> auto& of)
 {
-    auto& [vertices, tiles, numbers, is_shared] = of;
-    return std::tie(vertices, tiles, numbers, is_shared);
+    auto& [vertices, tiles, numbers, is_shared, held] = of;
+    return std::tie(vertices, tiles, numbers, is_shared, held);
 }
 
 auto fields(Is<TileState> auto& of)
@@ -86,8 +92,8 @@ auto fields(Is<TileState> auto& of)
 
 auto fields(Is<TileRun> auto& of)
 {
-    auto& [identity, n_border, n_shared] = of;
-    return std::tie(identity, n_border, n_shared);
+    auto& [identity, n_border, n_shared, n_held] = of;
+    return std::tie(identity, n_border, n_shared, n_held);
 }
 
 /// The working files of a run. Each appears whole or not at all, and has a checksum. Functions that read throw
@@ -97,8 +103,13 @@ class TileFolder {
     /// @param folder created by `make`.
     explicit TileFolder(std::filesystem::path folder);
 
-    /// Makes the folder if there is none, and empties it unless it has a run to resume.
-    void make() const;
+    ~TileFolder();
+    TileFolder(const TileFolder&) = delete;
+    TileFolder& operator=(const TileFolder&) = delete;
+
+    /// Makes the folder if there is none, locks it, and empties it unless it has a run to resume.
+    /// @throws OutputError if another process has locked it.
+    void make();
     /// Removes it with all files.
     void remove() const;
 
@@ -133,7 +144,12 @@ class TileFolder {
     [[nodiscard]] std::filesystem::path file(Index tile, const char* what) const;
     [[nodiscard]] std::filesystem::path state_file(Index tile, int step) const;
 
+    /// @throws OutputError.
+    void lock();
+
     std::filesystem::path folder_;
+    /// The descriptor of a locked file, -1 if there is none.
+    int lock_ = -1;
 };
 
 }  // namespace seamflow

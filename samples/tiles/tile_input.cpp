@@ -11,10 +11,14 @@
 #include "samples/files/mesh_results.h"
 #include "samples/tiles/tile_borders.h"
 #include "samples/tiles/tile_union.h"
+#include "samples/tiles/unjoined_borders.h"
 
 namespace seamflow {
 
 namespace {
+
+/// Vertices at one place may be a chain of pairs within the distance of --weld, of several files.
+constexpr double distances_of_chain = 8.0;
 
 std::uint64_t checksum_of(const PolygonMesh& mesh)
 {
@@ -30,7 +34,7 @@ std::vector<BorderOfTile> borders_near(const TileFolder& folder, std::span<const
                                        double distance)
 {
     std::vector<BorderOfTile> near;
-    const BoundingBox box = inflated(tiles[at(tile)].box, distance);
+    const BoundingBox box = inflated(tiles[at(tile)].box, distances_of_chain * distance);
     for (Index other = 0; std::cmp_less(other, tiles.size()); ++other)
         if (meet(box, tiles[at(other)].box))
             near.push_back({other, folder.border(other), other < tile ? folder.owners(other) : TileOwners{}});
@@ -102,6 +106,12 @@ void join_tiles(const TileFolder& folder, std::span<const TileSummary> tiles, st
         run.n_border += std::ssize(owners.vertices);
         run.n_shared += std::count(owners.is_shared.begin(), owners.is_shared.end(), 1);
     }
+    if (!weld || tiles.size() == 1)
+        return;
+    std::vector<BoundingBox> boxes;
+    for (const TileSummary& tile : tiles)
+        boxes.push_back(inflated(tile.box, distances_of_chain * *weld));
+    run.n_held = hold_unjoined(folder, boxes);
 }
 
 FlowIdentity identify(std::span<const TileSummary> tiles, const FlowOptions& options)

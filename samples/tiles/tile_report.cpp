@@ -87,10 +87,14 @@ void TileReport::print_result(double seconds, int threads, const MeshScale& scal
         out_ << "remark     There are remarks on the steps of single files; --verbose lists them.\n";
     const LengthStatistics moved = moved_.statistics();
     const double edge = scale.mean_edge > 0.0 ? scale.mean_edge : 1.0;
-    out_ << fmt::format("result     {} in {}: moved {:.3g} mean edge lengths on average, {:.3g} at most",
-                        counted(n_written_, "file", "files"), command_.out_dir.string(), moved.mean / edge,
-                        moved.max / edge)
-         << std::endl;
+    out_ << fmt::format("result     {} in {}", counted(n_written_ + n_earlier_, "file", "files"),
+                        command_.out_dir.string());
+    if (n_earlier_ > 0)
+        out_ << fmt::format(", {} of them by an earlier run", n_earlier_);
+    if (n_written_ > 0)
+        out_ << fmt::format(": {}moved {:.3g} mean edge lengths on average, {:.3g} at most",
+                            n_earlier_ > 0 ? "the others " : "", moved.mean / edge, moved.max / edge);
+    out_ << std::endl;
 }
 
 ExitStatus TileReport::status() const

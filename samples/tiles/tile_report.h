@@ -38,6 +38,9 @@ class TileReport {
     /// @param before, after #V by 3.
     void add_result(const Points& before, const Points& after);
 
+    /// Counts a result that an earlier run has written.
+    void add_earlier_result() { ++n_earlier_; }
+
     /// Prints time, memory, remarks and the result.
     void print_result(double seconds, int threads, const MeshScale& scale) const;
 
@@ -58,6 +61,7 @@ class TileReport {
     bool has_remarks_on_steps_ = false;
     LengthSums moved_;
     std::uint64_t n_written_ = 0;
+    std::uint64_t n_earlier_ = 0;
     /// How many steps of tiles have missed the tolerance, and what is to be said of the last.
     std::uint64_t n_missed_ = 0;
     std::string missed_;

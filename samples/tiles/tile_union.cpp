@@ -95,6 +95,9 @@ std::vector<Index> TileUnion::add(const TileFaces& faces, const TileOwners& owne
     for (std::size_t v = 0; v < used.size(); ++v)
         if (used[v] != 0 && is_wanted[v] == 0)
             held_.push_back(number_of[v]);
+    for (const Index v : owners.held)
+        if (used[v] != 0)
+            held_.push_back(number_of[v]);
     return number_of;
 }
 

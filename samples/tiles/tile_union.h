@@ -52,7 +52,8 @@ class Neighbourhood {
 class TileUnion {
   public:
     /// Adds the faces of a tile that have a wanted vertex. Vertices of these faces that are not wanted are held,
-    /// because the union lacks some of their faces. Tiles have to be added one after another, each once.
+    /// because the union lacks some of their faces; so are those that owners hold. Tiles have to be added one after
+    /// another, each once.
     /// @param is_wanted #V. @param positions #V by 3.
     /// @returns #V: the numbers of the vertices in the union, -1 for those that it lacks.
     std::vector<Index> add(const TileFaces& faces, const TileOwners& owners, const Points& positions,

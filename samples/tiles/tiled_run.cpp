@@ -45,6 +45,13 @@ void with_name_of(const std::filesystem::path& path, Work&& work)
     }
 }
 
+bool has_normals(const MeshFile& input, const Executor& exec)
+{
+    return std::ranges::any_of(extras_of(*input.source, exec), [](const std::string& extra) {
+        return extra == "normals" || extra.find("(nx") != std::string::npos || extra.find(" nx") != std::string::npos;
+    });
+}
+
 /// The options of the steps.
 FlowOptions options_for(const SmoothCommand& command, const MeshScale& scale)
 {
@@ -83,29 +90,50 @@ class TiledRun {
 
     ExitStatus run()
     {
+        folder_.make();
+        has_resumed_ = folder_.has_run();
+        try {
+            return take_steps();
+        } catch (...) {
+            // Refused: there is nothing to continue.
+            if (!has_resumed_ && !has_stepped_)
+                folder_.remove();
+            throw;
+        }
+    }
+
+  private:
+    ExitStatus take_steps()
+    {
         read_all();
         report_.print_input(tiles_, scale_, options_, run_, width_);
         interruption_.begin_work();
         const int first = first_step();
+        write_missing();
         for (int step = first; step <= options_.steps; ++step)
             if (!take_step(step))
                 return end_early(step);
         folder_.remove();
         bar_.erase();
-        if (tiles_.size() > 1 && run_.n_shared == 0)
+        if (run_.n_held > 0)
+            report_.add_remark({}, fmt::format("{} where borders of files meet but cannot be joined (three sheets, or "
+                                               "faces turned round) {}: cut the files along other edges.",
+                                               counted(static_cast<std::uint64_t>(run_.n_held), "vertex", "vertices"),
+                                               run_.n_held == 1 ? "stays" : "stay"));
+        else if (tiles_.size() > 1 && run_.n_shared == 0 && options_.motion.weld)
             report_.add_remark({}, "No borders of two files coincide, so that each was smoothed alone; --weld with a "
                                    "small length joins borders that differ a little.");
         report_.print_result(whole_.seconds(), workers_.threads(), scale_);
         return report_.status();
     }
 
-  private:
     [[nodiscard]] Index n_tiles() const { return static_cast<Index>(tiles_.size()); }
     void read_all();
     int first_step();
     bool take_step(int step);
     bool take_step(Index tile, int step);
     void write(Index tile, const Points& positions);
+    void write_missing();
     FlowControl control_for(Index tile, int step);
     ExitStatus end_early(int step);
 
@@ -128,13 +156,13 @@ class TiledRun {
     std::vector<BoundingBox> boxes_;
     std::vector<BoundingBox> next_boxes_;
     bool has_resumed_ = false;
+    /// Whether a tile has the state of a step.
+    bool has_stepped_ = false;
 };
 
 /// Reads all tiles, to keep them or to find that they are those that were kept.
 void TiledRun::read_all()
 {
-    folder_.make();
-    has_resumed_ = folder_.has_run();
     for (const std::filesystem::path& path : command_.tiles) {
         TileInput input = read_tile(path, exec_);
         require_storable(input.file.mesh, command_.out_dir / path.filename(), input.file.kind);
@@ -213,7 +241,22 @@ bool TiledRun::take_step(Index tile, int step)
     if (step == options_.steps)
         write(tile, positions);
     folder_.keep_state(tile, step, std::move(positions));
+    has_stepped_ = true;
     return true;
+}
+
+/// Of tiles that have the state of the last step: an earlier run has written them.
+void TiledRun::write_missing()
+{
+    std::error_code ignored;
+    for (Index tile = 0; tile < n_tiles(); ++tile) {
+        if (!folder_.has_state(tile, options_.steps))
+            continue;
+        if (std::filesystem::exists(command_.out_dir / tiles_[at(tile)].path.filename(), ignored))
+            report_.add_earlier_result();
+        else
+            write(tile, folder_.state(tile, options_.steps));
+    }
 }
 
 void TiledRun::write(Index tile, const Points& positions)
@@ -227,6 +270,10 @@ void TiledRun::write(Index tile, const Points& positions)
     for (const std::string& remark :
          write_state(command_.out_dir / summary.path.filename(), input.file.mesh, nullptr, input.file, exec_))
         report_.add_remark(summary.path, remark);
+    if (run_.n_shared > 0 && has_normals(input.file, exec_))
+        report_.add_remark(summary.path, summary.path.string() +
+                                             ": normals of vertices on borders are those of the faces of this file "
+                                             "alone; compute them again where borders must not show in shading.");
 }
 
 FlowControl TiledRun::control_for(Index tile, int step)

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <regex>
 #include <string>
@@ -161,6 +162,31 @@ Index block(const Point& p)
     return static_cast<Index>(hash >> 30U);
 }
 
+/// Three sheets around a line, like a Y, rough and one mesh; the file of each face by its sheet and its half of the
+/// line.
+PolygonMesh sheets_around_line(int n, const std::function<Index(int, bool)>& file_of, std::vector<Index>& files)
+{
+    PolygonMesh mesh;
+    mesh.vertices.resize(3 * n * (n + 1) + n + 1, 3);
+    const auto number = [&](int sheet, int i, int j) { return i == 0 ? j : n + 1 + (sheet * n + i - 1) * (n + 1) + j; };
+    for (int sheet = 0; sheet < 3; ++sheet)
+        for (int i = 0; i <= n; ++i)
+            for (int j = 0; j <= n; ++j) {
+                const Index v = number(sheet, i, j);
+                const double angle = 2.1 * sheet;
+                mesh.vertices.row(v) << i * std::cos(angle) + 0.2 * std::sin(37.0 * v),
+                    i * std::sin(angle) + 0.2 * std::sin(59.0 * v), j + 0.2 * std::sin(83.0 * v);
+            }
+    for (int sheet = 0; sheet < 3; ++sheet)
+        for (int i = 0; i < n; ++i)
+            for (int j = 0; j < n; ++j) {
+                mesh.add_face(std::vector<Index>{number(sheet, i, j), number(sheet, i + 1, j),
+                                                 number(sheet, i + 1, j + 1), number(sheet, i, j + 1)});
+                files.push_back(file_of(sheet, 2 * j >= n));
+            }
+    return mesh;
+}
+
 constexpr double most_edges = 1e-5;
 const std::string exact = " --approach undecomposed";
 
@@ -216,11 +242,12 @@ TEST_CASE("files in text and with floats keep all else, and their borders are eq
 {
     const TiledWorkshop w("triangles", 2000, quarter, {FileFormat::Obj, Encoding::Ascii});
     for (const std::string& name : w.names())
-        static_cast<void>(w.directory.with(name, "# " + name + "\n" + test::content_of(w.directory / name)));
+        static_cast<void>(w.directory.with(name, "# " + name + "\nvn 0 0 1\n" + test::content_of(w.directory / name)));
     const std::string flow = " --time-step-edges 3 --steps 2" + exact;
     REQUIRE(w.smooth("whole.ply expected.ply" + flow) == 0);
     REQUIRE(w.smooth(w.inputs() + "--out-dir out" + flow) == 0);
     CHECK(w.distance("out", "expected.ply") < most_edges);
+    CHECK(w.said().find("remark     tile0.obj: normals of vertices on borders") != std::string::npos);
     CHECK(w.content("out", 2).starts_with("# tile2.obj\n"));
     // Another format of one file changes nothing.
     write_mesh(w.directory / "tile1.ply", w.tiles()[1].mesh, TiledWorkshop::binary_ply);
@@ -265,6 +292,43 @@ TEST_CASE("borders with a gap are joined by --weld, and a remark says where none
     CHECK(w.distance("out", "expected.ply") < 0.02);
 }
 
+TEST_CASE("sheets that meet at a border of files and cannot be joined stay together")
+{
+    for (const std::function<Index(int, bool)>&file_of :
+         {std::function<Index(int, bool)>([](int sheet, bool) { return sheet; }),
+          std::function<Index(int, bool)>([](int sheet, bool) { return sheet / 2; }),
+          std::function<Index(int, bool)>([](int, bool is_second) { return is_second ? 1 : 0; })})
+        for (const std::string flow : {" --boundary free", ""}) {
+            const Workshop w;
+            std::vector<Index> files;
+            const PolygonMesh whole = sheets_around_line(10, file_of, files);
+            std::string words;
+            std::map<Index, Point> places;
+            const Index n_files = 1 + *std::ranges::max_element(files);
+            for (Index file = 0; file < n_files; ++file) {
+                words += "sheet" + std::to_string(file) + ".ply ";
+                write_mesh(w.directory / ("sheet" + std::to_string(file) + ".ply"), tile_of(whole, files, file).mesh,
+                           {FileFormat::Ply, Encoding::BinaryLittleEndian});
+            }
+            REQUIRE(w.smooth(words + "--out-dir out --time-step-edges 1 --steps 2" + flow + exact) == 0);
+            CAPTURE(w.said());
+            CHECK(w.said().find("where borders of files meet but cannot be joined") != std::string::npos);
+            CHECK(w.said().find("No borders of two files coincide") == std::string::npos);
+            double most = 0.0;
+            for (Index file = 0; file < n_files; ++file) {
+                const CutTile tile = tile_of(whole, files, file);
+                const Points after =
+                    read_mesh(w.directory / ("out/sheet" + std::to_string(file) + ".ply")).mesh.vertices;
+                for (std::size_t i = 0; i < tile.vertices.size(); ++i) {
+                    const Point now = after.row(static_cast<Eigen::Index>(i));
+                    CHECK(places.try_emplace(tile.vertices[i], now).first->second == now);
+                    most = std::max(most, (now - whole.vertices.row(tile.vertices[i])).norm());
+                }
+            }
+            CHECK(most > 0.05);
+        }
+}
+
 TEST_CASE("a run over files that was killed goes on to the same bytes, also in the last step")
 {
     const TiledWorkshop w("triangles", 12000, quarter);
@@ -287,7 +351,12 @@ TEST_CASE("a run over files that was killed goes on to the same bytes, also in t
             program.wait();
         }
         REQUIRE(w.has("out/.seamflow-tiles/run"));
+        const bool has_result = w.has("out/.seamflow-tiles/tile-0.step-3");
+        CHECK(has_result == words.last.starts_with("\nstep 3"));
+        // Written again.
+        std::filesystem::remove(w.directory / "out/tile0.ply");
         REQUIRE(w.smooth(arguments + "out") == 0);
+        CHECK(w.said().find("\nresult     4 files in out") != std::string::npos);
         CHECK(w.said().find("resumed    after step ") != std::string::npos);
         CHECK(w.said().find(words.not_repeated) == std::string::npos);
         CHECK(w.are_same("out", "expected"));
@@ -302,9 +371,12 @@ TEST_CASE("a signal ends a run over files with 130; other options and changed fi
     RunningProgram program(w.directory.path(), SMOOTH, arguments);
     while (program.runs() && w.said().find("\nstep 2 of 200  tile0.ply") == std::string::npos)
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    // What follows # is a comment.
+    CHECK(w.run(SMOOTH " tile0.ply --time-step 1 --out-dir out >second 2>&1 #") == 5);
+    CHECK(test::content_of(w.directory / "second").find("another run works in this folder") != std::string::npos);
     program.send(SIGINT);
     CHECK(program.wait() == 130);
-    CHECK(w.said().find("interrupted in step 2 of 200; the same command continues there") != std::string::npos);
+    CHECK(w.said().find(" of 200; the same command continues there") != std::string::npos);
     CHECK_FALSE(w.has("out/tile0.ply"));
     const auto refused = [&](const std::string& words, int status, const std::string& reason) {
         CAPTURE(words);
@@ -355,14 +427,18 @@ TEST_CASE("--out-dir refuses what it cannot do, with the reason")
     refused(w.inputs() + "--out-dir out --preset fair", "cannot be combined with --preset: ");
     refused(w.inputs() + "--out-dir out --noise 1%", "cannot be combined with --noise: ");
     for (const std::string option :
-         {"--rescale area", "--reference", "--keep-edges 30", "--html page.html", "--checkpoint kept", "--fix f.txt",
-          "--labels l.txt", "--report report.json", "--every-step at-%d.ply", "--strict", "--self-intersections",
-          "--parts parts.ply", "--trace t.json", "--task-graph t.dot", "--csv s.csv", "--attach-weights w.txt"})
+         {"--rescale area",         "--reference",        "--keep-edges 30",      "--html page.html",
+          "--checkpoint kept",      "--fix f.txt",        "--labels l.txt",       "--report report.json",
+          "--every-step at-%d.ply", "--strict",           "--self-intersections", "--parts parts.ply",
+          "--trace t.json",         "--task-graph t.dot", "--csv s.csv",          "--attach-weights w.txt",
+          "--region r.txt",         "--feather 2%",       "--edges e.txt",        "--edges-from-file"})
         refused(all + option, "cannot be combined with " + option.substr(0, option.find(' ')) + ": ");
     refused(all + "--steps 0", "takes at least one step");
     refused(all + "--steps 2 --attach 2%", "--out-dir supports --attach with one step only");
     refused(all + "--steps 2 --within 0.1", "--out-dir supports --within with one step only");
     refused(all + "--steps 2 --flow linear", "--out-dir supports --flow with one step only");
+    refused(w.inputs() + "--out-dir out --time-step-edges 1e5 --scheme explicit", "for explicit Euler steps");
+    CHECK_FALSE(w.has("out/.seamflow-tiles"));
     refused("tile0.ply ./tile0.ply --out-dir out --time-step 1", "have the same name");
     refused("tile0.ply --out-dir . --time-step 1", "would be replaced");
     refused("tile0.ply - --out-dir out --time-step 1", "can be read only once");
