@@ -256,7 +256,14 @@ TEST_CASE("data are extended in the range of the others, whatever is held, and f
         CHECK((filled.array() >= 1e6 - 1e-6).all());
         CHECK((filled.array() <= 1e6 + 1.0 + 1e-6).all());
         CHECK(filled(400, 0) == relative(1e6 + mesh.vertices(400, 0), 1e-7));
+        for (const Index v : {0, 1, 2})
+            CHECK(std::abs(filled(v, 0) - 1e6 - mesh.vertices(3, 0)) < 0.1);
     }
+    // A single datum is that of all.
+    fields.bottomRows(mesh.n_vertices() - 1).setConstant(no_data);
+    fields(0, 0) = 101325.0;
+    diffuse(mesh, fields, options, {.fill = true});
+    CHECK((fields.array() == 101325.0).all());
 }
 
 TEST_CASE("faces without area take no part")
@@ -372,8 +379,19 @@ TEST_CASE("vertices along seams get one value")
                 fields.row(v) = of_whole.row(w);
     const FlowOptions options = steps_of(whole, 10.0, 2, Approach::Automatic, 0);
     diffuse(whole, of_whole, options);
+    Eigen::MatrixXd apart = fields;
     diffuse(mesh, fields, options);
     CHECK(largest_difference(fields.topRows(whole.n_vertices()), of_whole) < 1e-9);
+    // Where they differ, their mean counts.
+    Index copy = whole.n_vertices();
+    Index of_copy = 0;
+    while (mesh.vertices.row(of_copy) != mesh.vertices.row(copy))
+        ++of_copy;
+    apart.row(copy).array() += 50.0;
+    apart.row(of_copy).array() -= 50.0;
+    diffuse(mesh, apart, options);
+    CHECK((apart.col(3) - fields.col(3)).cwiseAbs().maxCoeff() < 1e-6);
+    CHECK(apart.row(copy) == apart.row(of_copy));
 }
 
 TEST_CASE("fields refuse what they do not have, and stay as they were")
