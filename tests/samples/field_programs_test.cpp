@@ -134,8 +134,9 @@ TEST_CASE("what fields do not have is refused by name, and nothing is written")
           {"--fields thickness --fwhm 1 --from in.ply", "excludes"},
           {"--from in.ply --radius 1", "--from cannot be combined with --radius"},
           {"--fields width --fwhm 1", "the vertices have no number 'width', but x, y, z, thickness"}}) {
-        CAPTURE(arguments);
-        CHECK(w.smooth("in.ply out.ply " + std::string(arguments)) != 0);
+        const std::string tried = arguments;
+        CAPTURE(tried);
+        CHECK(w.smooth("in.ply out.ply " + tried) != 0);
         CAPTURE(w.said());
         CHECK(w.said().find(message) != std::string::npos);
         CHECK_FALSE(w.has("out.ply"));

@@ -121,7 +121,8 @@ TEST_CASE("fields diffuse as by a dense matrix of cotangents, however steps are 
     const CotangentMatrices of = by_cotangents(mesh);
     for (const auto& [approach, subdomains] :
          {std::pair{Approach::Converged, 7}, {Approach::Undecomposed, 1}, {Approach::ConjugateGradients, 1}}) {
-        CAPTURE(static_cast<int>(approach));
+        const auto solver = static_cast<int>(approach);
+        CAPTURE(solver);
         for (const double squared_edges : {0.5, 40.0}) {
             const FlowOptions options = steps_of(mesh, squared_edges, 3, approach, subdomains);
             Eigen::MatrixXd expected = before;
