@@ -335,6 +335,19 @@ void extend(const PolygonMesh& mesh, Group& group, const FlowOptions& options, c
     report.filled += n_known - (mesh.n_vertices() - n_lacking);
 }
 
+/// Adds what was reported on columns before.
+void add_up(const FlowReport& before, FlowReport& report)
+{
+    report.convergence.steps_short_of_tolerance += before.convergence.steps_short_of_tolerance;
+    report.convergence.steps_stagnated += before.convergence.steps_stagnated;
+    report.seconds.cut += before.seconds.cut;
+    report.seconds.analyse += before.seconds.analyse;
+    report.seconds.step += before.seconds.step;
+    for (const std::string& remark : before.remarks)
+        if (std::ranges::find(report.remarks, remark) == report.remarks.end())
+            report.remarks.push_back(remark);
+}
+
 }  // namespace
 
 double time_for_fwhm(double fwhm)
@@ -376,7 +389,9 @@ FieldReport diffuse(const PolygonMesh& mesh, Eigen::MatrixXd& fields, const Flow
             flow.diffuse(noise, options.steps);
             report.fwhm = fwhm_of_noise(surface, noise);
         }
-        report.flow = flow.report();
+        FlowReport of_group = flow.report();
+        add_up(report.flow, of_group);
+        report.flow = std::move(of_group);
         if (field_options.fill && group.n_lacking > 0 && group.n_lacking < mesh.n_vertices())
             extend(mesh, group, of_flow, control, results, report);
     }

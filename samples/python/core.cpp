@@ -307,7 +307,8 @@ py::tuple diffuse_arrays(const Array<double>& positions, const Array<Integer>& c
     std::vector<std::string> remarks = report.remarks;
     for (std::string& remark : remarks)
         remark = in_words_of_keywords(remark);
-    return py::make_tuple(result, report.fwhm, report.without_data, report.filled, report.flow.time_step, remarks);
+    return py::make_tuple(result, report.fwhm, report.without_data, report.filled, report.flow.time_step, remarks,
+                          report.flow.convergence.steps_short_of_tolerance);
 }
 
 template <class Integer>

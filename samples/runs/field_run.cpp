@@ -214,7 +214,12 @@ ExitStatus run_fields(SmoothCommand& command, RunRecord& run)
     if (!command.report.empty())
         write_text(command.report, field_report_json(run, command.options, summary));
     print_fields(out, run, summary);
-    return ExitStatus::Success;
+    command.options.accuracy.tolerance = summary.report.flow.convergence.tolerance;
+    const std::string missed = missed_tolerance(command, summary.report.flow.convergence);
+    if (missed.empty())
+        return ExitStatus::Success;
+    std::cerr << "smooth: " << missed << "; " << command.output.string() << " has the last state\n";
+    return ExitStatus::ComputationFailed;
 }
 
 }  // namespace seamflow

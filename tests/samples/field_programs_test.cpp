@@ -102,6 +102,15 @@ TEST_CASE("fields are filled, keep their edges, and stay on a boundary that is f
     CHECK(w.fields_of("fixed.ply", {"thickness"}).values(0, 0) == 0.0);
 }
 
+TEST_CASE("steps of fields that miss their tolerance, of any columns, end with status 4")
+{
+    const FieldWorkshop w;
+    CHECK(w.smooth("in.ply out.ply --fields thickness,red --fwhm 0.3 --approach cg --converge 1e-17") == 4);
+    CHECK(w.said().find("the tolerance 1e-17 was missed in ") != std::string::npos);
+    CHECK(w.has("out.ply"));
+    CHECK(w.smooth("in.ply out.ply --fields thickness,red --fwhm 0.3 --approach cg") == 0);
+}
+
 TEST_CASE("distances from vertices of a file are those that the library makes")
 {
     const FieldWorkshop w;

@@ -186,9 +186,11 @@ def diffuse(V, F=None, fields=None, *, fwhm=None, keep_edges=None, fill=False, b
         raise ValueError(f"fields has {len(values)} rows, but the mesh has {len(V)} vertices")
     # The boundary is an argument of its own, and fixed vertices are an array.
     words = [word for word in words if word != "--fix=array"]
-    result, reached, without_data, filled, time_step, remarks = _core.diffuse(
+    result, reached, without_data, filled, time_step, remarks, missed = _core.diffuse(
         V, corners, offsets, words, arrays[0], np.ascontiguousarray(values.reshape(len(V), -1), dtype=np.float64),
         ("" if fwhm is None else str(fwhm), float(keep_edges or 0.0), bool(fill), boundary == "free"))
+    if missed:
+        warnings.warn(f"the tolerance was missed in {missed} steps", RuntimeWarning, stacklevel=2)
     report = {"fwhm": reached, "time_step": time_step, "without_data": without_data, "filled": filled,
               "remarks": remarks}
     return result.reshape(values.shape).astype(np.float32 if values.dtype == np.float32 else np.float64), report
