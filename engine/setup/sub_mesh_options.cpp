@@ -20,11 +20,16 @@ FlowTerms terms_of(const FlowOptions& options, const Points& first)
             .strengths = options.motion.strength};
 }
 
-std::unique_ptr<SubMeshSystem> make_equations(const SubMesh& sub_mesh, std::vector<Index> twin,
+std::unique_ptr<SubMeshSystem> make_equations(const SubMesh& sub_mesh, std::vector<Index> twin, bool is_only,
                                               const FlowOptions& options, const FlowTerms& terms,
                                               SolverWorkspace& workspace)
 {
-    SystemParts parts{sub_mesh, std::move(twin), laplacian_of(options), options.resources.factorisation, terms};
+    SystemParts parts{sub_mesh,
+                      std::move(twin),
+                      laplacian_of(options),
+                      options.resources.factorisation,
+                      terms,
+                      is_only ? Executor(run_in_parallel) : Executor()};
     const auto with = [&](std::unique_ptr<TransmissionCondition> condition) {
         return make_system(std::move(parts), std::move(condition), workspace);
     };

@@ -18,8 +18,9 @@ FlowTerms terms_of(const FlowOptions& options, const Points& first);
 /// The equations of a sub-mesh.
 /// @param sub_mesh must outlive them.
 /// @param twin of the sub-mesh, kept by equations that need it.
+/// @param is_only whether there are no others: all threads then work on this one.
 /// @throws ComputationError if their analysis fails.
-std::unique_ptr<SubMeshSystem> make_equations(const SubMesh& sub_mesh, std::vector<Index> twin,
+std::unique_ptr<SubMeshSystem> make_equations(const SubMesh& sub_mesh, std::vector<Index> twin, bool is_only,
                                               const FlowOptions& options, const FlowTerms& terms,
                                               SolverWorkspace& workspace);
 

@@ -166,7 +166,8 @@ void SweepStepper::make_states(const PolygonMesh& mesh, const FlowOptions& optio
             return;
         }
         run_for(s, [&] {
-            auto equations = make_equations(sub_mesh, std::move(sub_mesh.twin), options, terms, workspaces_.local());
+            auto equations = make_equations(sub_mesh, std::move(sub_mesh.twin), made.size() == 1, options, terms,
+                                            workspaces_.local());
             SubMeshState& state = made[s].emplace(sub_mesh, std::move(equations), mesh.vertices);
             state.p = robin_parameter(sub_mesh, state.position, options);
             if (!state.system->uses_faces())

@@ -15,6 +15,7 @@
 #include <fmt/format.h>
 
 #include "engine/flow.h"
+#include "engine/tasks/parallel_executor.h"
 #include "engine/tasks/stopwatch.h"
 #include "partition/errors.h"
 #include "samples/benchmark/methods/whole_system.h"
@@ -135,7 +136,7 @@ Columns solve_by_own_factor(const Equations& equations, KHarmonicRow& row)
     Matrix permuted;
     permuted = equations.matrix.twistedBy(place_of);
     const Matrix ordered = permuted.triangularView<Eigen::Upper>();
-    const LdlSolver solver(pattern_of(ordered));
+    const LdlSolver solver(pattern_of(ordered), {}, {}, run_in_parallel);
     LdlWorkspace workspace;
     const auto factor = solver.factorise<double>({ordered.valuePtr(), at(static_cast<Index>(ordered.nonZeros()))},
                                                  *std::pmr::new_delete_resource(), workspace);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <type_traits>
 #include <utility>
@@ -57,13 +58,36 @@ void copy_diagonal(const LdlPanel<Number>& panel, std::vector<double>& diagonal)
         diagonal[c] = panel.values[at(c) * at(panel.width + 1)];
 }
 
+/// Of supernodes that several threads factorise: narrow ones have more to do at a time, wide ones less to wait for.
+constexpr Index most_columns_of_parallel = 64;
+
+Index most_columns(const Executor& exec)
+{
+    return exec ? most_columns_of_parallel : std::numeric_limits<Index>::max();
+}
+
+/// The place of each row of one panel among those of another, all ascending.
+void find_target_rows(std::span<const Index> rows, std::span<const Index> among, std::vector<Index>& places)
+{
+    places.resize(rows.size());
+    std::size_t place = 0;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        while (among[place] != rows[i])
+            ++place;
+        places[i] = static_cast<Index>(place);
+    }
+}
+
 }  // namespace
 
-LdlSolver::LdlSolver(const SparsePattern& upper, std::optional<Index> n_last, const EliminationTree& tree)
+LdlSolver::LdlSolver(const SparsePattern& upper, std::optional<Index> n_last, const EliminationTree& tree,
+                     Executor exec)
     : n_last_(n_last.value_or(0))
     , has_rows_(n_last.has_value())
-    , pattern_(make_symmetric_symbolic_factor(upper, n_last_, tree, places_))
+    , pattern_(make_symmetric_symbolic_factor(upper, n_last_, tree, places_, most_columns(exec)))
+    , exec_(std::move(exec))
 {
+    assert((!exec_ || !has_rows_) && "several threads factorise matrices without last unknowns");
     panels_.reserve(pattern_.first.size());
     for (Index b = 0; b < pattern_.n_supernodes(); ++b) {
         const std::size_t end = at(panels_.back()) + at(pattern_.width(b)) * pattern_.rows[b].size();
@@ -74,6 +98,10 @@ LdlSolver::LdlSolver(const SparsePattern& upper, std::optional<Index> n_last, co
     const std::vector<Index> supernode_of = blocks_of_unknowns(pattern_);
     list_updates(supernode_of);
     find_places(upper, supernode_of);
+    if (exec_)
+        schedule_ = schedule_elimination(pattern_, supernode_of);
+    if (schedule_.exists())
+        list_targets();
 }
 
 void LdlSolver::list_updates(const std::vector<Index>& supernode_of)
@@ -93,6 +121,24 @@ void LdlSolver::list_updates(const std::vector<Index>& supernode_of)
     updates_ = make_lists<Update>(pattern_.n_supernodes(), for_each_update);
 }
 
+/// Takes the updates by supernodes above the groups out of those of their targets.
+void LdlSolver::list_targets()
+{
+    const std::vector<Index>& place_above = schedule_.place_above;
+    targets_ = make_lists<Target>(static_cast<Index>(schedule_.above.size()), [&](auto&& add) {
+        for (const Index later : schedule_.above)
+            for (const Update& update : updates_[later])
+                if (place_above[update.earlier] >= 0)
+                    add(place_above[update.earlier], Target{later, update.place, update.n_columns});
+    });
+    updates_ = make_lists<Update>(pattern_.n_supernodes(), [&, all = std::move(updates_)](auto&& add) {
+        for (Index later = 0; later < pattern_.n_supernodes(); ++later)
+            for (const Update& update : all[later])
+                if (place_above[update.earlier] < 0)
+                    add(later, update);
+    });
+}
+
 /// An entry of column j belongs to the supernode of its row, which is eliminated first; the place of j among the rows
 /// of that supernode is known.
 void LdlSolver::find_places(const SparsePattern& upper, const std::vector<Index>& supernode_of)
@@ -110,10 +156,7 @@ std::optional<LdlFactor<Number>> LdlSolver::factorise(std::span<const double> va
 {
     auto numbers = take_numbers<Number>(memory, n_numbers());
     Number* factor = numbers.get();
-    if (workspace.row_of.size() < at(n())) {
-        workspace.row_of.resize(n());
-        workspace.target_rows.resize(n());
-    }
+    enlarge(workspace);
     auto& last = std::get<std::vector<Number>>(workspace.last);
     const std::size_t n_in_last = at(n_last_) * at(n_last_);
     last.resize(std::max(last.size(), n_in_last));
@@ -126,16 +169,92 @@ std::optional<LdlFactor<Number>> LdlSolver::factorise(std::span<const double> va
         (place < n_factor_numbers() ? factor[place] : last[place - n_factor_numbers()]) =
             static_cast<Number>(inverse * values[k]);
     }
-    for (Index b = 0; b < pattern_.n_supernodes(); ++b) {
+    bool is_positive = true;
+    if (schedule_.exists())
+        is_positive = factorise_by_subtrees(factor, least_pivot);
+    for (Index b = 0; b < pattern_.n_supernodes() && is_positive && !schedule_.exists(); ++b) {
         LdlPanel<Number> block = panel(factor, b);
         if (panels_[b] == n_factor_numbers())
             block.values = last.data();
-        copy_diagonal(block, workspace.diagonal);
-        subtract_updates(block, b, factor, workspace);
-        if (!factorise_panel(block) || has_small_pivot(block, workspace.diagonal, least_pivot))
-            return std::nullopt;
+        is_positive = factorise_supernode(b, block, factor, workspace, least_pivot);
     }
-    return LdlFactor<Number>(*this, std::move(numbers), scale);
+    return is_positive ? std::optional(LdlFactor<Number>(*this, std::move(numbers), scale)) : std::nullopt;
+}
+
+void LdlSolver::enlarge(LdlWorkspace& workspace) const
+{
+    if (workspace.row_of.size() < at(n())) {
+        workspace.row_of.resize(n());
+        workspace.target_rows.resize(n());
+    }
+}
+
+/// @returns whether its pivots are large enough.
+template <class Number>
+bool LdlSolver::factorise_supernode(Index supernode, const LdlPanel<Number>& panel, Number* factor,
+                                    LdlWorkspace& workspace, Number least_pivot) const
+{
+    copy_diagonal(panel, workspace.diagonal);
+    subtract_updates(panel, supernode, factor, workspace);
+    return factorise_panel(panel) && !has_small_pivot(panel, workspace.diagonal, least_pivot);
+}
+
+template <class Number>
+bool LdlSolver::factorise_in_order(std::span<const Index> supernodes, Number* factor, LdlWorkspace& workspace,
+                                   Number least_pivot) const
+{
+    return std::ranges::all_of(
+        supernodes, [&](Index b) { return factorise_supernode(b, panel(factor, b), factor, workspace, least_pivot); });
+}
+
+/// The groups; their updates of the supernodes above them; these one by one, each with its updates of later ones.
+template <class Number>
+bool LdlSolver::factorise_by_subtrees(Number* factor, Number least_pivot) const
+{
+    const auto n_groups = schedule_.groups.size();
+    const auto n_above = static_cast<Index>(schedule_.above.size());
+    std::vector<std::uint8_t> is_positive(at(n_groups), 0);
+    exec_(n_groups, [&](Index begin, Index end) {
+        LdlWorkspace workspace;
+        enlarge(workspace);
+        for (Index group = begin; group < end; ++group)
+            is_positive[group] = factorise_in_order(schedule_.groups[group], factor, workspace, least_pivot) ? 1 : 0;
+    });
+    if (std::ranges::find(is_positive, 0) != is_positive.end())
+        return false;
+    std::vector<std::vector<double>> diagonals(at(n_above));
+    exec_(n_above, [&](Index begin, Index end) {
+        LdlWorkspace workspace;
+        enlarge(workspace);
+        for (Index i = begin; i < end; ++i) {
+            const LdlPanel<Number> later = panel(factor, schedule_.above[i]);
+            copy_diagonal(later, diagonals[i]);
+            subtract_updates(later, schedule_.above[i], factor, workspace);
+        }
+    });
+    for (Index i = 0; i < n_above; ++i) {
+        const LdlPanel<Number> earlier = panel(factor, schedule_.above[i]);
+        if (!factorise_panel(earlier) || has_small_pivot(earlier, diagonals[i], least_pivot))
+            return false;
+        subtract_from_targets(i, factor);
+    }
+    return true;
+}
+
+/// @param above a factorised supernode, by its place in the schedule.
+template <class Number>
+void LdlSolver::subtract_from_targets(Index above, Number* factor) const
+{
+    const LdlPanel<Number> earlier = panel(factor, schedule_.above[above]);
+    const std::span<const Target> targets = targets_[above];
+    exec_(static_cast<Index>(targets.size()), [&](Index begin, Index end) {
+        std::vector<Index> target_rows;
+        for (const Target& target : targets.subspan(at(begin), at(end - begin))) {
+            const LdlPanel<Number> later = panel(factor, target.later);
+            find_target_rows(earlier.rows.subspan(at(target.place)), later.rows, target_rows);
+            subtract_update(earlier, target.place, target.n_columns, target_rows.data(), later);
+        }
+    });
 }
 
 template <class Number>
@@ -188,15 +307,30 @@ template <class Number>
 void LdlFactor<Number>::back_substitute(Number* x, Index n) const
 {
     const SymbolicFactor& pattern = solver_->pattern_;
-    const std::vector<Index>& panels = solver_->panels_;
+    const EliminationSchedule& schedule = solver_->schedule_;
+    if (schedule.exists()) {
+        for (std::size_t i = schedule.above.size(); i-- > 0;)
+            back_substitute_supernode(x, schedule.above[i]);
+        for_each(solver_->exec_, schedule.groups.size(), [&](Index group) {
+            const std::span<const Index> supernodes = schedule.groups[group];
+            for (std::size_t i = supernodes.size(); i-- > 0;)
+                back_substitute_supernode(x, supernodes[i]);
+        });
+        return;
+    }
     for (Index b = pattern.n_supernodes(); b-- > 0;)
-        if (pattern.first[b] < n) {
-            // Processors predict only forward access. Not in a function of its own: compilers omit calls of functions
-            // that only do this.
-            for (std::ptrdiff_t i = panels[b]; i < panels[b + 1]; i += cache_line<Number>)
-                __builtin_prefetch(numbers_.get() + std::max(std::ptrdiff_t{0}, i - substituted_ahead));
-            back_substitute_panel(solver_->panel(numbers_.get(), b), x);
-        }
+        if (pattern.first[b] < n)
+            back_substitute_supernode(x, b);
+}
+
+/// Processors predict only forward access.
+template <class Number>
+void LdlFactor<Number>::back_substitute_supernode(Number* x, Index supernode) const
+{
+    const std::vector<Index>& panels = solver_->panels_;
+    for (std::ptrdiff_t i = panels[supernode]; i < panels[supernode + 1]; i += cache_line<Number>)
+        __builtin_prefetch(numbers_.get() + std::max(std::ptrdiff_t{0}, i - substituted_ahead));
+    back_substitute_panel(solver_->panel(numbers_.get(), supernode), x);
 }
 
 template class LdlFactor<float>;

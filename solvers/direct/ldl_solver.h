@@ -10,9 +10,11 @@
 
 #include <Eigen/Core>
 
+#include "partition/executor.h"
 #include "partition/index_lists.h"
 #include "partition/polygon_mesh.h"
 #include "solvers/direct/columns.h"
+#include "solvers/direct/elimination_schedule.h"
 #include "solvers/direct/factor_memory.h"
 #include "solvers/direct/ldl_panel.h"
 #include "solvers/direct/solver_workspace.h"
@@ -35,15 +37,19 @@ template <class Number>
 class LdlFactor;
 
 /// LDLᵀ factorisation of symmetric sparse matrices of one pattern, in the given order of the unknowns. All except the
-/// numbers is known in advance. Different threads may factorise at the same time, each with a workspace of its own.
+/// numbers is known in advance. Different threads may factorise at the same time, each with a workspace of its own; or
+/// several threads factorise one matrix, and the result does not depend on their number.
 class LdlSolver {
   public:
     /// Analyses the pattern, which is needed only during the call.
     /// @param upper the entries on and above the diagonal, the whole diagonal among them.
     /// @param n_last number of unknowns that are kept together at the end; factors have rows() then.
     /// @param tree if already known and no unknowns are kept together; otherwise empty.
+    /// @param exec runs what several threads can do at once; empty: nothing is.
+    /// @pre no unknowns are kept together if there is an `exec`.
     /// @throws ComputationError if the factor would have 2³¹ entries or more.
-    explicit LdlSolver(const SparsePattern& upper, std::optional<Index> n_last = {}, const EliminationTree& tree = {});
+    explicit LdlSolver(const SparsePattern& upper, std::optional<Index> n_last = {}, const EliminationTree& tree = {},
+                       Executor exec = {});
 
     [[nodiscard]] Index n() const { return pattern_.n(); }
 
@@ -90,8 +96,27 @@ class LdlSolver {
     {
         return at(n_factor_numbers()) + (has_rows_ ? at(ldl_row) * at(n()) : 0);
     }
+    /// An update of a later supernode, seen from the earlier one.
+    struct Target {
+        Index later;
+        Index place;
+        Index n_columns;
+    };
+
     void list_updates(const std::vector<Index>& supernode_of);
+    void list_targets();
     void find_places(const SparsePattern& upper, const std::vector<Index>& supernode_of);
+    void enlarge(LdlWorkspace& workspace) const;
+    template <class Number>
+    [[nodiscard]] bool factorise_in_order(std::span<const Index> supernodes, Number* factor, LdlWorkspace& workspace,
+                                          Number least_pivot) const;
+    template <class Number>
+    [[nodiscard]] bool factorise_supernode(Index supernode, const LdlPanel<Number>& panel, Number* factor,
+                                           LdlWorkspace& workspace, Number least_pivot) const;
+    template <class Number>
+    [[nodiscard]] bool factorise_by_subtrees(Number* factor, Number least_pivot) const;
+    template <class Number>
+    void subtract_from_targets(Index above, Number* factor) const;
     template <class Number>
     void subtract_updates(const LdlPanel<Number>& later, Index supernode, Number* factor,
                           LdlWorkspace& workspace) const;
@@ -108,8 +133,12 @@ class LdlSolver {
     SymbolicFactor pattern_;
     /// Per supernode, where it begins in the factor, and where the last one ends.
     std::vector<Index> panels_{0};
-    /// Per supernode.
+    /// Per supernode; where there is a schedule, by supernodes that are in groups.
     Lists<Update> updates_;
+    Executor exec_;
+    EliminationSchedule schedule_;
+    /// Per supernode above the groups: what it updates, all above them.
+    Lists<Target> targets_;
 };
 
 /// L D Lᵀ of one matrix, in units of scale(), without the block of the last unknowns.
@@ -148,6 +177,7 @@ class LdlFactor {
 
     void forward_substitute(Number* x, Index n) const;
     void back_substitute(Number* x, Index n) const;
+    void back_substitute_supernode(Number* x, Index supernode) const;
 
     const LdlSolver* solver_;
     FactorNumbers<Number> numbers_;

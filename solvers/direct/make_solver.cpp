@@ -20,8 +20,8 @@ constexpr Index most_unknowns_for_lu = 20'000;
 
 class OwnLdl final : public DirectSolver {
   public:
-    OwnLdl(const SparsePattern& upper, const EliminationTree& tree)
-        : solver_(upper, {}, tree)
+    OwnLdl(const SparsePattern& upper, const EliminationTree& tree, Executor exec)
+        : solver_(upper, {}, tree, std::move(exec))
     {
     }
 
@@ -97,12 +97,13 @@ class OwnLu final : public DirectSolver {
 }  // namespace
 
 std::unique_ptr<DirectSolver> make_symmetric_solver(SparsePattern upper, Factorisation factorisation,
-                                                    SolverWorkspace& workspace, const EliminationTree& tree)
+                                                    SolverWorkspace& workspace, const EliminationTree& tree,
+                                                    Executor exec)
 {
     if (factorisation == Factorisation::Automatic)
         factorisation = upper.n() <= most_unknowns_for_ldl ? Factorisation::Own : Factorisation::Cholmod;
     if (factorisation == Factorisation::Own)
-        return std::make_unique<OwnLdl>(upper, tree);
+        return std::make_unique<OwnLdl>(upper, tree, std::move(exec));
     assert(factorisation == Factorisation::Cholmod && "no other has symmetric matrices");
     return make_cholmod_llt(std::move(upper), workspace.cholmod);
 }

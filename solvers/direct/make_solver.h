@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "partition/executor.h"
 #include "solvers/direct/direct_solver.h"
 #include "solvers/sparse/sparse_pattern.h"
 #include "solvers/sparse/symbolic_factor.h"
@@ -12,9 +13,11 @@ namespace seamflow {
 /// @param upper the entries on and above the diagonal, the whole diagonal among them.
 /// @param factorisation not Umfpack.
 /// @param tree if already known; otherwise empty.
+/// @param exec runs what several threads can do at once, in our own factorisation; empty: nothing is.
 /// @throws ComputationError if the analysis fails (memory).
 std::unique_ptr<DirectSolver> make_symmetric_solver(SparsePattern upper, Factorisation factorisation,
-                                                    SolverWorkspace& workspace, const EliminationTree& tree = {});
+                                                    SolverWorkspace& workspace, const EliminationTree& tree = {},
+                                                    Executor exec = {});
 
 /// For any matrix.
 /// @param pattern must outlive the solver.

@@ -50,13 +50,13 @@ bool belong_together(const EliminationTree& tree, Index column)
     return tree.parent[column] == column + 1 && tree.count[column] == tree.count[column + 1] + 1;
 }
 
-/// The last of the columns that have the same rows as the first one except for each other; the last n_last are one
-/// supernode.
-Index end_of_supernode(const EliminationTree& tree, Index first, Index n_last)
+/// The last of the columns that have the same rows as the first one except for each other, most_columns at most; the
+/// last n_last are one supernode.
+Index end_of_supernode(const EliminationTree& tree, Index first, Index n_last, Index most_columns)
 {
     const auto n = static_cast<Index>(tree.parent.size());
     Index last = first == n - n_last ? n - 1 : first;
-    while (last + 1 < n && last + 1 != n - n_last && belong_together(tree, last))
+    while (last + 1 < n && last - first + 1 < most_columns && last + 1 != n - n_last && belong_together(tree, last))
         ++last;
     return last;
 }
@@ -103,20 +103,27 @@ enum class Zeros {
     Few,
 };
 
+struct SupernodeLimits {
+    Zeros zeros;
+    /// The last unknowns, which form one supernode.
+    Index n_last;
+    Index most_columns;
+};
+
 /// Fills in the supernodes. Calls on_row(row, supernode, place) for each row that a supernode has outside itself, rows
 /// ascending; `place` is the row's position among those of the supernode. Calls on_entry(slot, place) for each entry of
 /// the matrix in order; there `place` is that of its column among the rows of the supernode of its row.
 template <class OnRow, class OnEntry>
-void list_supernodes(const SparsePattern& upper, const EliminationTree& tree, Zeros zeros, Index n_last,
+void list_supernodes(const SparsePattern& upper, const EliminationTree& tree, const SupernodeLimits& limits,
                      SymbolicFactor& factor, OnRow on_row, OnEntry on_entry)
 {
     const Index n = upper.n();
     std::vector<Index> supernode_of(n);
     std::vector<Index> parent;
     for (Index first = 0, last = 0; first < n; first = ++last) {
-        last = end_of_supernode(tree, first, n_last);
-        if (zeros == Zeros::Few)
-            last = end_of_relaxed_supernode(tree, first, last, n_last);
+        last = end_of_supernode(tree, first, limits.n_last, limits.most_columns);
+        if (limits.zeros == Zeros::Few)
+            last = end_of_relaxed_supernode(tree, first, last, limits.n_last);
         std::fill(supernode_of.begin() + first, supernode_of.begin() + last + 1, factor.n_supernodes());
         parent.push_back(tree.parent[last]);
         factor.first.push_back(last + 1);
@@ -164,7 +171,7 @@ SymbolicFactor make_symbolic_factor(const SparsePattern& pattern)
     factor.update_offsets.assign(at(n) + 1, 0);
     const SparsePattern upper = symmetrised(pattern, factor.position);
     list_supernodes(
-        upper, make_tree(upper), Zeros::None, 0, factor,
+        upper, make_tree(upper), {Zeros::None, 0, n}, factor,
         [&](Index row, Index supernode, Index place) {
             factor.updates.push_back({supernode, place});
             ++factor.update_offsets[row + 1];
@@ -175,15 +182,15 @@ SymbolicFactor make_symbolic_factor(const SparsePattern& pattern)
 }
 
 SymbolicFactor make_symmetric_symbolic_factor(const SparsePattern& upper, Index n_last, const EliminationTree& tree,
-                                              std::vector<Index>& places)
+                                              std::vector<Index>& places, Index most_columns)
 {
     assert((tree.parent.empty() || n_last == 0) && "the tree knows of no last unknowns");
     const EliminationTree own_tree = tree.parent.empty() ? make_tree(upper) : EliminationTree{};
     SymbolicFactor factor;
     places.resize(upper.rows.size());
     list_supernodes(
-        upper, tree.parent.empty() ? own_tree : tree, Zeros::Few, n_last, factor, [](Index, Index, Index) {},
-        [&](Index entry, Index place) { places[entry] = place; });
+        upper, tree.parent.empty() ? own_tree : tree, {Zeros::Few, n_last, most_columns}, factor,
+        [](Index, Index, Index) {}, [&](Index entry, Index place) { places[entry] = place; });
     return factor;
 }
 

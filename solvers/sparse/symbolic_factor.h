@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "partition/index_lists.h"
@@ -45,7 +46,9 @@ SymbolicFactor make_symbolic_factor(const SparsePattern& pattern);
 /// @param n_last the last unknowns, which always form one supernode.
 /// @param tree if already known, as `order_elimination` returns it (without `n_last`); otherwise empty.
 /// @param places receives, per entry of the matrix, the place of its column among the rows of its row's supernode.
+/// @param most_columns of a supernode, but for that of the last unknowns.
 SymbolicFactor make_symmetric_symbolic_factor(const SparsePattern& upper, Index n_last, const EliminationTree& tree,
-                                              std::vector<Index>& places);
+                                              std::vector<Index>& places,
+                                              Index most_columns = std::numeric_limits<Index>::max());
 
 }  // namespace seamflow

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "partition/decomposition/sub_mesh.h"
+#include "partition/executor.h"
 #include "solvers/conditions/transmission_condition.h"
 #include "solvers/direct/direct_solver.h"
 #include "solvers/laplacian/flow_terms.h"
@@ -95,6 +96,8 @@ struct SystemParts {
     ScaledLaplacian laplacian;
     Factorisation factorisation = Factorisation::Automatic;
     FlowTerms terms = {};
+    /// Runs what several threads can do at once for this sub-mesh; empty: nothing is.
+    Executor exec = {};
 };
 
 /// The equations with a condition of any kind on Γ.

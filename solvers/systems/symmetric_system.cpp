@@ -32,7 +32,7 @@ SymmetricSystem::SymmetricSystem(const SystemParts& parts, SymmetricRows rows, S
     list_couplings(pairs, unknown_of);
     if (rows == SymmetricRows::Transmission)
         list_interface(upper, unknown_of);
-    solver_ = make_symmetric_solver(std::move(upper), parts.factorisation, workspace, tree);
+    solver_ = make_symmetric_solver(std::move(upper), parts.factorisation, workspace, tree, parts.exec);
 }
 
 /// In the order of the vertices.

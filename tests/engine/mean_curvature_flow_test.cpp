@@ -89,6 +89,19 @@ TEST_CASE("one sub-mesh is the undecomposed flow to the bit")
     }
 }
 
+TEST_CASE("a large mesh that is not cut is factorised by several threads, with the same bits")
+{
+    const PolygonMesh mesh = make_triangles(40'000);
+    const auto result = [&](int threads) {
+        FlowOptions options = two_step_options(1);
+        options.resources.threads = threads;
+        return test::flowed(mesh, options);
+    };
+    const Points expected = result(1);
+    for (const int threads : {2, 3, 7})
+        CHECK(result(threads) == expected);
+}
+
 TEST_CASE("sweeps alternate with more than two sub-meshes, unless told otherwise")
 {
     const PolygonMesh mesh = make_triangles(2000);

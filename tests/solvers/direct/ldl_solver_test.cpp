@@ -1,4 +1,6 @@
+#include <array>
 #include <limits>
+#include <thread>
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
@@ -76,6 +78,60 @@ template <class Number>
 auto rows_of(LdlFactor<Number>& factor, Index n)
 {
     return Eigen::Map<Eigen::Matrix<Number, Eigen::Dynamic, ldl_row, Eigen::RowMajor>>(factor.rows(), n, ldl_row);
+}
+
+/// Triangles in the elimination ordering, enough of them for several threads: weak couplings, and a diagonal that
+/// outweighs them.
+struct OrderedTriangles {
+    explicit OrderedTriangles(RandomNumbers& random)
+    {
+        const SparsePattern neighbours = triangle_neighbours(side, random);
+        EliminationOrdering elimination = order_elimination(neighbours);
+        tree = std::move(elimination.tree);
+        upper = upper_in(neighbours, elimination.order);
+        for (Index column = 0; column < upper.n(); ++column)
+            for (Index k = upper.column_offsets[column]; k < upper.column_offsets[column + 1]; ++k)
+                values.push_back(upper.rows[k] == column ? 8.0 : random.symmetric());
+    }
+
+    [[nodiscard]] Columns times(const Columns& x) const
+    {
+        Columns product = Columns::Zero(x.rows(), 3);
+        for (Index column = 0; column < upper.n(); ++column)
+            for (Index k = upper.column_offsets[column]; k < upper.column_offsets[column + 1]; ++k) {
+                product.row(upper.rows[k]) += values[k] * x.row(column);
+                if (upper.rows[k] != column)
+                    product.row(column) += values[k] * x.row(upper.rows[k]);
+            }
+        return product;
+    }
+
+    double& diagonal(Index unknown) { return values[at(upper.column_offsets[unknown + 1]) - 1]; }
+
+    static constexpr Index side = 180;
+    SparsePattern upper;
+    EliminationTree tree;
+    std::vector<double> values;
+};
+
+/// Indices one by one, the last one first.
+void run_last_first(Index n, const RangeBody& body)
+{
+    for (Index i = n; i-- > 0;)
+        body(i, i + 1);
+}
+
+/// Every third index in a thread of its own.
+void run_in_three_threads(Index n, const RangeBody& body)
+{
+    std::array<std::thread, 3> threads;
+    for (Index t = 0; t < 3; ++t)
+        threads[t] = std::thread([&body, n, t] {
+            for (Index i = t; i < n; i += 3)
+                body(i, i + 1);
+        });
+    for (std::thread& thread : threads)
+        thread.join();
 }
 
 /// How far results may be from exact ones, relative to them.
@@ -283,4 +339,47 @@ TEST_CASE(
         CHECK((dense * found - right).norm() < 1e-12 * right.norm());
         CHECK(100 * solver.factor_bytes<double>() <= 101 * LdlSolver(upper).factor_bytes<double>());
     }
+}
+
+TEST_CASE_TEMPLATE("several threads factorise one matrix, with the same bits as one", Number, float, double)
+{
+    RandomNumbers random(7);
+    const OrderedTriangles matrix(random);
+    const Index n = matrix.upper.n();
+    const Columns right = random_columns(n, random);
+    LdlWorkspace workspace;
+    const LdlSolver in_order(matrix.upper, {}, matrix.tree);
+    const LdlSolver by_one(matrix.upper, {}, matrix.tree, run_serially);
+    const Columns found = solved<Number>(by_one, matrix.values, right, workspace);
+    CHECK((matrix.times(found) - right).norm() < rounding<Number> * right.norm());
+    const Columns one_by_one = solved<Number>(in_order, matrix.values, right, workspace);
+    CHECK(found != one_by_one);
+    CHECK((found - one_by_one).norm() < rounding<Number> * found.norm());
+    for (const Executor& exec : {Executor(run_last_first), Executor(run_in_three_threads)}) {
+        const LdlSolver solver(matrix.upper, {}, matrix.tree, exec);
+        CHECK(solved<Number>(solver, matrix.values, right, workspace) == found);
+    }
+}
+
+TEST_CASE("several threads find that a matrix is not positive definite, or that a pivot has lost its digits")
+{
+    RandomNumbers random(8);
+    OrderedTriangles matrix(random);
+    const Index last = matrix.upper.n() - 1;
+    const LdlSolver solver(matrix.upper, {}, matrix.tree, run_in_three_threads);
+    LdlWorkspace workspace;
+    // The last entry of the inverse is that of the last pivot.
+    Columns unit = Columns::Zero(last + 1, 3);
+    unit(last, 0) = 1.0;
+    const double pivot = 1.0 / solved(solver, matrix.values, unit, workspace)(last, 0);
+    for (const Index unknown : {Index{0}, last / 2, last}) {
+        const double kept = std::exchange(matrix.diagonal(unknown), -1.0);
+        CHECK_FALSE(solver.factorise<double>(matrix.values, heap(), workspace));
+        CHECK_FALSE(solver.factorise<float>(matrix.values, heap(), workspace));
+        matrix.diagonal(unknown) = kept;
+    }
+    CHECK(solver.factorise<double>(matrix.values, heap(), workspace, 1e-6));
+    matrix.diagonal(last) -= (1.0 - 1e-10) * pivot;
+    CHECK(solver.factorise<double>(matrix.values, heap(), workspace));
+    CHECK_FALSE(solver.factorise<double>(matrix.values, heap(), workspace, 1e-6));
 }
