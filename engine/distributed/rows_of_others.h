@@ -28,4 +28,9 @@ class RowsOfOthers {
     std::vector<std::vector<Index>> ours_;
 };
 
+/// The rows of the vertices of a rank's part. All ranks call this together.
+/// @param part as it was given. @param mesh what became of it. @param known #V by 3 of `mesh`.
+/// @param rows #V by 3 of the part: vertices without faces keep theirs.
+Points rows_of_part(Communicator& comm, const MeshPart& part, const RankMesh& mesh, const Points& known, Points rows);
+
 }  // namespace seamflow
