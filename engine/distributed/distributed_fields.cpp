@@ -43,8 +43,11 @@ FlowOptions flow_on_ranks(const FlowOptions& options, const FieldOptions& of_fie
     require_for_fields(options, of_fields);
     require_for_fields_on_ranks(of_fields);
     FlowOptions own = flow_for_fields(options, of_fields);
-    if (own.accuracy.approach == Approach::Automatic || own.accuracy.approach == Approach::Decomposed)
-        own.accuracy.approach = Approach::Converged;
+    Approach& approach = own.accuracy.approach;
+    if (approach != Approach::Automatic && approach != Approach::Decomposed && approach != Approach::Converged)
+        throw OptionError(
+            "ranks let fields diffuse in converged steps: leave the approach out, or use a single process");
+    approach = Approach::Converged;
     require_valid(own);
     require_for_ranks(own);
     return own;
@@ -102,7 +105,9 @@ std::vector<ValueRange> ranges_of_all(Communicator& comm, const Eigen::MatrixXd&
 class FieldFlow {
   public:
     /// All ranks construct it together. @param surface must outlive the flow.
-    FieldFlow(Communicator& comm, const MeshPart& surface, const FlowOptions& options)
+    /// @param others numbers of vertices of this rank that have no faces of its surface, ascending.
+    FieldFlow(Communicator& comm, const MeshPart& surface, const std::vector<std::int64_t>& others,
+              const FlowOptions& options)
         : comm_(comm)
         , surface_(surface)
         , options_(options)
@@ -110,12 +115,15 @@ class FieldFlow {
         , mesh_(make_rank_mesh(comm, surface, origin_offset(gather_box(comm, surface.mesh)), options,
                                SoundCut::NotNeeded))
         , stepper_(mesh_.part.mesh, make_peer_sub_meshes(comm, mesh_, decompose_rank_mesh(mesh_)), options, progress_)
+        , others_(comm, mesh_, others)
+        , is_elsewhere_(others_.fetch(Points::Ones(mesh_.part.mesh.n_vertices(), 3)))
     {
     }
 
     /// All ranks call this together.
-    /// @param rows #V of the surface by 3. @param n how many steps.
-    void diffuse(Points& rows, int n)
+    /// @param rows #V of the surface by 3. @param of_others correspond to `others`: those that other ranks have change.
+    /// @param n how many steps.
+    void diffuse(Points& rows, Points& of_others, int n)
     {
         // What other sub-meshes have does not matter.
         Points data = Points::Zero(mesh_.part.mesh.n_vertices(), 3);
@@ -131,6 +139,10 @@ class FieldFlow {
                 throw ComputationError(fmt::format("step {}, {}", step, error.what()));
             }
         rows = rows_of_part(comm_, surface_, mesh_, data, std::move(rows));
+        const Points elsewhere = others_.fetch(data);
+        for (Index i = 0; i < of_others.rows(); ++i)
+            if (is_elsewhere_(i, 0) > 0.0)
+                of_others.row(i) = elsewhere.row(i);
     }
 
     void describe(FlowReport& report) const
@@ -147,6 +159,9 @@ class FieldFlow {
     Progress progress_;
     RankMesh mesh_;
     SchurStepper stepper_;
+    RowsOfOthers others_;
+    /// #others by 3: 1 where another rank has them, else 0.
+    Points is_elsewhere_;
 };
 
 /// Lets the columns of a group diffuse. All ranks call this together.
@@ -156,9 +171,8 @@ FlowReport diffuse_group(Communicator& comm, const MeshPart& part, const FieldGr
     Stopwatch watch;
     const int n_steps = options.steps;
     options.steps *= n_blocks(std::ssize(group.columns));
-    const std::vector<Index> faces = select(run_in_parallel, part.mesh.n_faces(), [&](Index f) {
-        return has_data(part.mesh, f, group, options.laplacian);
-    });
+    const std::vector<Index> faces = select(run_in_parallel, part.mesh.n_faces(),
+                                            [&](Index f) { return has_data(part.mesh, f, group, options.laplacian); });
     const std::vector<std::size_t> n_faces = comm.gather_all(std::vector{faces.size()});
     FlowReport report;
     report.convergence = {.approach = options.accuracy.approach, .tolerance = options.accuracy.tolerance};
@@ -166,18 +180,28 @@ FlowReport diffuse_group(Communicator& comm, const MeshPart& part, const FieldGr
         return report;
     const MeshPart surface = some_faces(part, faces);
     ScaledFields scaled(fields, group, ranges_of_all(comm, fields, group), options.time_step);
-    std::vector<Index> places;
-    for (const std::int64_t number : surface.vertex_numbers)
-        places.push_back(place_in(part.vertex_numbers, number));
-    FieldFlow flow(comm, surface, options);
+    const auto is_own = [&](Index v) { return position_in(surface.vertex_numbers, part.vertex_numbers[v]) >= 0; };
+    const std::vector<Index> own = select(run_in_parallel, part.mesh.n_vertices(), is_own);
+    const std::vector<Index> others =
+        select(run_in_parallel, part.mesh.n_vertices(), [&](Index v) { return group.lacks[v] == 0 && !is_own(v); });
+    std::vector<std::int64_t> numbers;
+    for (const Index v : others)
+        numbers.push_back(part.vertex_numbers[v]);
+    FieldFlow flow(comm, surface, numbers, options);
     const double set_up = watch.lap();
     constexpr Eigen::Index width = 3;
     for (Eigen::Index c = 0; c < scaled.values().cols(); c += width) {
         auto columns = scaled.values().middleCols(c, std::min(width, scaled.values().cols() - c));
-        Points rows = Points::Zero(surface.mesh.n_vertices(), width);
-        rows.leftCols(columns.cols()) = columns(places, Eigen::all);
-        flow.diffuse(rows, n_steps);
-        columns(places, Eigen::all) = rows.leftCols(columns.cols());
+        const auto rows_of = [&](const std::vector<Index>& vertices) {
+            Points rows = Points::Zero(std::ssize(vertices), width);
+            rows.leftCols(columns.cols()) = columns(vertices, Eigen::all);
+            return rows;
+        };
+        Points of_own = rows_of(own);
+        Points of_others = rows_of(others);
+        flow.diffuse(of_own, of_others, n_steps);
+        columns(own, Eigen::all) = of_own.leftCols(columns.cols());
+        columns(others, Eigen::all) = of_others.leftCols(columns.cols());
     }
     scaled.write(group, fields);
     flow.describe(report);

@@ -10,10 +10,10 @@
 
 namespace seamflow {
 
-/// Lets fields on a surface that no rank has as a whole diffuse, as diffuse does: each rank gives some of the sub-meshes
-/// with all their faces, and the fields of their vertices. All ranks call this together, with the same options. The
-/// result is the same, bit for bit, for any number of ranks, and of threads of each; where all vertices have data, also
-/// that of diffuse with these labels and Approach::Converged.
+/// Lets fields on a surface that no rank has as a whole diffuse, as diffuse does: each rank gives some of the
+/// sub-meshes with all their faces, and the fields of their vertices. All ranks call this together, with the same
+/// options. The result is the same, bit for bit, for any number of ranks, and of threads of each; where all vertices
+/// have data, also that of diffuse with these labels and Approach::Converged.
 ///
 /// Not supported: FieldOptions::fill and keep_edges, and what distributed_mean_curvature_flow leaves out; steps are
 /// always converged. FlowOptions::radius is not known to ranks: give the time step, or FieldOptions::fwhm. Labels and

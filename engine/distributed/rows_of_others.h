@@ -12,8 +12,8 @@ namespace seamflow {
 class RowsOfOthers {
   public:
     /// All ranks call this together.
-    /// @param comm, mesh must outlive this. @param wanted numbers of vertices in the whole mesh, ascending, each with
-    ///        faces on some rank.
+    /// @param comm, mesh must outlive this. @param wanted numbers of vertices in the whole mesh, ascending; those
+    ///        that have no faces on any rank get 0.
     RowsOfOthers(Communicator& comm, const RankMesh& mesh, const std::vector<std::int64_t>& wanted);
 
     /// All ranks call this together.

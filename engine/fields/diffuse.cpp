@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 #include <cstdint>
+#include <string>
 #include <utility>
 
 #include "engine/fields/field_columns.h"
@@ -25,7 +25,8 @@ constexpr double time_to_rest = 1e6;
 
 /// The same vertices, and the faces whose vertices all have data, but for faces without area; their labels, if there
 /// are any.
-PolygonMesh surface_of(const PolygonMesh& mesh, const FieldGroup& group, Laplacian laplacian, std::vector<Index>& labels)
+PolygonMesh surface_of(const PolygonMesh& mesh, const FieldGroup& group, Laplacian laplacian,
+                       std::vector<Index>& labels)
 {
     std::vector<Index> left;
     PolygonMesh surface = with_faces(mesh, [&](Index f) {

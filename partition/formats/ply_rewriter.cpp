@@ -312,7 +312,8 @@ std::vector<std::string> rewrite_ply_header(ByteWriter& file, const std::filesys
                                             const std::vector<PlyChange>& changes)
 {
     std::vector<std::string> remarks = rewrite_header(file, path, header, vertices, changes, {});
-    const bool moves = std::ranges::any_of(changes, [](const PlyChange& one) { return one.column >= 0 && one.column < 3; });
+    const bool moves =
+        std::ranges::any_of(changes, [](const PlyChange& one) { return one.column >= 0 && one.column < 3; });
     if (moves && normals_of(vertices) != Normals::None)
         remarks.push_back(kept_normals_remark(path, "normals"));
     return remarks;

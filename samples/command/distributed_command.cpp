@@ -35,7 +35,8 @@ void settle_approach(const FieldRequest& fields, FlowOptions& options)
     if (accuracy.approach != Approach::Automatic && accuracy.approach != Approach::Decomposed)
         return;
     const bool shares_boundary = options.motion.boundary == Boundary::Free && options.interface == InterfaceOptions();
-    const bool is_converged = accuracy.tolerance || shares_boundary || options.flow == FlowEquation::Linear || fields.exists();
+    const bool is_converged =
+        accuracy.tolerance || shares_boundary || options.flow == FlowEquation::Linear || fields.exists();
     accuracy.approach = is_converged ? Approach::Converged : Approach::Sweep;
 }
 
@@ -61,7 +62,8 @@ std::optional<ExitStatus> parse_distributed_command(int argc, char** argv, int r
                 app.get_option("--approach")
                     ->type_name("auto|decomposed|sweep|converged")
                     ->description(
-                        "how a step is taken [sweep; converged with --converge, --boundary free or --flow linear]\n"
+                        "how a step is taken [sweep; converged with --converge, --boundary free, --flow linear or "
+                        "--fields]\n"
                         "sweep: one sweep over the sub-meshes; converged: these converge to the undecomposed "
                         "step.");
                 app.get_option("--fwhm")->description(

@@ -21,7 +21,8 @@ double mean_of(const FieldRange& range)
 
 std::string text_of(const FieldRange& range)
 {
-    return range.n == 0 ? "no data" : fmt::format("{:.6g} to {:.6g}, mean {:.6g}", range.least, range.most, mean_of(range));
+    return range.n == 0 ? "no data"
+                        : fmt::format("{:.6g} to {:.6g}, mean {:.6g}", range.least, range.most, mean_of(range));
 }
 
 ReportJson json_of(const FieldRange& range)

@@ -94,7 +94,7 @@ class RankFieldRun {
         comm.look_together([&] { settle_amount(size); });
         const SliceBounds bounds = gather_bounds(comm, slice);
         bounds_ = bounds.vertices;
-        about_file(command_.input, [&] { fields_ = file_->read_fields(comm, command_.fields.names); });
+        fields_ = file_->read_fields(comm, command_.fields.names);
         summary_ = {.names = fields_.names, .n_vertices = size.vertices, .before = ranges_of_all(comm, fields_.values)};
         if (!command_.labels.empty())
             slice.labels = read_labels(comm, command_, file_->faults(), bounds.faces);

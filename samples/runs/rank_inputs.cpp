@@ -52,9 +52,8 @@ void hold_in_part(const JoinedSeams& seams, std::vector<std::int64_t>& fixed, Me
     fixed.insert(fixed.end(), firsts.begin(), firsts.end());
     sort_unique(fixed);
     part.fixed.resize(part.vertex_numbers.size());
-    std::ranges::transform(part.vertex_numbers, part.fixed.begin(), [&](std::int64_t number) {
-        return std::ranges::binary_search(fixed, number) ? 1 : 0;
-    });
+    std::ranges::transform(part.vertex_numbers, part.fixed.begin(),
+                           [&](std::int64_t number) { return std::ranges::binary_search(fixed, number) ? 1 : 0; });
 }
 
 std::vector<double> read_weights(Communicator& comm, const SmoothCommand& command, std::int64_t n_vertices)

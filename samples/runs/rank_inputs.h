@@ -13,7 +13,8 @@
 #include "partition/io/fault_log.h"
 #include "samples/command/smooth_command.h"
 
-/// The inputs of a run of ranks besides the mesh, and how they are shared. Rank 0 reads them; all ranks call these functions together.
+/// The inputs of a run of ranks besides the mesh, and how they are shared. Rank 0 reads them; all ranks call these
+/// functions together.
 namespace seamflow {
 
 /// Errors in a mesh are reported with the name of its file.

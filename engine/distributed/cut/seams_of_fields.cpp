@@ -81,7 +81,8 @@ void bring_back_fields(Communicator& comm, const JoinedSeams& seams, std::span<c
     if (own.empty())
         return;
     const std::int64_t begin = bounds[static_cast<std::size_t>(comm.rank())];
-    std::erase_if(own, [&](const SeamVertex& one) { return one.vertex < begin || one.vertex >= begin + fields.rows(); });
+    std::erase_if(own,
+                  [&](const SeamVertex& one) { return one.vertex < begin || one.vertex >= begin + fields.rows(); });
     const std::vector<std::int64_t> firsts = firsts_of(own);
     const Eigen::MatrixXd rows = fetch_fields(comm, fields, firsts, bounds);
     for (const SeamVertex& one : own)

@@ -31,7 +31,8 @@ namespace {
 class WholeMeshFile final : public SharedMeshFile {
   public:
     WholeMeshFile(std::filesystem::path path, const FileSharing& sharing, Executor exec)
-        : path_(std::move(path))
+        : SharedMeshFile(path)
+        , path_(std::move(path))
         , sharing_(sharing)
         , exec_(std::move(exec))
     {

@@ -4,15 +4,11 @@
 
 namespace seamflow {
 
-namespace {
-
-[[noreturn]] void refuse_fields()
+void SharedMeshFile::refuse_fields() const
 {
-    throw InputError("ranks read and write slices of fields only in binary PLY files: convert the file, or let one "
-                     "rank read all of it (--whole-up-to)");
+    throw InputError(name_ + ": ranks read and write slices of fields only in binary PLY files: convert the file, or "
+                             "let one rank read all of it (--whole-up-to)");
 }
-
-}  // namespace
 
 FileFields SharedMeshFile::read_fields(Communicator& /*comm*/, const std::vector<std::string>& /*names*/)
 {

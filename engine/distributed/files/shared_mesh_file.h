@@ -26,7 +26,11 @@ struct FileSharing {
 /// A mesh file that ranks read together, and write again with other positions. All ranks call its functions together.
 class SharedMeshFile {
   public:
-    SharedMeshFile() = default;
+    /// @param path for messages.
+    explicit SharedMeshFile(const std::filesystem::path& path)
+        : name_(path.string())
+    {
+    }
     SharedMeshFile(const SharedMeshFile&) = delete;
     SharedMeshFile& operator=(const SharedMeshFile&) = delete;
     virtual ~SharedMeshFile() = default;
@@ -70,6 +74,11 @@ class SharedMeshFile {
 
   protected:
     FaultLog faults_{.of_faces_alone = true};
+
+  private:
+    [[noreturn]] void refuse_fields() const;
+
+    std::string name_;
 };
 
 }  // namespace seamflow

@@ -125,7 +125,8 @@ Eigen::MatrixXd extremes_of_all(Communicator& comm, const Eigen::MatrixXd& own)
 class SlicedPlyFile final : public SharedMeshFile {
   public:
     SlicedPlyFile(const std::filesystem::path& path, FileFormat format, const FileSharing& sharing)
-        : file_(path)
+        : SharedMeshFile(path)
+        , file_(path)
         , format_(format)
         , sharing_(sharing)
     {
