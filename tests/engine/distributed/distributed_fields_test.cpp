@@ -119,6 +119,15 @@ std::vector<Index> labels_for(const FieldExample& example)
     return mean_curvature_flow(mesh, options).cut.labels;
 }
 
+/// Whether all faces around a vertex have that label.
+bool is_inside(const PolygonMesh& mesh, const std::vector<Index>& labels, Index label, Index v)
+{
+    for (Index f = 0; f < mesh.n_faces(); ++f)
+        if (labels[f] != label && std::ranges::find(mesh.face(f), v) != mesh.face(f).end())
+            return false;
+    return true;
+}
+
 /// In units of the spread of each column; those of NaN have to be the same.
 double distance_of_fields(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b)
 {
@@ -236,6 +245,15 @@ TEST_CASE("fields on ranks: vertices without data take no part, whatever that le
         const Eigen::MatrixXd others = diffused_on_ranks(example, labels_for(example), 3);
         CHECK(distance_of_fields(after.col(3), others.col(3)) < 1e-8);
     }
+    // Two columns that differ at vertices that rank 0 does not have.
+    FieldExample apart{make_triangles(600), {}, field_steps(Laplacian::AlexaWardetzky, 1e-2, 6)};
+    apart.fields = columns_on(apart.mesh).leftCols(2);
+    const std::vector<Index> labels = labels_for(apart);
+    for (Index v = 0; v < apart.mesh.n_vertices(); ++v)
+        if (is_inside(apart.mesh, labels, 1, v))
+            apart.fields(v, 1) = lacking_datum;
+    REQUIRE(apart.fields.col(1).hasNaN());
+    check_fields(apart, false);
     // No column has any; data at one rank alone.
     FieldExample example{make_triangles(600), {}, field_steps(Laplacian::AlexaWardetzky, 1e-2, 6)};
     example.fields = columns_on(example.mesh);
