@@ -110,7 +110,6 @@ class FieldFlow {
               const FlowOptions& options)
         : comm_(comm)
         , surface_(surface)
-        , options_(options)
         , progress_(control_)
         , mesh_(make_rank_mesh(comm, surface, origin_offset(gather_box(comm, surface.mesh)), options,
                                SoundCut::NotNeeded))
@@ -154,7 +153,6 @@ class FieldFlow {
   private:
     Communicator& comm_;
     const MeshPart& surface_;
-    const FlowOptions& options_;
     FlowControl control_;
     Progress progress_;
     RankMesh mesh_;

@@ -7,7 +7,7 @@
 #include "engine/distributed/ranks/packing.h"
 #include "partition/formats/index_files.h"
 #include "partition/index_lists.h"
-#include "samples/runs/smoothing_run.h"
+#include "samples/files/mesh_results.h"
 
 namespace seamflow {
 
