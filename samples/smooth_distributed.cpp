@@ -21,12 +21,10 @@
 #include "engine/distributed/parts/slice_measures.h"
 #include "engine/distributed/parts/whole_mesh.h"
 #include "engine/distributed/ranks/mpi_transport.h"
-#include "engine/distributed/ranks/packing.h"
 #include "engine/setup/presets.h"
 #include "engine/tasks/stopwatch.h"
 #include "engine/tasks/workers.h"
 #include "partition/errors.h"
-#include "partition/index_lists.h"
 #include "partition/io/input_file.h"
 #include "samples/command/distributed_command.h"
 #include "samples/files/mesh_results.h"
@@ -36,35 +34,13 @@
 #include "samples/report/report_json.h"
 #include "samples/report/report_text.h"
 #include "samples/runs/rank_checkpoints.h"
+#include "samples/runs/rank_field_run.h"
 #include "samples/runs/rank_inputs.h"
 #include "samples/runs/smoothing_run.h"
 
 using namespace seamflow;
 
 namespace {
-
-/// Errors in a mesh are reported with the name of its file.
-template <class Action>
-void about_file(const std::filesystem::path& path, Action&& action)
-{
-    try {
-        action();
-    } catch (const InputError& error) {
-        throw InputError(path.string() + ": " + error.what());
-    }
-}
-
-/// The ranks on a machine share its cores.
-int threads_of_rank(Communicator& comm, const std::string& host, const SmoothCommand& command)
-{
-    int n_here = 0;
-    for (const Bytes& bytes : comm.allgather(packed(std::vector<char>(host.begin(), host.end())))) {
-        const auto other = unpacked<char>(bytes);
-        n_here += std::ranges::equal(other, host) ? 1 : 0;
-    }
-    const int threads = command.options.resources.threads;
-    return command.chooses_threads ? std::max(1, threads / n_here) : threads;
-}
 
 /// One rank's share of a run.
 class RankRun {
@@ -129,11 +105,7 @@ class RankRun {
         const Stopwatch setting_up;
         cut(comm, slice);
         about_file(command_.input, [&] { part_ = deal(comm, slice); });
-        move_with_seams(inputs_.fixed);
-        part_.fixed.resize(part_.vertex_numbers.size());
-        std::ranges::transform(part_.vertex_numbers, part_.fixed.begin(), [&](std::int64_t number) {
-            return std::ranges::binary_search(inputs_.fixed, number) ? 1 : 0;
-        });
+        hold_in_part(seams_, inputs_.fixed, part_);
         if (!command_.checkpoint.empty())
             find_checkpoint(comm, slice, bounds);
         part_.attachment_weights =
@@ -205,17 +177,6 @@ class RankRun {
             labels_ = labels_of_all_faces(comm, slice, found.left_out);
         of_cut_ = std::move(found.remarks);
         seams_ = std::move(found.seams);
-    }
-
-    /// Vertices along seams are held if one that they move with is held.
-    void move_with_seams(std::vector<std::int64_t>& fixed) const
-    {
-        std::vector<std::int64_t> firsts;
-        for (const SeamVertex& one : seams_.vertices)
-            if (std::ranges::binary_search(fixed, one.vertex))
-                firsts.push_back(one.first);
-        fixed.insert(fixed.end(), firsts.begin(), firsts.end());
-        sort_unique(fixed);
     }
 
     /// Prints every step, and writes it where --every-step or --checkpoint asks for that.
@@ -378,6 +339,8 @@ ExitStatus smooth_distributed(Transport& ranks, int argc, char** argv)
     const bool is_taken = is_standard_stream(command.flow.output) || is_standard_stream(command.flow.report);
     std::ostream& out = command.flow.quiet || ranks.rank() > 0 ? silence : is_taken ? std::cerr : std::cout;
     try {
+        if (command.flow.fields.exists())
+            return run_fields_on_ranks(ranks, command, run, out);
         return RankRun(ranks, command, run, out).run();
     } catch (...) {
         // The report has the message of standard error, if it can be written.

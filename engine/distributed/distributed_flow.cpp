@@ -15,6 +15,7 @@
 #include "engine/distributed/rank_exchange.h"
 #include "engine/distributed/rank_memory.h"
 #include "engine/distributed/rank_meter.h"
+#include "engine/distributed/rank_options.h"
 #include "engine/distributed/rank_setup.h"
 #include "engine/distributed/ranks/communicator.h"
 #include "engine/distributed/rows_of_others.h"
@@ -37,50 +38,6 @@
 namespace seamflow {
 
 namespace {
-
-bool is_converged(const FlowOptions& options)
-{
-    return options.accuracy.approach == Approach::Converged;
-}
-
-/// @throws OptionError for unsupported options.
-void require_for_ranks(const FlowOptions& options)
-{
-    const InterfaceOptions& interface = options.interface;
-    std::string_view unknown;
-    if (is_converged(options) && !is_symmetric(options.laplacian))
-        throw OptionError(fmt::format("ranks cannot take converged steps of {}, which need GMRES: use sweeps (approach "
-                                      "sweep, without a tolerance), or a single process",
-                                      name_of(options.laplacian)));
-    if (!is_converged(options) && (options.accuracy.approach != Approach::Sweep || options.accuracy.tolerance))
-        unknown = "approaches except sweeps and converged steps (approach has to be sweep, without a tolerance, or "
-                  "converged)";
-    else if (!is_converged(options) && interface.conditions != Conditions::AdaptedRobin &&
-             interface.conditions != Conditions::AdaptedVentcell)
-        unknown = "conditions except the adapted ones";
-    else
-        unknown = first_set(options, concern::one_process);
-    if (unknown.empty() && options.laplacian == Laplacian::Uniform && options.uniform_edge == 0.0)
-        throw OptionError("uniform_edge is 0, but ranks do not know the mean edge length of the whole mesh: set it to "
-                          "that length (measure in engine/distributed/parts/slice_measures.h finds it)");
-    if (const std::string_view of_part = first_set(options, concern::part); unknown.empty() && !of_part.empty())
-        throw OptionError(fmt::format("{} is given, but distributed flows take it from the parts of the mesh: leave it "
-                                      "out of the options",
-                                      of_part));
-    if (!unknown.empty())
-        throw OptionError(
-            fmt::format("distributed flows do not support {}: leave that out, or use a single process", unknown));
-}
-
-/// The options with the tolerance of converged steps, if steps are converged, and the weights of the part.
-FlowOptions completed(const FlowOptions& options, const MeshPart& part)
-{
-    FlowOptions complete = options;
-    if (is_converged(options))
-        complete.accuracy.tolerance = choose_tolerance(part.mesh, {}, options, false).tolerance;
-    complete.motion.attachment_weights = part.attachment_weights;
-    return complete;
-}
 
 /// Only vertices of own faces have moved.
 void require_within_limit(const UpdateLimit& limit, const RankMesh& mesh, const Points& after)
@@ -334,44 +291,10 @@ class RankFlow {
     /// @param known of the vertices that this rank knows.
     [[nodiscard]] Points positions_of_part(const RankMesh& mesh, const Points& known, const Point& offset)
     {
-        Points positions = part_.mesh.vertices;
-        std::vector<std::uint8_t> has_face(part_.vertex_numbers.size(), 0);
-        for (const Index v : part_.mesh.face_vertices)
-            has_face[v] = 1;
-        std::vector<Index> elsewhere;
-        auto found = mesh.part.vertex_numbers.begin();
-        for (Index v = 0; v < part_.mesh.n_vertices(); ++v) {
-            if (has_face[v] == 0)
-                continue;
-            while (found != mesh.part.vertex_numbers.end() && *found < part_.vertex_numbers[v])
-                ++found;
-            const auto row = static_cast<Index>(found - mesh.part.vertex_numbers.begin());
-            if (found != mesh.part.vertex_numbers.end() && *found == part_.vertex_numbers[v] &&
-                (mesh.n_repeated == 0 || mesh.has_own_faces(row)))
-                positions.row(v) = known.row(row);
-            else
-                elsewhere.push_back(v);
-        }
-        if (mesh.n_repeated > 0)
-            ask_for(mesh, known, elsewhere, positions);
         // A zero offset would turn -0 into 0.
-        if (!offset.isZero(0.0))
-            for (Index v = 0; v < part_.mesh.n_vertices(); ++v)
-                if (has_face[v] != 0)
-                    positions.row(v) = Point(positions.row(v)) + offset;
-        return positions;
-    }
-
-    /// Vertices all of whose faces here repeat others: the ranks with those know their positions.
-    void ask_for(const RankMesh& mesh, const Points& known, std::vector<Index> vertices, Points& positions)
-    {
-        sort_unique(vertices);
-        std::vector<std::int64_t> numbers;
-        for (const Index v : vertices)
-            numbers.push_back(part_.vertex_numbers[v]);
-        const Points found = RowsOfOthers(comm_, mesh, numbers).fetch(known);
-        for (std::size_t i = 0; i < vertices.size(); ++i)
-            positions.row(vertices[i]) = found.row(static_cast<Index>(i));
+        if (offset.isZero(0.0))
+            return rows_of_part(comm_, part_, mesh, known, part_.mesh.vertices);
+        return rows_of_part(comm_, part_, mesh, known.rowwise() + offset, part_.mesh.vertices);
     }
 
     Communicator& comm_;

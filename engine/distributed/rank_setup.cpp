@@ -324,7 +324,8 @@ bool RankMesh::has_own_faces(Index v) const
                                [&](Index corner) { return is_own[part.labels[topology.face_of[corner]]] != 0; });
 }
 
-RankMesh make_rank_mesh(Communicator& comm, const MeshPart& own, const Point& offset, const FlowOptions& options)
+RankMesh make_rank_mesh(Communicator& comm, const MeshPart& own, const Point& offset, const FlowOptions& options,
+                        SoundCut sound)
 {
     RankMesh mesh;
     require_alike_attached(comm, own);
@@ -336,7 +337,8 @@ RankMesh make_rank_mesh(Communicator& comm, const MeshPart& own, const Point& of
     mesh.known = localise_labels(mesh.all, mesh.part);
     for (const KnownSubMesh& sub_mesh : mesh.known)
         mesh.is_own.push_back(sub_mesh.rank == comm.rank() ? 1 : 0);
-    require_sound_cut(mesh);
+    if (sound == SoundCut::Required)
+        require_sound_cut(mesh);
     if (options.motion.boundary == Boundary::Free)
         free_boundary(mesh.topology);
     hold(mesh.topology,

@@ -51,10 +51,19 @@ struct RankMesh {
     [[nodiscard]] bool has_own_faces(Index v) const;
 };
 
+/// Which sub-meshes a flow can use.
+enum class SoundCut {
+    /// Connected, with one fan of faces at each vertex, as one process has them.
+    Required,
+    /// Any, as converged steps need no more of Γ than its vertices.
+    NotNeeded
+};
+
 /// Grows the part of a rank by what it must know of others, and decides which vertices move.
 /// @param offset to be subtracted from all positions.
 /// @throws InputError for sub-meshes and faces that cannot be used.
-RankMesh make_rank_mesh(Communicator& comm, const MeshPart& own, const Point& offset, const FlowOptions& options);
+RankMesh make_rank_mesh(Communicator& comm, const MeshPart& own, const Point& offset, const FlowOptions& options,
+                        SoundCut sound = SoundCut::Required);
 
 /// Decomposes what a rank knows.
 /// @param mesh receives how many vertices each sub-mesh has.

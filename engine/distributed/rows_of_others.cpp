@@ -1,10 +1,28 @@
 #include "engine/distributed/rows_of_others.h"
 
 #include <algorithm>
+#include <span>
 
 #include "engine/distributed/ranks/packing.h"
 
 namespace seamflow {
+
+namespace {
+
+/// Vertices all of whose faces here repeat others: the ranks with those know their rows.
+/// @param vertices ascending.
+void ask_for(Communicator& comm, const MeshPart& part, const RankMesh& mesh, const Points& known,
+             std::span<const Index> vertices, Points& rows)
+{
+    std::vector<std::int64_t> numbers;
+    for (const Index v : vertices)
+        numbers.push_back(part.vertex_numbers[v]);
+    const Points found = RowsOfOthers(comm, mesh, numbers).fetch(known);
+    for (std::size_t i = 0; i < vertices.size(); ++i)
+        rows.row(vertices[i]) = found.row(static_cast<Index>(i));
+}
+
+}  // namespace
 
 RowsOfOthers::RowsOfOthers(Communicator& comm, const RankMesh& mesh, const std::vector<std::int64_t>& wanted)
     : comm_(&comm)
@@ -47,6 +65,30 @@ Points RowsOfOthers::fetch(const Points& rows) const
             fetched.row(ours_[rank][i]) = Point(values[3 * i], values[3 * i + 1], values[3 * i + 2]);
     }
     return fetched;
+}
+
+Points rows_of_part(Communicator& comm, const MeshPart& part, const RankMesh& mesh, const Points& known, Points rows)
+{
+    std::vector<std::uint8_t> has_face(part.vertex_numbers.size(), 0);
+    for (const Index v : part.mesh.face_vertices)
+        has_face[v] = 1;
+    std::vector<Index> elsewhere;
+    auto found = mesh.part.vertex_numbers.begin();
+    for (Index v = 0; v < part.mesh.n_vertices(); ++v) {
+        if (has_face[v] == 0)
+            continue;
+        while (found != mesh.part.vertex_numbers.end() && *found < part.vertex_numbers[v])
+            ++found;
+        const auto row = static_cast<Index>(found - mesh.part.vertex_numbers.begin());
+        if (found != mesh.part.vertex_numbers.end() && *found == part.vertex_numbers[v] &&
+            (mesh.n_repeated == 0 || mesh.has_own_faces(row)))
+            rows.row(v) = known.row(row);
+        else
+            elsewhere.push_back(v);
+    }
+    if (mesh.n_repeated > 0)
+        ask_for(comm, part, mesh, known, elsewhere, rows);
+    return rows;
 }
 
 }  // namespace seamflow

@@ -12,8 +12,8 @@ namespace seamflow {
 class RowsOfOthers {
   public:
     /// All ranks call this together.
-    /// @param comm, mesh must outlive this. @param wanted numbers of vertices in the whole mesh, ascending, each with
-    ///        faces on some rank.
+    /// @param comm, mesh must outlive this. @param wanted numbers of vertices in the whole mesh, ascending; those
+    ///        that have no faces on any rank get 0.
     RowsOfOthers(Communicator& comm, const RankMesh& mesh, const std::vector<std::int64_t>& wanted);
 
     /// All ranks call this together.
@@ -27,5 +27,10 @@ class RowsOfOthers {
     std::vector<std::vector<Index>> theirs_;
     std::vector<std::vector<Index>> ours_;
 };
+
+/// The rows of the vertices of a rank's part. All ranks call this together.
+/// @param part as it was given. @param mesh what became of it. @param known #V by 3 of `mesh`.
+/// @param rows #V by 3 of the part: vertices without faces keep theirs.
+Points rows_of_part(Communicator& comm, const MeshPart& part, const RankMesh& mesh, const Points& known, Points rows);
 
 }  // namespace seamflow

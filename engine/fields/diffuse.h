@@ -6,27 +6,13 @@
 
 #include <Eigen/Core>
 
+#include "engine/fields/field_options.h"
 #include "engine/measure/flow_report.h"
 #include "engine/options/flow_control.h"
 #include "engine/options/flow_options.h"
 #include "partition/polygon_mesh.h"
 
 namespace seamflow {
-
-/// What concerns fields alone.
-struct FieldOptions {
-    /// The amount of all steps together, in place of FlowOptions::time_step and radius: the full width at half maximum
-    /// of the Gaussian kernel of the heat equation at the time t = FWHM² / (16 ln 2) of all steps, in length. Backward
-    /// Euler steps come near to it if there are several (see FieldReport::fwhm).
-    std::optional<double> fwhm = {};
-    /// Keeps edges of the fields: differences well above this diffuse little (see Flow::keep_field_edges). All columns
-    /// count together, as one vector per vertex. K is factorised in each step. Not with conjugate gradients.
-    std::optional<double> keep_edges = {};
-    /// Gives vertices without data, after all steps, the harmonic extension of the others: K X = 0 there.
-    bool fill = false;
-    /// Free: no heat flows across the boundary. Fixed: values there stay, bit for bit.
-    Boundary boundary = Boundary::Free;
-};
 
 /// What diffuse did.
 struct FieldReport {
@@ -57,11 +43,5 @@ struct FieldReport {
 ///         mean_curvature_flow. The fields are then unchanged.
 FieldReport diffuse(const PolygonMesh& mesh, Eigen::MatrixXd& fields, const FlowOptions& options,
                     const FieldOptions& field_options = {}, const FlowControl& control = {});
-
-/// The time of a kernel of that width, FWHM² / (16 ln 2), in length².
-double time_for_fwhm(double fwhm);
-
-/// Its inverse: the full width at half maximum, in length, after a time in length².
-double fwhm_for_time(double time);
 
 }  // namespace seamflow

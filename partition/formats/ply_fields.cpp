@@ -1,4 +1,5 @@
 #include <cstddef>
+#include <filesystem>
 #include <span>
 #include <string>
 #include <string_view>
@@ -7,6 +8,8 @@
 #include "partition/errors.h"
 #include "partition/formats/ply.h"
 #include "partition/formats/ply_header.h"
+#include "partition/formats/ply_ranges.h"
+#include "partition/formats/ply_source.h"
 #include "partition/formats/ply_vertices.h"
 
 namespace seamflow {
@@ -30,6 +33,20 @@ std::vector<ReadProperty> properties_to_read(const PlyElement& vertices, const F
     return properties;
 }
 
+/// Reads the numbers of vertex v of the file into a row.
+template <class Source>
+void read_row(Source& source, const PlyElement& vertices, Index v, const std::vector<ReadProperty>& properties,
+              auto&& row)
+{
+    source.begin_element(vertices, at(v));
+    for (const auto& [property, column, name] : properties)
+        if (column < 0)
+            pass_over(source, property);
+        else
+            row(column) = source.field(property.type, name.c_str());
+    source.end_element();
+}
+
 Eigen::MatrixXd read_columns(const PlyVertexSlices& slices, const PlyHeader& header, const FileFields& fields,
                              const Executor& exec)
 {
@@ -38,18 +55,23 @@ Eigen::MatrixXd read_columns(const PlyVertexSlices& slices, const PlyHeader& hea
     Eigen::MatrixXd values(static_cast<Index>(vertices.count), static_cast<Index>(fields.names.size()));
     for_each(exec, slices.count(), [&](Index i) {
         slices.with_source(i, [&](auto& source) {
-            for_each_vertex(source, header, slices[i], [&](Index v) {
-                source.begin_element(vertices, at(v));
-                for (const auto& [property, column, name] : properties)
-                    if (column < 0)
-                        pass_over(source, property);
-                    else
-                        values(v, column) = source.field(property.type, name.c_str());
-                source.end_element();
-            });
+            for_each_vertex(source, header, slices[i],
+                            [&](Index v) { read_row(source, vertices, v, properties, values.row(v)); });
         });
     });
     return values;
+}
+
+/// Fields of a file, without values.
+/// @throws InputError for names that it does not have.
+FileFields find_fields(const TextScanner& scanner, const std::filesystem::path& path, const PlyElement& vertices,
+                       std::span<const std::string> names)
+{
+    FileFields fields{
+        names_of_fields(path, names, [&](std::string_view name) { return vertices.property(name) != nullptr; })};
+    for (const std::string& name : fields.names)
+        require_number(scanner, vertices, name);
+    return fields;
 }
 
 }  // namespace
@@ -59,11 +81,7 @@ FileFields read_ply_fields(const std::filesystem::path& path, std::string_view c
 {
     TextScanner scanner(path, content, ply_syntax);
     const PlyHeader header = read_ply_header(scanner);
-    const PlyElement& vertices = *header.element("vertex");
-    FileFields fields{
-        names_of_fields(path, names, [&](std::string_view name) { return vertices.property(name) != nullptr; })};
-    for (const std::string& name : fields.names)
-        require_number(scanner, vertices, name);
+    FileFields fields = find_fields(scanner, path, *header.element("vertex"), names);
     const auto read = [&](const Slicing& sliced) {
         return read_columns({path, content, header, scanner, sliced}, header, fields, sliced.exec);
     };
@@ -71,6 +89,21 @@ FileFields read_ply_fields(const std::filesystem::path& path, std::string_view c
                                                 [&] {
                                                     return read({run_serially, content.size()});
                                                 });
+    return fields;
+}
+
+FileFields read_ply_fields(const PlyRanges& ply, std::span<const std::string> names, Index begin, Index end)
+{
+    TextScanner scanner(ply.path(), ply.content(), ply_syntax);
+    const PlyElement& vertices = ply.vertex_element();
+    static_cast<void>(read_ply_header(scanner));
+    FileFields fields = find_fields(scanner, ply.path(), vertices, names);
+    const std::vector<ReadProperty> properties = properties_to_read(vertices, fields);
+    fields.values.resize(end - begin, static_cast<Index>(fields.names.size()));
+    const auto offset = static_cast<std::size_t>(ply.bytes_of_vertices(begin, end).data() - ply.content().data());
+    PlyBinarySource source(ply.path(), ply.content(), offset, ply.header().encoding);
+    for (Index v = begin; v < end; ++v)
+        read_row(source, vertices, v, properties, fields.values.row(v - begin));
     return fields;
 }
 

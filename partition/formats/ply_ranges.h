@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "partition/formats/file_fields.h"
 #include "partition/formats/ply_header.h"
 #include "partition/formats/ply_slices.h"
 #include "partition/io/byte_writer.h"
@@ -90,6 +91,11 @@ class PlyRanges {
     std::size_t triangle_bytes_ = 0;
 };
 
+/// Reads fields of some of the vertices.
+/// @param names see read_fields. @returns rows for those from `begin` to `end` - 1.
+/// @throws InputError as read_fields.
+FileFields read_ply_fields(const PlyRanges& ply, std::span<const std::string> names, Index begin, Index end);
+
 /// How one property of the vertices changes when a file is rewritten. Changes beyond the last property are properties
 /// that are added.
 struct PlyChange {
@@ -106,6 +112,14 @@ std::array<bool, 3> coordinates_fit(const PlyElement& vertices, const Points& po
 /// @param fits of all positions: where false, the property becomes double.
 std::vector<PlyChange> changes_of_positions(const PlyElement& vertices, const std::array<bool, 3>& fits);
 
+/// One change for each property: fields replace those of their names, and positions stay.
+/// @param fields with values that have the extremes, and NaN if there are any, of those to write; the file has
+///        properties of all names.
+/// @param target the file to write. @param remarks gets sentences for the user.
+/// @throws OutputError for NaN in a property of whole numbers.
+std::vector<PlyChange> changes_of_fields(const PlyElement& vertices, const FileFields& fields,
+                                         const std::filesystem::path& target, std::vector<std::string>& remarks);
+
 /// Writes the header with the types that have changed.
 /// @returns remarks for the user, in sentences.
 std::vector<std::string> rewrite_ply_header(ByteWriter& file, const std::filesystem::path& path,
@@ -117,6 +131,11 @@ std::vector<std::string> rewrite_ply_header(ByteWriter& file, const std::filesys
 /// @returns whether positions were rounded.
 bool rewrite_ply_vertices(ByteWriter& file, const PlyRanges& ply, Index begin, const Points& positions,
                           const std::vector<PlyChange>& changes);
+
+/// The same with other fields.
+/// @param fields #V by n: those of the vertices from `begin` on. @param changes see changes_of_fields.
+void rewrite_ply_fields(ByteWriter& file, const PlyRanges& ply, Index begin, const Eigen::MatrixXd& fields,
+                        const std::vector<PlyChange>& changes);
 
 /// Writes a slice of a text file with other positions.
 /// @param after_header of the file. @param positions from vertex `first` of the file on.

@@ -256,6 +256,23 @@ bool rewrite_slice(Source& source, Splicer splicer, const PlyHeader& header, con
     return rewriter.rounded();
 }
 
+/// Writes the vertices of a binary file from `begin` on.
+/// @param now of these vertices. @returns whether positions were rounded.
+bool rewrite_range(ByteWriter& file, const PlyRanges& ply, Index begin, const std::vector<Change>& changes,
+                   const NewVertices<MovedNormals>& now)
+{
+    const auto n = static_cast<Index>(now.positions.rows());
+    const std::string_view bytes = ply.bytes_of_vertices(begin, begin + n);
+    const auto offset = static_cast<std::size_t>(bytes.data() - ply.content().data());
+    PlyBinarySource source(ply.path(), ply.content(), offset, ply.header().encoding);
+    Splicer splicer(file, bytes);
+    VertexRewriter<PlyBinarySource> rewriter(source, splicer, ply.header().encoding);
+    for (Index v = 0; v < n; ++v)
+        rewriter.rewrite(ply.vertex_element(), changes, v, now);
+    splicer.finish();
+    return rewriter.rounded();
+}
+
 /// Writes all that follows the header.
 /// @returns whether positions were rounded.
 bool rewrite_elements(OutputFile& file, const PlyVertexSlices& slices, const PlyHeader& header,
@@ -295,23 +312,32 @@ std::vector<std::string> rewrite_ply_header(ByteWriter& file, const std::filesys
                                             const std::vector<PlyChange>& changes)
 {
     std::vector<std::string> remarks = rewrite_header(file, path, header, vertices, changes, {});
-    if (normals_of(vertices) != Normals::None)
+    const bool moves =
+        std::ranges::any_of(changes, [](const PlyChange& one) { return one.column >= 0 && one.column < 3; });
+    if (moves && normals_of(vertices) != Normals::None)
         remarks.push_back(kept_normals_remark(path, "normals"));
     return remarks;
+}
+
+std::vector<PlyChange> changes_of_fields(const PlyElement& vertices, const FileFields& fields,
+                                         const std::filesystem::path& target, std::vector<std::string>& remarks)
+{
+    std::vector<PlyChange> changes(vertices.properties.size());
+    remarks = add_fields(changes, vertices, fields, target);
+    return changes;
 }
 
 bool rewrite_ply_vertices(ByteWriter& file, const PlyRanges& ply, Index begin, const Points& positions,
                           const std::vector<PlyChange>& changes)
 {
-    const std::string_view bytes = ply.bytes_of_vertices(begin, begin + static_cast<Index>(positions.rows()));
-    const auto offset = static_cast<std::size_t>(bytes.data() - ply.content().data());
-    PlyBinarySource source(ply.path(), ply.content(), offset, ply.header().encoding);
-    Splicer splicer(file, bytes);
-    VertexRewriter<PlyBinarySource> rewriter(source, splicer, ply.header().encoding);
-    for (Index v = 0; v < positions.rows(); ++v)
-        rewriter.rewrite(ply.vertex_element(), changes, v, {positions});
-    splicer.finish();
-    return rewriter.rounded();
+    return rewrite_range(file, ply, begin, changes, {positions});
+}
+
+void rewrite_ply_fields(ByteWriter& file, const PlyRanges& ply, Index begin, const Eigen::MatrixXd& fields,
+                        const std::vector<PlyChange>& changes)
+{
+    const Points unused = Points::Zero(fields.rows(), 3);
+    rewrite_range(file, ply, begin, changes, {unused, 0, nullptr, &fields});
 }
 
 void rewrite_ply_text(ByteWriter& file, const TextScanner& after_header, const PlyHeader& header, const PlySlice& slice,

@@ -22,20 +22,21 @@ std::vector<SmoothProgram::Lack> lacks()
             list.push_back({std::string(one.option), one_process});
     for (const char* const own :
          {"--edges-from-file", "--region-property", "--feather", "--self-intersections", "--trace", "--task-graph",
-          "--html", "--out-dir", "--fields", "--fwhm", "--fill", "--keep-field-edges", "--from"})
+          "--html", "--out-dir", "--fill", "--keep-field-edges", "--from"})
         list.push_back({own, one_process});
     return list;
 }
 
 /// Ranks take steps in sub-meshes: sweeps unless a tolerance, a free boundary or the linear flow is asked for; the
-/// latter two are for converged steps.
-void settle_approach(FlowOptions& options)
+/// latter two, and fields, are for converged steps.
+void settle_approach(const FieldRequest& fields, FlowOptions& options)
 {
     AccuracyOptions& accuracy = options.accuracy;
     if (accuracy.approach != Approach::Automatic && accuracy.approach != Approach::Decomposed)
         return;
     const bool shares_boundary = options.motion.boundary == Boundary::Free && options.interface == InterfaceOptions();
-    const bool is_converged = accuracy.tolerance || shares_boundary || options.flow == FlowEquation::Linear;
+    const bool is_converged =
+        accuracy.tolerance || shares_boundary || options.flow == FlowEquation::Linear || fields.exists();
     accuracy.approach = is_converged ? Approach::Converged : Approach::Sweep;
 }
 
@@ -52,6 +53,8 @@ std::optional<ExitStatus> parse_distributed_command(int argc, char** argv, int r
         .examples = "mpirun -n 4 smooth-distributed scan.ply smooth.ply --radius 1%   four ranks, each with a quarter\n"
                     "mpirun -n 4 smooth-distributed scan.ply smooth.ply --time-step-edges 5 --converge 1e-6   exact "
                     "steps\n"
+                    "mpirun -n 4 smooth-distributed scan.ply smooth.ply --fields quality --fwhm 1%   numbers of the "
+                    "vertices\n"
                     "mpirun -n 4 smooth-distributed scan.ply smooth.ply --radius 1% --steps 50 --checkpoint state   "
                     "continues where it was stopped\n",
         .add_own =
@@ -59,9 +62,13 @@ std::optional<ExitStatus> parse_distributed_command(int argc, char** argv, int r
                 app.get_option("--approach")
                     ->type_name("auto|decomposed|sweep|converged")
                     ->description(
-                        "how a step is taken [sweep; converged with --converge, --boundary free or --flow linear]\n"
+                        "how a step is taken [sweep; converged with --converge, --boundary free, --flow linear or "
+                        "--fields]\n"
                         "sweep: one sweep over the sub-meshes; converged: these converge to the undecomposed "
                         "step.");
+                app.get_option("--fwhm")->description(
+                    "full width at half maximum of the smoothing, over all steps together; 10 steps unless told "
+                    "otherwise\nOnly smooth measures the width that was reached.");
                 app.get_option("--conditions")->type_name("adapted-robin|adapted-ventcell");
                 app.get_option("--preset")
                     ->type_name("fair")
@@ -84,7 +91,7 @@ std::optional<ExitStatus> parse_distributed_command(int argc, char** argv, int r
         command.flow.amount = {.time_step_edges = preset.time_step_edges, .radius = preset.radius};
         command.flow.chosen += amount_of(preset);
     }
-    settle_approach(command.flow.options);
+    settle_approach(command.flow.fields, command.flow.options);
     if (whole_up_to)
         command.sharing.whole_up_to = *whole_up_to;
     return std::nullopt;

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <ostream>
 
 #include <fmt/format.h>
 
+#include "partition/executor.h"
 #include "partition/io/input_position.h"
 #include "samples/report/json_parts.h"
 
@@ -14,48 +14,59 @@ namespace seamflow {
 
 namespace {
 
-/// Of the vertices with data.
-struct Range {
-    double least = std::numeric_limits<double>::infinity();
-    double most = -least;
-    double mean = 0.0;
-    Index n = 0;
-};
-
-Range range_of(const Eigen::MatrixXd& values, Eigen::Index column)
+double mean_of(const FieldRange& range)
 {
-    Range range;
-    for (Eigen::Index v = 0; v < values.rows(); ++v) {
-        const double value = values(v, column);
-        if (std::isnan(value))
-            continue;
-        range.least = std::min(range.least, value);
-        range.most = std::max(range.most, value);
-        range.mean += value;
-        ++range.n;
-    }
-    range.mean /= std::max(range.n, Index{1});
-    return range;
+    return range.sum / static_cast<double>(std::max(range.n, std::int64_t{1}));
 }
 
-std::string text_of(const Range& range)
+std::string text_of(const FieldRange& range)
 {
-    return range.n == 0 ? "no data" : fmt::format("{:.6g} to {:.6g}, mean {:.6g}", range.least, range.most, range.mean);
+    return range.n == 0 ? "no data"
+                        : fmt::format("{:.6g} to {:.6g}, mean {:.6g}", range.least, range.most, mean_of(range));
 }
 
-ReportJson json_of(const Range& range)
+ReportJson json_of(const FieldRange& range)
 {
     ReportJson json;
     json["vertices"] = range.n;
     if (range.n > 0) {
         json["least"] = range.least;
         json["most"] = range.most;
-        json["mean"] = range.mean;
+        json["mean"] = mean_of(range);
     }
     return json;
 }
 
 }  // namespace
+
+void FieldRange::add(const FieldRange& other)
+{
+    least = std::min(least, other.least);
+    most = std::max(most, other.most);
+    sum += other.sum;
+    n += other.n;
+}
+
+std::vector<FieldRange> ranges_of_blocks(const Eigen::MatrixXd& values, Eigen::Index column)
+{
+    std::vector<FieldRange> ranges;
+    for_each_block(run_serially, static_cast<Index>(values.rows()), [&](Index, Index begin, Index end) {
+        FieldRange& range = ranges.emplace_back();
+        for (Index v = begin; v < end; ++v)
+            if (const double value = values(v, column); !std::isnan(value))
+                range.add({value, value, value, 1});
+    });
+    return ranges;
+}
+
+std::vector<FieldRange> ranges_of_columns(const Eigen::MatrixXd& values)
+{
+    std::vector<FieldRange> ranges(static_cast<std::size_t>(values.cols()));
+    for (Eigen::Index c = 0; c < values.cols(); ++c)
+        for (const FieldRange& block : ranges_of_blocks(values, c))
+            ranges[static_cast<std::size_t>(c)].add(block);
+    return ranges;
+}
 
 void print_field_amount(std::ostream& out, const MeshScale& scale, const FlowOptions& options,
                         const FieldOptions& of_fields)
@@ -91,11 +102,10 @@ void print_fields(std::ostream& out, const RunRecord& run, const FieldSummary& s
         out << fmt::format("width      {:.6g} at half maximum, as white noise shows that diffused alike\n",
                            *report.fwhm);
     for (std::size_t c = 0; c < summary.names.size(); ++c) {
-        const auto column = static_cast<Eigen::Index>(c);
         out << fmt::format("field      {}: ", summary.names[c]);
-        if (summary.before.size() > 0)
-            out << text_of(range_of(summary.before, column)) << " -> ";
-        out << text_of(range_of(summary.after, column)) << '\n';
+        if (!summary.before.empty())
+            out << text_of(summary.before[c]) << " -> ";
+        out << text_of(summary.after[c]) << '\n';
     }
     out << "result     " << run.output << std::endl;
 }
@@ -104,8 +114,8 @@ std::string field_report_json(const RunRecord& run, const FlowOptions& options, 
 {
     const FieldReport& report = summary.report;
     ReportJson json = begin_report(run);
-    json["vertices"] = summary.after.rows();
-    if (summary.before.size() > 0) {
+    json["vertices"] = summary.n_vertices;
+    if (!summary.before.empty()) {
         json["laplacian"] = run.laplacian;
         json["steps"] = options.steps;
         json["time_step"] = options.time_step;
@@ -116,10 +126,9 @@ std::string field_report_json(const RunRecord& run, const FlowOptions& options, 
     json["filled"] = report.filled;
     for (std::size_t c = 0; c < summary.names.size(); ++c) {
         ReportJson field;
-        const auto column = static_cast<Eigen::Index>(c);
-        if (summary.before.size() > 0)
-            field["before"] = json_of(range_of(summary.before, column));
-        field["after"] = json_of(range_of(summary.after, column));
+        if (!summary.before.empty())
+            field["before"] = json_of(summary.before[c]);
+        field["after"] = json_of(summary.after[c]);
         json["fields"][summary.names[c]] = field;
     }
     const PhaseSeconds& phases = report.flow.seconds;

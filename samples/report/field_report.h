@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <iosfwd>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -12,13 +14,30 @@
 
 namespace seamflow {
 
+/// The values of a field, at the vertices with data.
+struct FieldRange {
+    double least = std::numeric_limits<double>::infinity();
+    double most = -std::numeric_limits<double>::infinity();
+    double sum = 0.0;
+    std::int64_t n = 0;
+
+    void add(const FieldRange& other);
+};
+
+/// Of blocks of vertices: added in their order, they are the range of all.
+std::vector<FieldRange> ranges_of_blocks(const Eigen::MatrixXd& values, Eigen::Index column);
+
+/// Of each column.
+std::vector<FieldRange> ranges_of_columns(const Eigen::MatrixXd& values);
+
 /// What became of fields on a surface.
 struct FieldSummary {
-    std::vector<std::string> names;
-    /// #V by names; `before` is empty for fields that there were not.
-    Eigen::MatrixXd before = Eigen::MatrixXd(0, 0);
-    Eigen::MatrixXd after = Eigen::MatrixXd(0, 0);
-    FieldReport report;
+    std::vector<std::string> names = {};
+    std::int64_t n_vertices = 0;
+    /// One for each name; `before` is empty for fields that there were not.
+    std::vector<FieldRange> before = {};
+    std::vector<FieldRange> after = {};
+    FieldReport report = {};
 };
 
 /// Prints the amount of smoothing of fields.

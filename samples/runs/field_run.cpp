@@ -34,23 +34,6 @@ namespace {
 
 constexpr const char* distance = "distance";
 
-/// Columns nx, ny and nz are normals: as long as they were, unless nothing is left of them.
-void renormalise(FileFields& fields, const Eigen::MatrixXd& before)
-{
-    const Index x = fields.column("nx");
-    const Index y = fields.column("ny");
-    const Index z = fields.column("nz");
-    if (x < 0 || y < 0 || z < 0)
-        return;
-    for (Eigen::Index v = 0; v < fields.values.rows(); ++v) {
-        const double length = std::hypot(fields.values(v, x), fields.values(v, y), fields.values(v, z));
-        const double wanted = std::hypot(before(v, x), before(v, y), before(v, z));
-        if (length > 0.0 && wanted > 0.0)
-            for (const Index column : {x, y, z})
-                fields.values(v, column) *= wanted / length;
-    }
-}
-
 /// Completes options that the command line leaves to the mesh.
 void complete_options(SmoothCommand& command, const MeshFile& file, const FaultLog& left_out, const Executor& exec,
                       RunRecord& run)
@@ -68,15 +51,16 @@ FileFields diffused(SmoothCommand& command, const MeshFile& file, FileFields fie
                     FieldSummary& summary)
 {
     summary.names = fields.names;
-    summary.before = fields.values;
+    const Eigen::MatrixXd before = fields.values;
+    summary.before = ranges_of_columns(before);
     FlowOptions options = command.options;
     FieldOptions of_fields = command.fields.options;
     // It is the same, from steps that are told.
     if (of_fields.fwhm)
         options.time_step = 0.0;
     summary.report = diffuse(file.mesh, fields.values, options, of_fields, control);
-    renormalise(fields, summary.before);
-    summary.after = fields.values;
+    renormalise(fields, before);
+    summary.after = ranges_of_columns(fields.values);
     return fields;
 }
 
@@ -97,7 +81,7 @@ FileFields distances(const SmoothCommand& command, const MeshFile& file, const s
             fmt::format("The surface leads from none of them to {}: the distance there is NaN.",
                         counted(static_cast<std::uint64_t>(summary.report.without_data), "vertex", "vertices")));
     summary.names = fields.names;
-    summary.after = fields.values;
+    summary.after = ranges_of_columns(fields.values);
     return fields;
 }
 
@@ -125,15 +109,6 @@ std::vector<Index> read_sources(const SmoothCommand& command, Index n_vertices)
     return from;
 }
 
-/// So that nothing is computed in vain. @throws OutputError
-void require_place(const SmoothCommand& command, const MeshFile& file)
-{
-    const FileFormat format = kind_for_writing(command.output, file.kind).format;
-    if (format != FileFormat::Ply && (format != file.kind.format || command.fields.names.empty()))
-        throw OutputError(
-            fmt::format("{}: cannot be written: only .ply files hold such fields; write one", command.output.string()));
-}
-
 /// In the form of the input where the format stays.
 std::vector<std::string> write_fields(const SmoothCommand& command, const MeshFile& file, const FileFields& fields,
                                       const Executor& exec)
@@ -147,9 +122,39 @@ std::vector<std::string> write_fields(const SmoothCommand& command, const MeshFi
 
 }  // namespace
 
+void renormalise(FileFields& fields, const Eigen::MatrixXd& before)
+{
+    const Index x = fields.column("nx");
+    const Index y = fields.column("ny");
+    const Index z = fields.column("nz");
+    if (x < 0 || y < 0 || z < 0)
+        return;
+    for (Eigen::Index v = 0; v < fields.values.rows(); ++v) {
+        const double length = std::hypot(fields.values(v, x), fields.values(v, y), fields.values(v, z));
+        const double wanted = std::hypot(before(v, x), before(v, y), before(v, z));
+        if (length > 0.0 && wanted > 0.0)
+            for (const Index column : {x, y, z})
+                fields.values(v, column) *= wanted / length;
+    }
+}
+
+void require_place(const SmoothCommand& command, const MeshFile& file)
+{
+    const FileFormat format = kind_for_writing(command.output, file.kind).format;
+    if (format != FileFormat::Ply && (format != file.kind.format || command.fields.names.empty()))
+        throw OutputError(
+            fmt::format("{}: cannot be written: only .ply files hold such fields; write one", command.output.string()));
+}
+
 void resolve_field_amount(SmoothCommand& command, const PolygonMesh& mesh, const Executor& exec, RunRecord& run)
 {
     run.scale = measure_scale(mesh, exec);
+    resolve_field_amount(command, run);
+    command.options.uniform_edge = uniform_edge_of(command.options, mesh);
+}
+
+void resolve_field_amount(SmoothCommand& command, RunRecord& run)
+{
     resolve_lengths(command, run);
     FieldOptions& options = command.fields.options;
     if (command.fields.fwhm) {
@@ -162,7 +167,6 @@ void resolve_field_amount(SmoothCommand& command, const PolygonMesh& mesh, const
         command.options.time_step =
             time_step_of(command.amount, run.scale, command.options.steps, filter_of(command.options));
     }
-    command.options.uniform_edge = uniform_edge_of(command.options, mesh);
 }
 
 ExitStatus run_fields(SmoothCommand& command, RunRecord& run)
@@ -178,7 +182,7 @@ ExitStatus run_fields(SmoothCommand& command, RunRecord& run)
     MeshFile file = read_faulty_mesh(command.input, left_out, exec);
     require_faces(command.input, file.mesh.n_faces(), left_out);
     require_place(command, file);
-    FieldSummary summary;
+    FieldSummary summary{.n_vertices = file.mesh.n_vertices()};
     complete_options(command, file, left_out, exec, run);
     run.read_seconds = whole.seconds();
     print_input(out, run, file.mesh.n_vertices(), file.mesh.n_faces());

@@ -4,10 +4,23 @@
 
 #include "engine/distributed/parts/deal.h"
 #include "engine/distributed/parts/whole_mesh.h"
+#include "engine/distributed/ranks/packing.h"
 #include "partition/formats/index_files.h"
-#include "samples/runs/smoothing_run.h"
+#include "partition/index_lists.h"
+#include "samples/files/mesh_results.h"
 
 namespace seamflow {
+
+int threads_of_rank(Communicator& comm, const std::string& host, const SmoothCommand& command)
+{
+    int n_here = 0;
+    for (const Bytes& bytes : comm.allgather(packed(std::vector<char>(host.begin(), host.end())))) {
+        const auto other = unpacked<char>(bytes);
+        n_here += std::ranges::equal(other, host) ? 1 : 0;
+    }
+    const int threads = command.options.resources.threads;
+    return command.chooses_threads ? std::max(1, threads / n_here) : threads;
+}
 
 std::vector<Index> read_labels(Communicator& comm, const SmoothCommand& command, const FaultLog& faults,
                                std::span<const std::int64_t> bounds)
@@ -28,6 +41,19 @@ std::vector<std::int64_t> read_fixed(Communicator& comm, const SmoothCommand& co
         own.assign(fixed.begin(), fixed.end());
     });
     return comm.gather_all(own);
+}
+
+void hold_in_part(const JoinedSeams& seams, std::vector<std::int64_t>& fixed, MeshPart& part)
+{
+    std::vector<std::int64_t> firsts;
+    for (const SeamVertex& one : seams.vertices)
+        if (std::ranges::binary_search(fixed, one.vertex))
+            firsts.push_back(one.first);
+    fixed.insert(fixed.end(), firsts.begin(), firsts.end());
+    sort_unique(fixed);
+    part.fixed.resize(part.vertex_numbers.size());
+    std::ranges::transform(part.vertex_numbers, part.fixed.begin(),
+                           [&](std::int64_t number) { return std::ranges::binary_search(fixed, number) ? 1 : 0; });
 }
 
 std::vector<double> read_weights(Communicator& comm, const SmoothCommand& command, std::int64_t n_vertices)

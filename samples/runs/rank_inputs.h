@@ -1,16 +1,36 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "engine/distributed/cut/joined_seams.h"
+#include "engine/distributed/parts/mesh_part.h"
 #include "engine/distributed/ranks/communicator.h"
+#include "partition/errors.h"
 #include "partition/io/fault_log.h"
 #include "samples/command/smooth_command.h"
 
-/// The inputs of a run of ranks besides the mesh. Rank 0 reads them; all ranks call these functions together.
+/// The inputs of a run of ranks besides the mesh, and how they are shared. Rank 0 reads them; all ranks call these
+/// functions together.
 namespace seamflow {
+
+/// Errors in a mesh are reported with the name of its file.
+template <class Action>
+void about_file(const std::filesystem::path& path, Action&& action)
+{
+    try {
+        action();
+    } catch (const InputError& error) {
+        throw InputError(path.string() + ": " + error.what());
+    }
+}
+
+/// How many threads a rank has: the ranks on a machine share its cores.
+/// @param host the machine of this rank.
+int threads_of_rank(Communicator& comm, const std::string& host, const SmoothCommand& command);
 
 /// The labels of --labels for the faces of this rank's range.
 /// @param faults of the mesh, whose faces that are left out have labels in the file. @param bounds of faces.
@@ -19,6 +39,10 @@ std::vector<Index> read_labels(Communicator& comm, const SmoothCommand& command,
 
 /// The vertices of --fix, ascending, at all ranks.
 std::vector<std::int64_t> read_fixed(Communicator& comm, const SmoothCommand& command, std::int64_t n_vertices);
+
+/// Holds vertices of a part.
+/// @param fixed ascending; gets those that vertices along seams move with, too.
+void hold_in_part(const JoinedSeams& seams, std::vector<std::int64_t>& fixed, MeshPart& part);
 
 /// The weights of --attach-weights, #V of the whole mesh at rank 0; empty elsewhere, and without that option.
 std::vector<double> read_weights(Communicator& comm, const SmoothCommand& command, std::int64_t n_vertices);

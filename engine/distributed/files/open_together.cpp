@@ -1,7 +1,9 @@
 #include "engine/distributed/files/open_together.h"
 
+#include <algorithm>
 #include <array>
 #include <fstream>
+#include <sstream>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -11,6 +13,7 @@
 #include "engine/distributed/files/sliced_ply_file.h"
 #include "engine/distributed/files/sliced_stl_file.h"
 #include "engine/distributed/files/sliced_text_file.h"
+#include "engine/distributed/parts/element_ranges.h"
 #include "engine/distributed/parts/whole_mesh.h"
 #include "partition/errors.h"
 #include "partition/formats/off.h"
@@ -28,7 +31,8 @@ namespace {
 class WholeMeshFile final : public SharedMeshFile {
   public:
     WholeMeshFile(std::filesystem::path path, const FileSharing& sharing, Executor exec)
-        : path_(std::move(path))
+        : SharedMeshFile(path)
+        , path_(std::move(path))
         , sharing_(sharing)
         , exec_(std::move(exec))
     {
@@ -62,6 +66,45 @@ class WholeMeshFile final : public SharedMeshFile {
         return remarks;
     }
 
+    FileFields read_fields(Communicator& comm, const std::vector<std::string>& names) override
+    {
+        FileFields all;
+        comm.at_first_rank([&] { all = seamflow::read_fields(*file_.source, names, exec_); });
+        FileFields own;
+        own.names = names_of_first(comm, all);
+        const std::int64_t n = comm.broadcast(std::vector<std::int64_t>{file_.mesh.n_vertices()}).front();
+        const std::vector<std::int64_t> bounds = bounds_of_ranges(n, comm.size(), sharing_.block);
+        own.values.resize(bounds[comm.rank() + 1] - bounds[comm.rank()], std::ssize(own.names));
+        for (Eigen::Index c = 0; c < own.values.cols(); ++c) {
+            std::vector<double> column;
+            if (comm.rank() == 0)
+                column.assign(all.values.col(c).begin(), all.values.col(c).end());
+            std::ranges::copy(hand_out(comm, column, bounds), own.values.col(c).begin());
+        }
+        return own;
+    }
+
+    std::vector<std::string> write_fields(Communicator& comm, const std::filesystem::path& path,
+                                          const FileFields& fields) override
+    {
+        FileFields all{.names = fields.names};
+        all.values.resize(file_.mesh.n_vertices(), std::ssize(fields.names));
+        for (Eigen::Index c = 0; c < fields.values.cols(); ++c) {
+            const auto own = fields.values.col(c);
+            std::ranges::copy(comm.gather_at_first(std::vector<double>(own.begin(), own.end())),
+                              all.values.col(c).begin());
+        }
+        std::vector<std::string> remarks;
+        comm.at_first_rank([&] {
+            const FileKind kind = kind_for_writing(path, file_.kind);
+            if (kind.format == file_.kind.format)
+                remarks = write_mesh_like(*file_.source, path, file_.mesh, all, exec_);
+            else
+                remarks = write_mesh(path, file_.mesh, kind, all, exec_);
+        });
+        return remarks;
+    }
+
     void write_labelled(Communicator& comm, const std::filesystem::path& path, const Points& vertices,
                         const std::vector<Index>& labels) override
     {
@@ -73,6 +116,19 @@ class WholeMeshFile final : public SharedMeshFile {
     [[nodiscard]] const MeshFile* whole() const override { return is_read_ ? &file_ : nullptr; }
 
   private:
+    static std::vector<std::string> names_of_first(Communicator& comm, const FileFields& fields)
+    {
+        std::string joined;
+        for (const std::string& name : fields.names)
+            joined += name + '\n';
+        const std::vector<char> of_first = comm.broadcast(std::vector<char>(joined.begin(), joined.end()));
+        std::istringstream lines(std::string(of_first.begin(), of_first.end()));
+        std::vector<std::string> names;
+        for (std::string name; std::getline(lines, name);)
+            names.push_back(name);
+        return names;
+    }
+
     void take_positions(Communicator& comm, const Points& vertices)
     {
         Points all = gather_positions(comm, vertices);

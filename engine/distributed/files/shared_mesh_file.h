@@ -9,6 +9,7 @@
 #include "engine/distributed/parts/deal.h"
 #include "engine/distributed/ranks/communicator.h"
 #include "partition/executor.h"
+#include "partition/formats/file_fields.h"
 #include "partition/formats/mesh_io.h"
 #include "partition/io/fault_log.h"
 
@@ -25,7 +26,11 @@ struct FileSharing {
 /// A mesh file that ranks read together, and write again with other positions. All ranks call its functions together.
 class SharedMeshFile {
   public:
-    SharedMeshFile() = default;
+    /// @param path for messages.
+    explicit SharedMeshFile(const std::filesystem::path& path)
+        : name_(path.string())
+    {
+    }
     SharedMeshFile(const SharedMeshFile&) = delete;
     SharedMeshFile& operator=(const SharedMeshFile&) = delete;
     virtual ~SharedMeshFile() = default;
@@ -46,6 +51,16 @@ class SharedMeshFile {
     virtual std::vector<std::string> write(Communicator& comm, const std::filesystem::path& path,
                                            const Points& vertices) = 0;
 
+    /// Reads fields of the vertices of this rank's range, once the mesh was read.
+    /// @throws InputError as seamflow::read_fields; also for files in slices that are not binary PLY files.
+    virtual FileFields read_fields(Communicator& comm, const std::vector<std::string>& names);
+
+    /// Writes the mesh as `write` does, with other fields. It stays where it was.
+    /// @param fields those that were read, of this rank's range.
+    /// @returns, throws as write_mesh_like.
+    virtual std::vector<std::string> write_fields(Communicator& comm, const std::filesystem::path& path,
+                                                  const FileFields& fields);
+
     /// As write_labelled_ply, with the vertices as `write` takes them.
     /// @param labels of the faces of this rank's range.
     virtual void write_labelled(Communicator& comm, const std::filesystem::path& path, const Points& vertices,
@@ -59,6 +74,11 @@ class SharedMeshFile {
 
   protected:
     FaultLog faults_{.of_faces_alone = true};
+
+  private:
+    [[noreturn]] void refuse_fields() const;
+
+    std::string name_;
 };
 
 }  // namespace seamflow

@@ -1,7 +1,10 @@
 #include "engine/distributed/files/sliced_ply_file.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <string>
@@ -87,10 +90,43 @@ ByteRange find_faces(Communicator& comm, const PlyRanges& ply, const ElementRang
     return own;
 }
 
+/// What decides about the types of columns of all ranks: the least and the largest value of each, and NaN if there is
+/// any.
+/// @returns 3 by n.
+Eigen::MatrixXd extremes_of_all(Communicator& comm, const Eigen::MatrixXd& own)
+{
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    std::vector<std::array<double, 3>> of_rank;
+    for (const auto& column : own.colwise()) {
+        std::array<double, 3>& extremes = of_rank.emplace_back(std::array{infinity, -infinity, 0.0});
+        for (const double value : column) {
+            extremes[0] = value < extremes[0] ? value : extremes[0];
+            extremes[1] = value > extremes[1] ? value : extremes[1];
+            extremes[2] = std::isnan(value) ? value : extremes[2];
+        }
+    }
+    Eigen::MatrixXd all(3, own.cols());
+    all.colwise() = Eigen::Vector3d(infinity, -infinity, 0.0);
+    Eigen::Index i = 0;
+    for (const auto& [least, most, no_data] : comm.gather_all(of_rank)) {
+        auto column = all.col(i++ % own.cols());
+        column[0] = std::min(column[0], least);
+        column[1] = std::max(column[1], most);
+        column[2] = std::isnan(no_data) ? no_data : column[2];
+    }
+    for (auto column : all.colwise())
+        if (column[0] > column[1])
+            column.setConstant(column[2]);
+        else if (!std::isnan(column[2]))
+            column[2] = column[0];
+    return all;
+}
+
 class SlicedPlyFile final : public SharedMeshFile {
   public:
     SlicedPlyFile(const std::filesystem::path& path, FileFormat format, const FileSharing& sharing)
-        : file_(path)
+        : SharedMeshFile(path)
+        , file_(path)
         , format_(format)
         , sharing_(sharing)
     {
@@ -142,11 +178,52 @@ class SlicedPlyFile final : public SharedMeshFile {
         std::vector<std::string> remarks;
         bool rounded = false;
         write_together(comm, path, [&](const SharedOutput& output) {
-            std::tie(remarks, rounded) = write_slice(comm, output, ply, own, vertices, changes);
+            const RewriteVertices rewrite = [&](ByteWriter& piece, Index begin, Index end) {
+                return rewrite_ply_vertices(piece, ply, begin, vertices.middleRows(begin - own.begin, end - begin),
+                                            changes);
+            };
+            std::tie(remarks, rounded) = write_slice(comm, output, ply, own, changes, rewrite);
         });
         const auto all_rounded = comm.gather_all(std::vector<char>{static_cast<char>(rounded ? 1 : 0)});
         if (std::ranges::find(all_rounded, 1) != all_rounded.end())
             remarks.push_back(rounding_remark(file_.path()));
+        return remarks;
+    }
+
+    FileFields read_fields(Communicator& comm, const std::vector<std::string>& names) override
+    {
+        if (format_ != FileFormat::Ply)
+            return SharedMeshFile::read_fields(comm, names);
+        const InputFile input(file_);
+        const auto opened = unchanged(comm, input.content());
+        const ElementRange own(opened->n_vertices(), comm, sharing_.block);
+        FileFields fields;
+        comm.look_together([&] { fields = read_ply_fields(*opened, names, own.begin, own.end); });
+        return fields;
+    }
+
+    std::vector<std::string> write_fields(Communicator& comm, const std::filesystem::path& path,
+                                          const FileFields& fields) override
+    {
+        const InputFile input(file_);
+        const auto opened = unchanged(comm, input.content());
+        const PlyRanges& ply = *opened;
+        const ElementRange own(ply.n_vertices(), comm, sharing_.block);
+        const FileFields extremes{fields.names, extremes_of_all(comm, fields.values)};
+        std::vector<PlyChange> changes;
+        std::vector<std::string> remarks;
+        check_together(comm, [&] {
+            require_writable(path, extremes, static_cast<Index>(extremes.values.rows()), run_serially);
+            changes = changes_of_fields(ply.vertex_element(), extremes, path, remarks);
+        });
+        const RewriteVertices rewrite = [&](ByteWriter& piece, Index begin, Index end) {
+            rewrite_ply_fields(piece, ply, begin, fields.values.middleRows(begin - own.begin, end - begin), changes);
+            return false;
+        };
+        write_together(comm, path, [&](const SharedOutput& output) {
+            const auto of_header = write_slice(comm, output, ply, own, changes, rewrite).first;
+            remarks.insert(remarks.end(), of_header.begin(), of_header.end());
+        });
         return remarks;
     }
 
@@ -256,10 +333,13 @@ class SlicedPlyFile final : public SharedMeshFile {
                XXH3_64bits_withSeed(others.data(), others.size(), ply.content().size());
     }
 
+    /// Writes the vertices from `begin` to `end` - 1 of the file. @returns whether positions were rounded.
+    using RewriteVertices = std::function<bool(ByteWriter& piece, Index begin, Index end)>;
+
     std::pair<std::vector<std::string>, bool> write_slice(Communicator& comm, const SharedOutput& output,
                                                           const PlyRanges& ply, const ElementRange& own,
-                                                          const Points& vertices,
-                                                          const std::vector<PlyChange>& changes) const
+                                                          const std::vector<PlyChange>& changes,
+                                                          const RewriteVertices& rewrite) const
     {
         OutputBuffer header;
         std::vector<std::string> remarks;
@@ -275,8 +355,7 @@ class SlicedPlyFile final : public SharedMeshFile {
         for (Index begin = own.begin; begin < own.end; begin += at_once) {
             const Index end = std::min(own.end, begin + at_once);
             OutputBuffer piece;
-            rounded |=
-                rewrite_ply_vertices(piece, ply, begin, vertices.middleRows(begin - own.begin, end - begin), changes);
+            rounded |= rewrite(piece, begin, end);
             output.write(piece.content(), header.content().size() + at(begin) * vertex_bytes);
         }
         const auto old_end = static_cast<std::size_t>(end_of_vertices(ply) - ply.content().data());

@@ -31,7 +31,8 @@ namespace {
 class SlicedStlFile final : public SharedMeshFile {
   public:
     SlicedStlFile(const std::filesystem::path& path, Encoding encoding, const FileSharing& sharing, Executor exec)
-        : file_(path)
+        : SharedMeshFile(path)
+        , file_(path)
         , encoding_(encoding)
         , sharing_(sharing)
         , exec_(std::move(exec))

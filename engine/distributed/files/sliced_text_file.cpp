@@ -72,7 +72,8 @@ struct BytePlace {
 class SlicedTextFile final : public SharedMeshFile {
   public:
     SlicedTextFile(const std::filesystem::path& path, TextSlicer slicer, const FileSharing& sharing, Executor exec)
-        : file_(path)
+        : SharedMeshFile(path)
+        , file_(path)
         , slicer_(slicer)
         , sharing_(sharing)
         , exec_(std::move(exec))

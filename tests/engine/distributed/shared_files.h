@@ -20,6 +20,7 @@
 #include "partition/formats/off_header.h"
 #include "partition/formats/ply_source.h"
 #include "partition/io/slices.h"
+#include "partition/vector_area.h"
 #include "tests/support/mesh_files.h"
 #include "tests/support/temporary_directory.h"
 

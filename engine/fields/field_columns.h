@@ -1,0 +1,75 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "engine/measure/flow_report.h"
+#include "partition/polygon_mesh.h"
+#include "solvers/laplacian/laplacian.h"
+
+/// Fields that diffuse, column by column.
+namespace seamflow {
+
+/// Columns whose data are at the same vertices.
+struct FieldGroup {
+    std::vector<Eigen::Index> columns;
+    /// #V: 1 where there are none.
+    std::vector<std::uint8_t> lacks;
+    Index n_lacking = 0;
+};
+
+/// Groups in the order of their first columns, which ascend in each.
+/// @param fields #V by n; NaN is no data.
+std::vector<FieldGroup> group_columns(const Eigen::MatrixXd& fields);
+
+/// @param numbers of the vertices in messages; empty: from 0.
+/// @throws InputError for another number of rows, or infinite values.
+void require_fields_of(Index n_vertices, const Eigen::MatrixXd& fields, std::span<const std::int64_t> numbers = {});
+
+/// Whether K of a face cannot be used: it has no area.
+bool is_unusable(const PolygonMesh& mesh, Index f, Laplacian laplacian);
+
+/// Whether a face is one of the surface of a group: all its vertices have data, and it can be used.
+bool has_data(const PolygonMesh& mesh, Index f, const FieldGroup& group, Laplacian laplacian);
+
+/// Of the values of a column; the least exceeds the most if there are none.
+struct ValueRange {
+    double least = std::numeric_limits<double>::infinity();
+    double most = -std::numeric_limits<double>::infinity();
+};
+
+/// One for each column of the group, over the vertices with data.
+std::vector<ValueRange> ranges_of(const Eigen::MatrixXd& fields, const FieldGroup& group);
+
+/// Columns in the unit in which their values spread about as far as the steps do, which powers of two change exactly:
+/// what steps add fits in single precision.
+class ScaledFields {
+  public:
+    /// @param ranges of the whole mesh (see ranges_of). @param time_step in length².
+    ScaledFields(const Eigen::MatrixXd& fields, const FieldGroup& group, std::span<const ValueRange> ranges,
+                 double time_step);
+
+    /// #V by the columns of the group; 0 where there are no data.
+    Eigen::MatrixXd& values() { return values_; }
+
+    [[nodiscard]] Eigen::MatrixXd in_units() const;
+
+    /// Puts them where they came from.
+    void write(const FieldGroup& group, Eigen::MatrixXd& fields) const;
+
+  private:
+    Eigen::MatrixXd values_;
+    Eigen::VectorXd units_;
+};
+
+/// How many times the steps of the flow are taken: once for each three columns.
+int n_blocks(Eigen::Index n_columns);
+
+/// Adds what was reported on columns before.
+void add_up(const FlowReport& before, FlowReport& report);
+
+}  // namespace seamflow

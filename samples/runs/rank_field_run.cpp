@@ -1,0 +1,214 @@
+#include "samples/runs/rank_field_run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/distributed/cut/distributed_cut.h"
+#include "engine/distributed/cut/seams_of_fields.h"
+#include "engine/distributed/distributed_fields.h"
+#include "engine/distributed/files/open_together.h"
+#include "engine/distributed/parts/deal.h"
+#include "engine/distributed/parts/field_rows.h"
+#include "engine/distributed/parts/slice_measures.h"
+#include "engine/tasks/stopwatch.h"
+#include "engine/tasks/workers.h"
+#include "partition/errors.h"
+#include "samples/files/mesh_results.h"
+#include "samples/files/output_files.h"
+#include "samples/report/field_report.h"
+#include "samples/report/report_text.h"
+#include "samples/runs/field_run.h"
+#include "samples/runs/rank_inputs.h"
+#include "samples/runs/smoothing_run.h"
+
+namespace seamflow {
+
+namespace {
+
+/// The ranges of all columns over the vertices of all ranks.
+std::vector<FieldRange> ranges_of_all(Communicator& comm, const Eigen::MatrixXd& own)
+{
+    std::vector<FieldRange> ranges(static_cast<std::size_t>(own.cols()));
+    for (Eigen::Index c = 0; c < own.cols(); ++c)
+        for (const FieldRange& block : comm.gather_all(ranges_of_blocks(own, c)))
+            ranges[static_cast<std::size_t>(c)].add(block);
+    return ranges;
+}
+
+/// One rank's share of a run.
+class RankFieldRun {
+  public:
+    RankFieldRun(Transport& ranks, DistributedCommand& command, RunRecord& run, std::ostream& out)
+        : ranks_(ranks)
+        , command_(command.flow)
+        , sharing_(command.sharing)
+        , run_(run)
+        , out_(out)
+    {
+    }
+
+    ExitStatus run()
+    {
+        const Stopwatch whole;
+        run_together(ranks_, [&](Communicator& comm) { begin(comm); });
+        FlowOptions options = command_.options;
+        options.cut = {};
+        options.motion.weld.reset();
+        FieldOptions of_fields = command_.fields.options;
+        // It is the same, from steps that are told.
+        of_fields.fwhm.reset();
+        about_file(command_.input, [&] {
+            const FieldReport report = diffuse_on_ranks(ranks_, part_, of_part_, options, of_fields);
+            add_to_summary(report);
+        });
+        run_together(ranks_, [&](Communicator& comm) { end(comm, whole); });
+        const std::string missed = missed_tolerance(command_, summary_.report.flow.convergence);
+        if (missed.empty())
+            return ExitStatus::Success;
+        if (ranks_.rank() == 0)
+            std::cerr << "smooth-distributed: " << missed << "; " << command_.output.string()
+                      << " has the last state\n";
+        return ExitStatus::ComputationFailed;
+    }
+
+  private:
+    /// Reads, cuts, and deals the sub-meshes and their fields to the ranks.
+    void begin(Communicator& comm)
+    {
+        command_.options.resources.threads = threads_of_rank(comm, ranks_.host(), command_);
+        workers_.emplace(command_.options.resources.threads);
+        const Stopwatch reading;
+        file_ = open_together(comm, command_.input, sharing_, workers_->exec());
+        RankSlice slice = file_->read(comm);
+        SharedMeshSize size;
+        about_file(command_.input, [&] { size = measure(comm, slice); });
+        comm.at_first_rank([&] {
+            require_faces(command_.input, size.faces, file_->faults());
+            look_at_result();
+        });
+        comm.look_together([&] { settle_amount(size); });
+        const SliceBounds bounds = gather_bounds(comm, slice);
+        bounds_ = bounds.vertices;
+        fields_ = file_->read_fields(comm, command_.fields.names);
+        summary_ = {.names = fields_.names, .n_vertices = size.vertices, .before = ranges_of_all(comm, fields_.values)};
+        if (!command_.labels.empty())
+            slice.labels = read_labels(comm, command_, file_->faults(), bounds.faces);
+        std::vector<std::int64_t> fixed = read_fixed(comm, command_, size.vertices);
+        run_.read_seconds = reading.seconds();
+        print_input(out_, run_, size.vertices, size.faces);
+        print_field_amount(out_, run_.scale, command_.options, command_.fields.options);
+
+        const Stopwatch cutting;
+        cut(comm, slice);
+        about_file(command_.input, [&] { part_ = deal(comm, slice); });
+        hold_in_part(seams_, fixed, part_);
+        before_ = fields_.values;
+        about_file(command_.input, [&] { join_fields(comm, seams_, bounds_, fields_.values); });
+        of_part_ = fetch_fields(comm, fields_.values, part_.vertex_numbers, bounds_);
+        cut_seconds_ = cutting.seconds();
+    }
+
+    /// Whether OUTPUT can hold the fields, and what of the input it will lack. On rank 0.
+    void look_at_result()
+    {
+        file_->require_writable_as(command_.output);
+        const MeshFile* const whole = file_->whole();
+        if (whole != nullptr) {
+            require_place(command_, *whole);
+            remarks_ = remarks_on_losses(command_.output, true, *whole);
+        }
+        if (file_->faults().count > 0)
+            remarks_.push_back(remark_on_faces(file_->faults(), command_.output, true,
+                                               whole != nullptr ? whole->kind : FileKind{*format_of(command_.input)}));
+    }
+
+    void settle_amount(const SharedMeshSize& size)
+    {
+        run_.scale = {size.mean_edge, size.diagonal};
+        about_file(command_.input, [&] { resolve_field_amount(command_, run_); });
+        if (command_.options.laplacian == Laplacian::Uniform && std::isnormal(size.mean_edge))
+            command_.options.uniform_edge = size.mean_edge;
+    }
+
+    void cut(Communicator& comm, RankSlice& slice)
+    {
+        DistributedCut found = command_.labels.empty() ? cut_together(comm, slice, command_.options)
+                                                       : cut_together_by_labels(comm, slice, command_.options);
+        if (!found.choice.empty())
+            summary_.report.flow.choices.push_back(found.choice);
+        summary_.report.remarks = std::move(found.remarks);
+        seams_ = std::move(found.seams);
+    }
+
+    void add_to_summary(const FieldReport& report)
+    {
+        FieldReport& all = summary_.report;
+        all.flow.convergence = report.flow.convergence;
+        all.flow.seconds = report.flow.seconds;
+        all.flow.seconds.cut = cut_seconds_;
+        all.remarks.insert(all.remarks.end(), report.remarks.begin(), report.remarks.end());
+    }
+
+    /// Writes, and reports what was done.
+    void end(Communicator& comm, const Stopwatch& whole)
+    {
+        const Stopwatch writing;
+        collect_fields(comm, part_.vertex_numbers, of_part_, fields_.values);
+        bring_back_fields(comm, seams_, bounds_, fields_.values);
+        renormalise(fields_, before_);
+        summary_.after = ranges_of_all(comm, fields_.values);
+        summary_.report.without_data = count_without_data();
+        std::vector<std::string>& remarks = summary_.report.remarks;
+        for (const auto& more : {remarks_, file_->write_fields(comm, command_.output, fields_)})
+            remarks.insert(remarks.end(), more.begin(), more.end());
+        run_.write_seconds = writing.seconds();
+        run_.seconds = whole.seconds();
+        comm.at_first_rank([&] {
+            if (!command_.report.empty())
+                write_text(command_.report, field_report_json(run_, command_.options, summary_));
+        });
+        print_fields(out_, run_, summary_);
+    }
+
+    /// In the column that has the fewest data.
+    [[nodiscard]] Index count_without_data() const
+    {
+        std::int64_t most = 0;
+        for (const FieldRange& range : summary_.after)
+            most = std::max(most, summary_.n_vertices - range.n);
+        return static_cast<Index>(most);
+    }
+
+    Transport& ranks_;
+    SmoothCommand& command_;
+    FileSharing sharing_;
+    RunRecord& run_;
+    std::ostream& out_;
+    std::optional<Workers> workers_;
+    std::unique_ptr<SharedMeshFile> file_;
+    /// Of the vertices of this rank's range, now and before; those bounds; and of the vertices of its part.
+    FileFields fields_;
+    Eigen::MatrixXd before_;
+    std::vector<std::int64_t> bounds_;
+    Eigen::MatrixXd of_part_;
+    MeshPart part_;
+    JoinedSeams seams_;
+    double cut_seconds_ = 0.0;
+    FieldSummary summary_;
+    /// Of files.
+    std::vector<std::string> remarks_;
+};
+
+}  // namespace
+
+ExitStatus run_fields_on_ranks(Transport& ranks, DistributedCommand& command, RunRecord& run, std::ostream& out)
+{
+    return RankFieldRun(ranks, command, run, out).run();
+}
+
+}  // namespace seamflow
