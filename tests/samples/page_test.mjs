@@ -127,6 +127,8 @@ before(async () => {
     writeFields();
     program("smooth", join(out, "field.ply"), join(out, "f.ply"), "--fields", "value,other,colour", "--fwhm", 0.6, "--html", page("fields"));
     program("smooth", join(out, "field.ply"), join(out, "d.ply"), "--from", join(out, "from.txt"), "--html", page("from"));
+    program("smooth", sphere, join(out, "r.ply"), "--region", join(out, "from.txt"), "--feather", "20%", "--radius", "2%", "--html", page("region"));
+    program("smooth", sphere, join(out, "g.ply"), "--time-step-edges", 1e5, "--steps", 9, "--html", page("gone"));
     program("figures", "--out", join(out, "figures"), "--html", "texture");
     browser = await launch();
     reader = await browser.newPage();
@@ -702,6 +704,24 @@ test("a page says which flow was taken", async () => {
     const summary = async (name) => (await open(page(name))).locator("#summary").textContent();
     assert.match(await summary("edges"), /faces · edges sharper than 30° kept · 1 step of [^·]*$/);
     assert.match(await summary("round"), /Laplacian Virtual refinement · conformalized · attached, 0.25 \/ length² · area kept · 1 step/);
+});
+
+test("a page says where motion is measured, what stayed, and if nothing is left to see", async () => {
+    const region = await open(page("region"));
+    assert.match(await region.locator("#displacements h2").textContent(), /of the input, around the region$/);
+    await region.close();
+    const round = await open(page("round"));
+    assert.match(await round.locator("#displacements h2").textContent(), /of the input$/);
+    assert.match(await round.locator("#outcome").textContent(), /Area\S+ → \S+ \(unchanged\)Volume/);
+    assert.match(await round.locator("#facts-table").textContent(), /Sub-meshesnone: steps on the whole mesh/);
+    assert.equal(await round.locator("#message").textContent(), "");
+    await round.close();
+    const gone = await open(page("gone"));
+    assert.equal(await gone.locator("#message").textContent(), "The surface has shrunk to a point.");
+    await choose(gone, "before");
+    await settled(gone);
+    assert.equal(await gone.locator("#message").textContent(), "");
+    await gone.close();
 });
 
 test("without the undecomposed flow a page shows displacements", async () => {

@@ -59,7 +59,8 @@ export function summary(mesh, report) {
 /** "a → b (-3 %)", without the part where it says nothing. */
 function change(before, after, unit = "") {
     const percent = 100 * (after / before - 1);
-    const part = unit === "" && Number.isFinite(percent) ? ` (${percent > 0 ? "+" : ""}${digits(percent, 2)} %)` : "";
+    const percents = Math.abs(percent) < 1e-6 ? "unchanged" : `${percent > 0 ? "+" : ""}${digits(percent, 2)} %`;
+    const part = unit === "" && Number.isFinite(percent) ? ` (${percents})` : "";
     return `${digits(before, 4)}${unit} → ${digits(after, 4)}${unit}${part}`;
 }
 
@@ -103,17 +104,20 @@ export function showOutcome(section, report) {
     section.replaceChildren(element("h2", {}, "Result"), list);
 }
 
+/** Where motion and curvature are measured, if not everywhere. */
+export const placesMeasured = (report) => `${report.region ? ", around the region" : ""}${report.junction_vertices > 0 ? ", except at junctions" : ""}`;
+
 function rowsOfFlow(report, last) {
     const list = [
         ["Mean edge", `${digits(report.mean_edge)} (length)`],
         ["Time step", `${digits(report.time_step)} length² = ${digits(report.time_step / report.mean_edge ** 2)} squared mean edges`],
     ];
     if (!keepsEdges(report))
-        list.push(["Sub-meshes", `${digits(report.subdomains)}${report.colours > 1 ? ` in ${report.colours} colours` : ""}, ${counted(report.interface_vertices, "vertex", "vertices")} on Γ`]);
+        list.push(["Sub-meshes", report.subdomains === 1 ? "none: steps on the whole mesh" : `${digits(report.subdomains)}${report.colours > 1 ? ` in ${report.colours} colours` : ""}, ${counted(report.interface_vertices, "vertex", "vertices")} on Γ`]);
     if (report.tolerance !== undefined)
         list.push(["Steps", `converged to ${digits(report.tolerance)}; iterations ${report.steps.map((step) => step.iterations ?? "–").join(", ")}`]);
     if (last)
-        list.push(["Largest ‖ΔV‖", `${digits(report.steps[0].max_mean_curvature_before)} before, ${digits(last.max_mean_curvature_after)} after (1/length)`]);
+        list.push(["Largest ‖ΔV‖", `${digits(report.steps[0].max_mean_curvature_before)} before, ${digits(last.max_mean_curvature_after)} after (1/length)${placesMeasured(report)}`]);
     if (last?.v_mean !== undefined)
         list.push(["Distance", `V_mean ${digits(last.v_mean)}, V_RMS ${digits(last.v_rms)}, V_max ${digits(last.v_max)}${last.h_mean === undefined ? "" : `, H_mean ${digits(last.h_mean)}, H_max ${digits(last.h_max)}`} mean edges after the last step`]);
     return list;

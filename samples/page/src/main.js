@@ -104,6 +104,11 @@ const normalsOf = remembering(4, async (positions) =>
     vertexNormals(triangles.smooth.corners, triangles.smooth.vertexOf, await positionsIn(positions.block), sizesOf(positions)),
 );
 
+const lengthOf = ({ lower, upper }) => Math.max(...upper.map((x, k) => x - lower[k]));
+
+/** Whether nothing of a surface is to be seen where the input fills the view. */
+const isPoint = (box) => lengthOf(box) < 1e-4 * lengthOf(facts.flows[0].states[0].surface.positions);
+
 /** Makes the edges when they are asked for first. */
 async function edges() {
     if (!chosen.edges || view.hasEdges)
@@ -139,7 +144,7 @@ async function show() {
     paint();
     view.wipeAt(places.left === undefined ? null : wipe.part);
     view.showEdges(chosen.edges);
-    byId("message").textContent = facts.mesh.faces > 0 ? "" : "The mesh has no faces to show.";
+    byId("message").textContent = facts.mesh.faces === 0 ? "The mesh has no faces to show." : isPoint(places.right.box) ? "The surface has shrunk to a point." : "";
     requestAnimationFrame(() => requestAnimationFrame(() => mine === turn && byId("stage").setAttribute("aria-busy", "false")));
 }
 
@@ -257,7 +262,8 @@ async function standUpright() {
     const guess = Object.keys(ups).find((name) => ups[name].axis === axis && ups[name].sign === sign);
     byId("up").replaceChildren(...Object.keys(ups).map((value) => element("option", { value }, value)));
     byId("up").value = guess;
-    view.fitTo(points, positions);
+    const last = states.at(-1).surface.positions;
+    view.fitTo([{ points, box: positions }, { points: await positionsIn(last.block), box: last }]);
     view.setUp(ups[guess]);
 }
 

@@ -1,7 +1,7 @@
 // Plots of what was measured step by step, and bars of where the time went.
 
 import uPlot from "uplot";
-import { digits, element, seconds, stepsOf } from "./facts.js";
+import { digits, element, placesMeasured, seconds, stepsOf } from "./facts.js";
 import { explain } from "./words.js";
 
 const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
@@ -154,9 +154,9 @@ const kinds = {
             { name: subdomains === 1 ? "largest" : "V_max, estimated", values: column(steps, "estimated_v_max"), colour: 4, dash: [5, 4] },
         ],
     }),
-    displacements: (steps) => ({
+    displacements: (steps, report) => ({
         title: steps.length === 1 ? "Displacement" : "Displacement in each step",
-        unit: "mean edges of the input",
+        unit: `mean edges of the input${placesMeasured(report)}`,
         logarithmic: true,
         format: (value) => digits(value, 2),
         curves: [

@@ -96,13 +96,15 @@ export class View {
         this.reset();
     }
 
-    /** Looks at what there is, not at its box. @param points four numbers of 16 bits each. @param box of these. */
-    fitTo(points, { lower, upper }) {
-        const n = points.length / 4;
-        const stride = Math.ceil(n / 4000) || 1;
-        this.#extremes = Array.from({ length: Math.ceil(n / stride) }, (_, k) =>
-            new Vector3(...lower.map((low, c) => (low + ((upper[c] - low) * points[4 * k * stride + c]) / 65535 - this.#centre[c]) / this.#radius)),
-        );
+    /** Looks at what there is, not at its box. @param surfaces points, four numbers of 16 bits each, and the box of these. */
+    fitTo(surfaces) {
+        this.#extremes = surfaces.flatMap(({ points, box: { lower, upper } }) => {
+            const n = points.length / 4;
+            const stride = Math.ceil(n / 4000) || 1;
+            return Array.from({ length: Math.ceil(n / stride) }, (_, k) =>
+                new Vector3(...lower.map((low, c) => (low + ((upper[c] - low) * points[4 * k * stride + c]) / 65535 - this.#centre[c]) / this.#radius)),
+            );
+        });
     }
 
     #resize(canvas) {
