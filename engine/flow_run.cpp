@@ -8,21 +8,15 @@
 
 #include <fmt/format.h>
 
-#include "engine/measure/component_limits.h"
-#include "engine/measure/displacement_bound.h"
 #include "engine/measure/remarks.h"
-#include "engine/measure/rescaling.h"
 #include "engine/measure/surface_measures.h"
-#include "engine/measure/update_limit.h"
-#include "engine/steppers/directed_motion.h"
+#include "engine/step_tools.h"
 #include "engine/steppers/make_stepper.h"
 #include "engine/steppers/switching_stepper.h"
-#include "engine/steppers/vanishing_components.h"
 #include "engine/tasks/parallel_executor.h"
 #include "engine/tasks/stopwatch.h"
 #include "partition/errors.h"
 #include "partition/metrics/surface_distance.h"
-#include "solvers/laplacian/degenerate.h"
 
 namespace seamflow {
 
@@ -64,13 +58,6 @@ void in_mean_edges(std::optional<double>& estimate, const PolygonMesh& mesh, con
     *estimate /= sampled_mean_edge(mesh, positions);
     if (!std::isfinite(*estimate))
         estimate.reset();
-}
-
-/// Whether a step begins with the rescaled result of the previous one, not with that itself. The weights of the
-/// conformalized flow do not depend on the size of the surface: it becomes a sphere instead of vanishing.
-bool goes_on_scaled(const FlowOptions& options)
-{
-    return options.motion.rescale != Rescale::None && options.flow == FlowEquation::Conformalized;
 }
 
 /// @throws InputError if a state does not fit the mesh.
@@ -125,78 +112,6 @@ class FlowRun::StepFractions {
     double tasks_;
     double reference_;
     int n_done_ = 0;
-};
-
-/// The tools that take and check steps, and make results from their positions.
-struct FlowRun::StepTools {
-    StepTools(const PolygonMesh& mesh, const Topology& topology, const FlowOptions& options)
-        : is_scaled(goes_on_scaled(options))
-        , is_scaled_apart(options.motion.rescale != Rescale::None && !is_scaled)
-        , rescaling(mesh, topology, options.motion.rescale)
-        , vanishing(options, mesh.vertices, find_small_components(mesh, topology, options.motion.strength))
-        , mesh_(&mesh)
-    {
-        if (options.motion.direction.kind != MotionDirection::Kind::Any)
-            directed_.emplace(mesh, topology, options.motion.direction);
-        limit.emplace(mesh, options.accuracy.largest_update);
-        if (options.motion.limits.exist())
-            limited.emplace(mesh, topology, options.motion.limits);
-        if (options.motion.within)
-            bound.emplace(mesh, topology, *options.motion.within);
-    }
-
-    /// Whether results differ from the positions that the flow continues from.
-    [[nodiscard]] bool has_results_apart() const { return is_scaled_apart || bound || limited; }
-
-    /// Makes a result of positions of the flow.
-    void make_result(Points& positions)
-    {
-        if (is_scaled_apart)
-            rescaling.apply(positions);
-        if (bound)
-            bound->apply(positions);
-        if (limited)
-            limited->apply(positions);
-        if (directed_ && directed_->is_parallel() && has_results_apart())
-            directed_->project(mesh_->vertices, positions, run_in_parallel);
-    }
-
-    /// Leaves of a step only the motion along the lines that the options ask for.
-    /// @param before #V by 3: where the step began.
-    void direct(Stepper& stepper, const Points& before) const
-    {
-        if (!directed_)
-            return;
-        Points directed = stepper.positions();
-        directed_->project(before, directed, run_in_parallel);
-        stepper.continue_from(directed, {});
-    }
-
-    /// Rescales the surface that the next step begins with, where steps begin with results.
-    void rescale(Stepper& stepper) const
-    {
-        if (!is_scaled)
-            return;
-        Points rescaled = stepper.positions();
-        const Similarity similarity = rescaling.apply(rescaled);
-        stepper.continue_from(rescaled, similarity);
-    }
-
-    /// Limits have their own remark on components that lose too much.
-    [[nodiscard]] std::string remark() const { return limited ? limited->remark() : vanishing.remark(); }
-
-    bool is_scaled;
-    bool is_scaled_apart;
-    Rescaling rescaling;
-    std::optional<LimitedComponents> limited;
-    std::optional<DisplacementBound> bound;
-
-    VanishingComponents vanishing;
-    std::optional<UpdateLimit> limit;
-
-  private:
-    const PolygonMesh* mesh_;
-    std::optional<DirectedMotion> directed_;
 };
 
 FlowRun::FlowRun(FlowingMesh& mesh, std::unique_ptr<PreparedFlow> prepared, Progress& progress, double setup,
@@ -293,98 +208,6 @@ void FlowRun::restore(const FlowState& state)
     report_.seconds.total += state.seconds.total;
 }
 
-/// @returns the vertices of the flowing mesh that these move with.
-std::vector<Index> FlowRun::require_changeable(std::string_view what, std::span<const Index> vertices,
-                                               bool needs_stepper) const
-{
-    if (reference_ || tools_->has_results_apart() || tools_->is_scaled)
-        throw OptionError(fmt::format("a flow with a reference, rescale, within or limits does not {} vertices between "
-                                      "steps: begin a new flow",
-                                      what));
-    if (needs_stepper && !stepper_->can_change())
-        throw OptionError(fmt::format("this flow does not {} vertices between steps: only converged steps of symmetric "
-                                      "Laplacians do; begin a new flow",
-                                      what));
-    std::vector<Index> flowing;
-    for (const Index v : vertices) {
-        if (v < 0 || v >= mesh_.mesh().n_vertices())
-            throw InputError(
-                fmt::format("vertex {} is to {} between steps, but the mesh has {} vertices, numbered from 0", v, what,
-                            mesh_.mesh().n_vertices()));
-        flowing.push_back(mesh_.moves_with(v));
-    }
-    return flowing;
-}
-
-void FlowRun::hold(std::span<const Index> vertices, bool is_held)
-{
-    std::vector<Index> flowing = require_changeable(is_held ? "hold" : "release", vertices, true);
-    Topology& topology = prepared_->topology;
-    is_held_.resize(topology.fixed.size(), 0);
-    for (const Index v : flowing)
-        if (!is_held && !topology.moves(v) && is_held_[v] == 0)
-            throw OptionError(fmt::format("vertex {} was fixed when the flow began: only vertices held since then can "
-                                          "be released; begin a new flow",
-                                          v));
-    std::erase_if(flowing, [&](Index v) { return topology.moves(v) != is_held; });
-    stepper_->hold(flowing, is_held);
-    for (const Index v : flowing)
-        topology.fixed[v] = is_held_[v] = is_held ? 1 : 0;
-    tools_->vanishing.look_again(find_small_components(mesh_.mesh(), topology, options().motion.strength));
-    was_changed_ = true;
-}
-
-void FlowRun::attach(std::span<const Index> vertices, std::span<const double> weights)
-{
-    const std::vector<Index> flowing = require_changeable("attach", vertices, true);
-    if (!attaches(options().motion))
-        throw OptionError("only a flow with an attachment has weights to change between steps: set attachment or "
-                          "attachment_weights");
-    if (weights.size() != vertices.size())
-        throw OptionError(
-            fmt::format("{} vertices have {} attachment weights: give one for each", vertices.size(), weights.size()));
-    for (const double weight : weights)
-        if (!(weight >= 0.0 && std::isfinite(weight)))
-            throw OptionError(
-                fmt::format("an attachment weight is {}, but must be at least 0 and finite (1/length²)", weight));
-    stepper_->attach(flowing, weights);
-    tools_->vanishing.attach(flowing, weights);
-    was_changed_ = true;
-}
-
-void FlowRun::move(std::span<const Index> vertices, const Points& to)
-{
-    const std::vector<Index> flowing =
-        require_changeable("move", vertices, options().flow != FlowEquation::MeanCurvature);
-    if (to.rows() != std::ssize(vertices) || !to.allFinite())
-        throw OptionError(fmt::format("{} vertices are to move to {} positions: give a finite one for each",
-                                      vertices.size(), to.rows()));
-    const Points there = mesh_.to_flowing(to);
-    require_rows(flowing, there);
-    mesh_.move_isolated(vertices, to);
-    stepper_->move(flowing, there);
-    stepper_->move_first(flowing, there);
-    tools_->vanishing.move_first(flowing, there);
-    mesh_.move_to(stepper_->positions());
-    tools_->limit.emplace(mesh_.mesh(), options().accuracy.largest_update);
-    was_changed_ = true;
-}
-
-/// @throws InputError if vertices would move to where no step is defined for them.
-void FlowRun::require_rows(std::span<const Index> vertices, const Points& to) const
-{
-    PolygonMesh moved = mesh_.mesh();
-    move_rows(vertices, to, moved.vertices);
-    const std::vector<Index> undefined =
-        vertices_without_row(moved, prepared_->topology, options().laplacian, progress_.exec());
-    for (const Index v : vertices)
-        if (std::ranges::binary_search(undefined, v))
-            throw InputError(
-                fmt::format("vertex {} would lie at the same place as one beside it, or have a face without "
-                            "area: move it elsewhere",
-                            v));
-}
-
 void FlowRun::diffuse(Points& data, int n)
 {
     mesh_.join(data);
@@ -399,14 +222,6 @@ void FlowRun::diffuse(Points& data, int n)
         fractions_->end_step(watch.seconds(), 0.0, 0.0);
     }
     mesh_.take_along(data);
-}
-
-void FlowRun::weigh(const std::function<double(Index v, Index w)>& squared_difference)
-{
-    if (!stepper_->can_change())
-        throw OptionError("edges of fields are kept only in converged and undecomposed steps: leave the approach "
-                          "automatic");
-    stepper_->weigh(squared_difference);
 }
 
 FlowState FlowRun::capture() const

@@ -16,6 +16,8 @@
 
 namespace seamflow {
 
+struct StepTools;
+
 /// Takes the steps of a prepared flow, measures each, and reports it.
 class FlowRun {
   public:
@@ -53,7 +55,6 @@ class FlowRun {
 
   private:
     class StepFractions;
-    struct StepTools;
 
     [[nodiscard]] const FlowOptions& options() const { return prepared_->options; }
     void make_steppers();

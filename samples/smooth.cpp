@@ -41,6 +41,7 @@
 #include "samples/report/schedule_files.h"
 #include "samples/runs/field_run.h"
 #include "samples/runs/long_run.h"
+#include "samples/runs/run_output.h"
 #include "samples/runs/smoothing_run.h"
 #include "samples/tiles/tiled_run.h"
 
@@ -90,10 +91,9 @@ std::optional<PageFlow> make_page(const SmoothCommand& command, const PolygonMes
         return page;
     require_showable(mesh, command.html);
     Workers(command.options.resources.threads).execute([&] {
-        auto shown = std::make_shared<PageMesh>(mesh);
-        shown->colours = read_file_colours(command.input, mesh, left_out);
-        page.emplace(std::move(shown), command.output.filename().string(), command.options.laplacian,
-                     command.options.steps, command.options.report.reference);
+        page.emplace(std::make_shared<const PageMesh>(mesh, read_file_colours(command.input, mesh, left_out)),
+                     command.output.filename().string(), command.options.laplacian, command.options.steps,
+                     command.options.report.reference);
     });
     return page;
 }
@@ -159,24 +159,12 @@ FlowReport run_flow(const SmoothCommand& command, PolygonMesh& mesh, const StepO
     }
 }
 
-/// If steps have missed their tolerance, the results are not what was asked for.
-ExitStatus require_converged(const SmoothCommand& command, const FlowReport& report)
-{
-    const std::string missed = missed_tolerance(command, report.convergence);
-    if (missed.empty())
-        return ExitStatus::Success;
-    std::cerr << "smooth: " << missed << "; " << command.output.string() << " has the last state\n";
-    return ExitStatus::ComputationFailed;
-}
-
 /// Reads, flows and writes.
 /// @param run holds the command line.
 ExitStatus run(SmoothCommand& command, RunRecord& run)
 {
     Interruption interruption("smooth");
-    std::ostream silence(nullptr);
-    const bool is_taken = is_standard_stream(command.output) || is_standard_stream(command.report);
-    std::ostream& out = command.quiet ? silence : is_taken ? std::cerr : std::cout;
+    std::ostream& out = message_stream(command);
     const Stopwatch whole;
     Workers workers(command.options.resources.threads);
     const Executor exec = workers.exec();
@@ -250,7 +238,7 @@ ExitStatus run(SmoothCommand& command, RunRecord& run)
     if (command.verbose)
         print_details(out, run, report);
     print_result(out, run, report);
-    return require_converged(command, report);
+    return require_converged(command, report.convergence);
 }
 
 ExitStatus smooth(int argc, char** argv)

@@ -17,31 +17,18 @@ namespace {
 constexpr int steps_of_fwhm = 10;
 
 /// Options about where the surface goes, which stays.
-constexpr std::array of_moving_surfaces = {"--preset",
-                                           "--noise",
-                                           "--within",
-                                           "--rescale",
-                                           "--keep-edges",
-                                           "--edges",
-                                           "--edges-from-file",
-                                           "--attach",
-                                           "--attach-weights",
-                                           "--reference",
-                                           "--keep-gaps",
-                                           "--every-step",
-                                           "--checkpoint",
-                                           "--self-intersections",
-                                           "--scheme",
-                                           "--csv",
-                                           "--html",
-                                           "--strict",
-                                           "--region",
-                                           "--region-property",
-                                           "--feather",
-                                           "--direction",
-                                           "--parts",
-                                           "--trace",
-                                           "--task-graph"};
+constexpr std::array of_moving_surfaces = {"--preset",          "--noise",
+                                           "--within",          "--rescale",
+                                           "--keep-edges",      "--edges",
+                                           "--edges-from-file", "--attach",
+                                           "--attach-weights",  "--reference",
+                                           "--keep-gaps",       "--every-step",
+                                           "--checkpoint",      "--self-intersections",
+                                           "--scheme",          "--csv",
+                                           "--strict",          "--region",
+                                           "--region-property", "--feather",
+                                           "--direction",       "--parts",
+                                           "--trace",           "--task-graph"};
 
 /// Options that only one of the two has.
 constexpr std::array of_diffusion = {"--fwhm",

@@ -23,10 +23,11 @@ PackedValues pack_distances(const Points& from, const Points& to, double unit)
 
 }  // namespace
 
-PageMesh::PageMesh(const PolygonMesh& input)
+PageMesh::PageMesh(const PolygonMesh& input, FileColours own_colours)
     : mesh(input)
     , topology(make_topology(mesh, run_in_parallel))
     , mean_edge(mean_edge_length(mesh))
+    , colours(std::move(own_colours))
 {
 }
 

@@ -15,7 +15,7 @@ namespace seamflow {
 
 /// The mesh of a page, as it was before any flow.
 struct PageMesh {
-    explicit PageMesh(const PolygonMesh& input);
+    explicit PageMesh(const PolygonMesh& input, FileColours own_colours = {});
 
     PolygonMesh mesh;
     Topology topology;

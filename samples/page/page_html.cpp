@@ -73,12 +73,14 @@ Json values_json(const PackedValues& values, Blocks& blocks)
             {"block", blocks.add(values.data)}};
 }
 
+Json points_json(const PackedPoints& points, Blocks& blocks)
+{
+    return {{"lower", corner(points.lower)}, {"upper", corner(points.upper)}, {"block", blocks.add(points.data)}};
+}
+
 Json surface_json(const PageSurface& surface, Blocks& blocks)
 {
-    return {{"positions",
-             {{"lower", corner(surface.positions.lower)},
-              {"upper", corner(surface.positions.upper)},
-              {"block", blocks.add(surface.positions.data)}}},
+    return {{"positions", points_json(surface.positions, blocks)},
             {"curvature", values_json(surface.curvature, blocks)}};
 }
 
@@ -100,6 +102,39 @@ Json flow_json(const PageFlow& flow, Blocks& blocks)
         of_state["distance"] = values_json(state.distance, blocks);
     }
     json["report"] = Json::parse(flow.report_json());
+    return json;
+}
+
+Json field_json(const PageField& field)
+{
+    return {{"name", field.name},
+            {"is_colour", field.is_colour},
+            {"has_gaps", field.has_gaps},
+            {"least", number(field.least)},
+            {"most", number(field.most)},
+            {"percentile_1", number(field.percentile_1)},
+            {"percentile_99", number(field.percentile_99)}};
+}
+
+/// A flow with the surface in the same place in all its states.
+Json fields_json(const PageMesh& mesh, const PageFields& fields, Blocks& blocks)
+{
+    Json json;
+    json["has_undecomposed"] = false;
+    json["are_distances"] = fields.are_distances;
+    json["labels"] = blocks.add(packed(std::span<const std::uint32_t>{}, 1));
+    for (const PageField& field : fields.fields)
+        json["fields"].push_back(field_json(field));
+    const Json surface = {{"positions", points_json(pack_points(mesh.mesh.vertices), blocks)}};
+    for (const bool is_after : {false, true}) {
+        if (!is_after && fields.are_distances)
+            continue;
+        Json state = {{"step", is_after ? fields.steps : 0}, {"surface", surface}};
+        for (const PageField& field : fields.fields)
+            state["fields"].push_back(values_json(is_after ? field.after : field.before, blocks));
+        json["states"].push_back(state);
+    }
+    json["report"] = Json::parse(fields.report_json);
     return json;
 }
 
@@ -149,9 +184,7 @@ Json colours_json(const PageMesh& page, const PageTriangles& triangles, Blocks& 
     for (std::size_t k = 0; k < colours.places.size(); ++k)
         for (std::size_t c = 0; c < 2; ++c)
             places(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(c)) = colours.places[k][c];
-    const PackedPoints points = pack_points(places);
-    json["places"] = {
-        {"lower", corner(points.lower)}, {"upper", corner(points.upper)}, {"block", blocks.add(points.data)}};
+    json["places"] = points_json(pack_points(places), blocks);
     const std::vector<std::uint32_t> of_corners = places_of(triangles, page.mesh, colours.place_of_corner);
     json["place_of_corner"] = blocks.add(packed(std::span<const std::uint32_t>(of_corners), 3));
     return json;
@@ -164,10 +197,32 @@ Json mesh_json(const PageMesh& page, Blocks& blocks)
             {"remarks", page.colours.remarks},
             {"vertices", page.mesh.n_vertices()},
             {"faces", page.mesh.n_faces()},
+            {"mean_edge", number(page.mean_edge)},
             {"triangles", triangles.edges.size()},
             {"corners", blocks.add(packed(std::span<const std::uint32_t>(triangles.corners), 3))},
             {"edges", blocks.add(packed(std::span<const std::uint8_t>(triangles.edges)))},
             {"per_face", blocks.add(packed(std::span<const std::uint32_t>(triangles.per_face), 1))}};
+}
+
+Json begin_facts(const std::string& title, const PageMesh& mesh, Blocks& blocks)
+{
+    return {{"title", title}, {"mesh", mesh_json(mesh, blocks)}};
+}
+
+/// The page with everything in it.
+std::string filled_template(const std::string& title, const Json& facts, const Blocks& blocks)
+{
+    constexpr std::string_view title_mark = "{{title}}";
+    constexpr std::string_view data_mark = "{{data}}";
+    const std::string_view form = page_template();
+    const std::size_t title_place = form.find(title_mark);
+    const std::size_t data_place = form.find(data_mark);
+    std::string html(form.substr(0, title_place));
+    html.append(escaped_for_html(title));
+    html.append(form.substr(title_place + title_mark.size(), data_place - title_place - title_mark.size()));
+    html.append("<script type=\"application/json\" id=\"facts\">").append(escaped_for_script(facts));
+    html.append("</script>\n").append(blocks.text()).append(form.substr(data_place + data_mark.size()));
+    return html;
 }
 
 }  // namespace
@@ -185,24 +240,19 @@ std::string page_html(const std::string& title, std::span<const PageFlow> flows)
 {
     require_page();
     Blocks blocks;
-    Json facts;
-    facts["title"] = title;
-    facts["mesh"] = mesh_json(flows.front().mesh(), blocks);
-    facts["flows"] = Json::array();
+    Json facts = begin_facts(title, flows.front().mesh(), blocks);
     for (const PageFlow& flow : flows)
         facts["flows"].push_back(flow_json(flow, blocks));
+    return filled_template(title, facts, blocks);
+}
 
-    constexpr std::string_view title_mark = "{{title}}";
-    constexpr std::string_view data_mark = "{{data}}";
-    const std::string_view form = page_template();
-    const std::size_t title_place = form.find(title_mark);
-    const std::size_t data_place = form.find(data_mark);
-    std::string html(form.substr(0, title_place));
-    html.append(escaped_for_html(title));
-    html.append(form.substr(title_place + title_mark.size(), data_place - title_place - title_mark.size()));
-    html.append("<script type=\"application/json\" id=\"facts\">").append(escaped_for_script(facts));
-    html.append("</script>\n").append(blocks.text()).append(form.substr(data_place + data_mark.size()));
-    return html;
+std::string page_html(const std::string& title, const PageMesh& mesh, const PageFields& fields)
+{
+    require_page();
+    Blocks blocks;
+    Json facts = begin_facts(title, mesh, blocks);
+    facts["flows"].push_back(fields_json(mesh, fields, blocks));
+    return filled_template(title, facts, blocks);
 }
 
 void require_page()

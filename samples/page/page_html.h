@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 
+#include "samples/page/page_fields.h"
 #include "samples/page/page_flow.h"
 
 namespace seamflow {
@@ -14,6 +15,9 @@ namespace seamflow {
 /// @param flows at least one, finished, all on the same mesh.
 /// @throws OptionError (see require_page).
 std::string page_html(const std::string& title, std::span<const PageFlow> flows);
+
+/// As above, for fields on a surface that stays: it is coloured by one of them, before and after, on one scale.
+std::string page_html(const std::string& title, const PageMesh& mesh, const PageFields& fields);
 
 /// @throws OptionError saying what to install if this program was built without the page.
 void require_page();

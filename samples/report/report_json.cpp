@@ -155,6 +155,8 @@ std::string smooth_report_json(const RunRecord& run, const FlowReport& report)
     json["repaired_faces"] = report.cut.repaired_faces;
     json["non_manifold_vertices"] = report.mesh.non_manifold_vertices;
     json["junction_vertices"] = report.mesh.junction_vertices;
+    if (run.has_region)
+        json["region"] = true;
     if (run.ranks.empty())
         json["fixed_vertices"] = report.mesh.fixed_vertices;
     json["laplacian"] = run.laplacian;

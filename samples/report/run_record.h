@@ -40,6 +40,8 @@ struct RunRecord {
     /// MotionOptions::rescale, and FlowOptions::keep_edges: in degrees.
     Rescale rescale = Rescale::None;
     std::optional<double> keep_edges = {};
+    /// Whether only a region flows (MotionOptions::strength).
+    bool has_region = false;
     /// The preset that chose options; empty: none.
     std::string preset = {};
     /// Of the input.

@@ -22,10 +22,13 @@
 #include "partition/io/input_position.h"
 #include "samples/files/mesh_results.h"
 #include "samples/files/output_files.h"
+#include "samples/page/page_html.h"
+#include "samples/page/read_file_colours.h"
 #include "samples/process/interruption.h"
 #include "samples/process/peak_memory.h"
 #include "samples/report/field_report.h"
 #include "samples/report/report_text.h"
+#include "samples/runs/run_output.h"
 #include "samples/runs/smoothing_run.h"
 
 namespace seamflow {
@@ -120,6 +123,18 @@ std::vector<std::string> write_fields(const SmoothCommand& command, const MeshFi
     return remarks;
 }
 
+/// @param colours of INPUT, read before OUTPUT may have replaced it.
+void write_page(const SmoothCommand& command, const PolygonMesh& mesh, FileColours colours, const FieldSummary& summary,
+                const std::string& report)
+{
+    const bool are_distances = command.fields.names.empty();
+    const PageFields fields{.fields = pack_fields(summary.names, summary.before, summary.after),
+                            .are_distances = are_distances,
+                            .steps = are_distances ? 0 : command.options.steps,
+                            .report_json = report};
+    write_text(command.html, page_html(command.input.filename().string(), PageMesh(mesh, std::move(colours)), fields));
+}
+
 }  // namespace
 
 void renormalise(FileFields& fields, const Eigen::MatrixXd& before)
@@ -172,9 +187,7 @@ void resolve_field_amount(SmoothCommand& command, RunRecord& run)
 ExitStatus run_fields(SmoothCommand& command, RunRecord& run)
 {
     Interruption interruption("smooth");
-    std::ostream silence(nullptr);
-    const bool is_taken = is_standard_stream(command.output) || is_standard_stream(command.report);
-    std::ostream& out = command.quiet ? silence : is_taken ? std::cerr : std::cout;
+    std::ostream& out = message_stream(command);
     const Stopwatch whole;
     Workers workers(command.options.resources.threads);
     const Executor exec = workers.exec();
@@ -182,6 +195,11 @@ ExitStatus run_fields(SmoothCommand& command, RunRecord& run)
     MeshFile file = read_faulty_mesh(command.input, left_out, exec);
     require_faces(command.input, file.mesh.n_faces(), left_out);
     require_place(command, file);
+    FileColours colours;
+    if (!command.html.empty()) {
+        require_showable(file.mesh, command.html);
+        colours = read_file_colours(command.input, file.mesh, left_out.faces_left_out);
+    }
     FieldSummary summary{.n_vertices = file.mesh.n_vertices()};
     complete_options(command, file, left_out, exec, run);
     run.read_seconds = whole.seconds();
@@ -215,15 +233,14 @@ ExitStatus run_fields(SmoothCommand& command, RunRecord& run)
         summary.report.remarks.push_back(remark_on_faces(left_out, command.output, true, file.kind));
     run.write_seconds = writing.seconds();
     run.seconds = whole.seconds();
+    const std::string report = field_report_json(run, command.options, summary);
     if (!command.report.empty())
-        write_text(command.report, field_report_json(run, command.options, summary));
+        write_text(command.report, report);
+    if (!command.html.empty())
+        workers.execute([&] { write_page(command, file.mesh, std::move(colours), summary, report); });
     print_fields(out, run, summary);
     command.options.accuracy.tolerance = summary.report.flow.convergence.tolerance;
-    const std::string missed = missed_tolerance(command, summary.report.flow.convergence);
-    if (missed.empty())
-        return ExitStatus::Success;
-    std::cerr << "smooth: " << missed << "; " << command.output.string() << " has the last state\n";
-    return ExitStatus::ComputationFailed;
+    return require_converged(command, summary.report.flow.convergence);
 }
 
 }  // namespace seamflow

@@ -48,6 +48,7 @@ RunRecord begin_record(const SmoothCommand& command)
             .filter = filter_of(command.options),
             .rescale = command.options.motion.rescale,
             .keep_edges = command.options.keep_edges,
+            .has_region = !command.region.empty(),
             .preset = command.preset,
             .remarks = command.remarks};
 }

@@ -82,6 +82,24 @@ function writeTextured() {
     writeFileSync(join(out, "painted.ply"), [...header, `element face ${faces.length}`, "property list uchar int vertex_indices", "end_header", ...vertices, ...faces, ""].join("\n"));
 }
 
+/** A flat square in PLY: a field that is 0 on the left and 10 on the right, with a gap in the middle, its opposite, and colours. */
+function writeFields() {
+    const n = 40;
+    const vertices = [];
+    const faces = [];
+    for (let j = 0; j <= n; ++j)
+        for (let i = 0; i <= n; ++i) {
+            const isLeft = i < n / 2;
+            const value = Math.hypot(i - n / 2, j - n / 2) < n / 5 ? "nan" : isLeft ? 0 : 10;
+            vertices.push(`${i / n} 0 ${1 - j / n} ${value} ${isLeft ? 10 : 0} ${isLeft ? "255 0 0" : "0 0 255"}`);
+            if (i < n && j < n)
+                faces.push(`4 ${[[i, j], [i + 1, j], [i + 1, j + 1], [i, j + 1]].map(([a, b]) => a + b * (n + 1)).join(" ")}`);
+        }
+    const header = ["ply", "format ascii 1.0", `element vertex ${vertices.length}`, ...["float x", "float y", "float z", "float value", "float other", "uchar red", "uchar green", "uchar blue"].map((name) => `property ${name}`)];
+    writeFileSync(join(out, "field.ply"), [...header, `element face ${faces.length}`, "property list uchar int vertex_indices", "end_header", ...vertices, ...faces, ""].join("\n"));
+    writeFileSync(join(out, "from.txt"), "0\n");
+}
+
 /** A browser that draws without a graphics card. */
 const launch = (...more) =>
     playwright.chromium.launch({
@@ -106,6 +124,11 @@ before(async () => {
     writeTextured();
     program("smooth", join(out, "textured.obj"), join(out, "t.obj"), ...sweeps, "--subdomains", 3, "--html", page("textured"));
     program("smooth", join(out, "painted.ply"), join(out, "p.ply"), ...sweeps, "--html", page("painted"));
+    writeFields();
+    program("smooth", join(out, "field.ply"), join(out, "f.ply"), "--fields", "value,other,colour", "--fwhm", 0.6, "--html", page("fields"));
+    program("smooth", join(out, "field.ply"), join(out, "d.ply"), "--from", join(out, "from.txt"), "--html", page("from"));
+    program("smooth", sphere, join(out, "r.ply"), "--region", join(out, "from.txt"), "--feather", "20%", "--radius", "2%", "--html", page("region"));
+    program("smooth", sphere, join(out, "g.ply"), "--time-step-edges", 1e5, "--steps", 9, "--html", page("gone"));
     program("figures", "--out", join(out, "figures"), "--html", "texture");
     browser = await launch();
     reader = await browser.newPage();
@@ -372,6 +395,70 @@ test("a file's colours of vertices are shown", async () => {
     await opened.close();
 });
 
+/** The parts of the pixels that are grey, and darker than any ground, and that are nearly black. */
+const greys = async (opened) => {
+    const { number } = await seenAtRest(opened);
+    return reader.evaluate((at) => {
+        const all = Array.from(pictures[at], (pixel) => [pixel & 255, (pixel >> 8) & 255, (pixel >> 16) & 255]);
+        const part = (is) => all.filter(is).length / all.length;
+        return {
+            grey: part((parts) => Math.max(...parts) - Math.min(...parts) < 12 && parts[0] > 50 && parts[0] < 190),
+            dark: part((parts) => Math.max(...parts) < 70),
+        };
+    }, number);
+};
+
+test("a page of fields shows each one, before and after, with grey for no data", async () => {
+    const opened = await open(page("fields"));
+    await bare(opened);
+    assert.deepEqual(await opened.locator("#colour option").allTextContents(), ["red, green, blue", "value", "other", "Plain"]);
+    await choose(opened, "before");
+    const { "100": red, "001": blue } = await hues(opened);
+    assert.ok(red?.count > 0.05 && blue?.count > 0.05 && red.x < blue.x, JSON.stringify({ red, blue }));
+    assert.ok((await greys(opened)).grey < 0.002);
+    for (const [number, isRising] of [[1, true], [2, false]]) {
+        await opened.selectOption("#colour", `field-${number}`);
+        const { "101": least, "110": most, "010": between } = await hues(opened);
+        assert.ok(least?.count > 0.03 && most?.count > 0.03 && !(between?.count > 0.02), JSON.stringify({ least, most, between }));
+        assert.equal(least.x < most.x, isRising);
+        const { grey } = await greys(opened);
+        assert.ok(isRising ? grey > 0.01 : grey < 0.002, String(grey));
+        const legend = await opened.locator("#legend").textContent();
+        assert.match(legend, isRising ? /^value0510the same scale before and after; grey: no data$/ : /^other0510the same scale before and after$/);
+    }
+    // It has spread, to green in between, on the same scale.
+    await changes(opened, "after", () => choose(opened, "after"), 0.05);
+    assert.match(await opened.locator("#legend .ends").textContent(), /^0510$/);
+    const { "011": teal, "010": green } = await hues(opened);
+    assert.ok(teal?.count + green?.count > 0.02, JSON.stringify({ teal, green }));
+    await opened.check("#wipe");
+    const wiped = await seenAtRest(opened);
+    await opened.uncheck("#wipe");
+    await choose(opened, "before");
+    assert.ok((await differenceWithin(await seenAtRest(opened), wiped, 0, 0.45)) < 0.002);
+    assert.match(await opened.locator("#outcome").textContent(), /value0 to 10, mean .* → .*other0 to 10, mean .*No dataat \d+ vertices/);
+    assert.match(await opened.locator("#summary").textContent(), /10 steps of .* wide at half maximum$/);
+    assert.deepEqual(opened.complaints, []);
+    await opened.close();
+});
+
+test("a page of distances has lines at equal steps, and nothing before", async () => {
+    const opened = await open(page("from"));
+    await bare(opened);
+    const { dark } = await greys(opened);
+    assert.ok(dark > 0.005 && dark < 0.08, String(dark));
+    const { "101": near, "110": far } = await hues(opened);
+    assert.ok(near?.count > 0.002 && far?.count > 0.002 && near.x < far.x, JSON.stringify({ near, far }));
+    assert.match(await opened.locator("#legend").textContent(), /^distance0.*a line every 0.1$/);
+    for (const id of ["surfaces", "wipe", "play"])
+        assert.ok(await opened.locator(`#${id}`).isHidden(), id);
+    await opened.keyboard.press("w");
+    assert.ok(await opened.locator("#divider").isHidden());
+    assert.match(await opened.locator("#summary").textContent(), /faces · distances along the surface$/);
+    assert.deepEqual(opened.complaints, []);
+    await opened.close();
+});
+
 test("play goes through all steps to the last, and stops when it is told to", async () => {
     const opened = await open(page("sphere"));
     const names = () => opened.evaluate(() => globalThis.names.splice(0));
@@ -617,6 +704,24 @@ test("a page says which flow was taken", async () => {
     const summary = async (name) => (await open(page(name))).locator("#summary").textContent();
     assert.match(await summary("edges"), /faces · edges sharper than 30° kept · 1 step of [^·]*$/);
     assert.match(await summary("round"), /Laplacian Virtual refinement · conformalized · attached, 0.25 \/ length² · area kept · 1 step/);
+});
+
+test("a page says where motion is measured, what stayed, and if nothing is left to see", async () => {
+    const region = await open(page("region"));
+    assert.match(await region.locator("#displacements h2").textContent(), /of the input, around the region$/);
+    await region.close();
+    const round = await open(page("round"));
+    assert.match(await round.locator("#displacements h2").textContent(), /of the input$/);
+    assert.match(await round.locator("#outcome").textContent(), /Area\S+ → \S+ \(unchanged\)Volume/);
+    assert.match(await round.locator("#facts-table").textContent(), /Sub-meshesnone: steps on the whole mesh/);
+    assert.equal(await round.locator("#message").textContent(), "");
+    await round.close();
+    const gone = await open(page("gone"));
+    assert.equal(await gone.locator("#message").textContent(), "The surface has shrunk to a point.");
+    await choose(gone, "before");
+    await settled(gone);
+    assert.equal(await gone.locator("#message").textContent(), "");
+    await gone.close();
 });
 
 test("without the undecomposed flow a page shows displacements", async () => {

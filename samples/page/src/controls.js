@@ -1,6 +1,6 @@
 // What the user can choose, and the legend that says what is seen.
 
-import { digits, element } from "./facts.js";
+import { digits, element, stepsOf } from "./facts.js";
 import { hasImages, hasMaterials, hasVertexColours } from "./own_colours.js";
 import { colourOfClass, colourOfLabel, css, cssRamp } from "./palette.js";
 import { explain } from "./words.js";
@@ -9,15 +9,18 @@ const byId = (id) => document.getElementById(id);
 
 /** What the colours can mean for a flow: words, and for ramps the unit. */
 export function meanings(flow) {
-    const list = [["plain", { name: "Plain" }]];
+    const list = (flow.fields ?? []).map(({ name }, number) => [`field-${number}`, { name }]);
+    list.push(["plain", { name: "Plain" }]);
     if (hasMaterials)
         list.push(["file", { name: hasImages ? "Texture of the file" : "Materials of the file" }]);
-    if (hasVertexColours)
+    if (hasVertexColours && !flow.fields?.[0].is_colour)
         list.push(["vertices", { name: "Colours of the file" }]);
     if (flow.report.subdomains > 1)
         list.push(["sub-mesh", { name: "Sub-mesh" }]);
     if (flow.report.colours > 1)
         list.push(["class", { name: "Colour class" }]);
+    if (flow.fields)
+        return new Map(list);
     list.push(
         flow.has_undecomposed
             ? ["distance", { name: "Distance to the undecomposed flow", unit: "mean edge lengths" }]
@@ -28,11 +31,29 @@ export function meanings(flow) {
     return new Map(list);
 }
 
+/** The field whose colours are chosen, with its number; undefined if they mean something else. */
+export const fieldOf = ({ fields = [] }, { colour }) => fields.map((field, number) => ({ ...field, number })).find(({ number }) => colour === `field-${number}`);
+
+/** The length, 1, 2 or 5 times a power of ten, of which a range has ten to twenty-five. */
+function lineStep(length) {
+    const power = 10 ** Math.floor(Math.log10(length / 10));
+    return [5, 2, 1].map((digit) => digit * power).find((step) => length / step >= 10);
+}
+
+/** Where the colours of a field begin and end, the same before and after, and the step of its lines, if it has any. */
+function rangeOfField(flow, { least, most, percentile_1: low, percentile_99: high }, chosen) {
+    const [begin, end] = chosen.range === "middle" && high > low ? [low, high] : [least, most];
+    return { begin, end, step: flow.are_distances && end > begin ? lineStep(end - begin) : 0 };
+}
+
 /**
  * Where the colours of a ramp end, and the largest value: over all steps, or over the one that is shown, the same for
  * the decomposed and the undecomposed flow.
  */
 export function rangeOf(flow, chosen) {
+    const field = fieldOf(flow, chosen);
+    if (field)
+        return rangeOfField(flow, field, chosen);
     const shown = flow.states[chosen.colour === "curvature" && chosen.surface === "before" ? 0 : chosen.state];
     const states = chosen.range === "all" ? flow.states : [shown];
     const values = states.flatMap((state) =>
@@ -43,17 +64,29 @@ export function rangeOf(flow, chosen) {
     return { largest, end: chosen.range === "largest" || percentile === 0 ? largest : percentile };
 }
 
+const ranges = {
+    ofFlows: { step: "99 % of this step", all: "99 % of all steps", largest: "largest of this step" },
+    ofFields: { all: "all values", middle: "98 % of the values" },
+};
+
 /** Fills the controls for a flow; choices that it has, too, stay. */
 export function offer(flow, chosen) {
     const known = meanings(flow);
     byId("colour").replaceChildren(...[...known].map(([value, { name }]) => element("option", { value }, name)));
     chosen.colour = known.has(chosen.colour) ? chosen.colour : "plain";
     byId("colour").value = chosen.colour;
+    const entries = flow.fields ? ranges.ofFields : ranges.ofFlows;
+    byId("range").replaceChildren(...Object.entries(entries).map(([value, name]) => element("option", { value }, name)));
+    byId("range-word").textContent = flow.fields ? "Scale" : "up to";
     const undecomposed = document.querySelector('[value="undecomposed"]');
     undecomposed.disabled = !flow.has_undecomposed;
     undecomposed.parentElement.hidden = !flow.has_undecomposed;
     if (chosen.surface === "undecomposed" && !flow.has_undecomposed)
         chosen.surface = "after";
+    const isAlone = flow.states.length === 1;
+    byId("surfaces").hidden = byId("surfaces").disabled = isAlone;
+    byId("wipe").parentElement.hidden = byId("wipe").disabled = isAlone;
+    byId("step").closest(".steps").hidden = isAlone;
     byId("step").max = flow.states.length - 1;
     chosen.state = Math.min(chosen.state, flow.states.length - 1);
 }
@@ -63,10 +96,10 @@ export function reflect(flow, chosen) {
     document.querySelector(`[value="${chosen.surface}"]`).checked = true;
     byId("step").value = chosen.state;
     const { step } = flow.states[chosen.state];
-    const steps = flow.report.steps.length;
+    const steps = stepsOf(flow.report).length || flow.report.steps;
     byId("step-name").textContent = step === 0 ? "Input" : `Step ${step} of ${steps}`;
     byId("step").setAttribute("aria-valuetext", byId("step-name").textContent);
-    byId("range-choice").hidden = !["distance", "curvature"].includes(chosen.colour);
+    byId("range-choice").hidden = !["distance", "curvature"].includes(chosen.colour) && !(fieldOf(flow, chosen)?.is_colour === false);
     byId("range").value = chosen.range;
     byId("edges").checked = chosen.edges;
     byId("flat").checked = chosen.flat;
@@ -94,6 +127,23 @@ function rampLegend(name, { unit }, { largest, end }) {
     return [strip, element("div", { className: "ends" }, ...ends), element("div", { className: "quiet" }, `in ${unit}${largestText}`)];
 }
 
+/** What the colours of a field mean. @param range see rangeOf. */
+function fieldLegend(flow, { is_colour: isColour, has_gaps: hasGaps, least, most }, { begin, end, step }) {
+    const list = [];
+    if (!isColour) {
+        const strip = element("span", { className: "ramp" });
+        strip.style.background = cssRamp("field");
+        const ends = [0, 0.5, 1].map((part) => element("span", {}, `${part === 0 && least < begin ? "≤ " : part === 1 && most > end ? "≥ " : ""}${digits(begin + part * (end - begin))}`));
+        list.push(strip, element("div", { className: "ends" }, ...ends));
+    }
+    const words = [
+        ...(!isColour && flow.states.length > 1 ? ["the same scale before and after"] : []),
+        ...(step > 0 ? [`a line every ${digits(step)}`] : []),
+        ...(hasGaps ? ["grey: no data"] : []),
+    ];
+    return words.length > 0 ? [...list, element("div", { className: "quiet" }, words.join("; "))] : list;
+}
+
 /** @param range see rangeOf. */
 export function showLegend(flow, chosen, range) {
     const legend = byId("legend");
@@ -104,7 +154,10 @@ export function showLegend(flow, chosen, range) {
         return;
     }
     const parts = [element("div", {}, meaning.name)];
-    if (chosen.colour === "sub-mesh") {
+    const field = fieldOf(flow, chosen);
+    if (field) {
+        parts.push(...fieldLegend(flow, field, range));
+    } else if (chosen.colour === "sub-mesh") {
         const few = Math.min(report.subdomains, 12);
         parts.push(swatches(Array.from({ length: few }, (_, k) => [colourOfLabel(k), String(k)])));
         if (few < report.subdomains)

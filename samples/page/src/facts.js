@@ -24,14 +24,28 @@ const counted = (n, one, many) => `${digits(n)} ${n === 1 ? one : many}`;
 
 const laplacians = { "fujiwara": "Fujiwara", "alexa-wardetzky": "Alexa–Wardetzky", "virtual-refinement": "Virtual refinement", "ptackova-velho": "Ptáčková–Velho", "uniform": "of uniform weights" };
 
+/** What a report says of its steps one by one; nothing of those of fields. */
+export const stepsOf = ({ steps }) => (Array.isArray(steps) ? steps : []);
+
 /** Whether a run smoothed between edges, on the whole mesh and without a Laplacian. */
 export const keepsEdges = (report) => report.keep_edges !== undefined;
 
+const nameOf = ({ laplacian }) => `Laplacian ${laplacians[laplacian] ?? laplacian}`;
+
+/** How fields were made. */
+const fieldWords = (report) =>
+    report.steps === undefined
+        ? ["distances along the surface"]
+        : [nameOf(report), `${counted(report.steps, "step", "steps")} of ${digits(report.time_step)} length²`, ...(report.fwhm ? [`${digits(report.fwhm)} wide at half maximum`] : [])];
+
 /** One line about a flow. */
 export function summary(mesh, report) {
+    const size = `${counted(mesh.vertices, "vertex", "vertices")}, ${counted(mesh.faces, "face", "faces")}`;
+    if (report.fields)
+        return [size, ...fieldWords(report)].join(" · ");
     return [
-        `${counted(mesh.vertices, "vertex", "vertices")}, ${counted(mesh.faces, "face", "faces")}`,
-        keepsEdges(report) ? `edges sharper than ${digits(report.keep_edges)}° kept` : `Laplacian ${laplacians[report.laplacian] ?? report.laplacian}`,
+        size,
+        keepsEdges(report) ? `edges sharper than ${digits(report.keep_edges)}° kept` : nameOf(report),
         ...(report.flow && report.flow !== "mean-curvature" ? [report.flow] : []),
         ...(report.filter === "low-pass" ? ["low-pass"] : []),
         ...(report.attachment ? [`attached, ${digits(report.attachment)} / length²`] : []),
@@ -45,8 +59,18 @@ export function summary(mesh, report) {
 /** "a → b (-3 %)", without the part where it says nothing. */
 function change(before, after, unit = "") {
     const percent = 100 * (after / before - 1);
-    const part = unit === "" && Number.isFinite(percent) ? ` (${percent > 0 ? "+" : ""}${digits(percent, 2)} %)` : "";
+    const percents = Math.abs(percent) < 1e-6 ? "unchanged" : `${percent > 0 ? "+" : ""}${digits(percent, 2)} %`;
+    const part = unit === "" && Number.isFinite(percent) ? ` (${percents})` : "";
     return `${digits(before, 4)}${unit} → ${digits(after, 4)}${unit}${part}`;
+}
+
+/** What became of each field, and of what it lacks. */
+function outcomeOfFields({ fields, without_data: gaps, filled }) {
+    const range = ({ vertices, least, most, mean }) => (vertices === 0 ? "no data" : `${digits(least)} to ${digits(most)}, mean ${digits(mean)}`);
+    const list = Object.entries(fields).map(([name, { before, after }]) => [name, [before, after].filter(Boolean).map(range).join(" → ")]);
+    if (gaps > 0)
+        list.push(["No data", `at ${counted(gaps, "vertex", "vertices")}${filled > 0 ? `, of which ${digits(filled)} were filled` : ""}`]);
+    return list;
 }
 
 /** What somebody wants to know who had a surface smoothed. */
@@ -71,34 +95,46 @@ function outcome(report) {
 
 /** Fills a section with what became of the surface; hides it where that was not measured. */
 export function showOutcome(section, report) {
-    section.hidden = !(report.surface?.before.area > 0);
+    section.hidden = !report.fields && !(report.surface?.before.area > 0);
     if (section.hidden)
         return;
     const list = element("dl");
-    for (const [name, text] of outcome(report))
+    for (const [name, text] of report.fields ? outcomeOfFields(report) : outcome(report))
         list.append(element("dt", {}, name), element("dd", {}, text));
     section.replaceChildren(element("h2", {}, "Result"), list);
 }
 
-function rows(report) {
-    const last = report.steps.at(-1);
+/** Where motion and curvature are measured, if not everywhere. */
+export const placesMeasured = (report) => `${report.region ? ", around the region" : ""}${report.junction_vertices > 0 ? ", except at junctions" : ""}`;
+
+function rowsOfFlow(report, last) {
     const list = [
-        ["Input", report.input],
-        ["Output", report.output],
         ["Mean edge", `${digits(report.mean_edge)} (length)`],
         ["Time step", `${digits(report.time_step)} length² = ${digits(report.time_step / report.mean_edge ** 2)} squared mean edges`],
     ];
     if (!keepsEdges(report))
-        list.push(["Sub-meshes", `${digits(report.subdomains)}${report.colours > 1 ? ` in ${report.colours} colours` : ""}, ${counted(report.interface_vertices, "vertex", "vertices")} on Γ`]);
+        list.push(["Sub-meshes", report.subdomains === 1 ? "none: steps on the whole mesh" : `${digits(report.subdomains)}${report.colours > 1 ? ` in ${report.colours} colours` : ""}, ${counted(report.interface_vertices, "vertex", "vertices")} on Γ`]);
     if (report.tolerance !== undefined)
         list.push(["Steps", `converged to ${digits(report.tolerance)}; iterations ${report.steps.map((step) => step.iterations ?? "–").join(", ")}`]);
     if (last)
-        list.push(["Largest ‖ΔV‖", `${digits(report.steps[0].max_mean_curvature_before)} before, ${digits(last.max_mean_curvature_after)} after (1/length)`]);
+        list.push(["Largest ‖ΔV‖", `${digits(report.steps[0].max_mean_curvature_before)} before, ${digits(last.max_mean_curvature_after)} after (1/length)${placesMeasured(report)}`]);
     if (last?.v_mean !== undefined)
         list.push(["Distance", `V_mean ${digits(last.v_mean)}, V_RMS ${digits(last.v_rms)}, V_max ${digits(last.v_max)}${last.h_mean === undefined ? "" : `, H_mean ${digits(last.h_mean)}, H_max ${digits(last.h_max)}`} mean edges after the last step`]);
+    return list;
+}
+
+function rows(report) {
+    const last = stepsOf(report).at(-1);
+    const list = [
+        ["Input", report.input],
+        ["Output", report.output],
+    ];
+    if (!report.fields)
+        list.push(...rowsOfFlow(report, last));
     if (report.version !== undefined)
         list.push(["Made by", `seamflow ${report.version}, ${report.date}`]);
-    list.push(["Threads", digits(report.threads)], ["Memory", `${digits(report.peak_memory_bytes / 1e6)} MB at most`]);
+    if (!report.fields)
+        list.push(["Threads", digits(report.threads)], ["Memory", `${digits(report.peak_memory_bytes / 1e6)} MB at most`]);
     if (report.arguments.length > 0)
         list.push(["Command", ["smooth", ...report.arguments].join(" ")]);
     return list;

@@ -8,12 +8,14 @@ in vec3 position;
 in vec3 normal;
 in float value;
 in vec3 label;
+in vec3 own;
 in vec2 uv;
 uniform mat4 modelViewMatrix;
 uniform mat4 projectionMatrix;
 uniform vec3 lower;
 uniform vec3 extent;
 uniform float largest;
+uniform float begin;
 uniform vec4 uvBox;
 out vec3 place;
 out vec3 facing;
@@ -25,9 +27,9 @@ flat out vec3 faceColour;
 void main() {
     float root = value * (65535.0 / 65534.0);
     missing = value > 0.999993 ? 1.0 : 0.0;
-    shown = root * root * largest;
+    shown = root * root * largest - begin;
     faceColour = label;
-    ownColour = label;
+    ownColour = own;
     inImage = uvBox.xy + uv * uvBox.zw;
     facing = mat3(modelViewMatrix) * normal;
     vec4 seen = modelViewMatrix * vec4(lower + position * extent, 1.0);
@@ -51,6 +53,8 @@ uniform sampler2D image;
 uniform vec3 tint;
 uniform vec3 plain;
 uniform float lines;
+uniform float firstLine;
+uniform bool fine;
 out vec4 colour;
 void main() {
     vec3 normal = normalize(cross(dFdx(place), dFdy(place)));
@@ -68,8 +72,12 @@ void main() {
         base = texture(image, inImage).rgb * tint;
     if (mode == 4)
         base = ownColour;
-    if (lines > 0.0)
-        base *= abs(fract(shown * lines + 0.5) - 0.5) < 0.07 ? 0.5 : 1.0;
+    float at = (shown - firstLine) * lines;
+    float thin = fwidth(at);
+    if (lines > 0.0 && missing == 0.0) {
+        float off = abs(fract(at + 0.5) - 0.5);
+        base *= fine ? mix(1.0, 0.35 + 0.65 * smoothstep(0.5 * thin, 1.5 * thin, off), 1.0 - smoothstep(0.15, 0.4, thin)) : off < 0.07 ? 0.5 : 1.0;
+    }
     colour = vec4(min(base * light + 0.06 * pow(key, 24.0), 1.0), 1.0);
 }`;
 
@@ -158,6 +166,7 @@ export class Layer {
         this.#geometry.deleteAttribute("position");
         this.#geometry.deleteAttribute("normal");
         this.#geometry.deleteAttribute("value");
+        this.#geometry.deleteAttribute("own");
         for (const [name, attribute] of Object.entries(attributes))
             this.#geometry.setAttribute(name, attribute);
     }
@@ -195,6 +204,11 @@ export class Layer {
     setValues(numbers, largest) {
         this.#replace("value", spread(numbers, this.#triangles.vertexOf, 2), 2);
         this.#own.largest.value = largest;
+    }
+
+    /** @param colours of the vertices: red, green and blue of each. */
+    setColours(colours) {
+        this.#replace("own", spread(colours, this.#triangles.vertexOf, 3), 3);
     }
 
     /** Whether it is drawn, if it has anything to show. */

@@ -1,6 +1,6 @@
 // Puts the page together: what is chosen, unpacked, is drawn.
 
-import { offer, rangeOf, reflect, showLegend } from "./controls.js";
+import { fieldOf, offer, rangeOf, reflect, showLegend } from "./controls.js";
 import { facts, remembering, unpacked16, unpacked32, unpackedBytes } from "./data.js";
 import { drawableTriangles, edgesOf, heightsOf, inOrder, labelsOfTriangles } from "./faces.js";
 import { element, showFacts, showOutcome, summary } from "./facts.js";
@@ -19,6 +19,7 @@ const byId = (id) => document.getElementById(id);
 
 const positionsIn = remembering(6, (block) => unpacked16(block, 3, 4));
 const valuesIn = remembering(6, (block) => unpacked16(block, 1, 2));
+const bytesIn = remembering(2, unpackedBytes);
 const cornersOnce = remembering(1, (block) => unpacked32(block, 3));
 
 /** The heights (z) of the input, from its lowest to its highest vertex. */
@@ -45,6 +46,20 @@ function surfaces() {
 /** What an asynchronous function makes of each entry. */
 const ofEach = async (entries, make) => Object.fromEntries(await Promise.all(Object.entries(entries).map(async ([key, value]) => [key, await make(value, key)])));
 
+async function colourByField() {
+    const { number, is_colour: isColour, least, most } = fieldOf(flow(), chosen);
+    const of = (side) => flow().states[side === "left" || chosen.surface === "before" ? 0 : chosen.state].fields[number];
+    if (isColour) {
+        const colours = await ofEach(surfaces(), (_, side) => bytesIn(of(side).block));
+        return () => view.colourByVertex(colours);
+    }
+    const { begin, end, step } = rangeOf(flow(), chosen);
+    const length = end - begin || 1;
+    const values = await ofEach(surfaces(), async (_, side) => ({ numbers: await valuesIn(of(side).block), largest: (of(side).largest * (most - least)) / length }));
+    const lines = step > 0 ? { lines: length / step, first: -begin / length, fine: true } : {};
+    return () => view.colourByValue(values, ramp("field"), (begin - least) / length, lines);
+}
+
 async function colour() {
     if (chosen.colour === "plain")
         return () => view.colourPlainly();
@@ -55,14 +70,16 @@ async function colour() {
     if (chosen.colour === "file")
         return () => view.colourByMaterial();
     if (chosen.colour === "vertices") {
-        const colours = await ownColours();
-        return () => view.colourByVertex((v) => colours.subarray(3 * triangles.vertexOf[v], 3 * triangles.vertexOf[v] + 3));
+        const colours = await ofEach(surfaces(), () => ownColours());
+        return () => view.colourByVertex(colours);
     }
     if (chosen.colour === "texture") {
         const numbers = await texture(facts.flows[0].states[0].surface.positions.block);
         const values = await ofEach(surfaces(), async () => ({ numbers, largest: 1 }));
         return () => view.colourByTexture(values, ramp("texture"));
     }
+    if (fieldOf(flow(), chosen))
+        return colourByField();
     const { end } = rangeOf(flow(), chosen);
     const values = await ofEach(surfaces(), async ({ curvature }, side) => {
         const field = chosen.colour === "curvature" ? curvature : side === "left" ? flow().states[0].distance : state().distance;
@@ -86,6 +103,11 @@ const layoutOnce = remembering(1, (perFace) => (own.hasMaterials ? own.layout(pe
 const normalsOf = remembering(4, async (positions) =>
     vertexNormals(triangles.smooth.corners, triangles.smooth.vertexOf, await positionsIn(positions.block), sizesOf(positions)),
 );
+
+const lengthOf = ({ lower, upper }) => Math.max(...upper.map((x, k) => x - lower[k]));
+
+/** Whether nothing of a surface is to be seen where the input fills the view. */
+const isPoint = (box) => lengthOf(box) < 1e-4 * lengthOf(facts.flows[0].states[0].surface.positions);
 
 /** Makes the edges when they are asked for first. */
 async function edges() {
@@ -122,7 +144,7 @@ async function show() {
     paint();
     view.wipeAt(places.left === undefined ? null : wipe.part);
     view.showEdges(chosen.edges);
-    byId("message").textContent = facts.mesh.faces > 0 ? "" : "The mesh has no faces to show.";
+    byId("message").textContent = facts.mesh.faces === 0 ? "The mesh has no faces to show." : isPoint(places.right.box) ? "The surface has shrunk to a point." : "";
     requestAnimationFrame(() => requestAnimationFrame(() => mine === turn && byId("stage").setAttribute("aria-busy", "false")));
 }
 
@@ -240,12 +262,18 @@ async function standUpright() {
     const guess = Object.keys(ups).find((name) => ups[name].axis === axis && ups[name].sign === sign);
     byId("up").replaceChildren(...Object.keys(ups).map((value) => element("option", { value }, value)));
     byId("up").value = guess;
-    view.fitTo(points, positions);
+    const last = states.at(-1).surface.positions;
+    view.fitTo([{ points, box: positions }, { points: await positionsIn(last.block), box: last }]);
     view.setUp(ups[guess]);
 }
 
 /** A mesh that has a texture or colours is shown in them at first. A page with several flows is about what a cut does, and what becomes of the texture. */
 function chooseFirst() {
+    chosen.range = facts.flows[0].fields ? "all" : "step";
+    if (facts.flows[0].fields) {
+        chosen.colour = "field-0";
+        return 0;
+    }
     if (facts.flows.length < 2) {
         chosen.colour = own.hasMaterials ? "file" : own.hasVertexColours ? "vertices" : "plain";
         return 0;
@@ -259,7 +287,7 @@ async function start() {
     byId("flow").replaceChildren(...facts.flows.map(({ name }, value) => element("option", { value }, name)));
     byId("flow-choice").hidden = facts.flows.length < 2;
     try {
-        view = new View(byId("canvas"), facts.flows[0].states[0].surface.positions, facts.flows[0].report.mean_edge);
+        view = new View(byId("canvas"), facts.flows[0].states[0].surface.positions, facts.mesh.mean_edge);
     } catch {
         byId("message").textContent = "The surface takes WebGL 2, which this browser does not offer here.";
     }

@@ -24,6 +24,7 @@ export const colourOfClass = (index) => classes[index] ?? colourOfLabel(index);
 const stops = {
     texture: ["#0000ff", "#00ffff", "#00ff00", "#ffff00", "#ff0000"],
     distance: ["#dde2e6", "#f2c861", "#e0703a", "#b02a50", "#541457"],
+    field: ["#440154", "#482878", "#3e4a89", "#31688e", "#26828e", "#1f9e89", "#35b779", "#6ece58", "#b5de2b", "#fde725"],  // viridis
     curvature: ["#e2e6ea", "#a5d3c6", "#4a9fb8", "#3561a0", "#2a2461"],
 };
 

@@ -1,7 +1,7 @@
 // Plots of what was measured step by step, and bars of where the time went.
 
 import uPlot from "uplot";
-import { digits, element, seconds } from "./facts.js";
+import { digits, element, placesMeasured, seconds, stepsOf } from "./facts.js";
 import { explain } from "./words.js";
 
 const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
@@ -154,9 +154,9 @@ const kinds = {
             { name: subdomains === 1 ? "largest" : "V_max, estimated", values: column(steps, "estimated_v_max"), colour: 4, dash: [5, 4] },
         ],
     }),
-    displacements: (steps) => ({
+    displacements: (steps, report) => ({
         title: steps.length === 1 ? "Displacement" : "Displacement in each step",
-        unit: "mean edges of the input",
+        unit: `mean edges of the input${placesMeasured(report)}`,
         logarithmic: true,
         format: (value) => digits(value, 2),
         curves: [
@@ -190,7 +190,7 @@ function bars(entries, className) {
 
 function showPhases(section, report) {
     const all = report.seconds;
-    const wall = [["read", all.read], ["cut", all.cut], ["analyse", all.analyse], ["all steps", all.step], ["write", all.write]].filter(
+    const wall = [["read", all.read], ["set-up", all.setup], ["cut", all.cut], ["analyse", all.analyse], ["all steps", all.step], ["write", all.write]].filter(
         ([, value]) => value > 0,
     );
     if (all.interface > 0 && report.subdomains > 1)
@@ -216,7 +216,7 @@ export class Plots {
     show(report) {
         this.#plots.forEach((plot) => plot.destroy());
         this.#plots = Object.entries(kinds).map(
-            ([name, kind]) => new Plot(document.getElementById(name), kind(report.steps, report), this.#places),
+            ([name, kind]) => new Plot(document.getElementById(name), kind(stepsOf(report), report), this.#places),
         );
         showPhases(document.getElementById("phases"), report);
     }

@@ -42,6 +42,9 @@ export class View {
         this.#shared = {
             mode: { value: 0 },
             lines: { value: 0 },
+            firstLine: { value: 0 },
+            fine: { value: false },
+            begin: { value: 0 },
             smoothly: { value: true },
             ramp: { value: ramp },
             image: { value: ramp },
@@ -93,13 +96,15 @@ export class View {
         this.reset();
     }
 
-    /** Looks at what there is, not at its box. @param points four numbers of 16 bits each. @param box of these. */
-    fitTo(points, { lower, upper }) {
-        const n = points.length / 4;
-        const stride = Math.ceil(n / 4000) || 1;
-        this.#extremes = Array.from({ length: Math.ceil(n / stride) }, (_, k) =>
-            new Vector3(...lower.map((low, c) => (low + ((upper[c] - low) * points[4 * k * stride + c]) / 65535 - this.#centre[c]) / this.#radius)),
-        );
+    /** Looks at what there is, not at its box. @param surfaces points, four numbers of 16 bits each, and the box of these. */
+    fitTo(surfaces) {
+        this.#extremes = surfaces.flatMap(({ points, box: { lower, upper } }) => {
+            const n = points.length / 4;
+            const stride = Math.ceil(n / 4000) || 1;
+            return Array.from({ length: Math.ceil(n / stride) }, (_, k) =>
+                new Vector3(...lower.map((low, c) => (low + ((upper[c] - low) * points[4 * k * stride + c]) / 65535 - this.#centre[c]) / this.#radius)),
+            );
+        });
     }
 
     #resize(canvas) {
@@ -170,9 +175,12 @@ export class View {
         this.draw();
     }
 
-    #setMode(mode, lines = 0) {
+    /** @param lines how many of equal value there are on the ramp. @param first where one is. @param fine on the screen, not in values. */
+    #setMode(mode, { lines = 0, first = 0, fine = false } = {}) {
         this.#shared.mode.value = mode;
         this.#shared.lines.value = lines;
+        this.#shared.firstLine.value = first;
+        this.#shared.fine.value = fine;
     }
 
     colourPlainly() {
@@ -188,9 +196,10 @@ export class View {
         this.#setMode(1);
     }
 
-    /** As by labels, but every vertex has its own colour. */
+    /** @param colours for each side those of the vertices, see Layer. */
     colourByVertex(colours) {
-        this.colourByLabel(colours);
+        for (const [side, ofSide] of Object.entries(colours))
+            this.#layers[side].setColours(ofSide);
         this.#setMode(4);
     }
 
@@ -199,20 +208,20 @@ export class View {
         this.#setMode(3);
     }
 
-    /** @param values for each side numbers and the largest, see Layer. */
-    colourByValue(values, ramp) {
+    /** @param values for each side numbers and the largest, see Layer. @param begin where the ramp begins, in ends of it from there. */
+    colourByValue(values, ramp, begin = 0, lines = {}) {
         for (const [side, { numbers, largest }] of Object.entries(values))
             this.#layers[side].setValues(numbers, largest);
         const { image } = this.#shared.ramp.value;
         image.data.set(ramp);
         this.#shared.ramp.value.needsUpdate = true;
-        this.#setMode(2);
+        this.#shared.begin.value = begin;
+        this.#setMode(2, lines);
     }
 
     /** As by values from 0 to 1, with sixteen dark lines of equal value. */
     colourByTexture(values, ramp) {
-        this.colourByValue(values, ramp);
-        this.#setMode(2, 16);
+        this.colourByValue(values, ramp, 0, { lines: 16 });
     }
 
     /** Edges that are close together on the screen are faint, or they would hide all else. */

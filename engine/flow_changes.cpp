@@ -1,0 +1,116 @@
+// What Flow changes between steps: vertices that are held, attached or moved, and weights of edges.
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "engine/flow_run.h"
+#include "engine/step_tools.h"
+#include "partition/errors.h"
+#include "solvers/laplacian/degenerate.h"
+
+namespace seamflow {
+
+/// @returns the vertices of the flowing mesh that these move with.
+std::vector<Index> FlowRun::require_changeable(std::string_view what, std::span<const Index> vertices,
+                                               bool needs_stepper) const
+{
+    if (reference_ || tools_->has_results_apart() || tools_->is_scaled)
+        throw OptionError(fmt::format("a flow with a reference, rescale, within or limits does not {} vertices between "
+                                      "steps: begin a new flow",
+                                      what));
+    if (needs_stepper && !stepper_->can_change())
+        throw OptionError(fmt::format("this flow does not {} vertices between steps: only converged steps of symmetric "
+                                      "Laplacians do; begin a new flow",
+                                      what));
+    std::vector<Index> flowing;
+    for (const Index v : vertices) {
+        if (v < 0 || v >= mesh_.mesh().n_vertices())
+            throw InputError(
+                fmt::format("vertex {} is to {} between steps, but the mesh has {} vertices, numbered from 0", v, what,
+                            mesh_.mesh().n_vertices()));
+        flowing.push_back(mesh_.moves_with(v));
+    }
+    return flowing;
+}
+
+void FlowRun::hold(std::span<const Index> vertices, bool is_held)
+{
+    std::vector<Index> flowing = require_changeable(is_held ? "hold" : "release", vertices, true);
+    Topology& topology = prepared_->topology;
+    is_held_.resize(topology.fixed.size(), 0);
+    for (const Index v : flowing)
+        if (!is_held && !topology.moves(v) && is_held_[v] == 0)
+            throw OptionError(fmt::format("vertex {} was fixed when the flow began: only vertices held since then can "
+                                          "be released; begin a new flow",
+                                          v));
+    std::erase_if(flowing, [&](Index v) { return topology.moves(v) != is_held; });
+    stepper_->hold(flowing, is_held);
+    for (const Index v : flowing)
+        topology.fixed[v] = is_held_[v] = is_held ? 1 : 0;
+    tools_->vanishing.look_again(find_small_components(mesh_.mesh(), topology, options().motion.strength));
+    was_changed_ = true;
+}
+
+void FlowRun::attach(std::span<const Index> vertices, std::span<const double> weights)
+{
+    const std::vector<Index> flowing = require_changeable("attach", vertices, true);
+    if (!attaches(options().motion))
+        throw OptionError("only a flow with an attachment has weights to change between steps: set attachment or "
+                          "attachment_weights");
+    if (weights.size() != vertices.size())
+        throw OptionError(
+            fmt::format("{} vertices have {} attachment weights: give one for each", vertices.size(), weights.size()));
+    for (const double weight : weights)
+        if (!(weight >= 0.0 && std::isfinite(weight)))
+            throw OptionError(
+                fmt::format("an attachment weight is {}, but must be at least 0 and finite (1/length²)", weight));
+    stepper_->attach(flowing, weights);
+    tools_->vanishing.attach(flowing, weights);
+    was_changed_ = true;
+}
+
+void FlowRun::move(std::span<const Index> vertices, const Points& to)
+{
+    const std::vector<Index> flowing =
+        require_changeable("move", vertices, options().flow != FlowEquation::MeanCurvature);
+    if (to.rows() != std::ssize(vertices) || !to.allFinite())
+        throw OptionError(fmt::format("{} vertices are to move to {} positions: give a finite one for each",
+                                      vertices.size(), to.rows()));
+    const Points there = mesh_.to_flowing(to);
+    require_rows(flowing, there);
+    mesh_.move_isolated(vertices, to);
+    stepper_->move(flowing, there);
+    stepper_->move_first(flowing, there);
+    tools_->vanishing.move_first(flowing, there);
+    mesh_.move_to(stepper_->positions());
+    tools_->limit.emplace(mesh_.mesh(), options().accuracy.largest_update);
+    was_changed_ = true;
+}
+
+/// @throws InputError if vertices would move to where no step is defined for them.
+void FlowRun::require_rows(std::span<const Index> vertices, const Points& to) const
+{
+    PolygonMesh moved = mesh_.mesh();
+    move_rows(vertices, to, moved.vertices);
+    const std::vector<Index> undefined =
+        vertices_without_row(moved, prepared_->topology, options().laplacian, progress_.exec());
+    for (const Index v : vertices)
+        if (std::ranges::binary_search(undefined, v))
+            throw InputError(
+                fmt::format("vertex {} would lie at the same place as one beside it, or have a face without "
+                            "area: move it elsewhere",
+                            v));
+}
+
+void FlowRun::weigh(const std::function<double(Index v, Index w)>& squared_difference)
+{
+    if (!stepper_->can_change())
+        throw OptionError("edges of fields are kept only in converged and undecomposed steps: leave the approach "
+                          "automatic");
+    stepper_->weigh(squared_difference);
+}
+
+}  // namespace seamflow
