@@ -50,19 +50,19 @@ void complete_options(SmoothCommand& command, const MeshFile& file, const FaultL
 }
 
 /// @returns the fields after all steps.
-FileFields diffused(SmoothCommand& command, const MeshFile& file, FileFields fields, const FlowControl& control,
+FileFields diffused(SmoothCommand& command, const MeshFile& file, const FileFields& before, const FlowControl& control,
                     FieldSummary& summary)
 {
+    FileFields fields = before;
     summary.names = fields.names;
-    const Eigen::MatrixXd before = fields.values;
-    summary.before = ranges_of_columns(before);
+    summary.before = ranges_of_columns(before.values);
     FlowOptions options = command.options;
     FieldOptions of_fields = command.fields.options;
     // It is the same, from steps that are told.
     if (of_fields.fwhm)
         options.time_step = 0.0;
     summary.report = diffuse(file.mesh, fields.values, options, of_fields, control);
-    renormalise(fields, before);
+    renormalise(fields, before.values);
     summary.after = ranges_of_columns(fields.values);
     return fields;
 }
@@ -123,12 +123,12 @@ std::vector<std::string> write_fields(const SmoothCommand& command, const MeshFi
     return remarks;
 }
 
-/// @param colours of INPUT, read before OUTPUT may have replaced it.
-void write_page(const SmoothCommand& command, const PolygonMesh& mesh, FileColours colours, const FieldSummary& summary,
-                const std::string& report)
+/// @param colours of INPUT, read before OUTPUT may have replaced it. @param before without distances.
+void write_page(const SmoothCommand& command, const PolygonMesh& mesh, FileColours colours,
+                const Eigen::MatrixXd& before, const FileFields& after, const std::string& report)
 {
     const bool are_distances = command.fields.names.empty();
-    const PageFields fields{.fields = pack_fields(summary.names, summary.before, summary.after),
+    const PageFields fields{.fields = pack_fields(after.names, before, after.values),
                             .are_distances = are_distances,
                             .steps = are_distances ? 0 : command.options.steps,
                             .report_json = report};
@@ -206,10 +206,11 @@ ExitStatus run_fields(SmoothCommand& command, RunRecord& run)
     print_input(out, run, file.mesh.n_vertices(), file.mesh.n_faces());
     if (!command.fields.names.empty())
         print_field_amount(out, run.scale, command.options, command.fields.options);
+    FileFields before;
     FileFields fields;
     std::vector<Index> from;
     if (!command.fields.names.empty())
-        fields = read_fields(*file.source, command.fields.names, exec);
+        before = read_fields(*file.source, command.fields.names, exec);
     else
         from = read_sources(command, file.mesh.n_vertices());
     if (!from.empty())
@@ -218,7 +219,7 @@ ExitStatus run_fields(SmoothCommand& command, RunRecord& run)
         interruption.begin_work();
         const FlowControl control{.stop = interruption.token()};
         fields = command.fields.names.empty() ? distances(command, file, from, control, summary)
-                                              : diffused(command, file, std::move(fields), control, summary);
+                                              : diffused(command, file, before, control, summary);
     } catch (const InputError& error) {
         throw InputError(command.input.string() + ": " + error.what());
     } catch (const Cancelled&) {
@@ -237,7 +238,7 @@ ExitStatus run_fields(SmoothCommand& command, RunRecord& run)
     if (!command.report.empty())
         write_text(command.report, report);
     if (!command.html.empty())
-        workers.execute([&] { write_page(command, file.mesh, std::move(colours), summary, report); });
+        workers.execute([&] { write_page(command, file.mesh, std::move(colours), before.values, fields, report); });
     print_fields(out, run, summary);
     command.options.accuracy.tolerance = summary.report.flow.convergence.tolerance;
     return require_converged(command, summary.report.flow.convergence);
