@@ -19,7 +19,8 @@ std::string remark_on_repeated_faces(std::int64_t n)
 
 std::string remark_on_non_manifold_vertices(std::int64_t n, std::string_view remedy)
 {
-    std::string remark = fmt::format("{} vertices are held fixed because the mesh is not manifold there.", n);
+    std::string remark = fmt::format("{} held fixed because the mesh is not manifold there.",
+                                     n == 1 ? "1 vertex is" : fmt::format("{} vertices are", n));
     if (!remedy.empty())
         remark += fmt::format(" {}, those on edges of three faces or more would move.", remedy);
     return remark;

@@ -114,9 +114,9 @@ void print_cells(std::ostream& out, const std::vector<double>& before, const std
     const auto total = [](const std::vector<double>& volumes) {
         return std::accumulate(volumes.begin(), volumes.end(), 0.0);
     };
-    out << fmt::format("cells      {}: volume {} in all; {} of the one that changes most\n",
-                       counted(static_cast<std::uint64_t>(before.size()), "cell", "cells"),
-                       change(total(before), total(after), 6), change(before[most], after[most], 6));
+    out << "cells      " << counted(static_cast<std::uint64_t>(before.size()), "cell", "cells") << ": volume "
+        << change(total(before), total(after), 6) << " in all; " << change(before[most], after[most], 6)
+        << " of the one that changes most in proportion\n";
 }
 
 }  // namespace
