@@ -87,7 +87,7 @@ class SheetOrder {
     {
         const auto face = mesh_.face(topology_.face_of[h]);
         std::vector<Index> corners(face.begin(), face.end());
-        std::ranges::rotate(corners, std::ranges::min_element(corners));
+        std::rotate(corners.begin(), std::ranges::min_element(corners), corners.end());
         bool is_along = runs_up(h);
         if (corners[1] > corners.back()) {
             std::reverse(corners.begin() + 1, corners.end());

@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <numbers>
-#include <ranges>
 #include <span>
 #include <vector>
 
@@ -129,10 +129,9 @@ TEST_CASE("a cell with a hole is open, cells with a hole between them are one, a
     check_near(volumes_of_cells(test::plates(std::array{0.1, 1.5, 3.0}, 4, 5)), {});
     // A fin outside, and one inside.
     PolygonMesh fins = boxes.mesh;
-    const auto edge = std::ranges::find_if(std::views::iota(0, fins.n_corners()), [&](Index h) {
-        return fins.vertices(fins.face_vertices[at(h)], 0) == 1.0 && fins.vertices(fins.face_vertices[at(h)], 2) == 3.0;
-    });
-    const Index f = *edge / 4;
+    Index f = 0;
+    while (fins.vertices(fins.face(f)[0], 0) != 1.0 || fins.vertices(fins.face(f)[0], 2) != 3.0)
+        ++f;
     const Index v = fins.n_vertices();
     fins.vertices.conservativeResize(v + 2, 3);
     fins.vertices.row(v) = fins.vertices.row(fins.face(f)[0]) + Point(-1.0, 0.0, 0.0);
