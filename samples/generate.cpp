@@ -1,5 +1,6 @@
 // Generates a mesh for experiments.
 
+#include <array>
 #include <iostream>
 #include <limits>
 
@@ -47,7 +48,8 @@ ExitStatus generate(int argc, char** argv)
     add_real(app, "--noise", variation.noise, not_negative, "in mean vertex distances [that of the kind]");
     app.footer("generate triangles waves.ply --vertices 100000     a wavy height field of triangles\n"
                "generate noisy-sphere ball.obj --noise 0.2         a bumpy sphere with noise\n"
-               "generate gear gear.stl                             a part with sharp edges\n");
+               "generate gear gear.stl                             a part with sharp edges\n"
+               "generate foam foam.ply                             sheets that meet, with the cells of each face\n");
     if (const auto end = parse_command_line(app, argc, argv))
         return *end;
     if (seed_option->count() > 0)
@@ -55,8 +57,14 @@ ExitStatus generate(int argc, char** argv)
     const FileKind file_kind = kind_for_writing(output, FileKind{});
     require_writable(output);
 
-    const PolygonMesh mesh = make_mesh(kind, vertices, variation);
-    write_mesh(output, mesh, file_kind, Workers(0).exec());
+    const LabelSurface surface = make_surface(kind, vertices, variation);
+    const PolygonMesh& mesh = surface.mesh;
+    Workers workers(0);
+    if (surface.front.empty() || file_kind.format != FileFormat::Ply)
+        write_mesh(output, mesh, file_kind, workers.exec());
+    else
+        write_numbered_ply(output, mesh, std::array<FaceNumbers, 2>{{{"front", surface.front}, {"back", surface.back}}},
+                           workers.exec());
     std::ostream& out = is_standard_stream(output) ? std::cerr : std::cout;
     out << output.string() << ": " << mesh.n_vertices() << " vertices, " << mesh.n_faces() << " faces" << std::endl;
     return ExitStatus::Success;

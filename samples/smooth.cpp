@@ -224,7 +224,7 @@ ExitStatus run(SmoothCommand& command, RunRecord& run)
 
     // Before the result is there: memory may not suffice.
     if (change)
-        run.surface = change->measure(file.mesh, report.mesh.moved_with, command.self_intersections, exec);
+        run.surface = change->measure(file.mesh, report.mesh, command.self_intersections, exec);
     const Stopwatch writing;
     for (const auto& remarks : {losses, write_results(command, file, report, exec)})
         report.remarks.insert(report.remarks.end(), remarks.begin(), remarks.end());

@@ -104,4 +104,12 @@ struct VertexValues {
     std::vector<double> values;
 };
 
+/// A named whole number for each face of a mesh.
+struct FaceNumbers {
+    /// Letters, digits and underscores.
+    std::string name;
+    /// #F.
+    std::vector<Index> values;
+};
+
 }  // namespace seamflow

@@ -250,6 +250,14 @@ void require_readable(const std::filesystem::path& path, const PolygonMesh& mesh
     }
 }
 
+void require_one_per_face(const std::filesystem::path& path, std::size_t count, const std::string& what,
+                          const PolygonMesh& mesh)
+{
+    if (count != at(mesh.n_faces()))
+        throw OutputError(fmt::format("{}: cannot be written: there are {} {} for {} faces; give one for each face",
+                                      path.string(), count, what, mesh.n_faces()));
+}
+
 }  // namespace
 
 MeshFile read_mesh(const std::filesystem::path& path, const Executor& exec)
@@ -334,12 +342,20 @@ void write_labelled_ply(const std::filesystem::path& path, const PolygonMesh& me
                         const Executor& exec)
 {
     require_readable(path, mesh, exec);
-    if (labels.size() != static_cast<std::size_t>(mesh.n_faces()))
-        throw OutputError(
-            fmt::format("{}: cannot be written: there are {} labels for {} faces; give one label for each face",
-                        path.string(), labels.size(), mesh.n_faces()));
+    require_one_per_face(path, labels.size(), "labels", mesh);
     OutputFile file(path);
     write_ply(file, mesh, Encoding::BinaryLittleEndian, {exec}, {.face_labels = labels});
+    file.commit();
+}
+
+void write_numbered_ply(const std::filesystem::path& path, const PolygonMesh& mesh,
+                        std::span<const FaceNumbers> numbers, const Executor& exec)
+{
+    require_readable(path, mesh, exec);
+    for (const FaceNumbers& list : numbers)
+        require_one_per_face(path, list.values.size(), "values of '" + list.name + "'", mesh);
+    OutputFile file(path);
+    write_ply(file, mesh, Encoding::BinaryLittleEndian, {exec}, {.face_numbers = numbers});
     file.commit();
 }
 

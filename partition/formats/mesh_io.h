@@ -114,6 +114,12 @@ std::vector<std::string> extras_of(const MeshSource& source, const Executor& exe
 void write_labelled_ply(const std::filesystem::path& path, const PolygonMesh& mesh, std::span<const Index> labels,
                         const Executor& exec = run_serially);
 
+/// As write_mesh, with whole numbers for each face, one property (int) for each of `numbers`, under its name. The file
+/// is binary little-endian.
+/// @throws OutputError naming the file; also if there are not as many numbers as faces.
+void write_numbered_ply(const std::filesystem::path& path, const PolygonMesh& mesh,
+                        std::span<const FaceNumbers> numbers, const Executor& exec = run_serially);
+
 /// As write_mesh, with one colour and any numbers per vertex, for viewing measurements. Each vertex gets the properties
 /// red, green, blue (uchar) and one property (double) for each of `values`, under its name. The file is binary
 /// little-endian.

@@ -36,6 +36,8 @@ PolygonMesh read_ply_elements(const std::filesystem::path& path, std::string_vie
 struct PlyExtras {
     /// #F; each face has the properties red, green, blue (uchar) and label (int) too.
     std::span<const Index> face_labels = {};
+    /// #F each; each face has a property (int) for each of them.
+    std::span<const FaceNumbers> face_numbers = {};
     /// #V; each vertex has the properties red, green, blue (uchar) too.
     std::span<const Colour> vertex_colours = {};
     /// #V each; each vertex has a property (double) for each of them.

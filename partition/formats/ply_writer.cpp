@@ -40,6 +40,8 @@ std::string header_of(const PlyCounts& counts, Encoding encoding, const PlyExtra
     header += fmt::format("element face {}\nproperty list {} int vertex_indices\n", counts.faces,
                           counts.has_long_face ? "int" : "uchar");
     header += extras.face_labels.empty() ? "" : colour + "property int label\n";
+    for (const FaceNumbers& list : extras.face_numbers)
+        header += "property int " + list.name + "\n";
     return header + "end_header\n";
 }
 
@@ -133,6 +135,8 @@ void PlyWriter::write_face(Index f)
         write_colour(colour_of(extras_.face_labels[f]));
         write(extras_.face_labels[f]);
     }
+    for (const FaceNumbers& list : extras_.face_numbers)
+        write(list.values[f]);
     end_element();
 }
 

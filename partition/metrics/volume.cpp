@@ -40,13 +40,7 @@ bool encloses_volume(const PolygonMesh& mesh, const Executor& exec)
 
 double volume_of_cones(const PolygonMesh& mesh, const Points& positions, const Point& origin, const Executor& exec)
 {
-    return sum(exec, mesh.n_faces(), [&](Index f) {
-        const std::span<const Index> corners = mesh.face(f);
-        Point mean = Point::Zero();
-        for (const Index v : corners)
-            mean += positions.row(v) - origin;
-        return vector_area(corners, positions).dot(mean) / (3.0 * static_cast<double>(corners.size()));
-    });
+    return sum(exec, mesh.n_faces(), [&](Index f) { return cone_volume(mesh.face(f), positions, origin); });
 }
 
 }  // namespace seamflow

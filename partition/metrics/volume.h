@@ -1,10 +1,21 @@
 #pragma once
 
+#include <span>
+
 #include "partition/executor.h"
 #include "partition/polygon_mesh.h"
 #include "partition/vector_area.h"
 
 namespace seamflow {
+
+/// The volume of the cone from an origin to a face, in length³; see volume_of_cones.
+inline double cone_volume(std::span<const Index> corners, const Points& positions, const Point& origin)
+{
+    Point mean = Point::Zero();
+    for (const Index v : corners)
+        mean += positions.row(v) - origin;
+    return vector_area(corners, positions).dot(mean) / (3.0 * static_cast<double>(corners.size()));
+}
 
 /// The volume between an origin and the faces, in length³: that of the cones from it to them, negative for faces turned
 /// towards it. Polygons that are not planar are fans around the mean of their corners. If a surface encloses a volume,

@@ -47,7 +47,8 @@ void add_mesh_options(CLI::App& app, BenchmarkCommand& command)
                                  "one [100000; with --scaling 10000000]");
     std::vector<std::pair<std::string, std::string>> kinds;
     for (const MeshKind& kind : mesh_kinds())
-        kinds.emplace_back(kind.name, kind.name);
+        if (!kind.has_cells)
+            kinds.emplace_back(kind.name, kind.name);
     auto* kind = add_choice<std::string>(app, "--kind", command.kind, kinds, "of mesh that is made [triangles]");
     kind->type_name("KIND");
     app.add_option("--mesh", command.mesh, "mesh to read instead: " + extensions_of())

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "partition/polygon_mesh.h"
+#include "samples/meshes/label_surfaces.h"
 
 /// Small generators of test meshes. All of them
 /// - take the approximate number of vertices, at least 100 (machine parts 400) and at most 100,000,000, and keep within
@@ -124,6 +125,9 @@ PolygonMesh make_chamfered_plate(Index vertices, const MachinePartShape& shape =
 struct MeshKind {
     std::string_view name;
     std::string_view description;
+    /// Whether it has sheets that meet, between cells with labels; these are neither manifold nor oriented alike, have
+    /// at least fewest_vertices_of_labels and no amplitude, and their time grows with the 1.5th power of the vertices.
+    bool has_cells = false;
 };
 
 /// All kinds that make_mesh supports.
@@ -136,8 +140,11 @@ struct MeshVariation {
     std::optional<double> noise;
 };
 
-/// Makes the mesh of a kind.
+/// Makes the mesh of a kind, with labels where it has cells.
 /// @throws OptionError for a name that mesh_kinds does not list.
+LabelSurface make_surface(std::string_view kind, Index vertices, const MeshVariation& variation = {});
+
+/// The mesh alone.
 PolygonMesh make_mesh(std::string_view kind, Index vertices, const MeshVariation& variation = {});
 
 }  // namespace seamflow

@@ -62,7 +62,7 @@ FlowResult FlowCall::result()
     FlowReport report = flow_->report();
     report.remarks.insert(report.remarks.begin(), record_.remarks.begin(), record_.remarks.end());
     Workers workers(command_.options.resources.threads);
-    record_.surface = change_->measure(mesh_, report.mesh.moved_with, command_.self_intersections, workers.exec());
+    record_.surface = change_->measure(mesh_, report.mesh, command_.self_intersections, workers.exec());
     remark_on_loss(command_.options, record_.surface, report.remarks);
     remark_on_folds(command_.options, record_.surface, report.remarks);
     for (std::string& remark : report.remarks)

@@ -40,6 +40,11 @@ ReportJson look_json(const SurfaceLook& look)
                     {"volume", look.volume ? json_number(*look.volume) : ReportJson(nullptr)},
                     {"roughness_rms", json_number(look.roughness.rms)},
                     {"roughness_percentile_95", json_number(look.roughness.percentile_95)}};
+    if (!look.cell_volumes.empty()) {
+        ReportJson& list = json["cell_volumes"] = ReportJson::array();
+        for (const double volume : look.cell_volumes)
+            list.push_back(json_number(volume));
+    }
     if (look.self_intersections)
         json["self_intersections"] = *look.self_intersections;
     return json;

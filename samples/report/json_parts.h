@@ -25,7 +25,7 @@ ReportJson json_number(double value);
 /// NAME_mean, NAME_rms and NAME_max in units of `mean_edge`; with the suffix _absolute in units of length.
 void add_statistics(ReportJson& json, const std::string& name, const LengthStatistics& lengths, double mean_edge);
 
-/// Area, volume, roughness and, where they were counted, crossing faces.
+/// Area, volume, volumes of cells, if there are any, roughness and, where they were counted, crossing faces.
 ReportJson look_json(const SurfaceLook& look);
 
 /// The text of a report. Names of files need not be valid UTF-8, but JSON must be.

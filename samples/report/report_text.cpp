@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <ostream>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -98,6 +100,23 @@ void print_distance(std::ostream& out, const char* name, double absolute, double
     if (mean_edge > 0.0)
         out << fmt::format("  =  {:.6g} mean edge lengths", absolute / mean_edge);
     out << '\n';
+}
+
+/// In all, and of the cell with the largest change in proportion.
+void print_cells(std::ostream& out, const std::vector<double>& before, const std::vector<double>& after)
+{
+    if (before.empty() || before.size() != after.size())
+        return;
+    std::size_t most = 0;
+    for (std::size_t c = 1; c < before.size(); ++c)
+        if (std::abs(after[c] / before[c] - 1.0) > std::abs(after[most] / before[most] - 1.0))
+            most = c;
+    const auto total = [](const std::vector<double>& volumes) {
+        return std::accumulate(volumes.begin(), volumes.end(), 0.0);
+    };
+    out << "cells      " << counted(static_cast<std::uint64_t>(before.size()), "cell", "cells") << ": volume "
+        << change(total(before), total(after), 6) << " in all; " << change(before[most], after[most], 6)
+        << " of the one that changes most in proportion\n";
 }
 
 }  // namespace
@@ -222,6 +241,7 @@ void print_result(std::ostream& out, const RunRecord& run, const FlowReport& rep
         out << fmt::format("crossing   {} of faces -> {}\n",
                            counted(static_cast<std::uint64_t>(*before.self_intersections), "pair", "pairs"),
                            *after.self_intersections);
+    print_cells(out, before.cell_volumes, after.cell_volumes);
     const double edge = run.scale.mean_edge > 0.0 ? run.scale.mean_edge : 1.0;
     out << fmt::format(
         "result     {}: moved {:.3g} mean edge lengths on average, {:.3g} at most; roughness {} degrees, "

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "partition/index_lists.h"
+#include "partition/metrics/cells.h"
 #include "partition/metrics/flipped_faces.h"
 #include "partition/metrics/self_intersections.h"
 #include "partition/metrics/volume.h"
@@ -37,6 +38,9 @@ class Surface {
         sample_ = extract(corners, sampled_vertices_);
     }
 
+    /// From now on, looks have the cells that the sheets enclose at these positions.
+    void find_cells(const Points& positions) { cells_ = seamflow::find_cells(mesh_, positions, exec_); }
+
     [[nodiscard]] SurfaceLook look(const Points& positions) const
     {
         Points sampled(static_cast<Eigen::Index>(sampled_vertices_.size()), 3);
@@ -46,6 +50,8 @@ class Surface {
             .area = sum(exec_, mesh_.n_faces(), [&](Index f) { return vector_area(mesh_.face(f), positions).norm(); }),
             .volume = std::nullopt,
             .roughness = roughness(sample_, sampled)};
+        if (cells_)
+            look.cell_volumes = volumes_of(*cells_, mesh_, positions, exec_);
         if (has_volume_)
             look.volume = std::abs(volume_of_cones(mesh_, positions, positions.row(mesh_.face(0).front()), exec_));
         return look;
@@ -58,6 +64,7 @@ class Surface {
     PolygonMesh sample_;
     std::vector<Index> sampled_vertices_;
     bool has_volume_;
+    std::optional<EnclosedCells> cells_;
 };
 
 /// The faces alone.
@@ -90,8 +97,8 @@ SurfaceChangeMeter::SurfaceChangeMeter(const PolygonMesh& mesh, const Executor& 
     copy(exec, mesh.vertices, positions_);
 }
 
-SurfaceChange SurfaceChangeMeter::measure(const PolygonMesh& mesh, const std::vector<Index>& moved_with,
-                                          bool finds_crossings, const Executor& exec) const
+SurfaceChange SurfaceChangeMeter::measure(const PolygonMesh& mesh, const MeshReport& report, bool finds_crossings,
+                                          const Executor& exec) const
 {
     std::vector<LengthSums> of_block(at(mesh.n_vertices() / block_size) + 1);
     for_each_block(exec, mesh.n_vertices(), [&](Index block, Index begin, Index end) {
@@ -102,10 +109,12 @@ SurfaceChange SurfaceChangeMeter::measure(const PolygonMesh& mesh, const std::ve
     for (const LengthSums& sums : of_block)
         moved.add(sums);
     std::optional<PolygonMesh> welded;
-    if (!moved_with.empty())
-        welded = joined(mesh, moved_with, exec);
+    if (!report.moved_with.empty())
+        welded = joined(mesh, report.moved_with, exec);
     const PolygonMesh& faces = welded ? *welded : mesh;
-    const Surface surface(faces, exec);
+    Surface surface(faces, exec);
+    if (report.junction_vertices + report.non_manifold_vertices > 0)
+        surface.find_cells(positions_);
     SurfaceChange change{
         .before = surface.look(positions_), .after = surface.look(mesh.vertices), .moved = moved.statistics()};
     const std::vector<Index> flipped = flipped_faces(faces, positions_, mesh.vertices, exec);

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "engine/measure/flow_report.h"
 #include "partition/executor.h"
 #include "partition/metrics/length_statistics.h"
 #include "partition/metrics/roughness.h"
@@ -17,6 +18,9 @@ struct SurfaceLook {
     double area = 0.0;
     /// Length³; empty if the surface encloses none (see encloses_volume).
     std::optional<double> volume;
+    /// Where sheets meet: of each cell that they enclose, length³ (see EnclosedCells), the one that was largest before
+    /// first.
+    std::vector<double> cell_volumes = {};
     /// Of large meshes, from a sample of their faces.
     Roughness roughness;
     /// The number of pairs of faces that cross each other (see self_intersections), if requested.
@@ -44,10 +48,10 @@ class SurfaceChangeMeter {
     SurfaceChangeMeter(const PolygonMesh& mesh, const Executor& exec);
 
     /// @param mesh the same faces, with other positions of the vertices.
-    /// @param moved_with see MeshReport::moved_with: the surface continues where vertices move as one.
+    /// @param report of the flow: the surface continues where vertices move as one, and has cells where sheets meet.
     /// @param finds_crossings whether to look for self-intersections, which takes longer than all the rest.
-    [[nodiscard]] SurfaceChange measure(const PolygonMesh& mesh, const std::vector<Index>& moved_with,
-                                        bool finds_crossings, const Executor& exec) const;
+    [[nodiscard]] SurfaceChange measure(const PolygonMesh& mesh, const MeshReport& report, bool finds_crossings,
+                                        const Executor& exec) const;
 
   private:
     Points positions_;

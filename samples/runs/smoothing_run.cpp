@@ -85,6 +85,23 @@ void resolve_amount(SmoothCommand& command, const PolygonMesh& mesh, const Execu
     run.has_attachment_weights = !command.options.motion.attachment_weights.empty();
 }
 
+namespace {
+
+void remark_on_lost_cells(const std::vector<double>& before, const std::vector<double>& after,
+                          std::vector<std::string>& remarks)
+{
+    constexpr double much = 0.2;
+    std::size_t n_small = 0;
+    for (std::size_t c = 0; c < before.size(); ++c)
+        n_small += after[c] < (1.0 - much) * before[c] ? 1 : 0;
+    if (n_small > 0)
+        remarks.push_back(
+            fmt::format("{} of {} cells {} lost more than {:.0f}% of {} volume: less smoothing is gentler.", n_small,
+                        before.size(), n_small == 1 ? "has" : "have", 100.0 * much, n_small == 1 ? "its" : "their"));
+}
+
+}  // namespace
+
 void remark_on_loss(const FlowOptions& options, const SurfaceChange& change, std::vector<std::string>& remarks,
                     bool can_rescale)
 {
@@ -92,6 +109,8 @@ void remark_on_loss(const FlowOptions& options, const SurfaceChange& change, std
     constexpr double most = 0.5;  // of the area: noise alone may have much of it
     if (options.motion.rescale != Rescale::None)
         return;
+    if (!change.before.cell_volumes.empty())
+        return remark_on_lost_cells(change.before.cell_volumes, change.after.cell_volumes, remarks);
     if (!change.before.volume || !change.after.volume) {
         if (change.after.area < most * change.before.area)
             remarks.push_back(fmt::format("The surface has lost {:.0f}% of its area: less smoothing is gentler.",

@@ -25,7 +25,7 @@ void resolve_lengths(SmoothCommand& command, RunRecord& run);
 void resolve_amount(SmoothCommand& command, const PolygonMesh& mesh, const Executor& exec, RunRecord& run);
 
 /// A surface that flows by mean curvature shrinks, which surprises those who only wanted it smooth: adds a remark if it
-/// has lost much of its volume, or most of its area if it encloses none.
+/// has lost much of its volume, or most of its area if it encloses none; where sheets meet, if cells have lost much.
 /// @param can_rescale whether the user can request rescaling.
 void remark_on_loss(const FlowOptions& options, const SurfaceChange& change, std::vector<std::string>& remarks,
                     bool can_rescale = true);

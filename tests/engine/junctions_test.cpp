@@ -18,6 +18,8 @@
 #include "partition/connected_components.h"
 #include "partition/cut/cut.h"
 #include "partition/errors.h"
+#include "partition/metrics/cells.h"
+#include "samples/meshes/label_surfaces.h"
 #include "samples/meshes/random_numbers.h"
 #include "tests/support/flows.h"
 #include "tests/support/junction_meshes.h"
@@ -231,6 +233,37 @@ TEST_CASE("two balls with a common wall shrink alike")
     for (Index v = 0; v < mesh.n_vertices(); ++v) {
         const Index image = at_first.at(key(mirrored(before.row(v))));
         CHECK((mesh.vertices.row(image) - mirrored(mesh.vertices.row(v))).norm() < 1e-10);
+    }
+}
+
+TEST_CASE("two touching balls lose the volumes that dense steps take from them")
+{
+    PolygonMesh mesh = test::cut_into_triangles(test::touching_balls(10));
+    const EnclosedCells cells = find_cells(mesh, mesh.vertices);
+    const std::vector<double> before = volumes_of(cells, mesh, mesh.vertices);
+    REQUIRE(before.size() == 2);
+    PolygonMesh expected = mesh;
+    for (int step = 0; step < 2; ++step)
+        expected.vertices = dense_step(expected, Laplacian::VirtualRefinement, 0.5);
+    FlowOptions options = junction_options(Laplacian::VirtualRefinement, 0.5, Approach::Undecomposed);
+    options.steps = 2;
+    mean_curvature_flow(mesh, options);
+    const std::vector<double> after = volumes_of(cells, mesh, mesh.vertices);
+    // Of both together, by the outer faces alone, which are oriented alike.
+    const LabelSurface labelled =
+        cut_into_triangles(faces_between(10, [](const Point& point) { return two_balls()(point / 10.0); }));
+    REQUIRE(labelled.mesh.face_vertices == mesh.face_vertices);
+    double volume = 0.0;
+    for (Index f = 0; f < mesh.n_faces(); ++f)
+        if (const auto face = mesh.face(f); labelled.front[at(f)] == 0)
+            volume += Point(expected.vertices.row(face[0]))
+                          .dot(Point(expected.vertices.row(face[1])).cross(Point(expected.vertices.row(face[2])))) /
+                      6.0;
+    CHECK(after[0] + after[1] == test::relative(volume, 1e-9));
+    const std::vector<double> of_dense = volumes_of(cells, mesh, expected.vertices);
+    for (std::size_t c = 0; c < 2; ++c) {
+        CHECK(after[c] < before[c]);
+        CHECK(after[c] == test::relative(of_dense[c], 1e-9));
     }
 }
 

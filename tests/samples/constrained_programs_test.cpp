@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -384,4 +385,38 @@ TEST_CASE("a degenerate mesh flows but for its degenerate vertices, or is refuse
     CHECK(w.smooth("flat.obj out.obj --time-step 0.01 --strict") == 3);
     CHECK_FALSE(w.has("out.obj"));
     CHECK(w.smooth("mesh.obj out.obj --time-step 0.01 --strict") == 0);
+}
+
+TEST_CASE("sheets that meet are generated with the cells of their faces, and smooth reports the volumes of cells")
+{
+    const Workshop w;
+    REQUIRE(w.run(GENERATE " bubbles-quads bubbles.ply --vertices 2000") == 0);
+    REQUIRE(w.run(GENERATE " bubbles-quads bubbles.off --vertices 2000") == 0);
+    CHECK(read_mesh(w.directory / "bubbles.off").mesh.vertices == read_mesh(w.directory / "bubbles.ply").mesh.vertices);
+    REQUIRE(w.smooth("bubbles.ply out.ply --time-step-edges 1 --report report.json") == 0);
+    CHECK(w.said().find("cells      3 cells: volume 0.1") != std::string::npos);
+    for (const char* property : {"property int front", "property int back"})
+        CHECK(w.count_lines("out.ply", property) == 1);
+    const Json surface = w.json("report.json")["surface"];
+    CHECK(surface["before"]["volume"].is_null());
+    const auto before = surface["before"]["cell_volumes"].get<std::vector<double>>();
+    const auto after = surface["after"]["cell_volumes"].get<std::vector<double>>();
+    REQUIRE(before.size() == 3);
+    REQUIRE(after.size() == 3);
+    CHECK(std::ranges::is_sorted(before, std::greater<>()));
+    for (std::size_t c = 0; c < 3; ++c) {
+        CHECK(after[c] < before[c]);
+        CHECK(after[c] > 0.8 * before[c]);
+    }
+    REQUIRE(w.smooth("bubbles.ply out.ply --time-step-edges 200 --junctions hold") == 0);
+    CHECK(w.said().find("cells      3 cells") != std::string::npos);
+    CHECK(w.said().find("of 3 cells have lost more than 20% of their volume") != std::string::npos);
+    // Sheets that enclose nothing, and a surface without junctions.
+    REQUIRE(w.run(GENERATE " plates plates.ply --vertices 2000") == 0);
+    for (const char* mesh : {"plates.ply", "mesh.obj"}) {
+        REQUIRE(w.smooth(std::string(mesh) + " out.ply --time-step-edges 1 --report report.json") == 0);
+        CHECK(w.said().find("cells") == std::string::npos);
+        CHECK_FALSE(w.json("report.json")["surface"]["before"].contains("cell_volumes"));
+    }
+    CHECK(w.run(GENERATE " foam foam.ply --vertices 500") == 2);
 }

@@ -3,7 +3,9 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <set>
 #include <string>
+#include <utility>
 
 #include <doctest/doctest.h>
 
@@ -113,6 +115,8 @@ TEST_CASE("every kind of mesh is valid, manifold, oriented and of about the size
 {
     for (const MeshKind& kind : mesh_kinds())
         for (const Index wanted : sizes) {
+            if (kind.has_cells)
+                continue;
             CAPTURE(std::string(kind.name));
             CAPTURE(wanted);
             if (is_part(kind.name) && wanted < fewest_vertices_of_parts) {
@@ -135,12 +139,13 @@ TEST_CASE("the same arguments give the same mesh, another seed another one")
     for (const MeshKind& kind : mesh_kinds()) {
         CAPTURE(std::string(kind.name));
         const MeshVariation noisy{.seed = 7, .amplitude = {}, .noise = 0.2};
-        const PolygonMesh once = make_mesh(kind.name, 500, noisy);
-        const PolygonMesh again = make_mesh(kind.name, 500, noisy);
+        const Index wanted = kind.has_cells ? fewest_vertices_of_labels : 500;
+        const PolygonMesh once = make_mesh(kind.name, wanted, noisy);
+        const PolygonMesh again = make_mesh(kind.name, wanted, noisy);
         CHECK(once.vertices == again.vertices);
         CHECK(once.face_vertices == again.face_vertices);
         CHECK(once.face_offsets == again.face_offsets);
-        const PolygonMesh other = make_mesh(kind.name, 500, {.seed = 8, .amplitude = {}, .noise = 0.2});
+        const PolygonMesh other = make_mesh(kind.name, wanted, {.seed = 8, .amplitude = {}, .noise = 0.2});
         CHECK(once.vertices != other.vertices);
     }
 }
@@ -247,6 +252,62 @@ TEST_CASE("machine parts are solid, flat and round where they should be, and enc
             CHECK(volume_of(mesh) == test::relative(volume, 2e-3));
         }
     CHECK_THROWS_AS(make_mesh("gear", 1000, {.seed = {}, .amplitude = 0.1, .noise = {}}), OptionError);
+}
+
+TEST_CASE("sheets between labels meet in lines alone, are of about the size asked for, and lie between their labels")
+{
+    const std::map<std::string, Index> n_labels{
+        {"balls", 3}, {"bubbles", 4}, {"honeycomb", 0}, {"plates", 3}, {"foam", 25}};
+    for (const MeshKind& kind : mesh_kinds())
+        for (const Index wanted : {1000, 2500, 20000}) {
+            if (!kind.has_cells)
+                continue;
+            CAPTURE(std::string(kind.name));
+            CAPTURE(wanted);
+            const LabelSurface surface = make_surface(kind.name, wanted);
+            const PolygonMesh& mesh = surface.mesh;
+            CHECK_NOTHROW(require_valid(mesh));
+            // Small ones grow in jumps.
+            CHECK(std::abs(mesh.n_vertices() - wanted) <= (wanted < 2000 ? 0.15 : 0.1) * wanted);
+            CHECK(count_of_sides(mesh) == (kind.name.ends_with("-quads") ? 4 : 3));
+            CHECK(mesh.vertices.minCoeff() >= 0.0);
+            CHECK(mesh.vertices.maxCoeff() <= 1.06);
+            Topology topology = make_topology(mesh);
+            free_junctions(mesh, topology);
+            const auto has = [&](VertexKind k) { return std::ranges::count(topology.kind, k) > 0; };
+            CHECK(has(VertexKind::Junction));
+            // Where a foam has a short edge, two sheets may touch in one corner of voxels.
+            CHECK(std::ranges::count(topology.kind, VertexKind::NonManifold) <=
+                  (kind.name.starts_with("foam") ? 2 : 0));
+            CHECK_FALSE(has(VertexKind::Isolated));
+            CHECK(has(VertexKind::Boundary) == (kind.name.starts_with("honeycomb") || kind.name.starts_with("plates")));
+            std::set<Index> labels(surface.front.begin(), surface.front.end());
+            labels.insert(surface.back.begin(), surface.back.end());
+            const Index expected = n_labels.at(std::string(kind.name.substr(0, kind.name.find('-'))));
+            CHECK((expected == 0 ? labels.size() > 15 : std::cmp_equal(labels.size(), expected)));
+            for (Index h = 0; h < mesh.n_corners(); ++h)
+                if (const Index twin = topology.twin[h]; twin >= 0) {
+                    const Index f = topology.face_of[h];
+                    const Index g = topology.face_of[twin];
+                    REQUIRE(surface.front[f] == surface.front[g]);
+                    REQUIRE(surface.back[f] == surface.back[g]);
+                    REQUIRE(mesh.face_vertices[h] != mesh.face_vertices[twin]);
+                }
+        }
+    CHECK_THROWS_AS(make_mesh("foam", 999), OptionError);
+    CHECK_THROWS_AS(make_mesh("balls", 1000, {.seed = {}, .amplitude = 0.1, .noise = {}}), OptionError);
+}
+
+TEST_CASE("the normals of faces between labels point to the front")
+{
+    const auto label = [](const Point& point) { return point[2] < 1.0 ? Index{7} : Index{4}; };
+    const LabelSurface surface = faces_between(2, label);
+    REQUIRE(surface.mesh.n_faces() == 4);
+    for (Index f = 0; f < 4; ++f) {
+        CHECK(vector_area(surface.mesh.face(f), surface.mesh.vertices) == Point(0, 0, 1));
+        CHECK(surface.front[f] == 4);
+        CHECK(surface.back[f] == 7);
+    }
 }
 
 TEST_CASE("arguments outside their limits are refused")

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <limits>
 #include <stdexcept>
 
 #include <nlohmann/json.hpp>
@@ -35,6 +36,18 @@ Points points_from(const json& rows)
         for (std::size_t c = 0; c < 3; ++c)
             points(static_cast<Eigen::Index>(v), static_cast<Eigen::Index>(c)) = rows[v][c].get<double>();
     return points;
+}
+
+/// Null is NaN.
+Eigen::MatrixXd matrix_from(const json& rows)
+{
+    Eigen::MatrixXd matrix(static_cast<Eigen::Index>(rows.size()), static_cast<Eigen::Index>(rows[0].size()));
+    for (Eigen::Index i = 0; i < matrix.rows(); ++i)
+        for (Eigen::Index j = 0; j < matrix.cols(); ++j) {
+            const json& value = rows[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
+            matrix(i, j) = value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>();
+        }
+    return matrix;
 }
 
 PolygonMesh mesh_from(const json& data)
@@ -110,6 +123,17 @@ ReferenceFlow read_further_flow(const std::filesystem::path& path)
         options.filter = Filter::LowPass;
     for (const json& positions : data.at("positions_after_step"))
         reference.positions_after_step.push_back(points_from(positions));
+    return reference;
+}
+
+ReferenceFields read_diffusion(const std::filesystem::path& path)
+{
+    const json data = parse(path);
+    ReferenceFields reference{mesh_from(data), {}, matrix_from(data.at("fields")), {}};
+    reference.options.laplacian = laplacian_named(data.at("laplacian").get<std::string>());
+    reference.options.time_step = data.at("time_step").get<double>();
+    for (const json& fields : data.at("fields_after_step"))
+        reference.fields_after_step.push_back(matrix_from(fields));
     return reference;
 }
 

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include "engine/options/flow_options.h"
 #include "partition/polygon_mesh.h"
 
@@ -58,5 +60,16 @@ ReferenceFlow read_flow(const std::filesystem::path& path);
 
 /// A flow beyond the paper's (tests/data/beyond), undecomposed.
 ReferenceFlow read_further_flow(const std::filesystem::path& path);
+
+/// Fields that diffuse with a free boundary (tests/data/fields).
+struct ReferenceFields {
+    PolygonMesh mesh;
+    FlowOptions options;
+    /// #V by columns; NaN is no data.
+    Eigen::MatrixXd fields;
+    std::vector<Eigen::MatrixXd> fields_after_step;
+};
+
+ReferenceFields read_diffusion(const std::filesystem::path& path);
 
 }  // namespace seamflow::test

@@ -15,6 +15,7 @@
 #include "partition/errors.h"
 #include "partition/metrics/vertex_distance.h"
 #include "samples/meshes/meshes.h"
+#include "tests/support/reference_data.h"
 #include "tests/support/relative.h"
 #include "tests/support/test_meshes.h"
 
@@ -238,6 +239,32 @@ TEST_CASE("vertices without data take no part, and stay without, or get the harm
             CHECK(std::abs(of_mesh.stiffness.row(v).dot(filled.col(0))) < 1e-5);
         else
             CHECK(filled(v, 0) == fields(v, 0));
+}
+
+TEST_CASE("fields on sheets that meet, with holes in the data, are those of the reference, undecomposed and converged")
+{
+    const auto files = test::reference_files("fields");
+    REQUIRE_FALSE(files.empty());
+    for (const auto& file : files) {
+        test::ReferenceFields reference = test::read_diffusion(file);
+        reference.options.accuracy.tolerance = 1e-13;
+        for (const Index subdomains : {1, 5})
+            for (std::size_t step = 0; step < reference.fields_after_step.size(); ++step) {
+                CAPTURE(subdomains);
+                CAPTURE(step);
+                reference.options.cut.subdomains = subdomains;
+                reference.options.steps = static_cast<int>(step) + 1;
+                Eigen::MatrixXd fields = reference.fields;
+                diffuse(reference.mesh, fields, reference.options);
+                const Eigen::MatrixXd& expected = reference.fields_after_step[step];
+                for (Eigen::Index c = 0; c < fields.cols(); ++c)
+                    for (Eigen::Index v = 0; v < fields.rows(); ++v)
+                        if (std::isnan(expected(v, c)))
+                            CHECK(std::isnan(fields(v, c)));
+                        else
+                            CHECK(std::abs(fields(v, c) - expected(v, c)) < 1e-9 * (1.0 + std::abs(expected(v, c))));
+            }
+    }
 }
 
 TEST_CASE("data are extended in the range of the others, whatever is held, and far from 0")

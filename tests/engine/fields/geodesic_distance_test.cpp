@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -10,6 +11,7 @@
 #include "partition/errors.h"
 #include "partition/metrics/vertex_distance.h"
 #include "samples/meshes/meshes.h"
+#include "tests/support/junction_meshes.h"
 #include "tests/support/relative.h"
 #include "tests/support/test_meshes.h"
 
@@ -67,6 +69,42 @@ TEST_CASE("geodesic distances of planes and spheres come near to the exact ones,
         const Eigen::VectorXd distance = geodesic_distance(sphere, std::array{from});
         CHECK(mean_error(distance, exact) < 0.002);
     }
+}
+
+TEST_CASE("geodesic distances come near to the exact ones on a cube, and across lines where sheets meet")
+{
+    // From a corner every other face is reached best by one edge of the first three, unfolded there.
+    PolygonMesh cube = faces_between(22, [](const Point& p) {
+                           return ((p.array() > 1.0) && (p.array() < 21.0)).all() ? Index{1} : Index{0};
+                       }).mesh;
+    cube.vertices = (cube.vertices.array() - 1.0) / 20.0;
+    const auto exact_on_cube = [](const Point& p) {
+        if (p.minCoeff() == 0.0)
+            return p.norm();
+        Eigen::Index far = 0;
+        p.maxCoeff(&far);
+        const double a = p[(far + 1) % 3];
+        const double b = p[(far + 2) % 3];
+        return std::min(std::hypot(1.0 + a, b), std::hypot(1.0 + b, a));
+    };
+    for (const PolygonMesh& mesh : {cube, test::cut_into_triangles(cube)}) {
+        Eigen::VectorXd exact(mesh.n_vertices());
+        for (Index v = 0; v < mesh.n_vertices(); ++v)
+            exact[v] = exact_on_cube(mesh.vertices.row(v));
+        CHECK(mean_error(geodesic_distance(mesh, std::array{nearest_to(mesh, Point::Zero())}), exact) < 0.02);
+    }
+    // Any two plates are a plane, unfolded.
+    constexpr Index m = 20;
+    const std::array angles{0.2, 1.5, 3.0};
+    const PolygonMesh plates = test::plates(angles, m, 2 * m);
+    const Index from = nearest_to(plates, Point(10.0 * std::cos(0.2), 10.0 * std::sin(0.2), m));
+    Eigen::VectorXd exact(plates.n_vertices());
+    for (Index v = 0; v < plates.n_vertices(); ++v) {
+        const Point p = plates.vertices.row(v);
+        const bool is_same_plate = v < (m + 1) * (2 * m + 1);
+        exact[v] = std::hypot(10.0 + (is_same_plate ? -1.0 : 1.0) * p.head<2>().norm(), p[2] - m);
+    }
+    CHECK(mean_error(geodesic_distance(plates, std::array{from}), exact) < 0.02);
 }
 
 TEST_CASE("geodesic distances scale with the mesh, and do not depend on threads or on where it lies")

@@ -123,6 +123,9 @@ TEST_CASE("surfaces without noise have none, however coarse they are and however
 {
     for (const MeshKind& kind : mesh_kinds())
         for (const Index vertices : {400, 900, 3000, 20000}) {
+            // Steps of voxels are noise.
+            if (kind.has_cells)
+                continue;
             MeshVariation clean;
             if (kind.name == "noisy-sphere")
                 clean.noise = 0.0;
