@@ -1,6 +1,7 @@
 #include "engine/distributed/rows_of_others.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "engine/distributed/ranks/packing.h"
 
@@ -47,6 +48,19 @@ Points RowsOfOthers::fetch(const Points& rows) const
             fetched.row(ours_[rank][i]) = Point(values[3 * i], values[3 * i + 1], values[3 * i + 2]);
     }
     return fetched;
+}
+
+std::function<void(Points& rows)> fetch_rows_of_others(Communicator& comm, const RankMesh& mesh,
+                                                       std::vector<Index> vertices)
+{
+    std::vector<std::int64_t> numbers;
+    for (const Index v : vertices)
+        numbers.push_back(mesh.part.vertex_numbers[v]);
+    return [vertices = std::move(vertices), others = RowsOfOthers(comm, mesh, numbers)](Points& rows) {
+        const Points fetched = others.fetch(rows);
+        for (std::size_t i = 0; i < vertices.size(); ++i)
+            rows.row(vertices[i]) = fetched.row(static_cast<Index>(i));
+    };
 }
 
 }  // namespace seamflow

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "engine/distributed/rank_setup.h"
@@ -27,5 +28,11 @@ class RowsOfOthers {
     std::vector<std::vector<Index>> theirs_;
     std::vector<std::vector<Index>> ours_;
 };
+
+/// Makes a function that replaces the rows of some vertices by those of ranks with faces there. All ranks call this,
+/// and later the function, together.
+/// @param comm, mesh must outlive it. @param vertices of the part, without faces of this rank; ascending.
+std::function<void(Points& rows)> fetch_rows_of_others(Communicator& comm, const RankMesh& mesh,
+                                                       std::vector<Index> vertices);
 
 }  // namespace seamflow

@@ -20,22 +20,23 @@ std::vector<SmoothProgram::Lack> lacks()
     for (const OptionTraits& one : all_options())
         if ((one.concerns & concern::one_process) != 0 && !one.option.empty())
             list.push_back({std::string(one.option), one_process});
-    for (const char* const own :
-         {"--edges-from-file", "--region-property", "--feather", "--self-intersections", "--trace", "--task-graph",
-          "--html", "--out-dir", "--fields", "--fwhm", "--fill", "--keep-field-edges", "--from"})
+    for (const char* const own : {"--edges-from-file", "--self-intersections", "--trace", "--task-graph", "--html",
+                                  "--out-dir", "--fields", "--fwhm", "--fill", "--keep-field-edges", "--from"})
         list.push_back({own, one_process});
     return list;
 }
 
-/// Ranks take steps in sub-meshes: sweeps unless a tolerance, a free boundary or the linear flow is asked for; the
-/// latter two are for converged steps.
-void settle_approach(FlowOptions& options)
+/// Ranks take steps in sub-meshes: sweeps unless a tolerance, a free boundary, the linear flow or a region is asked
+/// for; the latter three are for converged steps.
+void settle_approach(SmoothCommand& command)
 {
+    FlowOptions& options = command.options;
     AccuracyOptions& accuracy = options.accuracy;
     if (accuracy.approach != Approach::Automatic && accuracy.approach != Approach::Decomposed)
         return;
     const bool shares_boundary = options.motion.boundary == Boundary::Free && options.interface == InterfaceOptions();
-    const bool is_converged = accuracy.tolerance || shares_boundary || options.flow == FlowEquation::Linear;
+    const bool is_converged =
+        accuracy.tolerance || shares_boundary || options.flow == FlowEquation::Linear || !command.region.empty();
     accuracy.approach = is_converged ? Approach::Converged : Approach::Sweep;
 }
 
@@ -59,7 +60,8 @@ std::optional<ExitStatus> parse_distributed_command(int argc, char** argv, int r
                 app.get_option("--approach")
                     ->type_name("auto|decomposed|sweep|converged")
                     ->description(
-                        "how a step is taken [sweep; converged with --converge, --boundary free or --flow linear]\n"
+                        "how a step is taken [sweep; converged with --converge, --boundary free, --flow linear or "
+                        "--region]\n"
                         "sweep: one sweep over the sub-meshes; converged: these converge to the undecomposed "
                         "step.");
                 app.get_option("--conditions")->type_name("adapted-robin|adapted-ventcell");
@@ -84,7 +86,7 @@ std::optional<ExitStatus> parse_distributed_command(int argc, char** argv, int r
         command.flow.amount = {.time_step_edges = preset.time_step_edges, .radius = preset.radius};
         command.flow.chosen += amount_of(preset);
     }
-    settle_approach(command.flow.options);
+    settle_approach(command.flow);
     if (whole_up_to)
         command.sharing.whole_up_to = *whole_up_to;
     return std::nullopt;
