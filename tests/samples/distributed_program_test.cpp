@@ -119,20 +119,22 @@ TEST_CASE("ranks smooth a region, and along lines, as smooth does with the same 
                       test::relative(expected["surface"][when]["area"].get<double>(), 1e-12));
         }
     }
-    // Most of the mesh stays, far from the origin.
+    // A region that lies far from the origin, of a mesh that does not; in slices.
+    REQUIRE(w.run(GENERATE " noisy-sphere near.off --vertices 6000") == 0);
+    REQUIRE(w.run("sh -c 'awk \"NR > 2 && NF == 3 {\\$1 += 20} 1\" near.off >ball.off'") == 0);
     const std::string far = " --radius 3% --converge 1e-6 --threads 1 --subdomains 4 --region region ";
-    REQUIRE(on_ranks(w, 3, "ball.ply n.ply --whole-up-to 1" + far + "--parts parts.ply --checkpoint kept") == 0);
-    write_labels_of(w.directory / "parts.ply", w.directory / "labels");
-    REQUIRE(w.smooth("ball.ply s.ply --radius 3% --converge 1e-6 --region region --labels labels") == 0);
-    CHECK((test::content_of(w.directory / "n.ply") == test::content_of(w.directory / "s.ply")));
+    REQUIRE(on_ranks(w, 3, "ball.off n.off --whole-up-to 1" + far + "--parts parts.off --checkpoint kept") == 0);
+    write_labels_of(w.directory / "parts.off", w.directory / "labels");
+    REQUIRE(w.smooth("ball.off s.off --radius 3% --converge 1e-6 --region region --labels labels") == 0);
+    CHECK((test::content_of(w.directory / "n.off") == test::content_of(w.directory / "s.off")));
 
-    CHECK(on_ranks(w, 2, "ball.ply no.ply --feather 1%" + far + "--whole-up-to 1") == 2);
+    CHECK(on_ranks(w, 2, "ball.off no.off --feather 1%" + far + "--whole-up-to 1") == 2);
     CHECK(messages(w, "smooth-distributed").front().find("--feather needs distances on the whole mesh") == 0);
-    CHECK(on_ranks(w, 2, "ball.ply no.ply --radius 3% --region region --converge never") == 2);
+    CHECK(on_ranks(w, 2, "ball.off no.off --radius 3% --region region --converge never") == 2);
     REQUIRE(w.run("touch none") == 0);
-    REQUIRE(on_ranks(w, 2, "ball.ply n.ply --radius 3% --region none") == 0);
+    REQUIRE(on_ranks(w, 2, "ball.off n.off --radius 3% --region none") == 0);
     CHECK(w.count_lines("said", "remark     The region is empty") == 1);
-    CHECK((test::content_of(w.directory / "n.ply") == test::content_of(w.directory / "ball.ply")));
+    CHECK((test::content_of(w.directory / "n.off") == test::content_of(w.directory / "ball.off")));
 }
 
 TEST_CASE("the report tells of every rank, and rank 0 alone prints")

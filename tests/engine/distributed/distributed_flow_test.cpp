@@ -414,13 +414,13 @@ TEST_CASE("a failure on one rank ends all with one message")
         if (rank == 2)
             part.strengths[1] = 1.5;
     };
-    check_refusal<InputError>(flow(converged(Laplacian::Fujiwara, 1e-3), labels, weaken), 3,
+    check_refusal<InputError>(flow(test::converged(Laplacian::Fujiwara, 1e-3), labels, weaken), 3,
                               "rank 2 on this process: the strength of vertex ");
     const auto weaken_one = [](MeshPart& part, int rank) {
         if (rank == 0)
             part.strengths.assign(part.vertex_numbers.size(), 0.5);
     };
-    check_refusal<InputError>(flow(converged(Laplacian::Fujiwara, 1e-3), labels, weaken_one), 3,
+    check_refusal<InputError>(flow(test::converged(Laplacian::Fujiwara, 1e-3), labels, weaken_one), 3,
                               "some ranks have strengths");
     const auto all = [](MeshPart& part, int /*rank*/) { part.strengths.assign(part.vertex_numbers.size(), 0.5); };
     check_refusal<OptionError>(flow(options, labels, all), 3, "strength is given, whose steps are converged");
