@@ -123,8 +123,8 @@ TEST_CASE("ranks smooth a region, and along lines, as smooth does with the same 
     REQUIRE(w.run(GENERATE " noisy-sphere near.off --vertices 6000") == 0);
     REQUIRE(w.run("sh -c 'awk \"NR > 2 && NF == 3 {\\$1 += 20} 1\" near.off >ball.off'") == 0);
     const std::string far = " --radius 3% --converge 1e-6 --threads 1 --subdomains 4 --region region ";
-    REQUIRE(on_ranks(w, 3, "ball.off n.off --whole-up-to 1" + far + "--parts parts.off --checkpoint kept") == 0);
-    write_labels_of(w.directory / "parts.off", w.directory / "labels");
+    REQUIRE(on_ranks(w, 3, "ball.off n.off --whole-up-to 1" + far + "--parts parts.ply --checkpoint kept") == 0);
+    write_labels_of(w.directory / "parts.ply", w.directory / "labels");
     REQUIRE(w.smooth("ball.off s.off --radius 3% --converge 1e-6 --region region --labels labels") == 0);
     CHECK((test::content_of(w.directory / "n.off") == test::content_of(w.directory / "s.off")));
 
