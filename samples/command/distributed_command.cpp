@@ -71,7 +71,8 @@ std::optional<ExitStatus> parse_distributed_command(int argc, char** argv, int r
                                   "noise and keeps edges.");
                 app.option_defaults()->group(option_group::machine);
                 add_bytes(app, "--whole-up-to", whole_up_to,
-                          "rank 0 alone reads and writes files of up to so many bytes, in any format [16MiB]");
+                          "rank 0 alone reads and writes files of up to so many bytes, in any format [16MiB]\n"
+                          "--feather is for such files only.");
             },
         .checks_files = rank == 0};
     if (const auto end = parse_smooth_command(argc, argv, command.flow, program))
