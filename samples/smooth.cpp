@@ -49,14 +49,6 @@ using namespace seamflow;
 
 namespace {
 
-/// The strengths of --region: of a file, or of a property of the input.
-std::vector<double> read_region(const SmoothCommand& command, Index n_vertices)
-{
-    if (std::filesystem::exists(command.region))
-        return read_vertex_strengths(command.region, n_vertices, command.region_property);
-    return read_vertex_strengths(command.input, n_vertices, command.region.string());
-}
-
 /// Completes options that the command line leaves to the input.
 /// @param left_out ascending: the faces of the file that are not in the mesh.
 void complete_options(SmoothCommand& command, const PolygonMesh& mesh, const std::vector<Index>& left_out,
@@ -72,8 +64,7 @@ void complete_options(SmoothCommand& command, const PolygonMesh& mesh, const std
     if (!command.attach_weights.empty())
         motion.attachment_weights =
             read_vertex_weights(command.attach_weights, mesh.n_vertices(), command.attach_property);
-    if (!command.region.empty())
-        motion.strength = read_region(command, mesh.n_vertices());
+    motion.strength = read_region(command, mesh.n_vertices());
     try {
         resolve_amount(command, mesh, exec, run);
     } catch (const InputError& error) {

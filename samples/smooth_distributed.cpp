@@ -19,8 +19,10 @@
 #include "engine/distributed/files/shared_mesh_file.h"
 #include "engine/distributed/parts/deal.h"
 #include "engine/distributed/parts/slice_measures.h"
+#include "engine/distributed/parts/still_faces.h"
 #include "engine/distributed/parts/whole_mesh.h"
 #include "engine/distributed/ranks/mpi_transport.h"
+#include "engine/measure/remarks.h"
 #include "engine/setup/presets.h"
 #include "engine/tasks/stopwatch.h"
 #include "engine/tasks/workers.h"
@@ -96,6 +98,8 @@ class RankRun {
             inputs_.mesh = checksum_of_mesh(comm, slice);
         inputs_.fixed = read_fixed(comm, command_, inputs_.size.vertices);
         inputs_.weights = read_weights(comm, command_, inputs_.size.vertices);
+        inputs_.strengths = read_strengths(comm, command_, file_->whole() != nullptr ? &file_->whole()->mesh : nullptr,
+                                           run_.scale, inputs_.size.vertices);
         run_.read_seconds = reading.seconds();
         print_input(out_, run_, inputs_.size.vertices, inputs_.size.faces);
         print_preset(out_, run_, command_.chosen);
@@ -103,13 +107,18 @@ class RankRun {
         comm.at_first_rank([&] { look_at_results(); });
 
         const Stopwatch setting_up;
-        cut(comm, slice);
+        const StillFaces still = leave_out_still(comm, slice, bounds);
+        cut(comm, slice, still);
         about_file(command_.input, [&] { part_ = deal(comm, slice); });
         hold_in_part(seams_, inputs_.fixed, part_);
         if (!command_.checkpoint.empty())
             find_checkpoint(comm, slice, bounds);
-        part_.attachment_weights =
-            deal_weights(comm, std::move(inputs_.weights), seams_, part_.vertex_numbers, bounds.vertices);
+        part_.attachment_weights = deal_to_vertices(comm, std::move(inputs_.weights), seams_, OfSeam::Largest,
+                                                    part_.vertex_numbers, bounds.vertices);
+        part_.strengths = deal_to_vertices(comm, std::move(inputs_.strengths), seams_, OfSeam::Least,
+                                           part_.vertex_numbers, bounds.vertices);
+        if (leaves_out_faces_)
+            part_.box = still.box;
         bring_back(comm, seams_, slice);
         slice_vertices_ = std::move(slice.vertices);
         if (tells_measures())
@@ -167,14 +176,31 @@ class RankRun {
             remarks_.push_back("The result has replaced the input, in one go when it was complete.");
     }
 
-    void cut(Communicator& comm, RankSlice& slice)
+    /// Only the faces around a region flow, unless the boundary moves, as with smooth.
+    StillFaces leave_out_still(Communicator& comm, RankSlice& slice, const SliceBounds& bounds)
+    {
+        const bool has_region = !command_.region.empty() && command_.options.motion.boundary == Boundary::Fixed;
+        StillFaces still;
+        still.n_left = inputs_.size.faces;
+        if (has_region)
+            still = leave_out_still_faces(comm, hand_out(comm, inputs_.strengths, bounds.vertices), slice);
+        leaves_out_faces_ = still.n_left < inputs_.size.faces;
+        if (leaves_out_faces_)
+            choices_.push_back(remark_on_still_faces(still.n_left));
+        if (still.n_left == 0)
+            remarks_.push_back(remark_on_empty_region());
+        return still;
+    }
+
+    void cut(Communicator& comm, RankSlice& slice, const StillFaces& still)
     {
         DistributedCut found = command_.labels.empty() ? cut_together(comm, slice, command_.options)
                                                        : cut_together_by_labels(comm, slice, command_.options);
-        choice_ = found.choice;
+        if (!found.choice.empty())
+            choices_.push_back(found.choice);
         repaired_faces_ = static_cast<Index>(found.repaired_faces);
         if (!command_.parts.empty())
-            labels_ = labels_of_all_faces(comm, slice, found.left_out);
+            labels_ = labels_with(labels_of_all_faces(comm, slice, found.left_out), still.faces, found.n_parts);
         of_cut_ = std::move(found.remarks);
         seams_ = std::move(found.seams);
     }
@@ -218,8 +244,7 @@ class RankRun {
         flow.cut.repaired_faces = repaired_faces_;
         flow.mesh.vertices = inputs_.size.vertices;
         flow.mesh.faces = inputs_.size.faces;
-        if (!choice_.empty())
-            flow.choices.push_back(choice_);
+        flow.choices.insert(flow.choices.end(), choices_.begin(), choices_.end());
         std::vector<std::string> all = of_cut_;
         for (const auto& remarks : {run_.remarks, flow.remarks, remarks_})
             for (const std::string& remark : remarks)
@@ -228,9 +253,11 @@ class RankRun {
         flow.remarks = std::move(all);
         if (!report_.before)
             return;
-        const auto note = [](const RankMeasures& measures, SurfaceLook& look) {
-            look.area = measures.area;
-            if (measures.volume)
+        // The faces that are left out stay as they are; nothing is known of the volume with them.
+        const double still_area = leaves_out_faces_ ? inputs_.size.area - report_.before->area : 0.0;
+        const auto note = [&](const RankMeasures& measures, SurfaceLook& look) {
+            look.area = measures.area + still_area;
+            if (measures.volume && !leaves_out_faces_)
                 look.volume = std::abs(*measures.volume);
         };
         note(*report_.before, run_.surface.before);
@@ -304,7 +331,8 @@ class RankRun {
     JoinedSeams seams_;
     RankRunInputs inputs_;
     /// Of the cut, and of the files of the run.
-    std::string choice_;
+    std::vector<std::string> choices_;
+    bool leaves_out_faces_ = false;
     Index repaired_faces_ = 0;
     double cut_seconds_ = 0.0;
     std::vector<std::string> of_cut_;

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <memory>
 #include <numeric>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -27,8 +29,10 @@
 #include "engine/options/option_table.h"
 #include "engine/options/valid_options.h"
 #include "engine/setup/automatic_choices.h"
+#include "engine/steppers/directed_motion.h"
 #include "engine/steppers/schur_stepper.h"
 #include "engine/steppers/sweep_stepper.h"
+#include "engine/tasks/parallel_executor.h"
 #include "engine/tasks/progress.h"
 #include "engine/tasks/stopwatch.h"
 #include "engine/tasks/workers.h"
@@ -81,10 +85,11 @@ class RankFlow {
     {
         const Stopwatch watch;
         const BoundingBox box = gather_box(comm_, part_.mesh);
-        const Point offset = origin_offset(box);
+        const Point offset = origin_offset(part_.box.value_or(box));
         require_valid(options_);
         RankMesh mesh = make_rank_mesh(comm_, part_, offset, options_);
         options_.motion.attachment_weights = mesh.part.attachment_weights;
+        options_.motion.strength = mesh.part.strengths;
         Decomposition decomposition = decompose_rank_mesh(mesh);
         const std::int64_t n_interface_vertices = decomposition.n_interface_vertices;
         std::optional<RankExchange> exchange;
@@ -105,6 +110,8 @@ class RankFlow {
         }
         if (options_.motion.within)
             bound_.emplace(make_bound(mesh));
+        if (options_.motion.direction.kind != MotionDirection::Kind::Any)
+            prepare_direction(mesh);
         vanishing_.emplace(options_, mesh.part.mesh.vertices, find_small_components(comm_, mesh));
         result_ = mesh.part.mesh.vertices;
         if (resume_ != nullptr)
@@ -169,6 +176,7 @@ class RankFlow {
         const std::uint64_t bytes = comm_.n_bytes();
         in_step(step, [&] {
             vanishing_->step(stepper, mesh.part.mesh.vertices);
+            direct(stepper, mesh.part.mesh.vertices);
             require_within_limit(limit, mesh, stepper.positions());
         });
         StepReport of_step;
@@ -202,9 +210,32 @@ class RankFlow {
     /// Derives the result from the positions from which the flow continues.
     void make_result(const RankMesh& mesh)
     {
-        result_ = mesh.part.mesh.vertices;
+        const Points before = std::exchange(result_, mesh.part.mesh.vertices);
         if (bound_)
             bound_->apply(result_);
+        if (bound_ && directed_ && directed_->is_parallel())
+            directed_->project(before, result_, run_in_parallel);
+    }
+
+    /// All ranks call this together.
+    void prepare_direction(const RankMesh& mesh)
+    {
+        directed_.emplace(mesh.part.mesh, mesh.topology, options_.motion.direction);
+        fetch_foreign_ = fetch_rows_of_others(
+            comm_, mesh,
+            select(run_in_parallel, mesh.part.mesh.n_vertices(), [&](Index v) { return !mesh.has_own_faces(v); }));
+    }
+
+    /// Leaves of a step only the motion along the lines that the options ask for. All ranks call this together: the
+    /// positions then are right at all vertices that a rank knows, on whose faces the next normals depend.
+    void direct(Stepper& stepper, const Points& before) const
+    {
+        if (!directed_)
+            return;
+        Points directed = stepper.positions();
+        directed_->project(before, directed, run_in_parallel);
+        fetch_foreign_(directed);
+        stepper.continue_from(directed, {});
     }
 
     /// All ranks call this together.
@@ -213,21 +244,14 @@ class RankFlow {
         const Index n = mesh.part.mesh.n_vertices();
         KnownElsewhere elsewhere;
         elsewhere.is_own.resize(at(n));
-        std::vector<Index> foreign;
-        std::vector<std::int64_t> numbers;
         for (Index v = 0; v < n; ++v)
             elsewhere.is_own[v] = mesh.has_own_faces(v) ? 1 : 0;
-        for (Index v = 0; v < n; ++v)
-            if (elsewhere.is_own[v] == 0 && std::ranges::any_of(neighbours_of(mesh.part.mesh, mesh.topology, v),
-                                                                [&](Index w) { return elsewhere.is_own[w] != 0; })) {
-                foreign.push_back(v);
-                numbers.push_back(mesh.part.vertex_numbers[v]);
-            }
-        elsewhere.fetch = [foreign, others = RowsOfOthers(comm_, mesh, numbers)](Points& rows) {
-            const Points fetched = others.fetch(rows);
-            for (std::size_t i = 0; i < foreign.size(); ++i)
-                rows.row(foreign[i]) = fetched.row(static_cast<Index>(i));
-        };
+        elsewhere.fetch =
+            fetch_rows_of_others(comm_, mesh, select(run_in_parallel, n, [&](Index v) {
+                                     return elsewhere.is_own[v] == 0 &&
+                                            std::ranges::any_of(neighbours_of(mesh.part.mesh, mesh.topology, v),
+                                                                [&](Index w) { return elsewhere.is_own[w] != 0; });
+                                 }));
         elsewhere.any = [&comm = comm_](bool holds) {
             const auto all = comm.gather_all(std::vector<std::uint8_t>{static_cast<std::uint8_t>(holds ? 1 : 0)});
             return std::ranges::find(all, 1) != all.end();
@@ -306,6 +330,8 @@ class RankFlow {
     Progress progress_;
     std::optional<RankMeter> meter_;
     std::optional<DisplacementBound> bound_;
+    std::optional<DirectedMotion> directed_;
+    std::function<void(Points& rows)> fetch_foreign_;
     std::optional<VanishingComponents> vanishing_;
     /// For the vertices that this rank knows, after the last step.
     Points result_;

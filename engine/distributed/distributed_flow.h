@@ -43,8 +43,9 @@ using RankObserver = std::function<void(const RankStepState&)>;
 /// equations are not symmetric; sweeps with conditions other than the adapted ones; Scheme::ExplicitEuler; keep_edges;
 /// rescale; strict; ReportOptions other than `measures`, and of these the curvature and the parts of displacements;
 /// FlowOptions::radius. Vertices along seams stay as they are, as with an empty MotionOptions::weld (see cut_together).
-/// Labels, fixed vertices and attachment weights are those of the part. Faces that repeat others at places where the
-/// mesh is not manifold take no part.
+/// Labels, fixed vertices, attachment weights and strengths are those of the part; all its faces flow, also those that
+/// mean_curvature_flow leaves out around a region (see leave_out_still_faces). Faces that repeat others at places where
+/// the mesh is not manifold take no part.
 /// @param part its vertices are moved when the flow has succeeded on all ranks; those without faces never are.
 /// @param on_step may be empty; on all ranks or on none.
 /// @param resume null, or the state after a step: the flow continues from there, on any number of ranks, with the same

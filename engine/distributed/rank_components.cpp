@@ -46,7 +46,8 @@ OwnComponents find_own(const RankMesh& mesh, const Points& positions, double ext
     OwnComponents own{.of_vertices = connected_components(mesh.part.mesh.n_vertices(), of_own_faces), .may = {}};
     for (Index c = 0; c < own.of_vertices.count(); ++c) {
         const auto vertices = own.of_vertices.nodes[c];
-        const bool is_free = std::ranges::all_of(vertices, [&](Index v) { return mesh.topology.moves(v); });
+        const bool is_free = std::ranges::all_of(
+            vertices, [&](Index v) { return mesh.topology.moves(v) && !is_weak(mesh.part.strengths, v); });
         own.may.push_back(vertices.size() > 1 && is_free && is_smaller(positions, vertices, extent) ? 1 : 0);
     }
     return own;

@@ -53,6 +53,7 @@ FlowOptions completed(const FlowOptions& options, const MeshPart& part)
     if (is_converged(options))
         complete.accuracy.tolerance = choose_tolerance(part.mesh, {}, options, false).tolerance;
     complete.motion.attachment_weights = part.attachment_weights;
+    complete.motion.strength = part.strengths;
     return complete;
 }
 

@@ -9,7 +9,8 @@ namespace seamflow {
 /// @throws OptionError for unsupported options.
 void require_for_ranks(const FlowOptions& options);
 
-/// The options with the tolerance of converged steps, if steps are converged, and the weights of the part.
+/// The options with the tolerance of converged steps, if steps are converged, and the weights and strengths of the
+/// part.
 FlowOptions completed(const FlowOptions& options, const MeshPart& part);
 
 }  // namespace seamflow

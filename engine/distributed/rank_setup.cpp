@@ -120,15 +120,15 @@ void grow(Communicator& comm, const MeshPart& own, RankMesh& mesh)
     mesh.remarks.push_back(remark_on_repeated_faces(mesh.n_repeated));
 }
 
-/// @throws InputError if some ranks have attachment weights and others do not.
-void require_alike_attached(Communicator& comm, const MeshPart& own)
+/// @param what the numbers are. @throws InputError if some ranks with vertices have them and others do not.
+void require_alike(Communicator& comm, const MeshPart& own, const std::vector<double>& numbers, std::string_view what)
 {
-    if (own.mesh.n_vertices() == 0)
-        comm.gather_all(std::vector<std::uint8_t>());
-    else if (const auto said = comm.gather_all(
-                 std::vector<std::uint8_t>{static_cast<std::uint8_t>(own.attachment_weights.empty() ? 0 : 1)});
-             std::ranges::adjacent_find(said, std::not_equal_to<>()) != said.end())
-        throw InputError("some ranks have attachment weights and others have none: give them on all, or on none");
+    std::vector<std::uint8_t> has_numbers;
+    if (own.mesh.n_vertices() > 0)
+        has_numbers.push_back(numbers.empty() ? 0 : 1);
+    const std::vector<std::uint8_t> of_all = comm.gather_all(has_numbers);
+    if (std::ranges::adjacent_find(of_all, std::not_equal_to<>()) != of_all.end())
+        throw InputError(fmt::format("some ranks have {} and others have none: give them on all, or on none", what));
 }
 
 [[noreturn]] void refuse_cut(const std::string& what)
@@ -209,7 +209,7 @@ void hold_undefined(Communicator& comm, const FlowOptions& options, RankMesh& me
     const CountedVertices held =
         count_vertices(comm, mesh, [&](Index v) { return std::ranges::binary_search(undefined, v); });
     hold(mesh.topology, undefined);
-    if (moving.n == 0)
+    if (moving.n == 0 && mesh.n_faces > 0)
         mesh.remarks.push_back(remark_on_unmoving_mesh(options.motion.boundary));
     if (held.n == 0)
         return;
@@ -328,7 +328,8 @@ RankMesh make_rank_mesh(Communicator& comm, const MeshPart& own, const Point& of
                         SoundCut sound)
 {
     RankMesh mesh;
-    require_alike_attached(comm, own);
+    require_alike(comm, own, own.attachment_weights, "attachment weights");
+    require_alike(comm, own, own.strengths, "strengths");
     grow(comm, own, mesh);
     const std::string_view need = need_of_junctions(options);
     if (options.motion.junctions == Junctions::Flow && need.empty())
@@ -341,8 +342,15 @@ RankMesh make_rank_mesh(Communicator& comm, const MeshPart& own, const Point& of
         require_sound_cut(mesh);
     if (options.motion.boundary == Boundary::Free)
         free_boundary(mesh.topology);
-    hold(mesh.topology,
-         select(run_in_parallel, mesh.part.mesh.n_vertices(), [&](Index v) { return mesh.part.fixed[v] != 0; }));
+    const auto is_still = [&](Index v) {
+        return !mesh.part.strengths.empty() && mesh.part.strengths[v] < MotionOptions::least_strength;
+    };
+    hold(mesh.topology, select(run_in_parallel, mesh.part.mesh.n_vertices(),
+                               [&](Index v) { return mesh.part.fixed[v] != 0 || is_still(v); }));
+    const auto n_of = [&](auto&& holds) { return count_vertices(comm, mesh, holds).n; };
+    mesh.n_vertices = n_of([](Index /*v*/) { return true; });
+    if (mesh.n_vertices > 0 && n_of(is_still) == mesh.n_vertices)
+        mesh.remarks.push_back(remark_on_empty_region());
     hold_undefined(comm, options, mesh);
     if (options.accuracy.approach == Approach::Sweep)
         comm.look_together([&] {
@@ -350,12 +358,12 @@ RankMesh make_rank_mesh(Communicator& comm, const MeshPart& own, const Point& of
             std::erase_if(rim, [&](Index v) { return !mesh.has_own_faces(v); });
             require_boundary_unshared(mesh.topology, mesh.part.labels, rim);
         });
+    // At the rim of a region faces may be left out, which is nothing to report.
     const auto count_kind = [&](VertexKind kind) {
-        return count_vertices(comm, mesh, [&](Index v) { return mesh.topology.kind[v] == kind; }).n;
+        return n_of([&](Index v) { return mesh.topology.kind[v] == kind && !is_still(v); });
     };
     mesh.n_non_manifold = count_kind(VertexKind::NonManifold);
     mesh.n_junctions = count_kind(VertexKind::Junction);
-    mesh.n_vertices = count_vertices(comm, mesh, [](Index /*v*/) { return true; }).n;
     if (mesh.n_non_manifold > 0)
         mesh.remarks.push_back(remark_on_non_manifold_vertices(mesh.n_non_manifold, need));
     if (mesh.n_junctions > 0)

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <span>
+#include <utility>
 
 #include "engine/distributed/ranks/packing.h"
 
@@ -89,6 +90,19 @@ Points rows_of_part(Communicator& comm, const MeshPart& part, const RankMesh& me
     if (mesh.n_repeated > 0)
         ask_for(comm, part, mesh, known, elsewhere, rows);
     return rows;
+}
+
+std::function<void(Points& rows)> fetch_rows_of_others(Communicator& comm, const RankMesh& mesh,
+                                                       std::vector<Index> vertices)
+{
+    std::vector<std::int64_t> numbers;
+    for (const Index v : vertices)
+        numbers.push_back(mesh.part.vertex_numbers[v]);
+    return [vertices = std::move(vertices), others = RowsOfOthers(comm, mesh, numbers)](Points& rows) {
+        const Points fetched = others.fetch(rows);
+        for (std::size_t i = 0; i < vertices.size(); ++i)
+            rows.row(vertices[i]) = fetched.row(static_cast<Index>(i));
+    };
 }
 
 }  // namespace seamflow

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "engine/distributed/rank_setup.h"
@@ -32,5 +33,11 @@ class RowsOfOthers {
 /// @param part as it was given. @param mesh what became of it. @param known #V by 3 of `mesh`.
 /// @param rows #V by 3 of the part: vertices without faces keep theirs.
 Points rows_of_part(Communicator& comm, const MeshPart& part, const RankMesh& mesh, const Points& known, Points rows);
+
+/// Makes a function that replaces the rows of some vertices by those of ranks with faces there. All ranks call this,
+/// and later the function, together.
+/// @param comm, mesh must outlive it. @param vertices of the part, without faces of this rank; ascending.
+std::function<void(Points& rows)> fetch_rows_of_others(Communicator& comm, const RankMesh& mesh,
+                                                       std::vector<Index> vertices);
 
 }  // namespace seamflow

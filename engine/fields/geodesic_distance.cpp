@@ -3,28 +3,26 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <memory_resource>
 #include <optional>
-#include <queue>
 #include <utility>
 #include <vector>
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
+#include "engine/fields/distance_bounds.h"
+#include "engine/fields/source_components.h"
 #include "engine/fields/thin_faces.h"
 #include "engine/tasks/parallel_executor.h"
 #include "engine/tasks/progress.h"
 #include "engine/tasks/workers.h"
-#include "partition/connected_components.h"
 #include "partition/decomposition/decomposition.h"
 #include "partition/errors.h"
 #include "partition/metrics/vertex_distance.h"
 #include "partition/topology.h"
 #include "partition/weld.h"
-#include "solvers/direct/ldl_solver.h"
 #include "solvers/direct/solver_workspace.h"
 #include "solvers/laplacian/degenerate.h"
 #include "solvers/laplacian/virtual_refinement.h"
@@ -181,71 +179,6 @@ Eigen::VectorXd divergence(const PolygonMesh& mesh, const Topology& topology, co
     return result;
 }
 
-/// Distances along edges, which are too long, by the algorithm of Dijkstra.
-struct EdgePaths {
-    /// #V: infinite where no path leads; and the vertex from which the path comes, or -1.
-    std::vector<double> length;
-    std::vector<Index> from;
-};
-
-EdgePaths paths_along_edges(const PolygonMesh& mesh, const Topology& topology, std::span<const Index> from)
-{
-    using Front = std::pair<double, Index>;
-    EdgePaths paths{std::vector<double>(at(mesh.n_vertices()), std::numeric_limits<double>::infinity()),
-                    std::vector<Index>(at(mesh.n_vertices()), -1)};
-    std::priority_queue<Front, std::vector<Front>, std::greater<>> fronts;
-    for (const Index v : from) {
-        paths.length[v] = 0.0;
-        paths.from[v] = v;
-        fronts.emplace(0.0, v);
-    }
-    while (!fronts.empty()) {
-        const auto [length, v] = fronts.top();
-        fronts.pop();
-        if (length > paths.length[v])
-            continue;
-        for (const Index corner : topology.corners_at(v))
-            for (const Index end : {topology.next(mesh, corner), topology.previous(mesh, corner)}) {
-                const Index w = mesh.face_vertices[end];
-                const double to_w = length + (mesh.vertices.row(w) - mesh.vertices.row(v)).norm();
-                if (to_w < paths.length[w]) {
-                    paths.length[w] = to_w;
-                    paths.from[w] = paths.from[v];
-                    fronts.emplace(to_w, w);
-                }
-            }
-    }
-    return paths;
-}
-
-/// Straight distances from the vertices of whose faces some are: to the nearest of these. Infinite elsewhere.
-std::vector<double> straight_within_faces(const PolygonMesh& mesh, const Topology& topology,
-                                          std::span<const Index> from)
-{
-    std::vector<double> straight(at(mesh.n_vertices()), std::numeric_limits<double>::infinity());
-    for (const Index v : from)
-        for (const Index corner : topology.corners_at(v))
-            for (const Index w : mesh.face(topology.face_of[at(corner)]))
-                straight[w] = std::min(straight[w], (mesh.vertices.row(w) - mesh.vertices.row(v)).norm());
-    return straight;
-}
-
-/// The straight distance of each vertex to the nearest of some, which is too short; 0 if they are very many.
-std::vector<double> straight_distances(const PolygonMesh& mesh, std::span<const Index> from)
-{
-    constexpr double most_pairs = 1e9;
-    std::vector<double> straight(at(mesh.n_vertices()), 0.0);
-    if (static_cast<double>(from.size()) * mesh.n_vertices() > most_pairs)
-        return straight;
-    for_each(run_in_parallel, mesh.n_vertices(), [&](Index v) {
-        double least = std::numeric_limits<double>::infinity();
-        for (const Index w : from)
-            least = std::min(least, (mesh.vertices.row(v) - mesh.vertices.row(w)).squaredNorm());
-        straight[v] = std::sqrt(least);
-    });
-    return straight;
-}
-
 /// Shifts the function so that it is, on average, the straight distance a few edges from where it is measured from:
 /// there it is nearly exact, while right there the direction of the gradient means nothing.
 void measure_from(const PolygonMesh& mesh, const EdgePaths& paths, double edge, Eigen::VectorXd& distance)
@@ -310,61 +243,6 @@ Eigen::VectorXd distance_on(const PolygonMesh& mesh, std::span<const Index> from
     return distance;
 }
 
-/// The part of a surface that faces connect with some vertices, in a unit of length of about its size.
-struct Component {
-    PolygonMesh mesh;
-    /// Of the whole surface.
-    std::vector<Index> vertices;
-    /// In the component.
-    std::vector<Index> from;
-    double unit = 1.0;
-};
-
-/// @param from vertices of a surface. @returns those with faces, in components.
-std::vector<Component> components_of(const PolygonMesh& surface, std::span<const Index> from)
-{
-    const Topology topology = make_topology(surface, run_in_parallel);
-    std::vector<Index> component_of(at(surface.n_vertices()), -1);
-    std::vector<Index> local(at(surface.n_vertices()), -1);
-    std::vector<Component> components;
-    for (const Index source : from) {
-        if (topology.corners_at(source).empty())
-            continue;
-        if (component_of[source] < 0) {
-            const auto c = static_cast<Index>(components.size());
-            std::vector<Index>& vertices = components.emplace_back().vertices;
-            component_of[source] = c;
-            append_reachable(source, vertices, [&](Index node, auto&& reach) {
-                for (const Index corner : topology.corners_at(node))
-                    for (const Index w : surface.face(topology.face_of[at(corner)]))
-                        if (std::exchange(component_of[w], c) < 0)
-                            reach(w);
-            });
-            std::ranges::sort(vertices);
-            for (std::size_t i = 0; i < vertices.size(); ++i)
-                local[vertices[i]] = static_cast<Index>(i);
-        }
-        components[at(component_of[source])].from.push_back(local[source]);
-    }
-    std::vector<Index> corners;
-    for (Index f = 0; f < surface.n_faces(); ++f)
-        if (const Index c = component_of[surface.face(f).front()]; c >= 0) {
-            corners.clear();
-            for (const Index v : surface.face(f))
-                corners.push_back(local[v]);
-            components[at(c)].mesh.add_face(corners);
-        }
-    for (Component& one : components) {
-        one.mesh.vertices = rows_of(surface.vertices, one.vertices);
-        const Point corner = one.mesh.vertices.row(0);
-        one.mesh.vertices.rowwise() -= corner;
-        one.unit = power_of_two_near(one.mesh.vertices.cwiseAbs().maxCoeff());
-        one.mesh.vertices /= one.unit;
-        sort_unique(one.from);
-    }
-    return components;
-}
-
 /// On a surface whose seams are joined.
 Eigen::VectorXd distance_over(const PolygonMesh& surface, const Topology& topology, std::span<const Index> from,
                               const Progress& progress)
@@ -372,7 +250,7 @@ Eigen::VectorXd distance_over(const PolygonMesh& surface, const Topology& topolo
     const EdgePaths paths = paths_along_edges(surface, topology, from);
     Eigen::VectorXd distance = Eigen::Map<const Eigen::VectorXd>(paths.length.data(), surface.n_vertices());
     const PolygonMesh sound = with_faces(surface, [&](Index f) { return !is_thin(surface.face(f), surface.vertices); });
-    for (const Component& one : components_of(sound, from)) {
+    for (const ComponentOfSources& one : components_of(sound, from)) {
         const Eigen::VectorXd of_component = one.unit * distance_on(one.mesh, one.from, progress);
         for (std::size_t i = 0; i < one.vertices.size(); ++i)
             distance[one.vertices[i]] = of_component[static_cast<Eigen::Index>(i)];

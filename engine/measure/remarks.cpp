@@ -48,6 +48,11 @@ std::string remark_on_unmoving_mesh(Boundary boundary)
     return boundary == Boundary::Free ? why : why + " A free boundary would move.";
 }
 
+std::string remark_on_still_faces(std::int64_t n_left)
+{
+    return fmt::format("Only the {} faces around the region flow, and are measured.", n_left);
+}
+
 std::string remark_on_empty_region()
 {
     return "The region is empty: no vertex has a strength above 0, and nothing moves.";

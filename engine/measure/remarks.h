@@ -29,6 +29,9 @@ std::string remark_on_undefined_vertices(std::int64_t n, std::int64_t first, Lap
 /// On a mesh none of whose vertices can move.
 std::string remark_on_unmoving_mesh(Boundary boundary);
 
+/// On the faces that flow where those are left out that lie away from a region.
+std::string remark_on_still_faces(std::int64_t n_left);
+
 /// On a region without vertices (see MotionOptions::strength).
 std::string remark_on_empty_region();
 

@@ -284,14 +284,6 @@ std::array<bool, 3> SchurStepper::at_rest(const Executor& exec) const
     return rests;
 }
 
-/// To the last bit: the iteration finds 0 up to its tolerance.
-void SchurStepper::leave_out_held(Points& update) const
-{
-    for (std::size_t i = 0; i < interface_.is_held.size() && update.rows() > 0; ++i)
-        if (interface_.is_held[i] != 0)
-            update.row(static_cast<Eigen::Index>(i)).setZero();
-}
-
 /// @returns stagnation also if refinement of the interiors stagnates.
 InterfaceResult SchurStepper::solve_on_interface(bool has_matrix, const IterationStop& stop, const Executor& exec)
 {
@@ -302,7 +294,6 @@ InterfaceResult SchurStepper::solve_on_interface(bool has_matrix, const Iteratio
         interface_.complements, has_matrix, interface_.condensed,
         [&](const Points& update) -> Points& { return refine_all(update, exec); },
         interface_.has_guess ? &interface_.guess : nullptr, stop, interface_.update, exec);
-    leave_out_held(interface_.update);
     const std::array<bool, 3> rests = at_rest(exec);
     if (std::ranges::find(rests, true) != rests.end()) {
         double moving = 0.0;
@@ -324,7 +315,6 @@ InterfaceResult SchurStepper::solve_equation(const IterationStop& stop, const Ex
 {
     interface_.guess.swap(interface_.update);
     interface_.has_guess = std::exchange(interface_.has_update, true);
-    leave_out_held(interface_.guess);
     const InterfaceResult result = solve_on_interface(has_matrix(), stop, exec);
     if (data_ == nullptr) {
         // Further solutions of a step may have factors in double precision, with which no step begins.
@@ -379,10 +369,9 @@ void SchurStepper::hold(std::span<const Index> vertices, bool is_held)
     for (const Index v : vertices)
         is_named[v] = 1;
     const std::vector<Index> on_interface = saved_vertices();
-    interface_.is_held.resize(on_interface.size(), 0);
     for (std::size_t i = 0; i < on_interface.size(); ++i)
         if (is_named[on_interface[i]] != 0)
-            interface_.is_held[i] = is_held ? 1 : 0;
+            equation_.hold(static_cast<Index>(i), is_held);
 }
 
 void SchurStepper::attach(std::span<const Index> vertices, std::span<const double> weights)

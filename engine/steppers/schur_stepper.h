@@ -89,8 +89,6 @@ class SchurStepper final : public ConvergedStepper {
         /// Whether the complements are also those of the next step.
         bool has_complements = false;
         bool has_guess = false;
-        /// Per vertex, whether it is held: its update is exactly 0. Empty if none ever was.
-        std::vector<std::uint8_t> is_held;
         /// The update that interiors and `condensed` belong to.
         Points reached;
     };
@@ -121,7 +119,6 @@ class SchurStepper final : public ConvergedStepper {
     [[nodiscard]] Point interior_residual() const;
     [[nodiscard]] std::array<bool, 3> at_rest(const Executor& exec) const;
     bool refine_interiors(double tolerance, const Point& first, const Executor& exec);
-    void leave_out_held(Points& update) const;
     InterfaceResult solve_on_interface(bool has_matrix, const IterationStop& stop, const Executor& exec);
     InterfaceResult solve_equation(const IterationStop& stop, const Executor& exec) override;
     void restore_further(StepMemoryReader& memory) override;

@@ -53,15 +53,10 @@ Point spread_point(std::size_t i, std::size_t n)
     return 0.5 * Point(radius * std::cos(angle), radius * std::sin(angle), height);
 }
 
-/// Steps of less strength may leave something of the shape of a small component.
-constexpr double least_strength = 0.01;
-
 /// Components of the vertices of faces, none of which is fixed or hardly moves.
 IndexLists free_components(const PolygonMesh& mesh, const Topology& topology, std::span<const double> strength)
 {
-    const auto is_held = [&](Index v) {
-        return !topology.moves(v) || (!strength.empty() && strength[v] < least_strength);
-    };
+    const auto is_held = [&](Index v) { return !topology.moves(v) || is_weak(strength, v); };
     IndexLists free;
     const IndexLists faces_at = make_lists(mesh.n_vertices(), [&](auto&& add) {
         for (Index f = 0; f < mesh.n_faces(); ++f)

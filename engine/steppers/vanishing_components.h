@@ -34,6 +34,13 @@ bool has_small_face(const PolygonMesh& mesh, const Points& positions, double ext
 /// Whether the bounding box of some vertices has a diagonal of less than `extent`.
 bool is_smaller(const Points& positions, std::span<const Index> vertices, double extent);
 
+/// Whether the steps of a vertex are so weak that something of the shape of a small component may be left.
+/// @param strength #V, or empty: 1 everywhere.
+[[nodiscard]] inline bool is_weak(std::span<const double> strength, Index v)
+{
+    return !strength.empty() && strength[v] < 0.01;
+}
+
 /// Finds them where the mesh is known as a whole.
 /// @param mesh, topology, strength must outlive it; the last is MotionOptions::strength.
 FindSmallComponents find_small_components(const PolygonMesh& mesh, const Topology& topology,

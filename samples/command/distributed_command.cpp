@@ -20,23 +20,23 @@ std::vector<SmoothProgram::Lack> lacks()
     for (const OptionTraits& one : all_options())
         if ((one.concerns & concern::one_process) != 0 && !one.option.empty())
             list.push_back({std::string(one.option), one_process});
-    for (const char* const own :
-         {"--edges-from-file", "--region-property", "--feather", "--self-intersections", "--trace", "--task-graph",
-          "--html", "--out-dir", "--fill", "--keep-field-edges", "--from"})
+    for (const char* const own : {"--edges-from-file", "--self-intersections", "--trace", "--task-graph", "--html",
+                                  "--out-dir", "--fill", "--keep-field-edges", "--from"})
         list.push_back({own, one_process});
     return list;
 }
 
-/// Ranks take steps in sub-meshes: sweeps unless a tolerance, a free boundary or the linear flow is asked for; the
-/// latter two, and fields, are for converged steps.
-void settle_approach(const FieldRequest& fields, FlowOptions& options)
+/// Ranks take steps in sub-meshes: sweeps unless a tolerance, a free boundary, the linear flow, a region or fields are
+/// asked for; the latter four are for converged steps.
+void settle_approach(SmoothCommand& command)
 {
+    FlowOptions& options = command.options;
     AccuracyOptions& accuracy = options.accuracy;
     if (accuracy.approach != Approach::Automatic && accuracy.approach != Approach::Decomposed)
         return;
     const bool shares_boundary = options.motion.boundary == Boundary::Free && options.interface == InterfaceOptions();
-    const bool is_converged =
-        accuracy.tolerance || shares_boundary || options.flow == FlowEquation::Linear || fields.exists();
+    const bool is_converged = accuracy.tolerance || shares_boundary || options.flow == FlowEquation::Linear ||
+                              !command.region.empty() || command.fields.exists();
     accuracy.approach = is_converged ? Approach::Converged : Approach::Sweep;
 }
 
@@ -63,7 +63,7 @@ std::optional<ExitStatus> parse_distributed_command(int argc, char** argv, int r
                     ->type_name("auto|decomposed|sweep|converged")
                     ->description(
                         "how a step is taken [sweep; converged with --converge, --boundary free, --flow linear or "
-                        "--fields]\n"
+                        "--region or --fields]\n"
                         "sweep: one sweep over the sub-meshes; converged: these converge to the undecomposed "
                         "step.");
                 app.get_option("--fwhm")->description(
@@ -76,7 +76,8 @@ std::optional<ExitStatus> parse_distributed_command(int argc, char** argv, int r
                                   "noise and keeps edges.");
                 app.option_defaults()->group(option_group::machine);
                 add_bytes(app, "--whole-up-to", whole_up_to,
-                          "rank 0 alone reads and writes files of up to so many bytes, in any format [16MiB]");
+                          "rank 0 alone reads and writes files of up to so many bytes, in any format [16MiB]\n"
+                          "--feather is for such files only.");
             },
         .checks_files = rank == 0};
     if (const auto end = parse_smooth_command(argc, argv, command.flow, program))
@@ -91,7 +92,7 @@ std::optional<ExitStatus> parse_distributed_command(int argc, char** argv, int r
         command.flow.amount = {.time_step_edges = preset.time_step_edges, .radius = preset.radius};
         command.flow.chosen += amount_of(preset);
     }
-    settle_approach(command.flow.fields, command.flow.options);
+    settle_approach(command.flow);
     if (whole_up_to)
         command.sharing.whole_up_to = *whole_up_to;
     return std::nullopt;

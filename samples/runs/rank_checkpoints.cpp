@@ -14,6 +14,7 @@ FlowIdentity identity_of(Communicator& comm, const SmoothCommand& command, const
     FlowOptions options = command.options;
     options.motion.fixed_vertices.assign(inputs.fixed.begin(), inputs.fixed.end());
     options.motion.attachment_weights = inputs.weights;
+    options.motion.strength = inputs.strengths;
     // These do not change the result.
     options.report = {};
     FlowIdentity identity = identify(PolygonMesh{}, options);

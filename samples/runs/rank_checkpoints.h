@@ -23,6 +23,8 @@ struct RankRunInputs {
     std::vector<std::int64_t> fixed;
     /// See read_weights; at rank 0.
     std::vector<double> weights;
+    /// See read_strengths; at rank 0.
+    std::vector<double> strengths;
 };
 
 /// The checkpoints of a run of `smooth-distributed`. All ranks call its functions together.

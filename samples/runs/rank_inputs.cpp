@@ -5,6 +5,8 @@
 #include "engine/distributed/parts/deal.h"
 #include "engine/distributed/parts/whole_mesh.h"
 #include "engine/distributed/ranks/packing.h"
+#include "engine/tasks/parallel_executor.h"
+#include "partition/errors.h"
 #include "partition/formats/index_files.h"
 #include "partition/index_lists.h"
 #include "samples/files/mesh_results.h"
@@ -67,17 +69,35 @@ std::vector<double> read_weights(Communicator& comm, const SmoothCommand& comman
     return weights;
 }
 
-std::vector<double> deal_weights(Communicator& comm, std::vector<double> weights, const JoinedSeams& seams,
-                                 std::span<const std::int64_t> numbers, std::span<const std::int64_t> bounds)
+std::vector<double> read_strengths(Communicator& comm, const SmoothCommand& command, const PolygonMesh* whole,
+                                   const MeshScale& scale, std::int64_t n_vertices)
 {
-    if (comm.broadcast(std::vector<char>{static_cast<char>(weights.empty() ? 0 : 1)}).front() == 0)
+    std::vector<double> strengths;
+    comm.at_first_rank([&] {
+        if (command.feather && whole == nullptr)
+            throw OptionError(
+                "--feather needs distances on the whole mesh, which no rank has read: let rank 0 read all "
+                "of INPUT with a larger --whole-up-to, or use smooth");
+        strengths = read_region(command, static_cast<Index>(n_vertices));
+        if (whole != nullptr)
+            feather(command, *whole, scale, run_in_parallel, strengths);
+    });
+    return strengths;
+}
+
+std::vector<double> deal_to_vertices(Communicator& comm, std::vector<double> of_all, const JoinedSeams& seams,
+                                     OfSeam of_seam, std::span<const std::int64_t> numbers,
+                                     std::span<const std::int64_t> bounds)
+{
+    if (comm.broadcast(std::vector<char>{static_cast<char>(of_all.empty() ? 0 : 1)}).front() == 0)
         return {};
     if (comm.rank() == 0)
         for (const SeamVertex& one : seams.vertices) {
-            double& first = weights[static_cast<std::size_t>(one.first)];
-            first = std::max(first, weights[static_cast<std::size_t>(one.vertex)]);
+            double& first = of_all[static_cast<std::size_t>(one.first)];
+            const double own = of_all[static_cast<std::size_t>(one.vertex)];
+            first = of_seam == OfSeam::Least ? std::min(first, own) : std::max(first, own);
         }
-    const std::vector<double> own = hand_out(comm, weights, bounds);
+    const std::vector<double> own = hand_out(comm, of_all, bounds);
     std::vector<double> dealt(numbers.size());
     fetch_rows(comm, {own, 1}, numbers, bounds, dealt);
     return dealt;

@@ -47,10 +47,20 @@ void hold_in_part(const JoinedSeams& seams, std::vector<std::int64_t>& fixed, Me
 /// The weights of --attach-weights, #V of the whole mesh at rank 0; empty elsewhere, and without that option.
 std::vector<double> read_weights(Communicator& comm, const SmoothCommand& command, std::int64_t n_vertices);
 
-/// The weights of the vertices of a part: vertices of a seam get the largest weight of all that move as one.
-/// @param weights see read_weights. @param numbers of the vertices, ascending. @param bounds of vertices.
-/// @returns empty if rank 0 has no weights.
-std::vector<double> deal_weights(Communicator& comm, std::vector<double> weights, const JoinedSeams& seams,
-                                 std::span<const std::int64_t> numbers, std::span<const std::int64_t> bounds);
+/// The strengths of --region and --feather, #V of the whole mesh at rank 0; empty elsewhere, and without a region.
+/// @param whole the mesh at rank 0; null: it has not read all of it, so that there is no --feather.
+/// @param scale of the mesh; `command` has lengths resolved by it.
+std::vector<double> read_strengths(Communicator& comm, const SmoothCommand& command, const PolygonMesh* whole,
+                                   const MeshScale& scale, std::int64_t n_vertices);
+
+/// What numbers of vertices that move as one become.
+enum class OfSeam { Least, Largest };
+
+/// The numbers of the vertices of a part: vertices of a seam get the least or largest of all that move as one.
+/// @param of_all #V at rank 0 (see read_weights). @param numbers of the vertices, ascending. @param bounds of vertices.
+/// @returns empty if rank 0 has none.
+std::vector<double> deal_to_vertices(Communicator& comm, std::vector<double> of_all, const JoinedSeams& seams,
+                                     OfSeam of_seam, std::span<const std::int64_t> numbers,
+                                     std::span<const std::int64_t> bounds);
 
 }  // namespace seamflow

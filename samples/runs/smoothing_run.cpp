@@ -1,5 +1,6 @@
 #include "samples/runs/smoothing_run.h"
 
+#include <filesystem>
 #include <optional>
 #include <utility>
 
@@ -8,6 +9,7 @@
 #include "engine/setup/presets.h"
 #include "engine/setup/smoothed_radius.h"
 #include "partition/errors.h"
+#include "partition/formats/index_files.h"
 #include "partition/metrics/feathered.h"
 #include "samples/command/parse_smooth_command.h"
 #include "samples/command/presets.h"
@@ -53,6 +55,26 @@ RunRecord begin_record(const SmoothCommand& command)
             .remarks = command.remarks};
 }
 
+std::vector<double> read_region(const SmoothCommand& command, Index n_vertices)
+{
+    if (command.region.empty())
+        return {};
+    if (std::filesystem::exists(command.region))
+        return read_vertex_strengths(command.region, n_vertices, command.region_property);
+    return read_vertex_strengths(command.input, n_vertices, command.region.string());
+}
+
+void feather(const SmoothCommand& command, const PolygonMesh& mesh, const MeshScale& scale, const Executor& exec,
+             std::vector<double>& strength)
+{
+    if (!command.feather)
+        return;
+    if (strength.empty())
+        throw OptionError("--feather is for the rim of a region: give --region as well");
+    strength = feathered(mesh, std::move(strength), length_of(*command.feather, scale.diagonal),
+                         command.options.motion.weld, exec);
+}
+
 void resolve_lengths(SmoothCommand& command, RunRecord& run)
 {
     MotionOptions& motion = command.options.motion;
@@ -73,13 +95,7 @@ void resolve_amount(SmoothCommand& command, const PolygonMesh& mesh, const Execu
     else
         command.options.time_step =
             time_step_of(command.amount, run.scale, command.options.steps, filter_of(command.options));
-    if (command.feather) {
-        MotionOptions& motion = command.options.motion;
-        if (motion.strength.empty())
-            throw OptionError("--feather is for the rim of a region: give --region as well");
-        motion.strength = feathered(mesh, std::move(motion.strength), length_of(*command.feather, run.scale.diagonal),
-                                    motion.weld, exec);
-    }
+    feather(command, mesh, run.scale, exec, command.options.motion.strength);
     // As the identity of checkpoints has it.
     command.options.uniform_edge = uniform_edge_of(command.options, mesh);
     run.has_attachment_weights = !command.options.motion.attachment_weights.empty();

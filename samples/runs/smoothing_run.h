@@ -14,6 +14,15 @@ namespace seamflow {
 /// The record of a run before its mesh is known.
 RunRecord begin_record(const SmoothCommand& command);
 
+/// The strengths of --region, #V: of a file, or of a property of the input; empty without that option.
+std::vector<double> read_region(const SmoothCommand& command, Index n_vertices);
+
+/// Lets strengths rise over the length of --feather, if it is given.
+/// @param strength #V of `mesh`. @param scale, weld of the whole mesh, as resolve_lengths leaves it.
+/// @throws OptionError without a region.
+void feather(const SmoothCommand& command, const PolygonMesh& mesh, const MeshScale& scale, const Executor& exec,
+             std::vector<double>& strength);
+
 /// Computes the values of `command` that depend on the sizes in `run`: lengths, and an attachment, which it records in
 /// `run`.
 void resolve_lengths(SmoothCommand& command, RunRecord& run);

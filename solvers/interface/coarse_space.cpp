@@ -179,7 +179,10 @@ void CoarseSpace::set_functions(std::span<const double> weights, const Executor&
         for (const Index copy : copies)
             mean += weights[copy] / static_cast<double>(copies.size());
         for (const Index copy : copies)
-            values_at_[copy] = is_constant ? (is_first(copy) ? 1.0 : 0.0) : weights[copy] - mean;
+            if (weights[copy] == 0.0)
+                values_at_[copy] = 0.0;
+            else
+                values_at_[copy] = is_constant ? (is_first(copy) ? 1.0 : 0.0) : weights[copy] - mean;
     });
 }
 

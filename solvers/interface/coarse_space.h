@@ -35,7 +35,8 @@ class CoarseSpace {
 
     /// Makes S Z and factorises E; all peers call this together.
     /// @param complements one per sub-mesh; those of foreign ones are not used.
-    /// @param weights one per copy, positive, those of a vertex adding up to 1.
+    /// @param weights one per copy, positive, those of a vertex adding up to 1; or all 0 at vertices where functions
+    /// are 0.
     void prepare(std::span<const DenseFactor> complements, std::span<const double> weights, const Executor& exec);
 
     /// y becomes y + Z E⁻¹ Zᵀ (residual - S y); all peers call this together.

@@ -31,6 +31,12 @@ InterfaceEquation::InterfaceEquation(const Decomposition& decomposition, Balanci
         coarse_.emplace(copies_, peers);
 }
 
+void InterfaceEquation::hold(Index vertex, bool is_held)
+{
+    is_held_.resize(at(copies_.n_vertices()), 0);
+    is_held_[vertex] = is_held ? 1 : 0;
+}
+
 InterfaceResult InterfaceEquation::solve(std::span<const DenseFactor> complements, bool are_known,
                                          Points& right_hand_sides, const Residuals& residuals, const Points* guess,
                                          const IterationStop& stop, Points& x, const Executor& exec)
@@ -98,7 +104,7 @@ void InterfaceEquation::weigh_copies(std::span<const DenseFactor> complements, c
         for (const Index copy : copies_.of_vertex[v])
             sum += weights_[copy];
         for (const Index copy : copies_.of_vertex[v])
-            weights_[copy] /= sum;
+            weights_[copy] = is_held(v) ? 0.0 : weights_[copy] / sum;
     });
 }
 
@@ -126,6 +132,9 @@ void InterfaceEquation::start(const Multiply& multiply, const Points* guess, con
     }
     if (guess != nullptr) {
         vectors_.p = guess->array().rowwise() / unit.array();
+        for (Index v = 0; v < copies_.n_vertices(); ++v)
+            if (is_held(v))
+                vectors_.p.row(v).setZero();
         if (coarse_)
             coarse_->correct(vectors_.r, vectors_.p, exec);
         advance(multiply, x, vectors_, exec);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <span>
@@ -46,6 +47,10 @@ class InterfaceEquation {
 
     [[nodiscard]] const InterfaceCopies& copies() const { return copies_; }
 
+    /// Holds a vertex of Γ, where x is exactly 0 from then on, or lets it go again. The next complements, which are not
+    /// known, have rows and columns of a diagonal matrix there, and right-hand sides of 0.
+    void hold(Index vertex, bool is_held);
+
     /// The step's residual on Γ at x, the interiors following it: each own sub-mesh's share, one row per copy. The
     /// other rows are completed in place.
     using Residuals = std::function<Points&(const Points& x)>;
@@ -66,6 +71,7 @@ class InterfaceEquation {
                           const Executor& exec);
 
   private:
+    [[nodiscard]] bool is_held(Index vertex) const { return !is_held_.empty() && is_held_[vertex] != 0; }
     void weigh_copies(std::span<const DenseFactor> complements, const Executor& exec);
     void sum_copies(Points& copies, Points& sums, const Executor& exec);
     template <class Multiply>
@@ -84,8 +90,11 @@ class InterfaceEquation {
     InterfaceCopies copies_;
     SharedRows shared_;
     std::optional<CoarseSpace> coarse_;
-    /// Per copy.
+    /// Per copy; 0 where it is held: without weights and functions of the coarse space, nothing moves a vertex, so that
+    /// the residuals of its neighbours are those of the equations that are solved.
     std::vector<double> weights_;
+    /// Per vertex; empty if none ever was.
+    std::vector<std::uint8_t> is_held_;
     /// Per sub-mesh, three columns and as many for scratch or the result, and where they begin.
     AlignedFloats products_;
     std::vector<std::size_t> first_product_;

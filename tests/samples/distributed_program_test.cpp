@@ -28,7 +28,8 @@ TEST_CASE("the help of ranks offers only what they take")
         CAPTURE(other);
         CHECK(help.find(other) == std::string::npos);
     }
-    for (const char* own : {"--whole-up-to", "--csv", "adapted-ventcell", "--preset fair"})
+    for (const char* own :
+         {"--whole-up-to", "--csv", "adapted-ventcell", "--preset fair", "--region", "--feather", "--direction"})
         CHECK(help.find(own) != std::string::npos);
 }
 
@@ -87,6 +88,53 @@ TEST_CASE("vertices that are fixed stay, on whichever rank they are")
     REQUIRE(w.smooth("mesh.obj s.obj" + options) == 0);
     REQUIRE(on_ranks(w, 3, "mesh.obj n.obj" + options) == 0);
     CHECK((test::content_of(w.directory / "n.obj") == test::content_of(w.directory / "s.obj")));
+}
+
+TEST_CASE("ranks smooth a region, and along lines, as smooth does with the same cut")
+{
+    const Workshop w;
+    REQUIRE(w.run(GENERATE " noisy-sphere ball.ply --vertices 6000") == 0);
+    REQUIRE(w.run("sh -c 'seq 500 2100 >region; seq 0 12000 | awk \"{print int(\\$1 / 900)}\" >cut'") == 0);
+    REQUIRE(w.run("sh -c 'head -n $(grep -a \"element face\" ball.ply | cut -d\" \" -f3) cut >labels'") == 0);
+    for (const std::string how :
+         {"--region region", "--region region --feather 6%", "--region region --direction normal --boundary free",
+          "--direction 1,2,0 --within 1%", "--region region --feather 6% --direction normal"}) {
+        CAPTURE(how);
+        const std::string options =
+            " --radius 3% --steps 3 --converge 1e-6 --threads 1 --labels labels --parts parts.ply --report r.json " +
+            how;
+        REQUIRE(w.smooth("ball.ply s.ply" + options) == 0);
+        const test::Json expected = w.json("r.json");
+        const std::string parts = test::content_of(w.directory / "parts.ply");
+        for (const int n : {1, 3}) {
+            CAPTURE(n);
+            REQUIRE(on_ranks(w, n, "ball.ply n.ply" + options) == 0);
+            CHECK((test::content_of(w.directory / "n.ply") == test::content_of(w.directory / "s.ply")));
+            CHECK((test::content_of(w.directory / "parts.ply") == parts));
+            const test::Json report = w.json("r.json");
+            for (const std::string name : {"subdomains", "interface_vertices", "vertices", "faces", "remarks"})
+                CHECK(report[name] == expected[name]);
+            for (const std::string when : {"before", "after"})
+                CHECK(report["surface"][when]["area"].get<double>() ==
+                      test::relative(expected["surface"][when]["area"].get<double>(), 1e-12));
+        }
+    }
+    // A region that lies far from the origin, of a mesh that does not; in slices.
+    REQUIRE(w.run(GENERATE " noisy-sphere near.off --vertices 6000") == 0);
+    REQUIRE(w.run("sh -c 'awk \"NR > 2 && NF == 3 {\\$1 += 20} 1\" near.off >ball.off'") == 0);
+    const std::string far = " --radius 3% --converge 1e-6 --threads 1 --subdomains 4 --region region ";
+    REQUIRE(on_ranks(w, 3, "ball.off n.off --whole-up-to 1" + far + "--parts parts.ply --checkpoint kept") == 0);
+    write_labels_of(w.directory / "parts.ply", w.directory / "labels");
+    REQUIRE(w.smooth("ball.off s.off --radius 3% --converge 1e-6 --region region --labels labels") == 0);
+    CHECK((test::content_of(w.directory / "n.off") == test::content_of(w.directory / "s.off")));
+
+    CHECK(on_ranks(w, 2, "ball.off no.off --feather 1%" + far + "--whole-up-to 1") == 2);
+    CHECK(messages(w, "smooth-distributed").front().find("--feather needs distances on the whole mesh") == 0);
+    CHECK(on_ranks(w, 2, "ball.off no.off --radius 3% --region region --converge never") == 2);
+    REQUIRE(w.run("touch none") == 0);
+    REQUIRE(on_ranks(w, 2, "ball.off n.off --radius 3% --region none") == 0);
+    CHECK(w.count_lines("said", "remark     The region is empty") == 1);
+    CHECK((test::content_of(w.directory / "n.off") == test::content_of(w.directory / "ball.off")));
 }
 
 TEST_CASE("the report tells of every rank, and rank 0 alone prints")

@@ -95,6 +95,7 @@ class TogetherCut {
         , units_(units)
         , given_(std::move(given))
         , may_join_(options.motion.weld.has_value())
+        , n_still_(sum_of(comm, slice.n_still))
     {
         require_corners(slice, bounds_, comm.rank());
     }
@@ -124,7 +125,7 @@ class TogetherCut {
             return options_.cut.subdomains;
         MeshSize size;
         size.vertices = static_cast<Index>(
-            std::min<Number>(bounds_.vertices.back() - seams_.n_copies, std::numeric_limits<Index>::max()));
+            std::min<Number>(bounds_.vertices.back() - n_still_ - seams_.n_copies, std::numeric_limits<Index>::max()));
         size.area = area;
         const bool is_converged =
             options_.accuracy.approach == Approach::Converged || options_.accuracy.tolerance.has_value();
@@ -302,6 +303,7 @@ class TogetherCut {
     const CutUnits& units_;
     std::optional<std::vector<Index>> given_;
     bool may_join_;
+    Number n_still_;
     bool may_repeat_ = true;
     JoinedSeams seams_;
     RepeatedFaces left_out_;

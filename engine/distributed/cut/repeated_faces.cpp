@@ -4,34 +4,12 @@
 #include <utility>
 
 #include "engine/distributed/cut/face_homes.h"
+#include "engine/distributed/parts/still_faces.h"
 #include "engine/tasks/parallel_executor.h"
 #include "partition/index_lists.h"
 #include "partition/inspection/mesh_inspection.h"
 
 namespace seamflow {
-
-namespace {
-
-/// The range without some of its faces.
-/// @param faces ascending.
-void leave_out(const std::vector<Index>& faces, RankSlice& slice)
-{
-    RankSlice left;
-    auto next = faces.begin();
-    for (Index f = 0; f < slice.n_faces(); ++f) {
-        if (next != faces.end() && *next == f) {
-            ++next;
-            continue;
-        }
-        left.corners.insert(left.corners.end(), slice.corners.begin() + slice.face_offsets[f],
-                            slice.corners.begin() + slice.face_offsets[f + 1]);
-        left.face_offsets.push_back(static_cast<Index>(left.corners.size()));
-    }
-    slice.face_offsets = std::move(left.face_offsets);
-    slice.corners = std::move(left.corners);
-}
-
-}  // namespace
 
 void find_repetitions(const MeshPart& part, const Topology& topology, std::vector<Repetition>& found)
 {
@@ -67,16 +45,8 @@ bool leave_out_repeated(Communicator& comm, const std::vector<Repetition>& own, 
         left_out.faces.push_back(static_cast<Index>(face - bounds.faces[comm.rank()]));
         left_out.firsts.push_back(first);
     }
-    if (labels) {
-        auto next = left_out.faces.begin();
-        std::vector<Index> left;
-        for (Index f = 0; f < slice.n_faces(); ++f)
-            if (next != left_out.faces.end() && *next == f)
-                ++next;
-            else
-                left.push_back((*labels)[f]);
-        labels = std::move(left);
-    }
+    if (labels)
+        labels = labels_without(*labels, left_out.faces);
     leave_out(left_out.faces, slice);
     return true;
 }

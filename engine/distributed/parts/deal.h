@@ -22,6 +22,8 @@ struct RankSlice {
     std::vector<std::int64_t> corners;
     /// #F: the sub-mesh of every face, at least 0.
     std::vector<Index> labels;
+    /// How many of the vertices are without faces since leave_out_still_faces: they do not count for a cut.
+    Index n_still = 0;
 
     [[nodiscard]] Index n_faces() const { return static_cast<Index>(face_offsets.size()) - 1; }
 };

@@ -144,6 +144,7 @@ Bytes packed_part(const MeshPart& part)
     packer.put_all(std::span(part.labels));
     packer.put_all(std::span(part.fixed));
     packer.put_all(std::span(part.attachment_weights));
+    packer.put_all(std::span(part.strengths));
     return packer.take();
 }
 
@@ -160,6 +161,7 @@ MeshPart unpacked_part(const Bytes& bytes)
     part.labels = unpacker.get_all<Index>();
     part.fixed = unpacker.get_all<std::uint8_t>();
     part.attachment_weights = unpacker.get_all<double>();
+    part.strengths = unpacker.get_all<double>();
     return part;
 }
 
@@ -221,6 +223,8 @@ MeshPart joined(const MeshPart& own, std::span<const MeshPart> parts)
         all.fixed.push_back(part.fixed.empty() ? 0 : part.fixed[v]);
         if (!part.attachment_weights.empty())
             all.attachment_weights.push_back(part.attachment_weights[v]);
+        if (!part.strengths.empty())
+            all.strengths.push_back(part.strengths[v]);
     };
     std::vector<Index> place_of_own;
     place_of_own.reserve(own.vertex_numbers.size());
@@ -273,6 +277,18 @@ void require_ascending(std::span<const Number> numbers, Index expected, const ch
                             what, numbers[i], i));
 }
 
+/// @param what the numbers are: of the vertices, or none. @param needed what each must be.
+template <class IsValid>
+void require_each(const MeshPart& part, std::span<const double> numbers, const char* what, IsValid&& is_valid,
+                  const char* needed)
+{
+    const auto wrong = std::ranges::find_if_not(numbers, is_valid);
+    if (wrong != numbers.end())
+        throw InputError(fmt::format("the {} of vertex {} is {:.17g}, but must be {}", what,
+                                     part.vertex_numbers[static_cast<std::size_t>(wrong - numbers.begin())], *wrong,
+                                     needed));
+}
+
 }  // namespace
 
 void require_valid(const MeshPart& part)
@@ -291,12 +307,14 @@ void require_valid(const MeshPart& part)
         throw InputError("a part of a mesh does not say for each vertex whether it is fixed");
     if (!part.attachment_weights.empty() && part.attachment_weights.size() != part.vertex_numbers.size())
         throw InputError("a part of a mesh does not say for each vertex how it is attached");
-    const auto wrong = std::ranges::find_if_not(part.attachment_weights,
-                                                [](double weight) { return weight >= 0.0 && std::isfinite(weight); });
-    if (wrong != part.attachment_weights.end())
-        throw InputError(fmt::format(
-            "the attachment weight of vertex {} is {:.17g}, but must be at least 0 and finite (1/length²)",
-            part.vertex_numbers[static_cast<std::size_t>(wrong - part.attachment_weights.begin())], *wrong));
+    if (!part.strengths.empty() && part.strengths.size() != part.vertex_numbers.size())
+        throw InputError("a part of a mesh does not say for each vertex how strong its steps are");
+    require_each(
+        part, part.attachment_weights, "attachment weight",
+        [](double weight) { return weight >= 0.0 && std::isfinite(weight); }, "at least 0 and finite (1/length²)");
+    require_each(
+        part, part.strengths, "strength", [](double strength) { return strength >= 0.0 && strength <= 1.0; },
+        "from 0 to 1");
     require_valid(part.mesh);
 }
 
@@ -314,6 +332,8 @@ MeshPart some_faces(const MeshPart& part, std::span<const Index> faces)
         some.fixed.push_back(part.fixed.empty() ? 0 : part.fixed[v]);
         if (!part.attachment_weights.empty())
             some.attachment_weights.push_back(part.attachment_weights[v]);
+        if (!part.strengths.empty())
+            some.strengths.push_back(part.strengths[v]);
     }
     for (Index& v : some.mesh.face_vertices)
         v = places.place_of(v);

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "engine/distributed/ranks/communicator.h"
+#include "engine/measure/surface_measures.h"
 #include "partition/polygon_mesh.h"
 
 namespace seamflow {
@@ -23,6 +25,11 @@ struct MeshPart {
     std::vector<std::uint8_t> fixed = {};
     /// #V: weights of the attachment, as MotionOptions::attachment_weights. Empty on all ranks: there are none.
     std::vector<double> attachment_weights = {};
+    /// #V: the strength of each step, as MotionOptions::strength. Empty on all ranks: 1 everywhere.
+    std::vector<double> strengths = {};
+    /// The box around all faces of the whole mesh, where the parts do not have all of them. It decides where a mesh
+    /// flows that lies far from the origin.
+    std::optional<BoundingBox> box = {};
 };
 
 /// Checks that the arrays fit together and that numbers ascend.

@@ -409,6 +409,21 @@ TEST_CASE("a failure on one rank ends all with one message")
             part.attachment_weights.assign(part.vertex_numbers.size(), 1.0);
     };
     check_refusal<InputError>(flow(options, labels, attach), 3, "some ranks have attachment weights");
+    const auto weaken = [](MeshPart& part, int rank) {
+        part.strengths.assign(part.vertex_numbers.size(), 0.5);
+        if (rank == 2)
+            part.strengths[1] = 1.5;
+    };
+    check_refusal<InputError>(flow(test::converged(Laplacian::Fujiwara, 1e-3), labels, weaken), 3,
+                              "rank 2 on this process: the strength of vertex ");
+    const auto weaken_one = [](MeshPart& part, int rank) {
+        if (rank == 0)
+            part.strengths.assign(part.vertex_numbers.size(), 0.5);
+    };
+    check_refusal<InputError>(flow(test::converged(Laplacian::Fujiwara, 1e-3), labels, weaken_one), 3,
+                              "some ranks have strengths");
+    const auto all = [](MeshPart& part, int /*rank*/) { part.strengths.assign(part.vertex_numbers.size(), 0.5); };
+    check_refusal<OptionError>(flow(options, labels, all), 3, "strength is given, whose steps are converged");
 }
 
 TEST_CASE("ranks find the bits of one machine: components that vanish, in one sub-mesh or several")
@@ -428,4 +443,47 @@ TEST_CASE("ranks find the bits of one machine: components that vanish, in one su
         example.options.motion.attachment = 100.0;
         check_bits(example, 5, {1, 3});
     }
+}
+
+TEST_CASE("ranks find the bits of one machine: strengths, and motion along lines")
+{
+    const PolygonMesh mesh = make_mixed_polygons(900);
+    Example uneven{"uneven", mesh, converged(Laplacian::VirtualRefinement, 5e-2)};
+    for (Index v = 0; v < mesh.n_vertices(); ++v)
+        uneven.strengths.push_back(0.05 + 0.95 * std::abs(std::sin(0.1 * v)));
+    check_bits(uneven, 8, {1, 3});
+    uneven.options.motion.attachment = 0.3;
+    check_bits(uneven, 8, {1, 3});
+    // A moving boundary, with which all faces flow on one machine, too.
+    uneven.options.motion.boundary = Boundary::Free;
+    for (Index v = 0; v < mesh.n_vertices(); ++v)
+        if (mesh.vertices(v, 0) < mesh.vertices.col(0).mean())
+            uneven.strengths[at(v)] = 0.0;
+    check_bits(uneven, 8, {1, 3});
+
+    const PolygonMesh ball = make_noisy_sphere(1500);
+    for (const bool by_normals : {false, true}) {
+        CAPTURE(by_normals);
+        for (FlowOptions options : {test::by_sweeps(Laplacian::Fujiwara, 1e-3), converged(Laplacian::Fujiwara, 1e-3)}) {
+            options.motion.direction = {.kind =
+                                            by_normals ? MotionDirection::Kind::Normal : MotionDirection::Kind::Vector,
+                                        .vector = {1.0, 2.0, -0.5}};
+            check_bits({"ball", ball, options}, 7, some_numbers_of_ranks);
+            options.motion.within = 0.01;
+            check_bits({"within", ball, options}, 7, {1, 3});
+        }
+    }
+}
+
+TEST_CASE("ranks do not pose small components that hardly move")
+{
+    const PolygonMesh mesh =
+        test::together({test::ball(1.0, {0.0, 0.0, 0.0}, 300), test::ball(1e-6, {3.0, 0.0, 0.0}, 100)});
+    Example example{"small", mesh, converged(Laplacian::Fujiwara, 0.002)};
+    example.strengths.assign(at(mesh.n_vertices()), 1.0);
+    for (Index v = 350; v < mesh.n_vertices(); ++v)
+        example.strengths[at(v)] = 1e-6;
+    for (Index f = 0; f < mesh.n_faces(); ++f)
+        example.labels.push_back((7 * f) / 5 % 5);
+    check_bits(example, 5, {1, 3});
 }

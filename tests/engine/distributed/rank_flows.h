@@ -25,6 +25,7 @@ struct Example {
     FlowOptions options;
     std::vector<Index> fixed = {};
     std::vector<double> weights = {};
+    std::vector<double> strengths = {};
     /// Of a cut of its own.
     std::vector<Index> labels = {};
 };
@@ -42,9 +43,12 @@ inline Result flowed_on_ranks(const Example& example, const std::vector<Index>& 
     std::mutex mutex;
     run_on_threads(n, [&](Transport& transport) {
         MeshPart part = part_of(example.mesh, labels, transport.rank(), n, example.fixed);
-        for (const std::int64_t number : part.vertex_numbers)
+        for (const std::int64_t number : part.vertex_numbers) {
             if (!example.weights.empty())
                 part.attachment_weights.push_back(example.weights[static_cast<std::size_t>(number)]);
+            if (!example.strengths.empty())
+                part.strengths.push_back(example.strengths[static_cast<std::size_t>(number)]);
+        }
         result.reports[transport.rank()] = distributed_mean_curvature_flow(transport, part, example.options);
         const std::scoped_lock lock(mutex);
         for (std::size_t v = 0; v < part.vertex_numbers.size(); ++v) {
@@ -109,6 +113,7 @@ inline void check_bits(const Example& example, int subdomains, const std::vector
     options.cut.labels = example.labels;
     options.motion.fixed_vertices = example.fixed;
     options.motion.attachment_weights = example.weights;
+    options.motion.strength = example.strengths;
     const FlowReport report = mean_curvature_flow(mesh, options);
     REQUIRE(report.cut.n_sub_meshes() > 1);
     for (const int n : n_ranks) {
