@@ -6,12 +6,14 @@ set(SEAMFLOW_HEADERS
     engine/distributed/cut/distributed_cut.h
     engine/distributed/cut/joined_seams.h
     engine/distributed/cut/repeated_faces.h
+    engine/distributed/distributed_fields.h
     engine/distributed/distributed_flow.h
     engine/distributed/files/open_together.h
     engine/distributed/files/shared_mesh_file.h
     engine/distributed/parts/deal.h
     engine/distributed/parts/mesh_part.h
     engine/distributed/parts/slice_measures.h
+    engine/distributed/parts/still_faces.h
     engine/distributed/parts/whole_mesh.h
     engine/distributed/rank_report.h
     engine/distributed/ranks/transport.h
@@ -21,9 +23,11 @@ set(SEAMFLOW_HEADERS
     engine/distributed/ranks/thread_transport.h
     engine/eigen.h
     engine/fields/diffuse.h
+    engine/fields/field_options.h
     engine/fields/geodesic_distance.h
     engine/flow.h
     engine/mean_curvature_flow.h
+    engine/measure/bounding_box.h
     engine/measure/displacement_meter.h
     engine/openmesh.h
     engine/options/flow_control.h

@@ -47,7 +47,6 @@ ExitStatus generate(int argc, char** argv)
     add_real(app, "--amplitude", variation.amplitude, any, "height of the waves [that of the kind]");
     add_real(app, "--noise", variation.noise, not_negative, "in mean vertex distances [that of the kind]");
     app.footer("generate triangles waves.ply --vertices 100000     a wavy height field of triangles\n"
-               "generate noisy-sphere ball.obj --noise 0.2         a bumpy sphere with noise\n"
                "generate gear gear.stl                             a part with sharp edges\n"
                "generate foam foam.ply                             sheets that meet, with the cells of each face\n");
     if (const auto end = parse_command_line(app, argc, argv))

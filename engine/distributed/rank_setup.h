@@ -8,7 +8,7 @@
 #include "engine/distributed/parts/mesh_part.h"
 #include "engine/distributed/rank_exchange.h"
 #include "engine/distributed/ranks/communicator.h"
-#include "engine/measure/surface_measures.h"
+#include "engine/measure/bounding_box.h"
 #include "engine/options/flow_options.h"
 #include "engine/steppers/schur_stepper.h"
 #include "engine/steppers/sweep_stepper.h"

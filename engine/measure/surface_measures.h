@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "engine/measure/bounding_box.h"
 #include "partition/polygon_mesh.h"
 #include "partition/topology.h"
 #include "partition/vector_area.h"
@@ -19,12 +20,6 @@ struct MeshSize {
     double mean_edge = 0.0;
     /// Whether every edge has a length that is a normal double.
     bool has_lengths = true;
-};
-
-/// A box around positions, in units of length.
-struct BoundingBox {
-    Point low = Point::Zero();
-    Point high = Point::Zero();
 };
 
 /// The box around the vertices that have faces; others are ignored. A point where there are no faces.

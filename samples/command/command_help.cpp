@@ -72,10 +72,16 @@ std::string with_indent(std::string_view text)
     return result;
 }
 
-/// "  heading   text", with the text in a column where the heading leaves room for it.
-std::string line_of(const std::string& heading, const std::string& text)
+/// "  heading   text", with the text in a column where the heading leaves room for it, in several lines if it is long.
+std::string line_of(const std::string& heading, std::string text)
 {
-    return fmt::format("  {:<26}  {}\n", heading, text);
+    constexpr std::size_t most = 130;
+    std::string lines = fmt::format("  {:<26}  ", heading);
+    for (std::size_t blank; text.size() > most && (blank = text.rfind(' ', most)) != std::string::npos;) {
+        lines.append(text, 0, blank).append(fmt::format("\n{:30}", ""));
+        text.erase(0, blank + 1);
+    }
+    return lines + text + "\n";
 }
 
 /// "INPUT", or "[FIGURE …]" for any number of arguments.

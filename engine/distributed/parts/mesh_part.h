@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "engine/distributed/ranks/communicator.h"
-#include "engine/measure/surface_measures.h"
+#include "engine/measure/bounding_box.h"
 #include "partition/polygon_mesh.h"
 
 namespace seamflow {

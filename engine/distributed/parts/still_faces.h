@@ -5,7 +5,7 @@
 
 #include "engine/distributed/parts/deal.h"
 #include "engine/distributed/ranks/communicator.h"
-#include "engine/measure/surface_measures.h"
+#include "engine/measure/bounding_box.h"
 
 namespace seamflow {
 
