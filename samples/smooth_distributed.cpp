@@ -119,6 +119,7 @@ class RankRun {
                                            part_.vertex_numbers, bounds.vertices);
         if (leaves_out_faces_)
             part_.box = still.box;
+        still_area_ = still.area;
         bring_back(comm, seams_, slice);
         slice_vertices_ = std::move(slice.vertices);
         if (tells_measures())
@@ -253,10 +254,9 @@ class RankRun {
         flow.remarks = std::move(all);
         if (!report_.before)
             return;
-        // The faces that are left out stay as they are; nothing is known of the volume with them.
-        const double still_area = leaves_out_faces_ ? inputs_.size.area - report_.before->area : 0.0;
+        // Nothing is known of the volume with the faces that are left out.
         const auto note = [&](const RankMeasures& measures, SurfaceLook& look) {
-            look.area = measures.area + still_area;
+            look.area = measures.area + still_area_;
             if (measures.volume && !leaves_out_faces_)
                 look.volume = std::abs(*measures.volume);
         };
@@ -333,6 +333,8 @@ class RankRun {
     /// Of the cut, and of the files of the run.
     std::vector<std::string> choices_;
     bool leaves_out_faces_ = false;
+    /// Of the faces that are left out: they stay as they are.
+    double still_area_ = 0.0;
     Index repaired_faces_ = 0;
     double cut_seconds_ = 0.0;
     std::vector<std::string> of_cut_;

@@ -8,7 +8,6 @@
 
 #include "engine/fields/thin_faces.h"
 #include "partition/errors.h"
-#include "solvers/direct/ldl_solver.h"
 
 namespace seamflow {
 
@@ -65,6 +64,24 @@ std::vector<ValueRange> ranges_of(const Eigen::MatrixXd& fields, const FieldGrou
     return ranges;
 }
 
+namespace {
+
+/// Of the units, so that these and their inverses are normal numbers.
+constexpr int least_exponent = -1021;
+constexpr int largest_exponent = 1022;
+
+/// @throws ComputationError
+double finite(double value, Eigen::Index column)
+{
+    if (!std::isfinite(value))
+        throw ComputationError(fmt::format("column {} of the fields (numbered from 0) becomes larger than numbers can "
+                                           "be: give it in another unit, or NaN where there are no data",
+                                           column));
+    return value;
+}
+
+}  // namespace
+
 ScaledFields::ScaledFields(const Eigen::MatrixXd& fields, const FieldGroup& group, std::span<const ValueRange> ranges,
                            double time_step)
     : values_(fields(Eigen::all, group.columns))
@@ -75,9 +92,11 @@ ScaledFields::ScaledFields(const Eigen::MatrixXd& fields, const FieldGroup& grou
             values_.row(v).setZero();
     for (Eigen::Index c = 0; c < values_.cols(); ++c) {
         const auto [least, most] = ranges[static_cast<std::size_t>(c)];
-        const double spread = most - least;
-        units_[c] = spread > 0.0 && std::isfinite(spread)
-                        ? power_of_two_near(spread) / power_of_two_near(std::sqrt(time_step))
+        // Halved, even the spread of the largest numbers is one.
+        const double half = 0.5 * most - 0.5 * least;
+        units_[c] = half > 0.0 && std::isfinite(half)
+                        ? std::ldexp(1.0, std::clamp(std::ilogb(half) + 1 - std::ilogb(std::sqrt(time_step)),
+                                                     least_exponent, largest_exponent))
                         : 1.0;
     }
     values_.array().rowwise() /= units_.transpose().array();
@@ -93,7 +112,7 @@ void ScaledFields::write(const FieldGroup& group, Eigen::MatrixXd& fields) const
     const Eigen::MatrixXd results = in_units();
     for (Eigen::Index v = 0; v < fields.rows(); ++v)
         for (std::size_t c = 0; group.lacks[static_cast<std::size_t>(v)] == 0 && c < group.columns.size(); ++c)
-            fields(v, group.columns[c]) = results(v, static_cast<Eigen::Index>(c));
+            fields(v, group.columns[c]) = finite(results(v, static_cast<Eigen::Index>(c)), group.columns[c]);
 }
 
 int n_blocks(Eigen::Index n_columns)

@@ -41,9 +41,9 @@ constexpr double part_of_setup_if_large = 0.6;
 
 constexpr PerVertex setup_of_undecomposed{400.0, 55.0, 0.6};
 /// For `reference_vertices`; factors grow faster than meshes.
-constexpr PerVertex step_of_undecomposed{0.0, 55.0, 1.0};
+constexpr PerVertex step_of_undecomposed{0.0, 45.0, 0.45};
 constexpr double reference_vertices = 10'000.0;
-constexpr double growth_of_factors = 0.35;
+constexpr double growth_of_factors = 0.22;
 
 /// The cost of a further solution with the same factor, as a fraction of a step.
 constexpr double part_of_solution = 0.3;

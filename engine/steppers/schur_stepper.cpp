@@ -303,8 +303,9 @@ InterfaceResult SchurStepper::solve_on_interface(bool has_matrix, const Iteratio
         result.residual = std::min(result.residual, std::max(moving, stop.tolerance));
         result.stagnated &= moving > stop.tolerance;
     }
-    if (std::ranges::find(rests, false) != rests.end() && has_single() &&
-        !refine_interiors(stop.tolerance, first, exec)) {
+    // Interiors may move though Γ rests; where they rest, too, no refinement makes their residuals smaller.
+    const bool is_refined = !has_single() || refine_interiors(stop.tolerance, first, exec);
+    if (!is_refined && std::ranges::find(rests, false) != rests.end()) {
         result.residual = std::max(result.residual, largest_ratio(interior_residual(), first));
         result.stagnated = true;
     }

@@ -151,14 +151,14 @@ double volume_of(std::span<const Index> sides, const PolygonMesh& mesh, const Po
     return volume;
 }
 
-/// The volume, or 0 if it is merely rounding, as between repeated faces.
+/// The volume, or 0 if it may be merely rounding of positions in single precision, as between repeated faces.
 double certain_volume_of(std::span<const Index> sides, const PolygonMesh& mesh, const Points& positions)
 {
     double area = 0.0;
     for (const Index side : sides)
-        area += vector_area(mesh.face(side / 2), positions).norm();
+        area += vector_area(mesh.face(side / 2), positions).stableNorm();
     const double volume = volume_of(sides, mesh, positions);
-    return std::abs(volume) > 1e-12 * area * std::sqrt(area) ? volume : 0.0;
+    return std::abs(volume) > 1e-7 * area * std::sqrt(area) ? volume : 0.0;
 }
 
 /// The sides of each region, without faces that have it on both sides.

@@ -22,7 +22,8 @@ struct EnclosedCells {
 
 /// Finds the cells. Surfaces that lie in a cell without touching the sheets around it are not joined with these: such a
 /// cell contains the ones in it. Linear in the size of the mesh, but for sorting at edges of three faces or more.
-/// @param positions #V by 3, not necessarily those of the mesh; where sheets cross each other, cells mean nothing.
+/// @param positions #V by 3, not necessarily those of the mesh; where sheets cross each other, or lie on
+///        each other without being the same faces, cells mean nothing.
 EnclosedCells find_cells(const PolygonMesh& mesh, const Points& positions, const Executor& exec = run_serially);
 
 /// The volume of each cell in length³, negative for cells turned inside out.

@@ -80,7 +80,10 @@ constexpr std::array<MeshKind, 25> kinds{{
     {"honeycomb-quads", "the same, quads", true},
     {"plates", "voxel labels: three plates that meet in a T, open all around, triangles", true},
     {"plates-quads", "the same, quads", true},
-    {"foam", "voxel labels: a box of 24 cells around random points, triangles", true},
+    {"foam",
+     "voxel labels: a box of 24 cells around random points, and a few single voxels: "
+     "triangles",
+     true},
     {"foam-quads", "the same, quads", true},
 }};
 

@@ -98,7 +98,8 @@ std::vector<PageField> pack_fields(const std::vector<std::string>& names, const 
         PageField& field = fields.emplace_back(describe("red, green, blue", colour, before, after));
         field.is_colour = true;
         field.least = 0.0;
-        field.most = full_brightness(field.most);
+        // What files write: after a step that overshoots, more may be left.
+        field.most = full_brightness(before.rows() > 0 ? describe("", colour, before, before).most : field.most);
         field.before = pack_colours(field, colour, before);
         field.after = pack_colours(field, colour, after);
     }

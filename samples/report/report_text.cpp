@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -102,7 +101,7 @@ void print_distance(std::ostream& out, const char* name, double absolute, double
     out << '\n';
 }
 
-/// In all, and of the cell with the largest change in proportion.
+/// Of the largest cell, and of that with the largest change in proportion.
 void print_cells(std::ostream& out, const std::vector<double>& before, const std::vector<double>& after)
 {
     if (before.empty() || before.size() != after.size())
@@ -111,11 +110,8 @@ void print_cells(std::ostream& out, const std::vector<double>& before, const std
     for (std::size_t c = 1; c < before.size(); ++c)
         if (std::abs(after[c] / before[c] - 1.0) > std::abs(after[most] / before[most] - 1.0))
             most = c;
-    const auto total = [](const std::vector<double>& volumes) {
-        return std::accumulate(volumes.begin(), volumes.end(), 0.0);
-    };
     out << "cells      " << counted(static_cast<std::uint64_t>(before.size()), "cell", "cells") << ": volume "
-        << change(total(before), total(after), 6) << " in all; " << change(before[most], after[most], 6)
+        << change(before[0], after[0], 6) << " of the largest; " << change(before[most], after[most], 6)
         << " of the one that changes most in proportion\n";
 }
 

@@ -164,6 +164,10 @@ class RankFieldRun {
         summary_.after = ranges_of_all(comm, fields_.values);
         summary_.report.without_data = count_without_data();
         std::vector<std::string>& remarks = summary_.report.remarks;
+        if (!seams_.vertices.empty() && summary_.report.without_data > 0)
+            remarks.emplace_back(
+                "Vertices along seams have the mean of all that they are joined with, also where no face "
+                "around one of these has data: smooth leaves such vertices apart.");
         for (const auto& more : {remarks_, file_->write_fields(comm, command_.output, fields_)})
             remarks.insert(remarks.end(), more.begin(), more.end());
         run_.write_seconds = writing.seconds();

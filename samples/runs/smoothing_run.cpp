@@ -112,8 +112,9 @@ void remark_on_lost_cells(const std::vector<double>& before, const std::vector<d
         n_small += after[c] < (1.0 - much) * before[c] ? 1 : 0;
     if (n_small > 0)
         remarks.push_back(
-            fmt::format("{} of {} cells {} lost more than {:.0f}% of {} volume: less smoothing is gentler.", n_small,
-                        before.size(), n_small == 1 ? "has" : "have", 100.0 * much, n_small == 1 ? "its" : "their"));
+            fmt::format("{} {} lost more than {:.0f}% of {} volume: less smoothing is gentler.",
+                        before.size() == 1 ? "The only cell" : fmt::format("{} of {} cells", n_small, before.size()),
+                        n_small == 1 ? "has" : "have", 100.0 * much, n_small == 1 ? "its" : "their"));
 }
 
 }  // namespace
@@ -126,7 +127,7 @@ void remark_on_loss(const FlowOptions& options, const SurfaceChange& change, std
     if (options.motion.rescale != Rescale::None)
         return;
     if (!change.before.cell_volumes.empty())
-        return remark_on_lost_cells(change.before.cell_volumes, change.after.cell_volumes, remarks);
+        remark_on_lost_cells(change.before.cell_volumes, change.after.cell_volumes, remarks);
     if (!change.before.volume || !change.after.volume) {
         if (change.after.area < most * change.before.area)
             remarks.push_back(fmt::format("The surface has lost {:.0f}% of its area: less smoothing is gentler.",
@@ -135,10 +136,10 @@ void remark_on_loss(const FlowOptions& options, const SurfaceChange& change, std
     }
     const double lost = 1.0 - *change.after.volume / *change.before.volume;
     if (lost > much)
-        remarks.push_back(fmt::format("The surface has lost {:.0f}% of its volume: less smoothing is gentler{}{}.",
-                                      100.0 * lost,
-                                      options.filter == Filter::LowPass ? "" : ", --filter low-pass loses less",
-                                      can_rescale ? ", --rescale volume scales it back" : ""));
+        remarks.push_back(
+            fmt::format("The surface has lost {:.0f}% of its volume: less smoothing is gentler{}{}.", 100.0 * lost,
+                        options.filter == Filter::LowPass ? "" : ", --filter low-pass loses less",
+                        can_rescale && change.before.cell_volumes.empty() ? ", --rescale volume scales it back" : ""));
 }
 
 void remark_on_folds(const FlowOptions& options, const SurfaceChange& change, std::vector<std::string>& remarks)

@@ -146,6 +146,34 @@ TEST_CASE("steps with vertices held on the interface are as exact as others, wha
     CHECK(farthest < tolerance * edge);
 }
 
+TEST_CASE("with all of the interface held, interiors move as exactly")
+{
+    const PolygonMesh mesh = make_noisy_sphere(2000);
+    FlowOptions options = converged(FlowEquation::MeanCurvature, Laplacian::Fujiwara, mesh);
+    options.accuracy.tolerance = 1e-10;
+    options.steps = 1;
+    PolygonMesh moved = mesh;
+    Flow flow(moved, options);
+    const std::vector<Index>& labels = flow.report().cut.labels;
+    std::vector<Index> label_of(at(mesh.n_vertices()), -1);
+    std::vector<Index> held;
+    for (Index f = 0; f < mesh.n_faces(); ++f)
+        for (const Index v : mesh.face(f)) {
+            if (label_of[v] >= 0 && label_of[v] != labels[f])
+                held.push_back(v);
+            label_of[v] = labels[f];
+        }
+    REQUIRE(held.size() > 100);
+    flow.hold(held);
+    flow.step();
+    PolygonMesh expected = mesh;
+    options.cut.subdomains = 0;
+    options.accuracy = {.approach = Approach::Undecomposed};
+    options.motion.fixed_vertices = held;
+    mean_curvature_flow(expected, options);
+    CHECK(test::largest_difference(moved.vertices, expected.vertices) < 1e-10 * mean_edge_length(mesh));
+}
+
 TEST_CASE("a region that is moved has the matrix of its new place, and fixed vertices can be moved, too")
 {
     const PolygonMesh mesh = flat_mesh();

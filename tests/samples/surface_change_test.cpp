@@ -81,6 +81,16 @@ TEST_CASE("a loss of much of the volume is remarked on, or of most of the area w
     CHECK(remark(0.85, 0.3).empty());
     CHECK(remark({}, 0.25).find("lost 75% of its area") != std::string::npos);
     CHECK(remark({}, 0.55).empty());
+    SurfaceChange of_cells;
+    of_cells.before.area = 1.0;
+    of_cells.after.area = 0.25;
+    of_cells.before.cell_volumes = {0.1};
+    of_cells.after.cell_volumes = {0.01};
+    std::vector<std::string> remarks;
+    remark_on_loss({}, of_cells, remarks);
+    REQUIRE(remarks.size() == 2);
+    CHECK(remarks[0].starts_with("The only cell has lost more than 20% of its volume"));
+    CHECK(remarks[1].find("lost 75% of its area") != std::string::npos);
     CHECK(remark({}, 0.25, Rescale::Area).empty());
     // What the user has asked for already is no advice.
     CHECK(remark(0.75, 0.9).find("--filter low-pass") != std::string::npos);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <numeric>
 #include <utility>
 
 #include "engine/distributed/parts/number_set.h"
@@ -11,17 +12,16 @@
 #include "engine/tasks/parallel_executor.h"
 #include "partition/executor.h"
 #include "partition/index_lists.h"
+#include "partition/vector_area.h"
 
 namespace seamflow {
 
 namespace {
 
 /// The box around the corners of the ranges of all ranks.
-/// @param corners ascending.
-BoundingBox box_of(Communicator& comm, const RankSlice& slice, const SliceBounds& bounds,
-                   const std::vector<std::int64_t>& corners)
+/// @param positions of the corners of this rank's range.
+BoundingBox box_of(Communicator& comm, const Points& positions)
 {
-    const Points positions = fetch_positions(comm, slice, corners, bounds.vertices);
     std::vector<std::array<double, 3>> own;
     if (positions.rows() > 0)
         for (const Point& end : {Point(positions.colwise().minCoeff()), Point(positions.colwise().maxCoeff())})
@@ -35,6 +35,23 @@ BoundingBox box_of(Communicator& comm, const RankSlice& slice, const SliceBounds
         is_first = false;
     }
     return box;
+}
+
+/// The area of some faces of all ranks, added up by blocks of faces, at multiples of which ranges begin.
+/// @param faces of this rank's range, ascending. @param positions of all its corners, which are `corners`.
+double area_of(Communicator& comm, const RankSlice& slice, std::span<const Index> faces,
+               const NumberSet<std::int64_t>& corners, const Points& positions)
+{
+    std::vector<double> of_blocks(at(slice.n_faces() / block_size) + 1, 0.0);
+    std::vector<Index> face;
+    for (const Index f : faces) {
+        face.clear();
+        for (Index corner = slice.face_offsets[f]; corner < slice.face_offsets[f + 1]; ++corner)
+            face.push_back(corners.place_of(slice.corners[corner]));
+        of_blocks[f / block_size] += vector_area(face, positions).norm();
+    }
+    const std::vector<double> all = comm.gather_all(of_blocks);
+    return std::accumulate(all.begin(), all.end(), 0.0);
 }
 
 /// How many vertices of this rank's range are corners of no face of any rank.
@@ -107,6 +124,7 @@ StillFaces leave_out_still_faces(Communicator& comm, std::span<const double> str
     const std::vector<std::int64_t> numbers = corners.numbers();
     std::vector<double> of_corners(numbers.size());
     fetch_rows(comm, {strengths, 1}, numbers, bounds.vertices, of_corners);
+    const Points positions = fetch_positions(comm, slice, numbers, bounds.vertices);
     const auto is_still = [&](std::int64_t corner) {
         return of_corners[at(corners.place_of(corner))] < MotionOptions::least_strength;
     };
@@ -116,7 +134,8 @@ StillFaces leave_out_still_faces(Communicator& comm, std::span<const double> str
                                                             slice.corners.begin() + slice.face_offsets[f + 1],
                                                             is_still);
                                      }),
-                     .box = box_of(comm, slice, bounds, numbers)};
+                     .box = box_of(comm, positions)};
+    still.area = area_of(comm, slice, still.faces, corners, positions);
     leave_out(still.faces, slice);
     still.n_left = gather_bounds(comm, slice).faces.back();
     slice.n_still = still.n_left < bounds.faces.back() ? count_without_faces(comm, slice, bounds.vertices) : 0;

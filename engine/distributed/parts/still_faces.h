@@ -26,6 +26,8 @@ struct StillFaces {
     std::vector<Index> faces;
     /// The box around all faces of the mesh as it was; see MeshPart::box.
     BoundingBox box;
+    /// Of the faces taken out of all ranges, length².
+    double area = 0.0;
     /// Of the whole mesh: the faces that are left.
     std::int64_t n_left = 0;
 };

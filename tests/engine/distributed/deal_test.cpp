@@ -2,15 +2,19 @@
 #include <map>
 #include <mutex>
 #include <set>
+#include <span>
 #include <string>
 
 #include <doctest/doctest.h>
 
 #include "engine/distributed/parts/deal.h"
+#include "engine/distributed/parts/still_faces.h"
 #include "engine/distributed/ranks/thread_transport.h"
 #include "partition/errors.h"
+#include "partition/vector_area.h"
 #include "tests/engine/distributed/parts.h"
 #include "tests/support/flows.h"
+#include "tests/support/relative.h"
 #include "tests/support/test_meshes.h"
 
 using namespace seamflow;
@@ -55,6 +59,41 @@ TEST_CASE("every face comes to the rank of its sub-mesh, and ranks get about as 
         CHECK(std::ranges::all_of(seen, [](int times) { return times == 1; }));
         CHECK(std::ranges::is_sorted(rank_of, {}, [](const auto& label_and_rank) { return label_and_rank.second; }));
     }
+}
+
+TEST_CASE("faces on which no moving vertex depends are left out on all ranks, and their area is known")
+{
+    const PolygonMesh mesh = make_mixed_polygons(12'000);
+    const std::vector<Index> labels(at(mesh.n_faces()), 0);
+    std::vector<double> strengths(at(mesh.n_vertices()), 0.0);
+    for (Index v = 0; v < mesh.n_vertices(); ++v)
+        strengths[v] = mesh.vertices(v, 0) > 0.7 ? 0.5 : 0.0;
+    double area_left = 0.0;
+    double area_of_all = 0.0;
+    Index n_left = 0;
+    for (Index f = 0; f < mesh.n_faces(); ++f) {
+        const bool moves = std::ranges::any_of(mesh.face(f), [&](Index v) { return strengths[v] > 0.0; });
+        const double area = vector_area(mesh.face(f), mesh.vertices).norm();
+        area_of_all += area;
+        area_left += moves ? area : 0.0;
+        n_left += moves ? 1 : 0;
+    }
+    for (const int n : {1, 2, 3})
+        run_on_threads(n, [&](Transport& transport) {
+            run_together(transport, [&](Communicator& comm) {
+                RankSlice slice = test::slice_of(mesh, labels, comm.rank(), n);
+                const Index n_before = slice.n_faces();
+                const SliceBounds bounds = gather_bounds(comm, slice);
+                const auto begin = static_cast<std::size_t>(bounds.vertices[at(comm.rank())]);
+                const auto n_own = static_cast<std::size_t>(slice.vertices.rows());
+                const StillFaces still = leave_out_still_faces(comm, std::span(strengths).subspan(begin, n_own), slice);
+                CHECK(still.n_left == n_left);
+                CHECK(still.area == test::relative(area_of_all - area_left, 1e-12));
+                CHECK(slice.n_faces() + std::ssize(still.faces) == n_before);
+                CHECK(slice.labels.size() == at(slice.n_faces()));
+                CHECK(Point(still.box.high) == Point(mesh.vertices.colwise().maxCoeff()));
+            });
+        });
 }
 
 TEST_CASE("positions come back to where they were read")

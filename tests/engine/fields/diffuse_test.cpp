@@ -156,6 +156,18 @@ TEST_CASE("columns of fields do not depend on each other, on threads, or on thei
     Eigen::MatrixXd third = before.col(3);
     diffuse(mesh, third, options);
     CHECK(largest_difference(third, all.col(3)) < 1e-9);
+    PolygonMesh tiny = mesh;
+    tiny.vertices *= 0x1p-40;
+    options.time_step *= 0x1p-80;
+    for (const double unit : {0x1p1000, 0x1p-900}) {
+        Eigen::MatrixXd scaled = unit * before.col(0);
+        diffuse(tiny, scaled, options);
+        CHECK(largest_difference((1.0 / unit) * scaled, all.col(0)) < 1e-9);
+    }
+    // The spread of these is no number.
+    Eigen::MatrixXd largest = (1.7e308 / before.col(0).cwiseAbs().maxCoeff()) * before.col(0);
+    diffuse(mesh, largest, options);
+    CHECK(largest.allFinite());
 }
 
 TEST_CASE("constant fields stay, bit for bit, and so do held vertices and a fixed boundary")

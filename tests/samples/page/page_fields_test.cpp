@@ -85,6 +85,11 @@ TEST_CASE("red, green and blue are one field, in whatever order, and grey withou
     const std::vector<PageField> parts =
         pack_fields({"red", "green", "blue"}, Eigen::MatrixXd(0, 0), Eigen::RowVector3d(0.2, 0.4, 1.0));
     CHECK(test::inflated(parts[0].after.data) == std::vector<std::uint8_t>{51, 102, 255});
+    // More than full brightness is left by some filters.
+    const std::vector<PageField> overshooting =
+        pack_fields({"red", "green", "blue"}, Eigen::RowVector3d(0.0, 0.4, 1.0), Eigen::RowVector3d(-0.1, 0.4, 1.1));
+    CHECK(test::inflated(overshooting[0].before.data) == std::vector<std::uint8_t>{0, 102, 255});
+    CHECK(test::inflated(overshooting[0].after.data) == std::vector<std::uint8_t>{0, 102, 255});
     CHECK(pack_fields({"red", "green"}, before.leftCols(2), after.leftCols(2)).size() == 2);
 }
 
