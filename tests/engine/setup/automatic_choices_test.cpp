@@ -246,12 +246,13 @@ TEST_CASE("the number of cores to tune for decides, that of threads does not")
     CHECK(choice_for(2, 2).approach == Approach::Undecomposed);
     CHECK(choice_for(2, 16).approach == Approach::Undecomposed);
     CHECK(choice_for(16, 2).approach != Approach::Undecomposed);
-    // One factor of the whole mesh is of no use to further cores; all else is, up to what memory feeds.
+    // One factor of the whole mesh is of little use to further cores; all else is, up to what memory feeds.
     const auto cost_of = [](const ApproachChoice& choice, Approach approach) {
         return *std::ranges::find(choice.costs, approach, &PredictedCost::approach);
     };
     const auto cost = [&](Approach approach, int cores) { return cost_of(choice_for(cores, 1), approach); };
-    CHECK(cost(Approach::Undecomposed, 64).step == cost(Approach::Undecomposed, 1).step);
+    CHECK(cost(Approach::Undecomposed, 64).step > 0.2 * cost(Approach::Undecomposed, 1).step);
+    CHECK(cost(Approach::Undecomposed, 64).step < 0.5 * cost(Approach::Undecomposed, 1).step);
     for (const Approach approach : {Approach::Converged, Approach::ConjugateGradients}) {
         CHECK(cost(approach, 1).step > 1.8 * cost(approach, 2).step);
         CHECK(cost(approach, 2).step > 4.0 * cost(approach, 16).step);
