@@ -63,7 +63,8 @@ void add_kind(CLI::App& app, SmoothCommand& command)
     add_field(app, options, "--laplacian", "discrete Laplacian [fujiwara]");
     add_field(app, options, "--flow",
               "conformalized keeps the weights of the Laplacian; necks do not pinch [mean-curvature]\n"
-              "It turns closed surfaces without handles into spheres. linear keeps all of the Laplacian, and so one "
+              "It turns closed surfaces without handles into spheres, but not with fujiwara. linear keeps all of the "
+              "Laplacian, and so one "
               "factorisation for all steps: the heat equation on the input, applied to its coordinates.");
     add_field(app, options, "--filter",
               "low-pass: large features hardly shrink [diffusion]\n"
