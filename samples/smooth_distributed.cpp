@@ -38,6 +38,7 @@
 #include "samples/runs/rank_checkpoints.h"
 #include "samples/runs/rank_field_run.h"
 #include "samples/runs/rank_inputs.h"
+#include "samples/runs/run_output.h"
 #include "samples/runs/smoothing_run.h"
 
 using namespace seamflow;
@@ -70,7 +71,7 @@ class RankRun {
                 distributed_mean_curvature_flow(ranks_, part_, options, observer(), resume_ ? &*resume_ : nullptr);
         });
         run_together(ranks_, [&](Communicator& comm) { end(comm, whole); });
-        return require_converged();
+        return require_converged(command_, report_.flow.convergence, ranks_.rank() == 0 ? "smooth-distributed" : "");
     }
 
   private:
@@ -262,18 +263,6 @@ class RankRun {
         };
         note(*report_.before, run_.surface.before);
         note(*report_.after, run_.surface.after);
-    }
-
-    /// If steps have missed their tolerance, the results are not what was asked for.
-    ExitStatus require_converged() const
-    {
-        const std::string missed = missed_tolerance(command_, report_.flow.convergence);
-        if (missed.empty())
-            return ExitStatus::Success;
-        if (ranks_.rank() == 0)
-            std::cerr << "smooth-distributed: " << missed << "; " << command_.output.string()
-                      << " has the last state\n";
-        return ExitStatus::ComputationFailed;
     }
 
     /// Writes, and reports what was done.

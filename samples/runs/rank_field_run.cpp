@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iostream>
 #include <memory>
 #include <optional>
 #include <string>
@@ -24,6 +23,7 @@
 #include "samples/report/report_text.h"
 #include "samples/runs/field_run.h"
 #include "samples/runs/rank_inputs.h"
+#include "samples/runs/run_output.h"
 #include "samples/runs/smoothing_run.h"
 
 namespace seamflow {
@@ -67,13 +67,8 @@ class RankFieldRun {
             add_to_summary(report);
         });
         run_together(ranks_, [&](Communicator& comm) { end(comm, whole); });
-        const std::string missed = missed_tolerance(command_, summary_.report.flow.convergence);
-        if (missed.empty())
-            return ExitStatus::Success;
-        if (ranks_.rank() == 0)
-            std::cerr << "smooth-distributed: " << missed << "; " << command_.output.string()
-                      << " has the last state\n";
-        return ExitStatus::ComputationFailed;
+        return require_converged(command_, summary_.report.flow.convergence,
+                                 ranks_.rank() == 0 ? "smooth-distributed" : "");
     }
 
   private:

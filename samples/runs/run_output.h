@@ -1,12 +1,13 @@
 #pragma once
 
 #include <ostream>
+#include <string_view>
 
 #include "engine/measure/flow_report.h"
 #include "samples/command/smooth_command.h"
 #include "samples/process/exit_status.h"
 
-/// What a run of `smooth` prints, and how it ends.
+/// What a run of `smooth` or `smooth-distributed` prints, and how it ends.
 namespace seamflow {
 
 /// Where messages go: nowhere with --quiet, to standard error where a result takes standard output.
@@ -14,6 +15,8 @@ std::ostream& message_stream(const SmoothCommand& command);
 
 /// The status of a complete run. If steps have missed their tolerance, the results are not what was asked for: prints
 /// that to standard error.
-ExitStatus require_converged(const SmoothCommand& command, const ConvergenceReport& report);
+/// @param program its name; empty: nothing is printed.
+ExitStatus require_converged(const SmoothCommand& command, const ConvergenceReport& report,
+                             std::string_view program = "smooth");
 
 }  // namespace seamflow

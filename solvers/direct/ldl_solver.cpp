@@ -169,10 +169,9 @@ std::optional<LdlFactor<Number>> LdlSolver::factorise(std::span<const double> va
         (place < n_factor_numbers() ? factor[place] : last[place - n_factor_numbers()]) =
             static_cast<Number>(inverse * values[k]);
     }
-    bool is_positive = true;
-    if (schedule_.exists())
-        is_positive = factorise_by_subtrees(factor, least_pivot);
-    for (Index b = 0; b < pattern_.n_supernodes() && is_positive && !schedule_.exists(); ++b) {
+    bool is_positive = !schedule_.exists() || factorise_by_subtrees(factor, least_pivot);
+    const Index n_in_order = schedule_.exists() ? 0 : pattern_.n_supernodes();
+    for (Index b = 0; b < n_in_order && is_positive; ++b) {
         LdlPanel<Number> block = panel(factor, b);
         if (panels_[b] == n_factor_numbers())
             block.values = last.data();
