@@ -19,7 +19,8 @@ struct WholeRunPhases {
     double analyse = 0.0;
     double steps = 0.0;
     double write = 0.0;
-    /// Start and end of the process, and all else.
+    /// Start and end of the process, and all else: what the median of the turns before took longer than these phases; 0
+    /// where the further run was slower.
     double rest = 0.0;
 };
 

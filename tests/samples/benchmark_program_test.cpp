@@ -167,7 +167,10 @@ TEST_CASE("benchmark runs smooth from file to file beside peers of equal accurac
         for (const auto& [key, seconds] : run["phases"].items()) {
             const std::string name = key;
             CAPTURE(name);
-            CHECK(seconds.get<double>() > 0.0);
+            if (name == "rest")  // a difference of two runs: nothing may be left on a busy machine
+                CHECK(seconds.get<double>() >= 0.0);
+            else
+                CHECK(seconds.get<double>() > 0.0);
         }
         CHECK(run["ratio_to_cholmod_step"].get<double>() ==
               test::relative(run["smooth"]["median_s"].get<double>() / run["cholmod_step"]["median_s"].get<double>(),
