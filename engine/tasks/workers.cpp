@@ -21,6 +21,7 @@
 #include "engine/options/flow_options.h"
 #include "engine/options/valid_options.h"
 #include "engine/tasks/parallel_executor.h"
+#include "engine/tasks/separate_cores.h"
 #include "partition/errors.h"
 #include "solvers/platform/address_space.h"
 #include "solvers/platform/library_threads.h"
@@ -146,10 +147,12 @@ class Workers::Arena {
             arena.initialize(tbb::task_arena::attach());
         }
         require_room_for_threads(arena);
+        cores.emplace(arena, threads_of(arena));
     }
 
     std::optional<tbb::global_control> limit;
     tbb::task_arena arena;
+    std::optional<SeparateCores> cores;
     SingleThreadedBlas single_threaded_blas;
 };
 

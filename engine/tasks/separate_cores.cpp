@@ -1,0 +1,75 @@
+#include "engine/tasks/separate_cores.h"
+
+#include <algorithm>
+#include <cstddef>
+
+#include <sched.h>
+
+namespace seamflow {
+
+namespace tbb = oneapi::tbb;
+
+namespace {
+
+constexpr int no_core = -1;
+
+/// Moves the calling thread to a core that it may use and that is none of these, if there is one.
+void leave_for_another(const std::vector<int>& cores)
+{
+    cpu_set_t allowed;
+    if (::sched_getaffinity(0, sizeof allowed, &allowed) != 0)
+        return;
+    cpu_set_t free = allowed;
+    for (const int core : cores)
+        if (core != no_core)
+            CPU_CLR(static_cast<std::size_t>(core), &free);
+    if (CPU_COUNT(&free) > 0 && ::sched_setaffinity(0, sizeof free, &free) == 0)
+        ::sched_setaffinity(0, sizeof allowed, &allowed);
+}
+
+}  // namespace
+
+SeparateCores::SeparateCores(tbb::task_arena& arena, int threads)
+    : tbb::task_scheduler_observer(arena)
+    , core_(static_cast<std::size_t>(threads), no_core)
+{
+    observe(true);
+}
+
+SeparateCores::~SeparateCores()
+{
+    observe(false);
+}
+
+void SeparateCores::enter(int place)
+{
+    const auto own = static_cast<std::size_t>(place);
+    if (own >= core_.size())
+        return;
+    const std::lock_guard lock(mutex_);
+    core_[own] = no_core;
+    if (std::find(core_.begin(), core_.end(), ::sched_getcpu()) != core_.end())
+        leave_for_another(core_);
+    core_[own] = ::sched_getcpu();
+}
+
+void SeparateCores::leave(int place)
+{
+    const auto own = static_cast<std::size_t>(place);
+    if (own >= core_.size())
+        return;
+    const std::lock_guard lock(mutex_);
+    core_[own] = no_core;
+}
+
+void SeparateCores::on_scheduler_entry(bool /*is_worker*/)
+{
+    enter(tbb::this_task_arena::current_thread_index());
+}
+
+void SeparateCores::on_scheduler_exit(bool /*is_worker*/)
+{
+    leave(tbb::this_task_arena::current_thread_index());
+}
+
+}  // namespace seamflow
