@@ -301,7 +301,7 @@ void add_modes(CLI::App& app, Words& words, BenchmarkCommand& command)
              "--conditions", "--q", "--memory-limit", "--export"});
     add_integer(app, "--turns", command.turns, 1,
                 "with --grid and --whole-run: how often what is compared is run, in turns [3]\n"
-                "--grid goes by the least times.");
+                "Medians count.");
 }
 
 /// Settles what follows from the options that were given.

@@ -63,7 +63,7 @@ struct BenchmarkCommand {
     std::vector<int> orders{1, 2, 3};
     /// For BenchmarkMode::SimulateRanks.
     std::vector<int> simulated_ranks;
-    /// How often compared methods are run, in turns; the least times count.
+    /// How often compared methods are run, in turns; the medians count.
     int turns = 3;
     /// Files and folders; empty: none.
     std::filesystem::path json;

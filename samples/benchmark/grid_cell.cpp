@@ -19,7 +19,7 @@ constexpr double long_seconds = 1.0;
 
 double seconds(const Row& row)
 {
-    return row.result.total_seconds();
+    return row.turns.median();
 }
 
 /// The least of ours and of equally close peers.
@@ -84,6 +84,7 @@ Row GridRunner::run_once(const MethodTask& task) const
 {
     Row row = rows_.run(task);
     rows_.measure(row);
+    row.turns.seconds = {row.result.total_seconds()};
     return row;
 }
 
@@ -96,6 +97,7 @@ Row GridRunner::run_peer(Method peer, const GridCell& cell, const FlowOptions& f
         return run_once(MethodRows::task_of(peer, flow));
     Row row = *reference;
     row.v_mean = row.v_max = 0.0;
+    row.turns.seconds = {row.result.total_seconds()};
     return row;
 }
 
@@ -126,13 +128,13 @@ Row GridRunner::run_iterative(Method peer, const GridCell& cell, const FlowOptio
     return row;
 }
 
-/// The least times of several turns, if it is not clear who is faster.
+/// Several turns, if it is not clear who is faster.
 void GridRunner::repeat(GridCell& cell) const
 {
     const auto again = [&](Row& row) {
-        Row repeated = run_once(row.task);
-        if (repeated.succeeded() && seconds(repeated) < seconds(row))
-            row.result = std::move(repeated.result);
+        const Row repeated = run_once(row.task);
+        if (repeated.succeeded())
+            row.turns.seconds.push_back(seconds(repeated));
     };
     for (int turn = 1; turn < options_.turns; ++turn) {
         const bool is_clear = cell.ratio() > clear_factor || cell.ratio() < 1.0 / clear_factor;

@@ -21,9 +21,9 @@ struct GridCell {
     /// which it is as near to the undecomposed flow as ours.
     std::vector<Row> peers;
 
-    /// The fastest of the peers that are as near as ours, set-up included; null if there is none.
+    /// The fastest of the peers that are as near as ours, by the median of its turns; null if there is none.
     [[nodiscard]] const Row* fastest_peer() const;
-    /// Its time divided by that of ours; infinite without one.
+    /// Its median divided by that of ours; infinite without one.
     [[nodiscard]] double ratio() const;
 };
 
@@ -35,7 +35,7 @@ bool is_as_near(const Row& row, const Row& ours);
 struct GridOptions {
     std::vector<Method> peers;
     Reference reference = Reference::Automatic;
-    /// How often ours and the peers with similar times are run, in turns; the least times count.
+    /// How often ours and the peers with similar times are run, in turns; the medians count.
     int turns = 3;
 };
 

@@ -5,6 +5,7 @@
 
 #include "samples/benchmark/methods/method.h"
 #include "samples/benchmark/scratch_folder.h"
+#include "samples/benchmark/turns.h"
 
 namespace seamflow {
 
@@ -31,6 +32,9 @@ struct Row {
     /// Distance to the undecomposed flow after all steps, in mean edge lengths of its mesh.
     std::optional<double> v_mean;
     std::optional<double> v_max;
+    /// Seconds from the beginning of set-up to the end of the last step of each run, in a grid; from file to file in a
+    /// WholeRun; else empty.
+    Turns turns;
 
     [[nodiscard]] bool succeeded() const { return result.error.empty(); }
 };

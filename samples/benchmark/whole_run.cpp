@@ -66,12 +66,12 @@ class WholeRunner {
     /// Leaves the output of `smooth`.
     void take_turn()
     {
-        for (WholePeer& peer : run_.peers) {
-            if (peer.row.task.method == Method::Cholmod)
+        for (Row& peer : run_.peers) {
+            if (peer.task.method == Method::Cholmod)
                 run_cholmod_step();
-            const Row row = grid_.rows().run(peer.row.task);
+            const Row row = grid_.rows().run(peer.task);
             require_success(row);
-            peer.whole.seconds.push_back(row.result.process_seconds);
+            peer.turns.seconds.push_back(row.result.process_seconds);
         }
         const ProcessEnd end = run_smooth({});
         run_.smooth.seconds.push_back(end.seconds);
@@ -99,7 +99,8 @@ class WholeRunner {
     {
         row.task.input = input_;
         row.task.output = output_;
-        run_.peers.push_back({std::move(row), {}});
+        row.turns.seconds.clear();
+        run_.peers.push_back(std::move(row));
     }
 
     /// How close the output of `smooth` is to the undecomposed flow.
@@ -138,11 +139,6 @@ class WholeRunner {
     fs::path output_;
 };
 
-Json turns_json(const Turns& turns)
-{
-    return {{"least_s", turns.least()}, {"median_s", turns.median()}, {"turns_s", turns.seconds}};
-}
-
 Json phases_json(const WholeRunPhases& phases)
 {
     return {{"read", phases.read},   {"cut", phases.cut},     {"analyse", phases.analyse},
@@ -156,19 +152,6 @@ void print_turns(std::ostream& out, const std::string& name, const Turns& turns,
 }
 
 }  // namespace
-
-double Turns::least() const
-{
-    return *std::min_element(seconds.begin(), seconds.end());
-}
-
-double Turns::median() const
-{
-    std::vector<double> sorted = seconds;
-    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-    std::nth_element(sorted.begin(), middle, sorted.end());
-    return *middle;
-}
 
 double WholeRun::ratio_to_cholmod_step() const
 {
@@ -213,8 +196,8 @@ void print_whole_run(std::ostream& out, const WholeRun& run)
          {std::pair{"read", p.read}, std::pair{"cut", p.cut}, std::pair{"analyse", p.analyse},
           std::pair{"steps", p.steps}, std::pair{"write", p.write}, std::pair{"rest", p.rest}})
         out << fmt::format("  {:<32} {:>9.4f}\n", name, value);
-    for (const WholePeer& peer : run.peers)
-        print_turns(out, name_with_tolerance(peer.row), peer.whole, run.smooth);
+    for (const Row& peer : run.peers)
+        print_turns(out, name_with_tolerance(peer), peer.turns, run.smooth);
     if (!run.cholmod_step.seconds.empty()) {
         print_turns(out, "one step of cholmod, no files", run.cholmod_step, run.smooth);
         out << fmt::format("smooth takes {:.2f} of one step of cholmod\n", run.ratio_to_cholmod_step());
@@ -248,9 +231,9 @@ Json whole_run_json(const WholeRun& run)
         json["ratio_to_cholmod_step"] = run.ratio_to_cholmod_step();
     }
     json["peers"] = Json::object();
-    for (const WholePeer& peer : run.peers) {
-        Json& row = json["peers"][peer.row.name] = row_json(peer.row);
-        row["whole"] = turns_json(peer.whole);
+    for (const Row& peer : run.peers) {
+        Json& row = json["peers"][peer.name] = row_json(peer);
+        row["whole"] = turns_json(peer.turns);
     }
     return json;
 }

@@ -24,19 +24,6 @@ struct WholeRunPhases {
     double rest = 0.0;
 };
 
-/// Seconds of several turns.
-struct Turns {
-    std::vector<double> seconds;
-    [[nodiscard]] double least() const;
-    [[nodiscard]] double median() const;
-};
-
-/// A method from file to file, a process for each turn.
-struct WholePeer {
-    Row row;
-    Turns whole;
-};
-
 /// `smooth` from file to file, a process for each turn, and the methods that ran in turns with it.
 struct WholeRun {
     std::string mesh;
@@ -57,7 +44,7 @@ struct WholeRun {
     /// One step by CHOLMOD, without analysis and files; empty without CHOLMOD among the peers.
     Turns cholmod_step;
     /// As near to the undecomposed flow as ours: see GridRunner.
-    std::vector<WholePeer> peers;
+    std::vector<Row> peers;
 
     /// Medians: all of `smooth` divided by a step of CHOLMOD.
     [[nodiscard]] double ratio_to_cholmod_step() const;

@@ -387,8 +387,8 @@ TEST_CASE("the loosest tolerance that suffices is found with few questions")
 TEST_CASE("the fastest peer of a cell is one that comes as near as ours")
 {
     const auto row = [](double seconds, double v_max, double v_mean) {
-        Row made{"", {}, {}, v_mean, v_max};
-        made.result.setup_seconds = seconds;
+        Row made{"", {}, {}, v_mean, v_max, {}};
+        made.turns.seconds = {seconds, 0.5 * seconds, 9.0};
         return made;
     };
     GridCell cell;
@@ -417,11 +417,11 @@ TEST_CASE("a grid ends with the ratios of all cells and with those that are lost
                 cell.vertices = 100;
                 cell.time_step_edges = time_step_edges;
                 cell.steps = steps;
-                cell.ours.result.setup_seconds = 1.0;
+                cell.ours.turns.seconds = {1.0};
                 cell.ours.v_mean = cell.ours.v_max = 0.1;
                 cell.peers = {cell.ours};
                 cell.peers[0].name = "other";
-                cell.peers[0].result.setup_seconds = steps * time_step_edges / 2.0;
+                cell.peers[0].turns.seconds = {steps * time_step_edges / 2.0};
             }
     cells[3].peers.clear();
     cells[6].ours.result.error = "no";
