@@ -12,7 +12,7 @@ namespace seamflow {
 
 namespace {
 
-constexpr Index sample_size = 2048;
+constexpr Index sample_size = 512;
 
 }  // namespace
 

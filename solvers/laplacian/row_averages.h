@@ -15,7 +15,7 @@ struct RowAverages {
     double stiffness = 0.0;
 };
 
-/// Of some thousand interior vertices that move, spread evenly; all 0 if there are none.
+/// Of some hundred interior vertices that move, spread evenly; all 0 if there are none.
 /// @throws OptionError for an unsymmetric Laplacian.
 RowAverages average_rows(const PolygonMesh& mesh, const Topology& topology, const ScaledLaplacian& laplacian);
 
