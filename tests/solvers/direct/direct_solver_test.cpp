@@ -54,7 +54,7 @@ TEST_CASE("large symmetric systems are solved by CHOLMOD")
 {
     RandomNumbers random(4);
     SolverWorkspace workspace;
-    const Index n = 600'000;
+    const Index n = 2'000'001;
     std::vector<MatrixEntry> entries;
     for (Index u = 0; u < n; ++u) {
         entries.push_back({u, u});
