@@ -21,7 +21,8 @@ bool is_axis(std::string_view name)
 
 bool is_one_word(std::string_view name)
 {
-    return !name.empty() && std::ranges::none_of(name, [](char c) { return static_cast<unsigned char>(c) <= ' ' || c == '\x7f'; });
+    return !name.empty() &&
+           std::ranges::none_of(name, [](char c) { return static_cast<unsigned char>(c) <= ' ' || c == '\x7f'; });
 }
 
 /// The names that a word stands for; itself if there are none.

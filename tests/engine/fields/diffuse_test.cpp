@@ -11,6 +11,7 @@
 #include <doctest/doctest.h>
 
 #include "engine/fields/diffuse.h"
+#include "engine/fields/field_columns.h"
 #include "engine/fields/white_noise.h"
 #include "partition/errors.h"
 #include "partition/metrics/vertex_distance.h"
@@ -319,6 +320,42 @@ TEST_CASE("faces without area take no part")
     Eigen::MatrixXd with = waves_on(mesh);
     diffuse(mesh, with, options);
     CHECK(largest_difference(with.topRows(n), without) < 1e-9);
+}
+
+TEST_CASE("what is said of fields on sheets that meet, on a fixed boundary and along seams does not speak of motion")
+{
+    const auto sentences = [](const PolygonMesh& mesh, const FlowOptions& options, const FieldOptions& of_fields) {
+        Eigen::MatrixXd fields = Eigen::MatrixXd::Random(mesh.n_vertices(), 2);
+        fields(0, 0) = no_data;
+        std::vector<std::string> all = diffuse(mesh, fields, options, of_fields).remarks;
+        CHECK_FALSE(all.empty());
+        return all;
+    };
+    PolygonMesh sheets = test::triangle_grid(4, 4);
+    sheets.vertices.conservativeResize(sheets.n_vertices() + 1, 3);
+    sheets.vertices.row(sheets.n_vertices() - 1) << 0.0, 0.0, 2.0;
+    sheets.add_face(std::array{sheets.face(8)[0], sheets.face(8)[1], sheets.n_vertices() - 1});
+    FlowOptions held{.time_step = 0.1};
+    held.motion.junctions = Junctions::Hold;
+    std::vector<std::string> all = sentences(sheets, {.time_step = 0.1}, {});
+    for (const auto& more : {sentences(sheets, held, {}),
+                             sentences(test::triangle_grid(1, 1), {.time_step = 0.1}, {.boundary = Boundary::Fixed}),
+                             sentences(test::side_by_side({test::triangle_grid(2, 2), test::triangle_grid(2, 2)}),
+                                       {.time_step = 0.1}, {})})
+        all.insert(all.end(), more.begin(), more.end());
+    for (const std::string& sentence : all) {
+        CAPTURE(sentence);
+        CHECK(sentence.find("move") == std::string::npos);
+    }
+}
+
+TEST_CASE("columns with data at different vertices: what is said of any is said once")
+{
+    FlowReport first{.choices = {"a", "b"}, .remarks = {"r"}};
+    FlowReport second{.choices = {"c", "a"}, .remarks = {"s", "r"}};
+    add_up(first, second);
+    CHECK(second.choices == std::vector<std::string>{"a", "b", "c"});
+    CHECK(second.remarks == std::vector<std::string>{"r", "s"});
 }
 
 TEST_CASE("a column without any data, and a component without any, stay so")
