@@ -43,8 +43,8 @@ void round_as_written(FileFields& fields);
 std::vector<std::string> names_of_fields(const std::filesystem::path& path, std::span<const std::string> names,
                                          const std::function<bool(std::string_view name)>& is_there);
 
-/// Checks that fields can be written: one number for each vertex, none infinite; names that are one word each, all
-/// different, and none a coordinate.
+/// Checks that fields can be written: one number for each vertex, none infinite; names that are one word each in any
+/// characters, all different, and none a coordinate.
 /// @param path of the file to write.
 /// @throws OutputError
 void require_writable(const std::filesystem::path& path, const FileFields& fields, Index n_vertices,

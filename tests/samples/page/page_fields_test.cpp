@@ -127,7 +127,9 @@ TEST_CASE("vertices without faces are not in the box of a page")
     const auto numbers = test::unpacked<std::uint16_t>(packed.data, 3);
     CHECK(numbers.size() == static_cast<std::size_t>(mesh.vertices.size()));
     // Without faces there is nothing else to look at.
-    const PackedPoints alone = PageMesh(PolygonMesh{.vertices = mesh.vertices}).pack(mesh.vertices);
+    PolygonMesh points;
+    points.vertices = mesh.vertices;
+    const PackedPoints alone = PageMesh(points).pack(mesh.vertices);
     CHECK(alone.upper == Eigen::RowVector3d::Constant(1e6));
 }
 
