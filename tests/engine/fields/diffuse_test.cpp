@@ -329,7 +329,7 @@ TEST_CASE("what is said of fields on sheets that meet, on a fixed boundary and a
     FlowOptions held = options;
     held.motion.junctions = Junctions::Hold;
     const PolygonMesh square = test::triangle_grid(1, 1);
-    const PolygonMesh plates = test::plates({0.0, 2.0, 4.0}, 4, 4);
+    const PolygonMesh plates = test::plates(std::array{0.0, 2.0, 4.0}, 4, 4);
     const auto check = [](const PolygonMesh& mesh, const FlowOptions& of_flow, const FieldOptions& of_fields) {
         Eigen::MatrixXd fields = Eigen::MatrixXd::Random(mesh.n_vertices(), 2);
         const FieldReport report = diffuse(mesh, fields, of_flow, of_fields);
