@@ -351,7 +351,7 @@ std::optional<Weld> weld(const PolygonMesh& mesh, const Topology& topology, doub
 
 std::string remark_on_seams(Index n_vertices, Index n_edges)
 {
-    return fmt::format("{} vertices along seams, where {} of boundary edges lie on each other, moved as one; they are "
+    return fmt::format("{} vertices along seams, where {} of boundary edges lie on each other, flowed as one; they are "
                        "still separate vertices.",
                        n_vertices, n_edges == 1 ? "1 pair" : fmt::format("{} pairs", n_edges));
 }

@@ -8,6 +8,7 @@
 
 #include "engine/fields/thin_faces.h"
 #include "partition/errors.h"
+#include "partition/io/input_position.h"
 
 namespace seamflow {
 
@@ -127,9 +128,12 @@ void add_up(const FlowReport& before, FlowReport& report)
     report.seconds.cut += before.seconds.cut;
     report.seconds.analyse += before.seconds.analyse;
     report.seconds.step += before.seconds.step;
-    for (const std::string& remark : before.remarks)
-        if (std::ranges::find(report.remarks, remark) == report.remarks.end())
-            report.remarks.push_back(remark);
+    for (std::vector<std::string> FlowReport::*const list : {&FlowReport::choices, &FlowReport::remarks}) {
+        std::vector<std::string> all = before.*list;
+        for (const std::string& sentence : report.*list)
+            add_once(all, sentence);
+        report.*list = std::move(all);
+    }
 }
 
 }  // namespace seamflow

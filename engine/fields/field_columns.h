@@ -69,7 +69,7 @@ class ScaledFields {
 /// How many times the steps of the flow are taken: once for each three columns.
 int n_blocks(Eigen::Index n_columns);
 
-/// Adds what was reported on columns before.
+/// Adds what was reported on columns before; sentences for the user, also on choices, once each, in their order.
 void add_up(const FlowReport& before, FlowReport& report);
 
 }  // namespace seamflow

@@ -22,14 +22,14 @@ std::string remark_on_non_manifold_vertices(std::int64_t n, std::string_view rem
     std::string remark = fmt::format("{} held fixed because the mesh is not manifold there.",
                                      n == 1 ? "1 vertex is" : fmt::format("{} vertices are", n));
     if (!remedy.empty())
-        remark += fmt::format(" {}, those on edges of three faces or more would move.", remedy);
+        remark += fmt::format(" {}, those on edges of three faces or more would flow.", remedy);
     return remark;
 }
 
 std::string remark_on_junctions(std::int64_t n)
 {
     return fmt::format("{} on edges of three faces or more {} with all of these faces.",
-                       n == 1 ? "1 vertex" : fmt::format("{} vertices", n), n == 1 ? "moves" : "move");
+                       n == 1 ? "1 vertex" : fmt::format("{} vertices", n), n == 1 ? "flows" : "flow");
 }
 
 std::string remark_on_undefined_vertices(std::int64_t n, std::int64_t first, Laplacian laplacian)
@@ -44,8 +44,8 @@ std::string remark_on_undefined_vertices(std::int64_t n, std::int64_t first, Lap
 
 std::string remark_on_unmoving_mesh(Boundary boundary)
 {
-    const std::string why = "No vertex can move: each is fixed, on the boundary, or where the mesh is not manifold.";
-    return boundary == Boundary::Free ? why : why + " A free boundary would move.";
+    const std::string why = "No vertex can flow: each is fixed, on the boundary, or where the mesh is not manifold.";
+    return boundary == Boundary::Free ? why : why + " A free boundary would flow.";
 }
 
 std::string remark_on_still_faces(std::int64_t n_left)

@@ -21,7 +21,8 @@ bool is_axis(std::string_view name)
 
 bool is_one_word(std::string_view name)
 {
-    return !name.empty() && std::ranges::all_of(name, [](char c) { return c > ' ' && c <= '~'; });
+    return !name.empty() &&
+           std::ranges::none_of(name, [](char c) { return static_cast<unsigned char>(c) <= ' ' || c == '\x7f'; });
 }
 
 /// The names that a word stands for; itself if there are none.
@@ -56,6 +57,15 @@ Index FileFields::column(std::string_view name) const
 {
     const auto found = std::ranges::find(names, name);
     return found != names.end() ? static_cast<Index>(found - names.begin()) : -1;
+}
+
+void round_as_written(FileFields& fields)
+{
+    for (std::size_t c = 0; c < fields.whole.size(); ++c)
+        if (const std::optional<WholeRange>& range = fields.whole[c])
+            for (double& value : fields.values.col(static_cast<Eigen::Index>(c)))
+                // The sum is not -0.
+                value = std::clamp(std::round(value), range->least, range->largest) + 0.0;
 }
 
 std::vector<std::string> names_of_fields(const std::filesystem::path& path, std::span<const std::string> names,

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -14,16 +15,27 @@
 
 namespace seamflow {
 
+/// The ends of the whole numbers that a field of a file can hold.
+struct WholeRange {
+    double least = 0.0;
+    double largest = 0.0;
+};
+
 /// Numbers of the vertices of a file besides their positions, such as colours, normals or measurements.
 struct FileFields {
     /// One for each column, each once.
     std::vector<std::string> names = {};
     /// #V by names. NaN means that a vertex has no data.
     Eigen::MatrixXd values = {};
+    /// Of fields that were read, one for each column: nothing where its numbers need not be whole.
+    std::vector<std::optional<WholeRange>> whole = {};
 
     /// The column of that name; -1 if there is none.
     [[nodiscard]] Index column(std::string_view name) const;
 };
+
+/// Rounds the values of columns of whole numbers as write_mesh_like does: to the nearest within their range.
+void round_as_written(FileFields& fields);
 
 /// The names of fields, each once, with nx, ny, nz for `normal`, and red, green, blue for `colour` or `color`.
 /// @param is_there whether the file itself has a field of that name, which then is meant.
@@ -31,8 +43,8 @@ struct FileFields {
 std::vector<std::string> names_of_fields(const std::filesystem::path& path, std::span<const std::string> names,
                                          const std::function<bool(std::string_view name)>& is_there);
 
-/// Checks that fields can be written: one number for each vertex, none infinite; names that are one word each, all
-/// different, and none a coordinate.
+/// Checks that fields can be written: one number for each vertex, none infinite; names that are one word each in any
+/// characters, all different, and none a coordinate.
 /// @param path of the file to write.
 /// @throws OutputError
 void require_writable(const std::filesystem::path& path, const FileFields& fields, Index n_vertices,

@@ -1,5 +1,7 @@
 #include <cstddef>
 #include <filesystem>
+#include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -62,6 +64,16 @@ Eigen::MatrixXd read_columns(const PlyVertexSlices& slices, const PlyHeader& hea
     return values;
 }
 
+std::optional<WholeRange> whole_range_of(PlyType type)
+{
+    if (!is_integer(type))
+        return {};
+    return with_type(type, [](auto zero) {
+        using Limits = std::numeric_limits<decltype(zero)>;
+        return WholeRange{static_cast<double>(Limits::lowest()), static_cast<double>(Limits::max())};
+    });
+}
+
 /// Fields of a file, without values.
 /// @throws InputError for names that it does not have.
 FileFields find_fields(const TextScanner& scanner, const std::filesystem::path& path, const PlyElement& vertices,
@@ -69,8 +81,10 @@ FileFields find_fields(const TextScanner& scanner, const std::filesystem::path& 
 {
     FileFields fields{
         names_of_fields(path, names, [&](std::string_view name) { return vertices.property(name) != nullptr; })};
-    for (const std::string& name : fields.names)
+    for (const std::string& name : fields.names) {
         require_number(scanner, vertices, name);
+        fields.whole.push_back(whole_range_of(vertices.property(name)->type));
+    }
     return fields;
 }
 

@@ -96,6 +96,15 @@ bool is_colour(std::string_view name)
     return std::ranges::find(colour_names, name) != colour_names.end();
 }
 
+/// The largest whole number of a colour, if that is what colours are: see NewColours::find_scale.
+std::optional<double> largest_whole(const TextColours& written)
+{
+    const auto is_whole = [](double value) { return std::trunc(value) == value; };
+    if (written.maxCoeff() > 1.0 && std::ranges::all_of(written.reshaped(), is_whole))
+        return std::max(written.maxCoeff(), 255.0);
+    return {};
+}
+
 /// @param read as in NewColours.
 FileFields fields_of_colours(const std::filesystem::path& path, std::span<const std::string> names, const auto& read)
 {
@@ -110,6 +119,8 @@ FileFields fields_of_colours(const std::filesystem::path& path, std::span<const 
     for (std::size_t k = 0; k < colour_names.size(); ++k)
         if (const Index column = fields.column(colour_names[k]); column >= 0)
             fields.values.col(column) = colours.col(static_cast<Index>(k));
+    if (const std::optional<double> largest = largest_whole(colours))
+        fields.whole.assign(fields.names.size(), WholeRange{0.0, *largest});
     return fields;
 }
 
@@ -189,9 +200,7 @@ void NewColours::require_colours(const std::filesystem::path& target, const File
 
 void NewColours::find_scale(const TextColours& written)
 {
-    const auto is_whole = [](double value) { return std::trunc(value) == value; };
-    if (written.maxCoeff() > 1.0 && std::ranges::all_of(written.reshaped(), is_whole))
-        largest_ = std::max(written.maxCoeff(), 255.0);
+    largest_ = largest_whole(written);
 }
 
 std::vector<std::string> NewColours::remarks() const

@@ -40,6 +40,7 @@ PageField describe(const std::string& name, std::span<const Eigen::Index> column
     const std::vector<double> data = data_of(columns, before, after);
     const auto n_values = static_cast<std::size_t>(before.rows() + after.rows()) * columns.size();
     return {.name = name,
+            .has_data = !data.empty(),
             .has_gaps = data.size() < n_values,
             .least = quantile(data, 0.0),
             .most = quantile(data, 1.0),

@@ -14,7 +14,8 @@ struct PageField {
     std::string name;
     /// Red, green and blue together. Their packed bytes are three per vertex, grey without data.
     bool is_colour = false;
-    /// Whether a vertex has no data, before or after.
+    /// Whether a vertex has data, and whether one has none, before or after.
+    bool has_data = false;
     bool has_gaps = false;
     /// Of all data, before and after; 0 without any. Of colours: what stands for none and for full brightness.
     double least = 0.0;

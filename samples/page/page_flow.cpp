@@ -31,6 +31,14 @@ PageMesh::PageMesh(const PolygonMesh& input, FileColours own_colours)
 {
 }
 
+PackedPoints PageMesh::pack(Points positions) const
+{
+    for (Index v = 0; v < mesh.n_vertices() && mesh.n_faces() > 0; ++v)
+        if (topology.corners_at(v).empty())
+            positions.row(v) = positions.row(mesh.face_vertices.front()).eval();
+    return pack_points(positions);
+}
+
 PageFlow::PageFlow(std::shared_ptr<const PageMesh> mesh, std::string name, Laplacian laplacian, int steps,
                    bool undecomposed)
     : mesh_(std::move(mesh))
@@ -47,7 +55,7 @@ PageFlow::PageFlow(std::shared_ptr<const PageMesh> mesh, std::string name, Lapla
 
 PageSurface PageFlow::pack_surface(const Points& positions) const
 {
-    return {.positions = pack_points(positions),
+    return {.positions = mesh_->pack(positions),
             .curvature = pack_values(measure_curvature(mesh_->mesh, mesh_->topology, positions, laplacian_))};
 }
 

@@ -17,6 +17,11 @@ namespace seamflow {
 struct PageMesh {
     explicit PageMesh(const PolygonMesh& input, FileColours own_colours = {});
 
+    /// @param positions #V by 3. Vertices without faces, which are not seen, are packed at one that has some, so that
+    /// the
+    ///        box is that of the surface.
+    [[nodiscard]] PackedPoints pack(Points positions) const;
+
     PolygonMesh mesh;
     Topology topology;
     double mean_edge = 0.0;

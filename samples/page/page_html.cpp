@@ -109,6 +109,7 @@ Json field_json(const PageField& field)
 {
     return {{"name", field.name},
             {"is_colour", field.is_colour},
+            {"has_data", field.has_data},
             {"has_gaps", field.has_gaps},
             {"least", number(field.least)},
             {"most", number(field.most)},
@@ -125,7 +126,7 @@ Json fields_json(const PageMesh& mesh, const PageFields& fields, Blocks& blocks)
     json["labels"] = blocks.add(packed(std::span<const std::uint32_t>{}, 1));
     for (const PageField& field : fields.fields)
         json["fields"].push_back(field_json(field));
-    const Json surface = {{"positions", points_json(pack_points(mesh.mesh.vertices), blocks)}};
+    const Json surface = {{"positions", points_json(mesh.pack(mesh.mesh.vertices), blocks)}};
     for (const bool is_after : {false, true}) {
         if (!is_after && fields.are_distances)
             continue;

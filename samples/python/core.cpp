@@ -2,17 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
-#include <condition_variable>
 #include <cstdint>
 #include <exception>
 #include <limits>
 #include <memory>
-#include <mutex>
-#include <stop_token>
 #include <string>
-#include <thread>
 #include <tuple>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -30,6 +26,7 @@
 #include "samples/command/smooth_command.h"
 #include "samples/process/option_words.h"
 #include "samples/python/flow_call.h"
+#include "samples/python/work_thread.h"
 #include "samples/runs/field_run.h"
 #include "samples/runs/smoothing_run.h"
 
@@ -81,75 +78,17 @@ PolygonMesh make_mesh(const Array<double>& positions, const Array<Integer>& corn
     return mesh;
 }
 
-/// A flow in its own thread, so that the thread of Python can check for signals, which reach no other thread.
-class FlowThread {
-  public:
-    FlowThread(SmoothCommand command, PolygonMesh mesh, bool tells_progress)
-    {
-        FlowControl control{.stop = stop_.get_token()};
-        if (tells_progress)
-            control.on_progress = [this](const FlowProgress& progress) {
-                const std::lock_guard lock(mutex_);
-                heard_.push_back(progress);
-                changed_.notify_one();
-            };
-        thread_ = std::jthread([this, command = std::move(command), mesh = std::move(mesh), control]() mutable {
-            try {
-                FlowCall flow(std::move(command), std::move(mesh), control);
-                flow.take_all_steps();
-                result_ = flow.result();
-            } catch (...) {
-                failure_ = std::current_exception();
-            }
-            const std::lock_guard lock(mutex_);
-            is_over_ = true;
-            changed_.notify_one();
-        });
-    }
-
-    void stop() { stop_.request_stop(); }
-
-    /// Waits until there is something to report, a moment has passed, or the flow has ended.
-    /// @returns whether it has ended.
-    bool wait(std::vector<FlowProgress>& heard)
-    {
-        constexpr std::chrono::milliseconds moment(50);
-        std::unique_lock lock(mutex_);
-        changed_.wait_for(lock, moment, [this] { return is_over_ || !heard_.empty(); });
-        heard.clear();
-        heard.swap(heard_);
-        return is_over_;
-    }
-
-    /// To be called when it has ended. @throws what it threw.
-    FlowResult take()
-    {
-        if (failure_)
-            std::rethrow_exception(failure_);
-        return std::move(result_);
-    }
-
-  private:
-    std::stop_source stop_;
-    std::mutex mutex_;
-    std::condition_variable changed_;
-    std::vector<FlowProgress> heard_;
-    bool is_over_ = false;
-    FlowResult result_;
-    std::exception_ptr failure_;
-    std::jthread thread_;
-};
-
-/// Runs the flow without the GIL. Signals, and exceptions of `progress`, stop it.
-FlowResult run_interruptibly(SmoothCommand command, PolygonMesh mesh, const py::object& progress)
+/// Runs work(control) without the GIL. Signals, and exceptions of `progress`, stop it.
+template <class Work>
+auto run_interruptibly(Work work, const py::object& progress)
 {
-    FlowThread flow(std::move(command), std::move(mesh), !progress.is_none());
+    WorkThread<std::invoke_result_t<Work, const FlowControl&>> thread(std::move(work), !progress.is_none());
     std::exception_ptr raised;
     std::vector<FlowProgress> heard;
     for (bool is_over = false; !is_over;) {
         {
             const py::gil_scoped_release release;
-            is_over = flow.wait(heard);
+            is_over = thread.wait(heard);
         }
         try {
             for (const FlowProgress& one : heard)
@@ -159,12 +98,12 @@ FlowResult run_interruptibly(SmoothCommand command, PolygonMesh mesh, const py::
                 throw py::error_already_set();
         } catch (...) {
             raised = std::current_exception();
-            flow.stop();
+            thread.stop();
         }
     }
     if (raised)
         std::rethrow_exception(raised);
-    return flow.take();
+    return thread.take();
 }
 
 /// An array that owns its data.
@@ -211,7 +150,14 @@ template <class Integer>
 py::tuple run(const Array<double>& positions, const Array<Integer>& corners, const Array<std::int64_t>& offsets,
               const std::vector<std::string>& words, const ArrayOptions& arrays, const py::object& progress)
 {
-    return to_tuple(run_interruptibly(make_command(words, arrays), make_mesh(positions, corners, offsets), progress));
+    SmoothCommand command = make_command(words, arrays);
+    PolygonMesh mesh = make_mesh(positions, corners, offsets);
+    const auto work = [&](const FlowControl& control) {
+        FlowCall flow(std::move(command), std::move(mesh), control);
+        flow.take_all_steps();
+        return flow.result();
+    };
+    return to_tuple(run_interruptibly(work, progress));
 }
 
 template <class Integer>
@@ -264,7 +210,7 @@ struct FieldWords {
 
 /// @param fields #V by n, which receives the result.
 FieldReport diffuse_fields(PolygonMesh mesh, std::vector<std::string> words, const std::vector<Index>& fixed,
-                           const FieldWords& of_fields, Eigen::MatrixXd& fields)
+                           const FieldWords& of_fields, Eigen::MatrixXd& fields, const FlowControl& control)
 {
     // So that no preset chooses an amount.
     if (!of_fields.fwhm.empty())
@@ -284,7 +230,7 @@ FieldReport diffuse_fields(PolygonMesh mesh, std::vector<std::string> words, con
     options.boundary = of_fields.is_free ? Boundary::Free : Boundary::Fixed;
     if (options.fwhm)
         command.options.time_step = 0.0;
-    return diffuse(mesh, fields, command.options, options);
+    return diffuse(mesh, fields, command.options, options, control);
 }
 
 template <class Integer>
@@ -297,11 +243,12 @@ py::tuple diffuse_arrays(const Array<double>& positions, const Array<Integer>& c
     PolygonMesh mesh = make_mesh(positions, corners, offsets);
     Eigen::MatrixXd values = Eigen::Map<const Rows>(fields.data(), fields.shape(0), fields.shape(1));
     const auto& [fwhm, keep_edges, fill, is_free] = of_fields;
-    FieldReport report;
-    {
-        const py::gil_scoped_release release;
-        report = diffuse_fields(std::move(mesh), words, to_vector(fixed), {fwhm, keep_edges, fill, is_free}, values);
-    }
+    const FieldWords field_words{fwhm, keep_edges, fill, is_free};
+    const std::vector<Index> fixed_vertices = to_vector(fixed);
+    const auto work = [&](const FlowControl& control) {
+        return diffuse_fields(std::move(mesh), words, fixed_vertices, field_words, values, control);
+    };
+    const FieldReport report = run_interruptibly(work, py::none());
     py::array_t<double> result({fields.shape(0), fields.shape(1)});
     Eigen::Map<Rows>(result.mutable_data(), fields.shape(0), fields.shape(1)) = values;
     std::vector<std::string> remarks = report.remarks;
@@ -316,11 +263,11 @@ py::array_t<double> distance_arrays(const Array<double>& positions, const Array<
                                     const Array<std::int64_t>& offsets, const Array<Index>& from, int threads)
 {
     const PolygonMesh mesh = make_mesh(positions, corners, offsets);
-    Eigen::VectorXd distance;
-    {
-        const py::gil_scoped_release release;
-        distance = geodesic_distance(mesh, to_vector(from), {.threads = threads});
-    }
+    const std::vector<Index> sources = to_vector(from);
+    const auto work = [&](const FlowControl& control) {
+        return geodesic_distance(mesh, sources, {.threads = threads}, control);
+    };
+    const Eigen::VectorXd distance = run_interruptibly(work, py::none());
     return py::array_t<double>(static_cast<py::ssize_t>(distance.size()), distance.data());
 }
 

@@ -14,15 +14,13 @@ namespace seamflow {
 
 namespace {
 
-double mean_of(const FieldRange& range)
-{
-    return range.sum / static_cast<double>(std::max(range.n, std::int64_t{1}));
-}
+/// See FieldRange::small_sum.
+constexpr int exponent_of_small_sums = 64;
 
 std::string text_of(const FieldRange& range)
 {
     return range.n == 0 ? "no data"
-                        : fmt::format("{:.6g} to {:.6g}, mean {:.6g}", range.least, range.most, mean_of(range));
+                        : fmt::format("{:.6g} to {:.6g}, mean {:.6g}", range.least, range.most, range.mean());
 }
 
 ReportJson json_of(const FieldRange& range)
@@ -32,7 +30,7 @@ ReportJson json_of(const FieldRange& range)
     if (range.n > 0) {
         json["least"] = range.least;
         json["most"] = range.most;
-        json["mean"] = mean_of(range);
+        json["mean"] = range.mean();
     }
     return json;
 }
@@ -44,7 +42,19 @@ void FieldRange::add(const FieldRange& other)
     least = std::min(least, other.least);
     most = std::max(most, other.most);
     sum += other.sum;
+    small_sum += other.small_sum;
     n += other.n;
+}
+
+void FieldRange::add(double value)
+{
+    add({value, value, value, std::ldexp(value, -exponent_of_small_sums), 1});
+}
+
+double FieldRange::mean() const
+{
+    const auto divisor = static_cast<double>(std::max(n, std::int64_t{1}));
+    return std::isfinite(sum) ? sum / divisor : std::ldexp(small_sum / divisor, exponent_of_small_sums);
 }
 
 std::vector<FieldRange> ranges_of_blocks(const Eigen::MatrixXd& values, Eigen::Index column)
@@ -54,7 +64,7 @@ std::vector<FieldRange> ranges_of_blocks(const Eigen::MatrixXd& values, Eigen::I
         FieldRange& range = ranges.emplace_back();
         for (Index v = begin; v < end; ++v)
             if (const double value = values(v, column); !std::isnan(value))
-                range.add({value, value, value, 1});
+                range.add(value);
     });
     return ranges;
 }

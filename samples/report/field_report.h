@@ -19,9 +19,15 @@ struct FieldRange {
     double least = std::numeric_limits<double>::infinity();
     double most = -std::numeric_limits<double>::infinity();
     double sum = 0.0;
+    /// The same in units of 2⁶⁴, which does not overflow.
+    double small_sum = 0.0;
     std::int64_t n = 0;
 
     void add(const FieldRange& other);
+    void add(double value);
+
+    /// 0 without data.
+    [[nodiscard]] double mean() const;
 };
 
 /// Of blocks of vertices: added in their order, they are the range of all.

@@ -63,7 +63,6 @@ FileFields diffused(SmoothCommand& command, const MeshFile& file, const FileFiel
         options.time_step = 0.0;
     summary.report = diffuse(file.mesh, fields.values, options, of_fields, control);
     renormalise(fields, before.values);
-    summary.after = ranges_of_columns(fields.values);
     return fields;
 }
 
@@ -84,7 +83,6 @@ FileFields distances(const SmoothCommand& command, const MeshFile& file, const s
             fmt::format("The surface leads from none of them to {}: the distance there is NaN.",
                         counted(static_cast<std::uint64_t>(summary.report.without_data), "vertex", "vertices")));
     summary.names = fields.names;
-    summary.after = ranges_of_columns(fields.values);
     return fields;
 }
 
@@ -113,13 +111,15 @@ std::vector<Index> read_sources(const SmoothCommand& command, Index n_vertices)
 }
 
 /// In the form of the input where the format stays.
-std::vector<std::string> write_fields(const SmoothCommand& command, const MeshFile& file, const FileFields& fields,
+/// @param fields whole numbers are rounded to what was written.
+std::vector<std::string> write_fields(const SmoothCommand& command, const MeshFile& file, FileFields& fields,
                                       const Executor& exec)
 {
     const FileKind kind = kind_for_writing(command.output, file.kind);
-    std::vector<std::string> remarks = kind.format == file.kind.format
-                                           ? write_mesh_like(*file.source, command.output, file.mesh, fields, exec)
-                                           : write_mesh(command.output, file.mesh, kind, fields, exec);
+    if (kind.format != file.kind.format)
+        return write_mesh(command.output, file.mesh, kind, fields, exec);
+    std::vector<std::string> remarks = write_mesh_like(*file.source, command.output, file.mesh, fields, exec);
+    round_as_written(fields);
     return remarks;
 }
 
@@ -230,6 +230,7 @@ ExitStatus run_fields(SmoothCommand& command, RunRecord& run)
     for (const auto& remarks :
          {remarks_on_losses(command.output, true, file, exec), write_fields(command, file, fields, exec)})
         summary.report.remarks.insert(summary.report.remarks.end(), remarks.begin(), remarks.end());
+    summary.after = ranges_of_columns(fields.values);
     if (left_out.count > 0)
         summary.report.remarks.push_back(remark_on_faces(left_out, command.output, true, file.kind));
     run.write_seconds = writing.seconds();

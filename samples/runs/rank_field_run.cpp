@@ -156,6 +156,7 @@ class RankFieldRun {
         collect_fields(comm, part_.vertex_numbers, of_part_, fields_.values);
         bring_back_fields(comm, seams_, bounds_, fields_.values);
         renormalise(fields_, before_);
+        const std::vector<std::string> of_writing = file_->write_fields(comm, command_.output, fields_);
         summary_.after = ranges_of_all(comm, fields_.values);
         summary_.report.without_data = count_without_data();
         std::vector<std::string>& remarks = summary_.report.remarks;
@@ -163,7 +164,7 @@ class RankFieldRun {
             remarks.emplace_back(
                 "Vertices along seams have the mean of all that they are joined with, also where no face "
                 "around one of these has data: smooth leaves such vertices apart.");
-        for (const auto& more : {remarks_, file_->write_fields(comm, command_.output, fields_)})
+        for (const auto& more : {remarks_, of_writing})
             remarks.insert(remarks.end(), more.begin(), more.end());
         run_.write_seconds = writing.seconds();
         run_.seconds = whole.seconds();

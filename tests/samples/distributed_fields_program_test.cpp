@@ -86,6 +86,7 @@ TEST_CASE("fields on ranks are those of smooth, and the same file for any number
             for (const std::string name : {"vertices", "steps", "time_step", "without_data"})
                 CHECK(report[name] == expected[name]);
             CHECK(report["fields"]["quality"]["before"] == expected["fields"]["quality"]["before"]);
+            CHECK(report["fields"]["red"]["after"]["most"] == fields_in(w, "n.ply", {"red"}).values.maxCoeff());
             CHECK(report["fields"]["red"]["after"]["mean"].get<double>() ==
                   test::relative(expected["fields"]["red"]["after"]["mean"].get<double>(), 1e-8));
         }

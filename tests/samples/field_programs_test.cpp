@@ -86,6 +86,52 @@ TEST_CASE("fields of a file are those that the library makes, and all else stays
     CHECK(json["fields"]["thickness"]["after"]["vertices"] == w.file().mesh.n_vertices() - 1);
 }
 
+TEST_CASE("what is said of whole numbers is what was written, unless they are written as others")
+{
+    const FieldWorkshop w;
+    (void)w.directory.with("colours.obj", "v 0 0 0 1 9 0\nv 1 0 0 250 0 0\nv 1 1 0 7 8 0\nv 0 1 0 99 3 0\nf 1 2 3 4\n");
+    for (const std::string files : {"in.ply out.ply", "colours.obj out.obj", "colours.obj out.ply"}) {
+        CAPTURE(files);
+        REQUIRE(w.smooth(files + " --fields red --radius 20% --report report.json") == 0);
+        const Eigen::VectorXd red = w.fields_of(files.substr(files.find(' ') + 1), {"red"}).values;
+        CHECK(((red.array() == red.array().round()).all() == (files != "colours.obj out.ply")));
+        const Json after = w.json("report.json")["fields"]["red"]["after"];
+        CHECK(after["least"] == red.minCoeff());
+        CHECK(after["most"] == red.maxCoeff());
+        CHECK(after["mean"].get<double>() == relative(red.mean(), 1e-12));
+        if (files == "in.ply out.ply")
+            CHECK(w.said().find("-> " + std::to_string(std::lround(red.minCoeff())) + " to " +
+                                std::to_string(std::lround(red.maxCoeff())) + ", mean") != std::string::npos);
+    }
+}
+
+TEST_CASE("fields of the largest numbers have a mean, and names that are not UTF-8 are words like others")
+{
+    const Workshop w;
+    const PolygonMesh mesh = make_triangles(200);
+    const std::string name = "\xe9paisseur";
+    std::ostringstream text;
+    text << "ply\nformat ascii 1.0\nelement vertex " << mesh.n_vertices()
+         << "\nproperty double x\nproperty double y\nproperty double z\nproperty double " << name << "\nelement face "
+         << mesh.n_faces() << "\nproperty list uchar int vertex_indices\nend_header\n";
+    for (Index v = 0; v < mesh.n_vertices(); ++v)
+        text << mesh.vertices.row(v) << ' ' << v % 10 << "e307\n";
+    for (Index f = 0; f < mesh.n_faces(); ++f)
+        text << "3 " << mesh.face(f)[0] << ' ' << mesh.face(f)[1] << ' ' << mesh.face(f)[2] << '\n';
+    (void)w.directory.with("large.ply", text.str());
+    REQUIRE(w.smooth("large.ply out.ply --fields " + name + " --radius 2% --report report.json") == 0);
+    CHECK(w.said().find("nan") == std::string::npos);
+    CHECK(content_of(w.directory / "out.ply").find("property double " + name + "\n") != std::string::npos);
+    const Json fields = w.json("report.json")["fields"];
+    REQUIRE(fields.size() == 1);
+    CHECK(fields.begin().key() == "\xef\xbf\xbdpaisseur");
+    double tenths = 0.0;
+    for (Index v = 0; v < mesh.n_vertices(); ++v)
+        tenths += v % 10;
+    CHECK((*fields.begin())["before"]["mean"].get<double>() == relative(1e307 * (tenths / mesh.n_vertices()), 1e-12));
+    CHECK(w.smooth("large.ply moved.ply --radius 2%") == 0);
+}
+
 TEST_CASE("fields are filled, keep their edges, and stay on a boundary that is fixed")
 {
     const FieldWorkshop w;

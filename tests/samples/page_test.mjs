@@ -95,6 +95,10 @@ function writeFields() {
             if (i < n && j < n)
                 faces.push(`4 ${[[i, j], [i + 1, j], [i + 1, j + 1], [i, j + 1]].map(([a, b]) => a + b * (n + 1)).join(" ")}`);
         }
+    const nearMillion = (line) => [...line.split(" ").slice(0, 3), 1e6 + 1e-6 * (line.split(" ")[4] / 5 - 1), "nan"].join(" ");
+    const twoFields = ["ply", "format ascii 1.0", `element vertex ${vertices.length + 1}`, ...["float x", "float y", "float z", "double near", "float none"].map((name) => `property ${name}`)];
+    const stray = "1000 0 1000 1e6 nan";
+    writeFileSync(join(out, "odd.ply"), [...twoFields, `element face ${faces.length}`, "property list uchar int vertex_indices", "end_header", ...vertices.map(nearMillion), stray, ...faces, ""].join("\n"));
     const header = ["ply", "format ascii 1.0", `element vertex ${vertices.length}`, ...["float x", "float y", "float z", "float value", "float other", "uchar red", "uchar green", "uchar blue"].map((name) => `property ${name}`)];
     writeFileSync(join(out, "field.ply"), [...header, `element face ${faces.length}`, "property list uchar int vertex_indices", "end_header", ...vertices, ...faces, ""].join("\n"));
     writeFileSync(join(out, "from.txt"), "0\n");
@@ -126,6 +130,7 @@ before(async () => {
     program("smooth", join(out, "painted.ply"), join(out, "p.ply"), ...sweeps, "--html", page("painted"));
     writeFields();
     program("smooth", join(out, "field.ply"), join(out, "f.ply"), "--fields", "value,other,colour", "--fwhm", 0.6, "--html", page("fields"));
+    program("smooth", join(out, "odd.ply"), join(out, "o.ply"), "--fields", "near,none", "--fwhm", 0.01, "--html", page("odd"));
     program("smooth", join(out, "field.ply"), join(out, "d.ply"), "--from", join(out, "from.txt"), "--html", page("from"));
     program("smooth", sphere, join(out, "r.ply"), "--region", join(out, "from.txt"), "--feather", "20%", "--radius", "2%", "--html", page("region"));
     program("smooth", sphere, join(out, "g.ply"), "--time-step-edges", 1e5, "--steps", 9, "--html", page("gone"));
@@ -438,6 +443,21 @@ test("a page of fields shows each one, before and after, with grey for no data",
     assert.ok((await differenceWithin(await seenAtRest(opened), wiped, 0, 0.45)) < 0.002);
     assert.match(await opened.locator("#outcome").textContent(), /value0 to 10, mean .* → .*other0 to 10, mean .*No dataat \d+ vertices/);
     assert.match(await opened.locator("#summary").textContent(), /10 steps of .* wide at half maximum$/);
+    assert.deepEqual(opened.complaints, []);
+    await opened.close();
+});
+
+test("a page of fields that hardly differ, or have no data, with a vertex far away that has no faces", async () => {
+    const opened = await open(page("odd"));
+    await bare(opened);
+    assert.deepEqual(await opened.locator("#legend .ends span").allTextContents(), ["999999.999999", "1e6", "1.000000000001e6"]);
+    const { "101": least, "110": most } = await hues(opened);
+    assert.ok(least?.count > 0.03 && most?.count > 0.03, JSON.stringify({ least, most }));
+    await opened.selectOption("#colour", "field-1");
+    assert.equal(await opened.locator("#legend").textContent(), "noneno data");
+    assert.equal(await opened.locator("#legend .ramp").count(), 0);
+    assert.ok(await opened.locator("#range-choice").isHidden());
+    assert.ok((await greys(opened)).grey > 0.05);
     assert.deepEqual(opened.complaints, []);
     await opened.close();
 });

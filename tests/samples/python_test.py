@@ -9,6 +9,7 @@ import subprocess
 import sys
 import tempfile
 import threading
+import time
 import unittest
 import warnings
 from types import SimpleNamespace
@@ -394,6 +395,30 @@ class Running(WithFolder):
                 seamflow.smooth(self.V, self.F, time_step_edges=0.01, steps=1_000_000_000, **keywords)
             timer.join()
         seamflow.smooth(self.V, self.F, radius="1%")
+
+    def test_keyboard_interrupt_of_fields(self):
+        timer = threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT))
+        timer.start()
+        with self.assertRaises(KeyboardInterrupt):
+            seamflow.diffuse(self.V, self.F, self.V, time_step_edges=0.01, steps=1_000_000_000)
+        timer.join()
+        # Long enough that a signal is heard in the middle, and not at the end.
+        V = np.array([[x, y, 0] for x in range(400) for y in range(400)], float)
+        first = np.arange(160000).reshape(400, 400)[:-1, :-1].reshape(-1, 1)
+        F = first + [0, 400, 401, 1]
+        heard = []
+        before = signal.signal(signal.SIGINT, lambda *_: heard.append(time.monotonic()))
+        try:
+            timer = threading.Timer(0.2, os.kill, (os.getpid(), signal.SIGINT))
+            timer.start()
+            begin = time.monotonic()
+            seamflow.geodesic_distance(V, F, [0])
+            end = time.monotonic()
+            timer.join()
+        finally:
+            signal.signal(signal.SIGINT, before)
+        self.assertEqual(len(heard), 1)
+        self.assertLess(heard[0], 0.5 * (begin + end))
 
 
 class Described(unittest.TestCase):

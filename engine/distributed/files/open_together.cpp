@@ -72,6 +72,7 @@ class WholeMeshFile final : public SharedMeshFile {
         comm.at_first_rank([&] { all = seamflow::read_fields(*file_.source, names, exec_); });
         FileFields own;
         own.names = names_of_first(comm, all);
+        own.whole = comm.broadcast(all.whole);
         const std::int64_t n = comm.broadcast(std::vector<std::int64_t>{file_.mesh.n_vertices()}).front();
         const std::vector<std::int64_t> bounds = bounds_of_ranges(n, comm.size(), sharing_.block);
         own.values.resize(bounds[comm.rank() + 1] - bounds[comm.rank()], std::ssize(own.names));
@@ -85,7 +86,7 @@ class WholeMeshFile final : public SharedMeshFile {
     }
 
     std::vector<std::string> write_fields(Communicator& comm, const std::filesystem::path& path,
-                                          const FileFields& fields) override
+                                          FileFields& fields) override
     {
         FileFields all{.names = fields.names};
         all.values.resize(file_.mesh.n_vertices(), std::ssize(fields.names));
@@ -95,13 +96,15 @@ class WholeMeshFile final : public SharedMeshFile {
                               all.values.col(c).begin());
         }
         std::vector<std::string> remarks;
+        std::vector<char> is_alike(1);
         comm.at_first_rank([&] {
             const FileKind kind = kind_for_writing(path, file_.kind);
-            if (kind.format == file_.kind.format)
-                remarks = write_mesh_like(*file_.source, path, file_.mesh, all, exec_);
-            else
-                remarks = write_mesh(path, file_.mesh, kind, all, exec_);
+            is_alike[0] = kind.format == file_.kind.format ? 1 : 0;
+            remarks = is_alike[0] != 0 ? write_mesh_like(*file_.source, path, file_.mesh, all, exec_)
+                                       : write_mesh(path, file_.mesh, kind, all, exec_);
         });
+        if (comm.broadcast(is_alike)[0] != 0)
+            round_as_written(fields);
         return remarks;
     }
 

@@ -16,7 +16,7 @@ FileFields SharedMeshFile::read_fields(Communicator& /*comm*/, const std::vector
 }
 
 std::vector<std::string> SharedMeshFile::write_fields(Communicator& /*comm*/, const std::filesystem::path& /*path*/,
-                                                      const FileFields& /*fields*/)
+                                                      FileFields& /*fields*/)
 {
     refuse_fields();
 }

@@ -56,10 +56,10 @@ class SharedMeshFile {
     virtual FileFields read_fields(Communicator& comm, const std::vector<std::string>& names);
 
     /// Writes the mesh as `write` does, with other fields. It stays where it was.
-    /// @param fields those that were read, of this rank's range.
+    /// @param fields those that were read, of this rank's range; whole numbers are rounded to what was written.
     /// @returns, throws as write_mesh_like.
     virtual std::vector<std::string> write_fields(Communicator& comm, const std::filesystem::path& path,
-                                                  const FileFields& fields);
+                                                  FileFields& fields);
 
     /// As write_labelled_ply, with the vertices as `write` takes them.
     /// @param labels of the faces of this rank's range.

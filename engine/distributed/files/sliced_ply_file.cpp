@@ -203,7 +203,7 @@ class SlicedPlyFile final : public SharedMeshFile {
     }
 
     std::vector<std::string> write_fields(Communicator& comm, const std::filesystem::path& path,
-                                          const FileFields& fields) override
+                                          FileFields& fields) override
     {
         const InputFile input(file_);
         const auto opened = unchanged(comm, input.content());
@@ -224,6 +224,7 @@ class SlicedPlyFile final : public SharedMeshFile {
             const auto of_header = write_slice(comm, output, ply, own, changes, rewrite).first;
             remarks.insert(remarks.end(), of_header.begin(), of_header.end());
         });
+        round_as_written(fields);
         return remarks;
     }
 

@@ -1,6 +1,6 @@
 // What the user can choose, and the legend that says what is seen.
 
-import { digits, element, stepsOf } from "./facts.js";
+import { digits, digitsOfEach, element, stepsOf } from "./facts.js";
 import { hasImages, hasMaterials, hasVertexColours } from "./own_colours.js";
 import { colourOfClass, colourOfLabel, css, cssRamp } from "./palette.js";
 import { explain } from "./words.js";
@@ -91,6 +91,8 @@ export function offer(flow, chosen) {
     chosen.state = Math.min(chosen.state, flow.states.length - 1);
 }
 
+const hasScale = (field) => field !== undefined && field.has_data && !field.is_colour;
+
 /** Shows what is chosen. */
 export function reflect(flow, chosen) {
     document.querySelector(`[value="${chosen.surface}"]`).checked = true;
@@ -99,7 +101,7 @@ export function reflect(flow, chosen) {
     const steps = stepsOf(flow.report).length || flow.report.steps;
     byId("step-name").textContent = step === 0 ? "Input" : `Step ${step} of ${steps}`;
     byId("step").setAttribute("aria-valuetext", byId("step-name").textContent);
-    byId("range-choice").hidden = !["distance", "curvature"].includes(chosen.colour) && !(fieldOf(flow, chosen)?.is_colour === false);
+    byId("range-choice").hidden = !["distance", "curvature"].includes(chosen.colour) && !hasScale(fieldOf(flow, chosen));
     byId("range").value = chosen.range;
     byId("edges").checked = chosen.edges;
     byId("flat").checked = chosen.flat;
@@ -128,13 +130,16 @@ function rampLegend(name, { unit }, { largest, end }) {
 }
 
 /** What the colours of a field mean. @param range see rangeOf. */
-function fieldLegend(flow, { is_colour: isColour, has_gaps: hasGaps, least, most }, { begin, end, step }) {
+function fieldLegend(flow, { is_colour: isColour, has_data: hasData, has_gaps: hasGaps, least, most }, { begin, end, step }) {
+    if (!hasData)
+        return [swatches([[[128, 128, 128], "no data"]])];
     const list = [];
     if (!isColour) {
         const strip = element("span", { className: "ramp" });
         strip.style.background = cssRamp("field");
-        const ends = [0, 0.5, 1].map((part) => element("span", {}, `${part === 0 && least < begin ? "≤ " : part === 1 && most > end ? "≥ " : ""}${digits(begin + part * (end - begin))}`));
-        list.push(strip, element("div", { className: "ends" }, ...ends));
+        const ends = digitsOfEach([begin, 0.5 * begin + 0.5 * end, end]);
+        const marks = [least < begin ? "≤ " : "", "", most > end ? "≥ " : ""];
+        list.push(strip, element("div", { className: "ends" }, ...ends.map((text, k) => element("span", {}, marks[k] + text))));
     }
     const words = [
         ...(!isColour && flow.states.length > 1 ? ["the same scale before and after"] : []),

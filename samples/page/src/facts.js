@@ -11,6 +11,15 @@ export function digits(value, n = 3) {
     return Number.isInteger(value) ? value.toLocaleString("en") : String(Number(value.toPrecision(n)));
 }
 
+/** Numbers with so many digits, three at least, that different ones are seen to be different. */
+export function digitsOfEach(values) {
+    const count = (list) => new Set(list).size;
+    let n = 3;
+    while (n < 17 && count(values.map((value) => Number(value.toPrecision(n)))) < count(values))
+        ++n;
+    return values.map((value) => digits(value, n));
+}
+
 export const seconds = (value) =>
     value === null || value === undefined ? "–" : value < 1 ? `${digits(1000 * value)} ms` : `${digits(value)} s`;
 

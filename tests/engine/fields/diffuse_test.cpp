@@ -11,10 +11,12 @@
 #include <doctest/doctest.h>
 
 #include "engine/fields/diffuse.h"
+#include "engine/fields/field_columns.h"
 #include "engine/fields/white_noise.h"
 #include "partition/errors.h"
 #include "partition/metrics/vertex_distance.h"
 #include "samples/meshes/meshes.h"
+#include "tests/support/junction_meshes.h"
 #include "tests/support/reference_data.h"
 #include "tests/support/relative.h"
 #include "tests/support/test_meshes.h"
@@ -319,6 +321,41 @@ TEST_CASE("faces without area take no part")
     Eigen::MatrixXd with = waves_on(mesh);
     diffuse(mesh, with, options);
     CHECK(largest_difference(with.topRows(n), without) < 1e-9);
+}
+
+TEST_CASE("what is said of fields on sheets that meet, on a fixed boundary and along seams does not speak of motion")
+{
+    const FlowOptions options{.time_step = 0.1};
+    FlowOptions held = options;
+    held.motion.junctions = Junctions::Hold;
+    const PolygonMesh square = test::triangle_grid(1, 1);
+    const PolygonMesh plates = test::plates(std::array{0.0, 2.0, 4.0}, 4, 4);
+    const auto check = [](const PolygonMesh& mesh, const FlowOptions& of_flow, const FieldOptions& of_fields) {
+        Eigen::MatrixXd fields = Eigen::MatrixXd::Random(mesh.n_vertices(), 2);
+        const FieldReport report = diffuse(mesh, fields, of_flow, of_fields);
+        CHECK_FALSE(report.remarks.empty());
+        for (const std::string& remark : report.remarks) {
+            CAPTURE(remark);
+            CHECK(remark.find("mov") == std::string::npos);
+        }
+    };
+    check(plates, options, {});
+    check(plates, held, {});
+    check(square, options, {.boundary = Boundary::Fixed});
+    check(test::split(square, {0, 1}), options, {});
+}
+
+TEST_CASE("columns with data at different vertices: what is said of any is said once")
+{
+    FlowReport first;
+    first.choices = {"a", "b"};
+    first.remarks = {"r"};
+    FlowReport second;
+    second.choices = {"c", "a"};
+    second.remarks = {"s", "r"};
+    add_up(first, second);
+    CHECK(second.choices == std::vector<std::string>{"a", "b", "c"});
+    CHECK(second.remarks == std::vector<std::string>{"r", "s"});
 }
 
 TEST_CASE("a column without any data, and a component without any, stay so")

@@ -106,11 +106,31 @@ TEST_CASE("98 % of the data have their own range; fields of one value, of none, 
     CHECK(fields[0].before.data.empty());
     CHECK(fields[1].least == 4.0);
     check_shown(fields[1], fields[1].after, values.col(1));
+    CHECK(fields[1].has_data);
+    CHECK_FALSE(fields[2].has_data);
     CHECK(fields[2].most == 0.0);
     check_shown(fields[2], fields[2].after, values.col(2));
     const auto huge = test::unpacked<std::uint16_t>(fields[3].after.data, 1);
     CHECK(huge[0] == 0);
     CHECK(huge[1] == 65534);
+}
+
+TEST_CASE("vertices without faces are not in the box of a page")
+{
+    PolygonMesh mesh = test::quad_torus(4, 3);
+    const PackedPoints expected = pack_points(mesh.vertices);
+    mesh.vertices.conservativeResize(mesh.n_vertices() + 1, 3);
+    mesh.vertices.bottomRows(1).setConstant(1e6);
+    const PackedPoints packed = PageMesh(mesh).pack(mesh.vertices);
+    CHECK(packed.lower == expected.lower);
+    CHECK(packed.upper == expected.upper);
+    const auto numbers = test::unpacked<std::uint16_t>(packed.data, 3);
+    CHECK(numbers.size() == static_cast<std::size_t>(mesh.vertices.size()));
+    // Without faces there is nothing else to look at.
+    PolygonMesh points;
+    points.vertices = mesh.vertices;
+    const PackedPoints alone = PageMesh(points).pack(mesh.vertices);
+    CHECK(alone.upper == Eigen::RowVector3d::Constant(1e6));
 }
 
 TEST_CASE("a page of fields has the states before and after, of distances only one")
