@@ -53,7 +53,7 @@ TEST_CASE("what a run prints at the end: choices, time, remarks, and what the re
     std::ostringstream other;
     print_result(other, run, report);
     CHECK(other.str().find("volume") == std::string::npos);
-    CHECK(other.str().find("2 at most; area 4 -> 3\n") != std::string::npos);
+    CHECK(other.str().find("2 at most; area 4 -> 3; by ") != std::string::npos);
     CHECK(other.str().find("chosen") == std::string::npos);
     CHECK(other.str().find("distance   V_mean 0.5  V_RMS 1  V_max 1.5 mean edge lengths") != std::string::npos);
 }
