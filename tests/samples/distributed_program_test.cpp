@@ -142,6 +142,8 @@ TEST_CASE("ranks smooth a region, and along lines, as smooth does with the same 
         // Before the file is dealt.
         CHECK(w.count_lines("said", "input ") == 0);
     }
+    REQUIRE(on_ranks(w, 2, "ball.off n.off --radius 3% --weld 5%") == 0);
+    CHECK(w.count_lines("said", "remark     --weld has joined no vertices: ") == 1);
     REQUIRE(w.run("touch none") == 0);
     REQUIRE(on_ranks(w, 2, "ball.off n.off --radius 3% --region none --report r.json") == 0);
     CHECK(w.count_lines("said", "remark     The region is empty") == 1);
