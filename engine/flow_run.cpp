@@ -208,10 +208,10 @@ void FlowRun::restore(const FlowState& state)
     report_.seconds.total += state.seconds.total;
 }
 
-void FlowRun::diffuse(Points& data, int n)
+void FlowRun::diffuse(Points& data, int n, DataSteps steps)
 {
     mesh_.join(data);
-    stepper_->begin(data);
+    stepper_->begin(data, steps);
     for (int step = 1; step <= n; ++step) {
         progress_.enter(FlowPhase::Step, fractions_->number(), fractions_->begin(), fractions_->end());
         Stopwatch watch;

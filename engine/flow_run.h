@@ -42,9 +42,9 @@ class FlowRun {
     void attach(std::span<const Index> vertices, std::span<const double> weights);
     void move(std::span<const Index> vertices, const Points& to);
 
-    /// Applies the next n steps to data in place of positions, which stay (see Flow::diffuse).
+    /// Applies n steps to data in place of positions, which stay (see Flow::diffuse).
     /// @param data #V by 3, in the order of the given mesh.
-    void diffuse(Points& data, int n);
+    void diffuse(Points& data, int n, DataSteps steps);
 
     /// Weighs K from now on by differences of data (see Stepper::weigh).
     /// @throws OptionError where the steps do not support it.

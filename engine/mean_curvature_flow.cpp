@@ -204,7 +204,7 @@ void Flow::diffuse(Eigen::Ref<Eigen::MatrixXd> fields, int n)
             const Eigen::Index n_columns = std::min(width, fields.cols() - c);
             Points block = Points::Zero(fields.rows(), width);
             block.leftCols(n_columns) = fields.middleCols(c, n_columns);
-            run.diffuse(block, n);
+            run.diffuse(block, n, c == 0 ? DataSteps::Further : DataSteps::Again);
             fields.middleCols(c, n_columns) = block.leftCols(n_columns);
         }
     });

@@ -122,14 +122,14 @@ class FieldFlow {
     /// All ranks call this together.
     /// @param rows #V of the surface by 3. @param of_others correspond to `others`: those that other ranks have change.
     /// @param n how many steps.
-    void diffuse(Points& rows, Points& of_others, int n)
+    void diffuse(Points& rows, Points& of_others, int n, DataSteps steps)
     {
         // What other sub-meshes have does not matter.
         Points data = Points::Zero(mesh_.part.mesh.n_vertices(), 3);
         for (Index v = 0; v < data.rows(); ++v)
             if (const Index row = position_in(surface_.vertex_numbers, mesh_.part.vertex_numbers[v]); row >= 0)
                 data.row(v) = rows.row(row);
-        stepper_.begin(data);
+        stepper_.begin(data, steps);
         for (int step = 1; step <= n; ++step)
             try {
                 stepper_.step(data);
@@ -197,7 +197,7 @@ FlowReport diffuse_group(Communicator& comm, const MeshPart& part, const FieldGr
         };
         Points of_own = rows_of(own);
         Points of_others = rows_of(others);
-        flow.diffuse(of_own, of_others, n_steps);
+        flow.diffuse(of_own, of_others, n_steps, c == 0 ? DataSteps::Further : DataSteps::Again);
         columns(own, Eigen::all) = of_own.leftCols(columns.cols());
         columns(others, Eigen::all) = of_others.leftCols(columns.cols());
     }

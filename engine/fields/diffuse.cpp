@@ -203,12 +203,14 @@ FieldReport diffuse(const PolygonMesh& mesh, Eigen::MatrixXd& fields, const Flow
         else
             flow.diffuse(scaled.values(), options.steps);
         scaled.write(group, results);
+        // Steps that noise is measured with are none of the fields.
+        FlowReport of_group = flow.report();
         if (measures) {
             Eigen::MatrixXd noise = white_noise(mesh.n_vertices());
             flow.diffuse(noise, options.steps);
             report.fwhm = fwhm_of_noise(surface, noise);
+            of_group.seconds = flow.report().seconds;
         }
-        FlowReport of_group = flow.report();
         add_up(report.flow, of_group);
         report.flow = std::move(of_group);
         if (field_options.fill && group.n_lacking > 0 && group.n_lacking < mesh.n_vertices())

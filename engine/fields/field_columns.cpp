@@ -123,8 +123,10 @@ int n_blocks(Eigen::Index n_columns)
 
 void add_up(const FlowReport& before, FlowReport& report)
 {
-    report.convergence.steps_short_of_tolerance += before.convergence.steps_short_of_tolerance;
-    report.convergence.steps_stagnated += before.convergence.steps_stagnated;
+    // Other columns take the same steps.
+    ConvergenceReport& all = report.convergence;
+    all.steps_short_of_tolerance = std::max(all.steps_short_of_tolerance, before.convergence.steps_short_of_tolerance);
+    all.steps_stagnated = std::max(all.steps_stagnated, before.convergence.steps_stagnated);
     report.seconds.cut += before.seconds.cut;
     report.seconds.analyse += before.seconds.analyse;
     report.seconds.step += before.seconds.step;

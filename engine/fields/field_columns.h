@@ -69,7 +69,8 @@ class ScaledFields {
 /// How many times the steps of the flow are taken: once for each three columns.
 int n_blocks(Eigen::Index n_columns);
 
-/// Adds what was reported on columns before; sentences for the user, also on choices, once each, in their order.
+/// Adds what was reported on columns before: sentences for the user, also on choices, once each, in their order. Steps
+/// that miss their tolerance are those of the columns that miss it most often.
 void add_up(const FlowReport& before, FlowReport& report);
 
 }  // namespace seamflow

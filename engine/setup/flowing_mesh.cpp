@@ -49,6 +49,8 @@ void FlowingMesh::weld_seams(Topology& topology, MotionOptions& motion, const Ex
     if (!motion.weld)
         return;
     std::optional<Weld> welded = weld(mesh(), topology, *motion.weld, exec);
+    remark_on_seams_ = remark_on_seams(welded ? welded->n_vertices : 0, welded ? welded->n_edges : 0,
+                                       given_->n_vertices(), *motion.weld);
     if (!welded)
         return;
     first_ = std::move(welded->first);
@@ -78,7 +80,6 @@ void FlowingMesh::weld_seams(Topology& topology, MotionOptions& motion, const Ex
             double& strength = motion.strength[first_[v]];
             strength = std::min(strength, motion.strength[v]);
         }
-    remark_on_seams_ = remark_on_seams(welded->n_vertices, welded->n_edges);
     topology = std::move(welded->topology);
     copy_ = std::move(welded->mesh);
 }
@@ -247,10 +248,10 @@ void FlowingMesh::complete(FlowReport& report) const
 {
     if (report.separated && is_elsewhere())
         bring_back(*report.separated);
-    if (!copies_.empty()) {
+    if (!copies_.empty())
         report.mesh.moved_with = first_;
+    if (!remark_on_seams_.empty())
         report.remarks.push_back(remark_on_seams_);
-    }
     if (number_.empty())
         return;
     report.mesh.faces += given_->n_faces() - mesh().n_faces();

@@ -67,8 +67,14 @@ void ConvergedStepper::complete_filter()
 /// Notes how well the step has met the tolerance.
 void ConvergedStepper::note()
 {
-    reached_.n_short_of_tolerance += reached_.last.residual <= stop_.tolerance ? 0 : 1;
-    reached_.n_stagnated += reached_.last.stagnated ? 1 : 0;
+    reached_.of_step.resize(std::max(reached_.of_step.size(), at(reached_.n_taken) + 1));
+    Missed& counted = reached_.of_step[at(reached_.n_taken++)];
+    const Missed now{.is_short = !(reached_.last.residual <= stop_.tolerance),
+                     .has_stagnated = reached_.last.stagnated};
+    reached_.n_short_of_tolerance += now.is_short && !counted.is_short ? 1 : 0;
+    reached_.n_stagnated += now.has_stagnated && !counted.has_stagnated ? 1 : 0;
+    counted.is_short |= now.is_short;
+    counted.has_stagnated |= now.has_stagnated;
 }
 
 void ConvergedStepper::solve()
@@ -83,6 +89,14 @@ void ConvergedStepper::solve()
 void ConvergedStepper::continue_from(const Points& image, const Similarity&)
 {
     copy(run_in_parallel, image, positions_);
+}
+
+void ConvergedStepper::begin(const Points& data, DataSteps steps)
+{
+    continue_from(data, {});
+    if (steps == DataSteps::Further)
+        reached_.first = reached_.n_taken;
+    reached_.n_taken = reached_.first;
 }
 
 void ConvergedStepper::save(StepMemory& memory) const

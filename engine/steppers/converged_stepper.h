@@ -21,6 +21,7 @@ class ConvergedStepper : public Stepper {
     void step(const Points& before) final;
     [[nodiscard]] const Points& positions() const final { return positions_; }
     void continue_from(const Points& image, const Similarity&) final;
+    void begin(const Points& data, DataSteps steps) override;
     void move(std::span<const Index> vertices, const Points& to) final { move_rows(vertices, to, positions_); }
     void save(StepMemory& memory) const override;
     void restore(const StepMemory& memory) final;
@@ -70,6 +71,12 @@ class ConvergedStepper : public Stepper {
     StepGraph::Node equation_solved_;
 
   private:
+    /// How a step has missed its tolerance.
+    struct Missed {
+        bool is_short = false;
+        bool has_stagnated = false;
+    };
+
     /// How well steps have kept to their tolerance.
     struct Reached {
         /// In the last step; the residual is relative to that of the positions before it.
@@ -79,6 +86,10 @@ class ConvergedStepper : public Stepper {
         double distance = 0.0;
         int n_short_of_tolerance = 0;
         int n_stagnated = 0;
+        /// How many steps were taken, also before those since `begin`; and for each what is counted of it already.
+        int n_taken = 0;
+        int first = 0;
+        std::vector<Missed> of_step = {};
     };
 
     void solve();

@@ -333,9 +333,9 @@ InterfaceResult SchurStepper::solve_equation(const IterationStop& stop, const Ex
     return solve_on_interface(false, stop, exec);
 }
 
-void SchurStepper::begin(const Points& data)
+void SchurStepper::begin(const Points& data, DataSteps steps)
 {
-    ConvergedStepper::begin(data);
+    ConvergedStepper::begin(data, steps);
     interface_.has_update = false;
 }
 

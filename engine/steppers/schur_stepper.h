@@ -54,7 +54,7 @@ class SchurStepper final : public ConvergedStepper {
     /// @param mesh the part of the mesh that this peer knows; positions() are Vᵏ⁺¹ only in its own sub-meshes.
     SchurStepper(const PolygonMesh& mesh, PeerSubMeshes sub_meshes, const FlowOptions& options, Progress& progress);
 
-    void begin(const Points& data) override;
+    void begin(const Points& data, DataSteps steps) override;
     [[nodiscard]] bool can_change() const override { return true; }
     void hold(std::span<const Index> vertices, bool is_held) override;
     void attach(std::span<const Index> vertices, std::span<const double> weights) override;

@@ -15,6 +15,10 @@
 
 namespace seamflow {
 
+/// The steps that follow for other data: further ones, or again those since the last data that had further ones. Steps
+/// that are taken again count once.
+enum class DataSteps { Further, Again };
+
 /// Takes the steps of a flow, one after the other: each from Vᵏ to Vᵏ⁺¹. How it does so is up to the subclass (see
 /// make_stepper below for the ways). Belongs to the arena in which it is constructed.
 class Stepper {
@@ -45,7 +49,7 @@ class Stepper {
     /// Continues from other data than positions, as flows with one matrix for all steps can: positions() are then the
     /// data. Nothing is known of updates and errors any more.
     /// @param data #V by 3.
-    virtual void begin(const Points& data) { continue_from(data, {}); }
+    virtual void begin(const Points& data, DataSteps) { continue_from(data, {}); }
 
     /// Moves some vertices, with all copies of them, to where the next step is to find them. What is known of updates
     /// and errors stays.

@@ -57,6 +57,11 @@ void read_obj_lines(TextScanner scanner, EdgeList& list)
         for (int n = 0; scanner.has_token(); ++n) {
             const std::int64_t number = scanner.integer_before_slash("a vertex number (as in 7 or 7/1)");
             scanner.skip(scanner.rest_of_token().size());
+            if (number < -n_vertices)
+                scanner.fail(fmt::format(
+                    "names vertex {}, counted back from this line, but only {} it; correct the "
+                    "line",
+                    number, counted(static_cast<std::uint64_t>(n_vertices), "vertex precedes", "vertices precede")));
             const std::int64_t v = number < 0 ? n_vertices + number : number - 1;
             if (n > 0)
                 list.add(before, v, scanner, 1);

@@ -153,11 +153,19 @@ Index ObjReader::read_corner()
                        "export the mesh again");
         return -1;
     }
+    constexpr Index largest = std::numeric_limits<Index>::max();
+    if (number > largest) {
+        scanner_.fault(
+            fmt::format("names vertex {}, but a mesh has {} vertices at most; correct the face or export the "
+                        "mesh again",
+                        number, largest));
+        return -1;
+    }
     if (number < 0)
         return static_cast<Index>(number + n);
     if (number > n && (forward_references_.empty() || number - 1 > forward_references_.back().vertex))
         forward_references_.push_back({number - 1, scanner_.line()});
-    return static_cast<Index>(std::min<std::int64_t>(number - 1, std::numeric_limits<Index>::max()));
+    return static_cast<Index>(number - 1);
 }
 
 /// The numbers of a texture coordinate and a normal: /t, //n, /t/n, and the empty / and //.

@@ -3,12 +3,16 @@
 #include <algorithm>
 #include <barrier>
 #include <cstddef>
+#include <exception>
 #include <limits>
 #include <memory>
 #include <thread>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "engine/tasks/stopwatch.h"
+#include "partition/errors.h"
 
 namespace seamflow {
 
@@ -47,8 +51,17 @@ double triad_bandwidth(int threads)
         }
     };
     std::vector<std::jthread> others;
-    for (int thread = 1; thread < threads; ++thread)
-        others.emplace_back(work, thread);
+    others.reserve(static_cast<std::size_t>(threads));
+    try {
+        for (int thread = 1; thread < threads; ++thread)
+            others.emplace_back(work, thread);
+    } catch (const std::exception&) {
+        // Those that have started wait for all others.
+        for (auto n = static_cast<int>(others.size()); n < threads; ++n)
+            barrier.arrive_and_drop();
+        throw ComputationError(
+            fmt::format("cannot start {} threads to measure the bandwidth of memory: use fewer", threads));
+    }
     work(0);
     return 3 * sizeof(double) * static_cast<double>(vector_length) / least;
 }

@@ -76,14 +76,29 @@ void require_consistent_approach(const CLI::App& app, const SmoothCommand& comma
                           " takes the whole mesh: leave one of them out");
 }
 
+/// What takes sweeps: an option that is about them, or the approach; empty if nothing does.
+/// @param of_sweeps see require_consistent_approach.
+std::string reason_for_sweeps(const CLI::App& app, const SmoothCommand& command, const std::string& of_sweeps)
+{
+    const AccuracyOptions& accuracy = command.options.accuracy;
+    if (!of_sweeps.empty() || accuracy.approach != Approach::Sweep || accuracy.tolerance)
+        return of_sweeps;
+    return app.count("--approach") > 0 ? "--approach sweep" : "--converge never";
+}
+
 /// Options that would have no effect are a mistake of the user's.
 void require_effective(const CLI::App& app, const SmoothCommand& command)
 {
     const std::string of_sweeps = first_given(app, concern::sweeps);
     if (command.options.accuracy.tolerance && !of_sweeps.empty())
         throw OptionError(of_sweeps + " is about sweeps, but --converge takes converged steps: leave one of them out");
-    if (command.options.flow == FlowEquation::Linear && !of_sweeps.empty())
-        throw OptionError(of_sweeps + " is about sweeps, but --flow linear takes none: leave one of them out");
+    const std::string sweeps = reason_for_sweeps(app, command, of_sweeps);
+    if (command.options.flow == FlowEquation::Linear && !sweeps.empty())
+        throw OptionError(sweeps + " is about sweeps, but --flow linear takes none: leave one of them out");
+    if (!command.region.empty() && !sweeps.empty())
+        throw OptionError(fmt::format("--region is given, whose steps are converged or undecomposed, but {} is for "
+                                      "sweeps: leave one of them out",
+                                      sweeps));
     require_consistent_approach(app, command, of_sweeps);
     if (app.count("--converge") > 0 && command.options.accuracy.approach == Approach::Sweep)
         if (const std::string of_converged = first_given(app, concern::converged_steps); !of_converged.empty())

@@ -129,6 +129,7 @@ std::string field_report_json(const RunRecord& run, const FlowOptions& options, 
         json["laplacian"] = run.laplacian;
         json["steps"] = options.steps;
         json["time_step"] = options.time_step;
+        add_convergence(json, report.flow.convergence);
     }
     if (report.fwhm)
         json["fwhm"] = *report.fwhm;

@@ -34,12 +34,22 @@ void add_statistics(ReportJson& json, const std::string& name, const LengthStati
     json[name + "_max_absolute"] = json_number(lengths.max);
 }
 
+void add_convergence(ReportJson& json, const ConvergenceReport& convergence)
+{
+    if (!convergence.tolerance)
+        return;
+    json["tolerance"] = json_number(*convergence.tolerance);
+    json["steps_short_of_tolerance"] = convergence.steps_short_of_tolerance;
+    json["steps_stagnated"] = convergence.steps_stagnated;
+}
+
 ReportJson look_json(const SurfaceLook& look)
 {
-    ReportJson json{{"area", json_number(look.area)},
-                    {"volume", look.volume ? json_number(*look.volume) : ReportJson(nullptr)},
-                    {"roughness_rms", json_number(look.roughness.rms)},
-                    {"roughness_percentile_95", json_number(look.roughness.percentile_95)}};
+    ReportJson json{
+        {"area", json_number(look.area)},
+        {"volume", look.volume ? json_number(*look.volume) : ReportJson(nullptr)},
+        {"roughness_rms", look.roughness ? json_number(look.roughness->rms) : ReportJson(nullptr)},
+        {"roughness_percentile_95", look.roughness ? json_number(look.roughness->percentile_95) : ReportJson(nullptr)}};
     if (!look.cell_volumes.empty()) {
         ReportJson& list = json["cell_volumes"] = ReportJson::array();
         for (const double volume : look.cell_volumes)

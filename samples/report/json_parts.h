@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "engine/measure/flow_report.h"
 #include "partition/metrics/length_statistics.h"
 #include "samples/report/run_record.h"
 #include "samples/report/surface_change.h"
@@ -24,6 +25,9 @@ ReportJson json_number(double value);
 
 /// NAME_mean, NAME_rms and NAME_max in units of `mean_edge`; with the suffix _absolute in units of length.
 void add_statistics(ReportJson& json, const std::string& name, const LengthStatistics& lengths, double mean_edge);
+
+/// With a tolerance: it, and how many steps have missed it.
+void add_convergence(ReportJson& json, const ConvergenceReport& convergence);
 
 /// Area, volume, volumes of cells, if there are any, roughness and, where they were counted, crossing faces.
 ReportJson look_json(const SurfaceLook& look);

@@ -32,7 +32,7 @@ RankRoughness::RankRoughness(const MeshPart& part, std::int64_t n_vertices)
 {
 }
 
-Roughness RankRoughness::measure(Communicator& comm) const
+std::optional<Roughness> RankRoughness::measure(Communicator& comm) const
 {
     std::vector<SampledCorner> corners;
     for (const Index f : sample_)

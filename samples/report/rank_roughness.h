@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "engine/distributed/parts/mesh_part.h"
@@ -17,8 +18,8 @@ class RankRoughness {
     RankRoughness(const MeshPart& part, std::int64_t n_vertices);
 
     /// The roughness with the present positions of the part's vertices. All ranks call this together.
-    /// @returns the roughness at rank 0 only.
-    [[nodiscard]] Roughness measure(Communicator& comm) const;
+    /// @returns the roughness at rank 0 only; nothing if no rank has faces of the sample.
+    [[nodiscard]] std::optional<Roughness> measure(Communicator& comm) const;
 
   private:
     const MeshPart* part_;

@@ -179,11 +179,7 @@ std::string smooth_report_json(const RunRecord& run, const FlowReport& report)
         smoothed_radius(report.time_step, static_cast<int>(std::max<std::size_t>(report.steps.size(), 1)), run.filter));
     if (!run.keep_edges)
         json["approach"] = option_name(report.convergence.approach);
-    if (report.convergence.tolerance) {
-        json["tolerance"] = json_number(*report.convergence.tolerance);
-        json["steps_short_of_tolerance"] = report.convergence.steps_short_of_tolerance;
-        json["steps_stagnated"] = report.convergence.steps_stagnated;
-    }
+    add_convergence(json, report.convergence);
     json["threads"] = report.resources.threads;
     json["p"] = of_sub_meshes(report.cut, &SubMeshReport::p);
     json["live_factors"] = report.resources.live_factors;

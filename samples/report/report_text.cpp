@@ -239,11 +239,11 @@ void print_result(std::ostream& out, const RunRecord& run, const FlowReport& rep
                            *after.self_intersections);
     print_cells(out, before.cell_volumes, after.cell_volumes);
     const double edge = run.scale.mean_edge > 0.0 ? run.scale.mean_edge : 1.0;
-    out << fmt::format(
-        "result     {}: moved {:.3g} mean edge lengths on average, {:.3g} at most; roughness {} degrees, "
-        "area {}",
-        run.output, moved.mean / edge, moved.max / edge, change(before.roughness.rms, after.roughness.rms, 3),
-        change(before.area, after.area, 6));
+    out << fmt::format("result     {}: moved {:.3g} mean edge lengths on average, {:.3g} at most; ", run.output,
+                       moved.mean / edge, moved.max / edge);
+    if (before.roughness && after.roughness)
+        out << "roughness " << change(before.roughness->rms, after.roughness->rms, 3) << " degrees, ";
+    out << "area " << change(before.area, after.area, 6);
     if (before.volume && after.volume)
         out << ", volume " << change(*before.volume, *after.volume, 6);
     if (!report.steps.empty() && report.steps.back().estimated_v_max.value_or(0.0) > 0.0)

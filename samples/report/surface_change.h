@@ -22,7 +22,7 @@ struct SurfaceLook {
     /// first.
     std::vector<double> cell_volumes = {};
     /// Of large meshes, from a sample of their faces.
-    Roughness roughness;
+    std::optional<Roughness> roughness;
     /// The number of pairs of faces that cross each other (see self_intersections), if requested.
     std::optional<std::size_t> self_intersections = std::nullopt;
 };

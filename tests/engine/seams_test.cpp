@@ -1,11 +1,13 @@
 #include <algorithm>
 #include <memory>
+#include <string>
 
 #include <doctest/doctest.h>
 
 #include "engine/mean_curvature_flow.h"
 #include "engine/state/flow_state.h"
 #include "partition/errors.h"
+#include "partition/weld.h"
 #include "tests/support/flows.h"
 #include "tests/support/test_meshes.h"
 
@@ -191,6 +193,37 @@ TEST_CASE("copies that are a little apart come to one place, and stay where they
     // Where nothing flows nothing is moved.
     options.steps = 0;
     CHECK(same_bits(flowed(parts, options), parts.vertices));
+}
+
+TEST_CASE("a distance that joins a tenth of all vertices is warned of, unless they were at equal places")
+{
+    const PolygonMesh whole = make_quads(400);
+    PolygonMesh parts = split(whole, halves(whole));
+    const auto remarks = [&](double distance) {
+        PolygonMesh mesh = parts;
+        FlowOptions options = in_sub_meshes();
+        options.motion.weld = distance;
+        for (const std::string& remark : mean_curvature_flow(mesh, options).remarks)
+            if (remark.find("along seams") != std::string::npos || remark.starts_with("--weld has joined no vertices"))
+                return remark;
+        return std::string();
+    };
+    const Index n_seam = parts.n_vertices() - whole.n_vertices();
+    const std::string count = std::to_string(2 * n_seam) + " vertices along seams, where " + std::to_string(n_seam - 1);
+    CHECK(remarks(0.0) == count + " pairs of boundary edges lie on each other, moved as one; they are still separate "
+                                  "vertices.");
+    for (Index v = whole.n_vertices(); v < parts.n_vertices(); ++v)
+        parts.vertices.row(v) += Point(1e-5, 0.0, -1e-5);
+    CHECK(
+        remarks(1e-4).starts_with(count + " pairs of boundary edges lie within 0.0001 of each other, moved as one; "));
+    const bool are_many = 20 * n_seam >= parts.n_vertices();
+    CHECK((remarks(1e-4).find("make --weld smaller") != std::string::npos) == are_many);
+    // All is within reach of all.
+    CHECK(remarks(100.0).starts_with("--weld has joined no vertices: no seam has pairs of boundary edges within 100 "));
+    CHECK(remark_on_seams(0, 0, 1000, 0.0).empty());
+    CHECK(remark_on_seams(99, 1, 1000, 0.1).find("--weld") == std::string::npos);
+    CHECK(remark_on_seams(100, 1, 1000, 0.1).find(", and 10% of all: ") != std::string::npos);
+    CHECK(remark_on_seams(1000, 900, 1000, 0.0).find("--weld") == std::string::npos);
 }
 
 TEST_CASE("sub-meshes that are written as they are keep seams, and what an observer sees has all vertices")

@@ -7,6 +7,9 @@
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseLU>
 #include <doctest/doctest.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include "engine/mean_curvature_flow.h"
 #include "partition/errors.h"
@@ -16,12 +19,14 @@
 #include "samples/benchmark/grid_report.h"
 #include "samples/benchmark/loosest_tolerance.h"
 #include "samples/benchmark/matrix_market.h"
+#include "samples/benchmark/memory_bandwidth.h"
 #include "samples/benchmark/methods/peer_solver.h"
 #include "samples/benchmark/run_method.h"
 #include "samples/benchmark/scratch_folder.h"
 #include "samples/benchmark/whole_run.h"
 #include "samples/meshes/meshes.h"
 #include "tests/support/relative.h"
+#include "tests/support/sanitizers.h"
 #include "tests/support/temporary_directory.h"
 
 using namespace seamflow;
@@ -443,6 +448,37 @@ TEST_CASE("peers go by names")
           std::vector{Method::Cholmod, Method::OurCg, Method::Undecomposed});
     for (const char* word : {"", "cg,", ",cg", "CG", "cg cholmod", "all,cg"})
         CHECK_THROWS_AS(peers_named(word), OptionError);
+}
+
+TEST_CASE("where threads that measure the bandwidth of memory cannot start, that is said, and none waits for them")
+{
+    if (test::under_sanitizers)
+        return;
+    const pid_t child = fork();
+    REQUIRE(child >= 0);
+    if (child == 0) {
+        // Room for the vectors, but not for the stacks of so many threads.
+        constexpr rlim_t more = 3 * (std::size_t{128} << 20U) + (std::size_t{48} << 20U);
+        std::ifstream file("/proc/self/statm");
+        rlim_t pages = 0;
+        file >> pages;
+        const rlim_t most = pages * static_cast<rlim_t>(sysconf(_SC_PAGESIZE)) + more;
+        const rlimit limit{most, most};
+        alarm(60);
+        if (setrlimit(RLIMIT_AS, &limit) != 0)
+            _exit(2);
+        try {
+            triad_bandwidth(200);
+        } catch (const ComputationError& error) {
+            _exit(std::string(error.what()).starts_with("cannot start 200 threads") ? 0 : 1);
+        }
+        _exit(3);
+    }
+    int status = -1;
+    REQUIRE(waitpid(child, &status, 0) == child);
+    REQUIRE(WIFEXITED(status));
+    CHECK(WEXITSTATUS(status) == 0);
+    CHECK(triad_bandwidth(2) > 1e8);
 }
 
 TEST_CASE("the command line of benchmark has defaults that fit the mode")

@@ -130,10 +130,28 @@ TEST_CASE("ranks smooth a region, and along lines, as smooth does with the same 
 
     CHECK(on_ranks(w, 2, "ball.off no.off --feather 1%" + far + "--whole-up-to 1") == 2);
     CHECK(messages(w, "smooth-distributed").front().find("--feather needs distances on the whole mesh") == 0);
-    CHECK(on_ranks(w, 2, "ball.off no.off --radius 3% --region region --converge never") == 2);
+    for (const std::string sweeps : {"--converge never", "--approach sweep", "--coloring label"}) {
+        CAPTURE(sweeps);
+        const std::string refused = "ball.off no.off --radius 3% --region region " + sweeps;
+        REQUIRE(w.smooth(refused) == 2);
+        const auto expected = messages(w, "smooth");
+        CHECK(expected.front().find("--region is given") == 0);
+        CHECK(expected.front().find(sweeps.substr(0, sweeps.find(' '))) != std::string::npos);
+        CHECK(on_ranks(w, 2, refused) == 2);
+        CHECK(messages(w, "smooth-distributed") == expected);
+        // Before the file is dealt.
+        CHECK(w.count_lines("said", "input ") == 0);
+    }
+    REQUIRE(on_ranks(w, 2, "ball.off n.off --radius 3% --weld 5%") == 0);
+    CHECK(w.count_lines("said", "remark     --weld has joined no vertices: ") == 1);
     REQUIRE(w.run("touch none") == 0);
-    REQUIRE(on_ranks(w, 2, "ball.off n.off --radius 3% --region none") == 0);
+    REQUIRE(on_ranks(w, 2, "ball.off n.off --radius 3% --region none --report r.json") == 0);
     CHECK(w.count_lines("said", "remark     The region is empty") == 1);
+    // No face is measured.
+    CHECK(w.said().find("roughness") == std::string::npos);
+    CHECK(w.said().find("at most; area ") != std::string::npos);
+    CHECK(w.json("r.json")["surface"]["before"]["roughness_rms"].is_null());
+    CHECK(w.json("r.json")["surface"]["after"]["area"].get<double>() > 1.0);
     CHECK((test::content_of(w.directory / "n.off") == test::content_of(w.directory / "ball.off")));
 }
 

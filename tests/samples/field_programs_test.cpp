@@ -154,6 +154,10 @@ TEST_CASE("steps of fields that miss their tolerance, of any columns, end with s
     CHECK(w.smooth("in.ply out.ply --fields thickness,red --fwhm 0.3 --approach cg --converge 1e-17") == 4);
     CHECK(w.said().find("the tolerance 1e-17 was missed in ") != std::string::npos);
     CHECK(w.has("out.ply"));
+    CHECK(w.smooth("in.ply out.ply --fields thickness,red,green,blue --fwhm 0.3 --converge 1e-40 --subdomains 4 "
+                   "--report r.json") == 4);
+    CHECK(w.said().find("the tolerance 1e-40 was missed in 10 steps") != std::string::npos);
+    CHECK(w.json("r.json")["steps_short_of_tolerance"] == 10);
     CHECK(w.smooth("in.ply out.ply --fields thickness,red --fwhm 0.3 --approach cg") == 0);
 }
 

@@ -60,7 +60,8 @@ TEST_CASE("a report is valid JSON whatever happened")
     run.input = "\xff.obj";
     report.choices = {"a choice"};
     report.remarks = {"a \"remark\"\n"};
-    run.surface.after = {.area = std::numeric_limits<double>::infinity(), .volume = 2.0, .roughness = {3.0, 4.0}};
+    run.surface.after = {
+        .area = std::numeric_limits<double>::infinity(), .volume = 2.0, .roughness = Roughness{3.0, 4.0}};
     run.surface.moved = {.mean = 1.0, .rms = 2.0, .max = 3.0};
     const Json json = Json::parse(smooth_report_json(run, report));
     CHECK(json["time_step"].is_null());

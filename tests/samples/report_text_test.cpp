@@ -26,8 +26,8 @@ TEST_CASE("what a run prints at the end: choices, time, remarks, and what the re
     run.output = "b.obj";
     run.scale = {.mean_edge = 0.5, .diagonal = 2.0};
     run.seconds = 1.25;
-    run.surface = {.before = {.area = 4.0, .volume = 2.0, .roughness = {12.0, 30.0}},
-                   .after = {.area = 3.0, .volume = 1.5, .roughness = {6.5, 9.0}},
+    run.surface = {.before = {.area = 4.0, .volume = 2.0, .roughness = Roughness{12.0, 30.0}},
+                   .after = {.area = 3.0, .volume = 1.5, .roughness = Roughness{6.5, 9.0}},
                    .moved = {.mean = 0.1, .rms = 0.2, .max = 1.0}};
     FlowReport report;
     report.choices = {"This.", "That."};
@@ -47,11 +47,13 @@ TEST_CASE("what a run prints at the end: choices, time, remarks, and what the re
     CHECK(printed.find("distance") == std::string::npos);
 
     run.surface.after.volume.reset();
+    run.surface.after.roughness.reset();
     report.choices.clear();
     report.steps.back().distance = VertexDistance{.mean = 1.0, .rms = 2.0, .max = 3.0, .mean_edge = 2.0};
     std::ostringstream other;
     print_result(other, run, report);
     CHECK(other.str().find("volume") == std::string::npos);
+    CHECK(other.str().find("2 at most; area 4 -> 3; by ") != std::string::npos);
     CHECK(other.str().find("chosen") == std::string::npos);
     CHECK(other.str().find("distance   V_mean 0.5  V_RMS 1  V_max 1.5 mean edge lengths") != std::string::npos);
 }

@@ -63,6 +63,7 @@ JoinedSeams join_seams(Communicator& comm, RankSlice& slice, const SliceBounds& 
     std::vector<std::int64_t> vertices = comm.gather_at_first(boundary);
     sort_unique(vertices);
     JoinedSeams seams;
+    seams.remark = remark_on_seams(0, 0, bounds.vertices.back(), distance);
     if (comm.broadcast(std::vector<std::int64_t>{std::ssize(vertices)}).front() == 0)
         return seams;
     slice.labels.assign(at(slice.n_faces()), 0);
@@ -76,7 +77,7 @@ JoinedSeams join_seams(Communicator& comm, RankSlice& slice, const SliceBounds& 
     if (seams.vertices.empty())
         return seams;
     const auto counts = comm.broadcast(std::vector<Index>{found.n_vertices, found.n_edges});
-    seams.remark = remark_on_seams(counts[0], counts[1]);
+    seams.remark = remark_on_seams(counts[0], counts[1], bounds.vertices.back(), distance);
     const std::int64_t begin = bounds.vertices[comm.rank()];
     for (const SeamVertex& one : seams.vertices) {
         seams.n_copies += one.first != one.vertex ? 1 : 0;

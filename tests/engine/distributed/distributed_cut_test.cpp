@@ -313,7 +313,8 @@ TEST_CASE("seams are joined as on one machine, and what was joined comes back to
                     const Points before = slice.vertices;
                     const DistributedCut cut = cut_together(comm, slice, options, {.faces_of_chunk = chunk});
                     REQUIRE(cut.remarks.size() == 1);
-                    CHECK(cut.remarks.front() == remark_on_seams(expected->n_vertices, expected->n_edges));
+                    CHECK(cut.remarks.front() ==
+                          remark_on_seams(expected->n_vertices, expected->n_edges, mesh.n_vertices(), distance));
                     const RankSlice joined = test::slice_of(expected->mesh, labels, comm.rank(), n);
                     CHECK(slice.corners == joined.corners);
                     bring_back(comm, cut.seams, slice);

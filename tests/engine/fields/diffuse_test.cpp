@@ -431,6 +431,32 @@ TEST_CASE("the width that a diffusion reaches comes near to the one asked for, t
     CHECK(time_for_fwhm(2.0) == relative(4.0 / (16.0 * std::numbers::ln2), 1e-15));
 }
 
+TEST_CASE("a step that misses its tolerance counts once, whatever takes it: columns, their groups, or measured noise")
+{
+    const PolygonMesh mesh = bumpy_triangles(400);
+    const Eigen::MatrixXd waves = waves_on(mesh);
+    for (const Approach approach : {Approach::ConjugateGradients, Approach::Converged}) {
+        CAPTURE(static_cast<int>(approach));
+        FlowOptions options{.steps = 4};
+        options.accuracy.approach = approach;
+        options.accuracy.tolerance = 1e-40;
+        if (approach == Approach::Converged)
+            options.cut.subdomains = 4;
+        const auto check = [&](Eigen::MatrixXd fields, const FieldOptions& of_fields) {
+            const ConvergenceReport report = diffuse(mesh, fields, options, of_fields).flow.convergence;
+            CHECK(report.steps_short_of_tolerance == 4);
+            CHECK(report.steps_stagnated <= 4);
+        };
+        check(waves.leftCols(1), {.fwhm = 0.2});
+        check(waves, {.fwhm = 0.2});
+        Eigen::MatrixXd of_two_groups = waves;
+        of_two_groups(7, 1) = no_data;
+        check(of_two_groups, {.fwhm = 0.2});
+        if (approach == Approach::Converged)
+            check(waves, {.fwhm = 0.2, .keep_edges = 15.0});
+    }
+}
+
 TEST_CASE("white noise has no width, and its numbers a variance of 1")
 {
     const PolygonMesh mesh = test::triangle_torus(60, 60);

@@ -56,7 +56,13 @@ TEST_CASE("what is no edge is refused with the line and what to do")
     CHECK(refusal_of("a.txt", "0\n").starts_with("a.txt:1: "));
     CHECK(refusal_of("a.txt", "0 x\n").starts_with("a.txt:1: "));
     CHECK(refusal_of("a.obj", "l 1 7\n").starts_with("a.obj:1: there is no vertex 7: the mesh has 6, numbered from 1"));
-    CHECK(refusal_of("a.obj", "v 0 0 0\nl -2 1\n").starts_with("a.obj:2: there is no vertex 0"));
+    CHECK(refusal_of("a.obj", "l 0 1\n").starts_with("a.obj:1: there is no vertex 0"));
+    for (const std::string number : {"-2", "-2147483649", "-3000000000", "-4294967296"})
+        CHECK(
+            refusal_of("a.obj", "v 0 0 0\nl " + number + " 1\n")
+                .starts_with("a.obj:2: names vertex " + number + ", counted back from this line, but only 1 vertex "));
+    for (const std::string number : {"2147483649", "3000000000", "4294967297"})
+        CHECK(refusal_of("a.obj", "l 1 " + number + "\n").starts_with("a.obj:1: there is no vertex " + number + ": "));
     CHECK(refusal_of("a.obj", "v 0 0 0\n").starts_with("a.obj: the file has no edges of its own: lines l"));
     CHECK(refusal_of("a.off", "OFF\n").starts_with("a.off: the format has no edges"));
     CHECK(refusal_of("a.stl", "solid\n").starts_with("a.stl: the format has no edges"));

@@ -108,14 +108,21 @@ TEST_CASE("OBJ: every complaint names the line")
     CHECK(contains(obj_complaint(three_vertices + "f 0 1 2\n"), "a.obj:4: names vertex 0"));
     for (const std::string number : {"2147483648", "2147483649", "4294967298", "123456789012"})
         CHECK(contains(obj_complaint(three_vertices + "f 1 2 " + number + "\n"),
-                       "a.obj:4: names vertex " + number + ", but the file has only 3 vertices"));
+                       "a.obj:4: names vertex " + number + ", but a mesh has 2147483647 vertices at most"));
     CHECK(contains(obj_complaint(three_vertices + "f 1 2 4\n"),
                    "a.obj:4: names vertex 4, but the file has only 3 vertices"));
     CHECK(contains(obj_complaint("f 1 2 3\nf 1 2 9\nf 1 2 5\n" + three_vertices),
                    "a.obj:2: names vertex 9, but the file has only 3 vertices"));
     CHECK(contains(obj_complaint(three_vertices + "f 1 2 \\\n-4\n"),
                    "a.obj:5: names vertex -4, counted back from this line, but only 3 vertices precede it"));
-    CHECK(contains(obj_complaint(three_vertices + "f 1 2 3000000000\n"), "a.obj:4: names vertex 3000000000"));
+    for (const char* corners : {"1 2 3000000000", "1 3000000000 4000000000", "3000000000/1 4000000000//2 1"})
+        CHECK(
+            contains(obj_complaint(three_vertices + "f " + corners + "\n"), "a.obj:4: names vertex 3000000000, but "));
+    CHECK(contains(obj_complaint(three_vertices + "f 1 2 2147483647\n"),
+                   "a.obj:4: names vertex 2147483647, but the file has only 3 vertices"));
+    for (const std::string number : {"-2147483649", "-3000000000", "-4294967295"})
+        CHECK(contains(obj_complaint(three_vertices + "f 1 2 " + number + "\n"),
+                       "a.obj:4: names vertex " + number + ", counted back from this line"));
     CHECK(
         contains(obj_complaint(three_vertices + "f 1 2 99999999999999999999\n"), "a.obj:4: expected a vertex number"));
     for (const char* corner : {"3/x", "3/1/1/1", "3.0", "x", "3/1.5"})
