@@ -131,10 +131,10 @@ void add_up(const FlowReport& before, FlowReport& report)
     report.seconds.analyse += before.seconds.analyse;
     report.seconds.step += before.seconds.step;
     for (std::vector<std::string> FlowReport::*const list : {&FlowReport::choices, &FlowReport::remarks}) {
-        std::vector<std::string> all = before.*list;
+        std::vector<std::string> sentences = before.*list;
         for (const std::string& sentence : report.*list)
-            add_once(all, sentence);
-        report.*list = std::move(all);
+            add_once(sentences, sentence);
+        report.*list = std::move(sentences);
     }
 }
 

@@ -7,8 +7,6 @@
 
 namespace seamflow {
 
-namespace tbb = oneapi::tbb;
-
 namespace {
 
 constexpr int no_core = -1;
@@ -29,16 +27,9 @@ void leave_for_another(const std::vector<int>& cores)
 
 }  // namespace
 
-SeparateCores::SeparateCores(tbb::task_arena& arena, int threads)
-    : tbb::task_scheduler_observer(arena)
-    , core_(static_cast<std::size_t>(threads), no_core)
+SeparateCores::SeparateCores(int threads)
+    : core_(static_cast<std::size_t>(threads), no_core)
 {
-    observe(true);
-}
-
-SeparateCores::~SeparateCores()
-{
-    observe(false);
 }
 
 void SeparateCores::enter(int place)
@@ -60,16 +51,6 @@ void SeparateCores::leave(int place)
         return;
     const std::lock_guard lock(mutex_);
     core_[own] = no_core;
-}
-
-void SeparateCores::on_scheduler_entry(bool /*is_worker*/)
-{
-    enter(tbb::this_task_arena::current_thread_index());
-}
-
-void SeparateCores::on_scheduler_exit(bool /*is_worker*/)
-{
-    leave(tbb::this_task_arena::current_thread_index());
 }
 
 }  // namespace seamflow

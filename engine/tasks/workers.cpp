@@ -16,6 +16,7 @@
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/partitioner.h>
 #include <oneapi/tbb/task_arena.h>
+#include <oneapi/tbb/task_scheduler_observer.h>
 #include <pthread.h>
 
 #include "engine/options/flow_options.h"
@@ -128,6 +129,26 @@ void require_room_for_threads(tbb::task_arena& arena)
     bring_up_threads(arena);
 }
 
+/// Tells SeparateCores which threads enter and leave an arena, which must outlive this.
+class ThreadsOfArena final : public tbb::task_scheduler_observer {
+  public:
+    explicit ThreadsOfArena(tbb::task_arena& arena)
+        : tbb::task_scheduler_observer(arena)
+        , cores_(threads_of(arena))
+    {
+        observe(true);
+    }
+    ~ThreadsOfArena() override { observe(false); }
+    ThreadsOfArena(const ThreadsOfArena&) = delete;
+    ThreadsOfArena& operator=(const ThreadsOfArena&) = delete;
+
+  private:
+    void on_scheduler_entry(bool /*is_worker*/) override { cores_.enter(tbb::this_task_arena::current_thread_index()); }
+    void on_scheduler_exit(bool /*is_worker*/) override { cores_.leave(tbb::this_task_arena::current_thread_index()); }
+
+    SeparateCores cores_;
+};
+
 }  // namespace
 
 class Workers::Arena {
@@ -147,12 +168,12 @@ class Workers::Arena {
             arena.initialize(tbb::task_arena::attach());
         }
         require_room_for_threads(arena);
-        cores.emplace(arena, threads_of(arena));
+        threads_of_arena = std::make_unique<ThreadsOfArena>(arena);
     }
 
     std::optional<tbb::global_control> limit;
     tbb::task_arena arena;
-    std::optional<SeparateCores> cores;
+    std::unique_ptr<tbb::task_scheduler_observer> threads_of_arena;
     SingleThreadedBlas single_threaded_blas;
 };
 

@@ -45,7 +45,8 @@ MethodTask MethodRows::task_of(Method method, const FlowOptions& flow, double to
 Row MethodRows::run(const MethodTask& task) const
 {
     const std::string obstacle = why_not(task.method, task.options.laplacian);
-    return {name_of(task), task, obstacle.empty() ? run_in_process(scratch_.path(), task) : failed(obstacle), {}, {}, {}};
+    return {
+        name_of(task), task, obstacle.empty() ? run_in_process(scratch_.path(), task) : failed(obstacle), {}, {}, {}};
 }
 
 bool MethodRows::is_small_enough_to_factorise(Laplacian laplacian) const

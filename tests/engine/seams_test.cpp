@@ -210,12 +210,12 @@ TEST_CASE("a distance that joins a tenth of all vertices is warned of, unless th
     };
     const Index n_seam = parts.n_vertices() - whole.n_vertices();
     const std::string count = std::to_string(2 * n_seam) + " vertices along seams, where " + std::to_string(n_seam - 1);
-    CHECK(remarks(0.0) == count + " pairs of boundary edges lie on each other, moved as one; they are still separate "
+    CHECK(remarks(0.0) == count + " pairs of boundary edges lie on each other, flowed as one; they are still separate "
                                   "vertices.");
     for (Index v = whole.n_vertices(); v < parts.n_vertices(); ++v)
         parts.vertices.row(v) += Point(1e-5, 0.0, -1e-5);
     CHECK(
-        remarks(1e-4).starts_with(count + " pairs of boundary edges lie within 0.0001 of each other, moved as one; "));
+        remarks(1e-4).starts_with(count + " pairs of boundary edges lie within 0.0001 of each other, flowed as one; "));
     const bool are_many = 20 * n_seam >= parts.n_vertices();
     CHECK((remarks(1e-4).find("make --weld smaller") != std::string::npos) == are_many);
     // All is within reach of all.
