@@ -36,7 +36,7 @@ void named(const std::string& name, Body&& body)
 /// Approximately that of all faces: good enough for an estimate.
 double sampled_mean_edge(const PolygonMesh& mesh, const Points& positions)
 {
-    constexpr Index sample_size = 5'000;
+    constexpr Index sample_size = 50'000;
     const Index stride = std::max(mesh.n_faces() / sample_size, Index{1});
     using Sum = Eigen::Array2d;
     const auto of_face = [&](Index i) -> Sum {

@@ -168,7 +168,8 @@ class Workers::Arena {
             arena.initialize(tbb::task_arena::attach());
         }
         require_room_for_threads(arena);
-        threads_of_arena = std::make_unique<ThreadsOfArena>(arena);
+        if (threads_of(arena) > 1)
+            threads_of_arena = std::make_unique<ThreadsOfArena>(arena);
     }
 
     std::optional<tbb::global_control> limit;

@@ -174,7 +174,7 @@ TEST_CASE("sheets that meet flow unless they are to be held, and the report coun
                                         "f 1 2 3\nf 1 2 4\nf 1 2 5\nf 1 3 4\nf 1 4 5\nf 1 5 3\n"
                                         "f 2 4 3\nf 2 5 4\nf 2 3 5\n");
     REQUIRE(w.smooth("cells.obj out.obj --time-step .01 --report report.json") == 0);
-    CHECK(w.said().find("5 vertices on edges of three faces or more move") != std::string::npos);
+    CHECK(w.said().find("5 vertices on edges of three faces or more flow") != std::string::npos);
     CHECK(w.json("report.json")["junction_vertices"] == 5);
     CHECK(w.json("report.json")["non_manifold_vertices"] == 0);
     CHECK(w.json("report.json")["surface"]["before"]["volume"].is_null());

@@ -195,7 +195,7 @@ class SameBits(WithFolder):
                 self.assertEqual(flow.n_steps, 4)
         with self.assertRaisesRegex(ValueError, "n is -1, but has to be at least 0"):
             flow.step(-1)
-        with self.assertRaisesRegex(ValueError, "flow is linear"):
+        with self.assertRaisesRegex(ValueError, "flow linear takes none"):
             seamflow.Flow(V, F, radius="1%", flow="linear", approach="sweep")
         with self.assertRaisesRegex(ValueError, "^mesh: "):
             seamflow.Flow(V[:5], F, radius="1%")
