@@ -15,13 +15,13 @@ namespace {
 cpu_set_t allowed_cores()
 {
     cpu_set_t allowed;
-    REQUIRE(::sched_getaffinity(0, sizeof allowed, &allowed) == 0);
+    CHECK(::sched_getaffinity(0, sizeof allowed, &allowed) == 0);
     return allowed;
 }
 
 void allow(const cpu_set_t& cores)
 {
-    REQUIRE(::sched_setaffinity(0, sizeof cores, &cores) == 0);
+    CHECK(::sched_setaffinity(0, sizeof cores, &cores) == 0);
 }
 
 cpu_set_t only(int core)
@@ -60,7 +60,11 @@ TEST_CASE("a thread leaves the core of another one of its arena, if it may")
     static_cast<void>(oneapi::tbb::info::default_concurrency());  // counts the cores once
     allow(only(core));
     cores.enter(0);
-    CHECK((core_after_entering(cores, 1, core, allowed) != core || CPU_COUNT(&allowed) == 1));
+    // A busy machine may move it back at once, but not each time.
+    bool has_moved = CPU_COUNT(&allowed) == 1;
+    for (int i = 0; i < 20 && !has_moved; ++i)
+        has_moved = core_after_entering(cores, 1, core, allowed) != core;
+    CHECK(has_moved);
     CHECK(core_after_entering(cores, 1, core, only(core)) == core);
     core_after_entering(cores, 2, core, allowed);  // beyond the places: left alone
     cores.leave(0);
