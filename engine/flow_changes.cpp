@@ -23,7 +23,7 @@ std::vector<Index> FlowRun::require_changeable(std::string_view what, std::span<
                                       what));
     if (needs_stepper && !stepper_->can_change())
         throw OptionError(fmt::format("this flow does not {} vertices between steps: only converged steps of symmetric "
-                                      "Laplacians do; begin a new flow",
+                                      "Laplacians do: begin a new flow with the approach converged, or a linear one",
                                       what));
     std::vector<Index> flowing;
     for (const Index v : vertices) {

@@ -29,6 +29,7 @@
 #include "partition/io/input_file.h"
 #include "samples/command/parse_smooth_command.h"
 #include "samples/command/smooth_command.h"
+#include "samples/files/about_file.h"
 #include "samples/files/mesh_results.h"
 #include "samples/files/output_files.h"
 #include "samples/page/page_html.h"
@@ -65,11 +66,7 @@ void complete_options(SmoothCommand& command, const PolygonMesh& mesh, const std
         motion.attachment_weights =
             read_vertex_weights(command.attach_weights, mesh.n_vertices(), command.attach_property);
     motion.strength = read_region(command, mesh.n_vertices());
-    try {
-        resolve_amount(command, mesh, exec, run);
-    } catch (const InputError& error) {
-        throw InputError(command.input.string() + ": " + error.what());
-    }
+    about_file(command.input, [&] { resolve_amount(command, mesh, exec, run); });
 }
 
 /// The page of --html, so far the input; empty without --html.
@@ -143,11 +140,7 @@ void write_reports(const SmoothCommand& command, const RunRecord& run, FlowRepor
 FlowReport run_flow(const SmoothCommand& command, PolygonMesh& mesh, const StepObserver& on_step,
                     const FlowControl& control)
 {
-    try {
-        return mean_curvature_flow(mesh, command.options, on_step, control);
-    } catch (const InputError& error) {
-        throw InputError(command.input.string() + ": " + error.what());
-    }
+    return about_file(command.input, [&] { return mean_curvature_flow(mesh, command.options, on_step, control); });
 }
 
 /// Reads, flows and writes.

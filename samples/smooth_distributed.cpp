@@ -29,6 +29,7 @@
 #include "partition/errors.h"
 #include "partition/io/input_file.h"
 #include "samples/command/distributed_command.h"
+#include "samples/files/about_file.h"
 #include "samples/files/mesh_results.h"
 #include "samples/files/output_files.h"
 #include "samples/process/peak_memory.h"
@@ -100,7 +101,7 @@ class RankRun {
         inputs_.fixed = read_fixed(comm, command_, inputs_.size.vertices);
         inputs_.weights = read_weights(comm, command_, inputs_.size.vertices);
         inputs_.strengths = read_strengths(comm, command_, file_->whole() != nullptr ? &file_->whole()->mesh : nullptr,
-                                           run_.scale, inputs_.size.vertices);
+                                           run_, inputs_.size.vertices);
         run_.read_seconds = reading.seconds();
         print_input(out_, run_, inputs_.size.vertices, inputs_.size.faces);
         print_preset(out_, run_, command_.chosen);

@@ -367,7 +367,7 @@ RankMesh make_rank_mesh(Communicator& comm, const MeshPart& own, const Point& of
     if (mesh.n_non_manifold > 0)
         mesh.remarks.push_back(remark_on_non_manifold_vertices(mesh.n_non_manifold, need));
     if (mesh.n_junctions > 0)
-        mesh.remarks.push_back(remark_on_junctions(mesh.n_junctions));
+        mesh.remarks.push_back(remark_on_junctions(mesh.n_junctions, options.laplacian));
     return mesh;
 }
 

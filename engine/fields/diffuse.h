@@ -37,8 +37,8 @@ struct FieldReport {
 ///        column is that of the faces whose vertices all have data, but for faces without area. Vertices that are
 ///        fixed, have no such face, or no row in the Laplacian, keep their values; those joined along seams get one
 ///        value.
-/// @param options of the flow: amount, steps, Laplacian, sub-meshes, threads. AccuracyOptions::tolerance is 1e-8 where
-///        it is left open. MotionOptions::boundary does not count.
+/// @param options of the flow: amount, steps, sub-meshes, threads. AccuracyOptions::tolerance is 1e-8 where it is left
+///        open. MotionOptions::boundary does not count; a Laplacian that is chosen here is that of field_options, too.
 /// @throws InputError for a mesh or fields that cannot be used: another number of rows, infinite values; OptionError
 ///         for options that fields do not have: sweeps, explicit steps, an attachment, limits, rescaling; as
 ///         mean_curvature_flow. The fields are then unchanged.

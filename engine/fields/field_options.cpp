@@ -29,10 +29,14 @@ void require_for_fields(const FlowOptions& options, const FieldOptions& of_field
     const auto refuse = [](std::string_view what, std::string_view remedy) {
         throw OptionError(fmt::format("{}: leave {} out", what, remedy));
     };
-    if (!is_symmetric(options.laplacian))
+    if (options.laplacian != FlowOptions().laplacian && options.laplacian != of_fields.laplacian)
+        throw OptionError(fmt::format("the Laplacian of a flow is {}, but fields have one of their own, which is {}: "
+                                      "choose it in FieldOptions",
+                                      name_of(options.laplacian), name_of(of_fields.laplacian)));
+    if (!is_symmetric(of_fields.laplacian))
         throw OptionError(fmt::format("fields diffuse by a symmetric matrix, which the Laplacian {} does not have: use "
                                       "{}",
-                                      name_of(options.laplacian), names_of_symmetric_laplacians()));
+                                      name_of(of_fields.laplacian), names_of_symmetric_laplacians()));
     if (options.flow == FlowEquation::Conformalized)
         refuse("fields diffuse on a surface that stays, which the conformalized flow is not for", "the flow");
     if (options.accuracy.approach == Approach::Sweep || !first_set(options, concern::sweeps).empty())
@@ -60,6 +64,7 @@ FlowOptions flow_for_fields(const FlowOptions& options, const FieldOptions& of_f
 {
     FlowOptions own = options;
     own.flow = FlowEquation::Linear;
+    own.laplacian = of_fields.laplacian;
     own.motion.boundary = of_fields.boundary;
     own.report = {.record_schedule = options.report.record_schedule, .measures = false};
     if (of_fields.fwhm)

@@ -20,6 +20,10 @@ struct FieldOptions {
     std::optional<double> keep_edges = {};
     /// Gives vertices without data, after all steps, the harmonic extension of the others: K X = 0 there.
     bool fill = false;
+    /// In place of FlowOptions::laplacian: a symmetric one. M⁻¹ K of Δ_A and Δ_B is the Laplace-Beltrami operator on
+    /// any faces, so that time and width of a kernel mean what they say. Those of Δ_F and Δ_U depend on the faces: on
+    /// regular triangles Δ_F smooths √1.5 times as wide.
+    Laplacian laplacian = Laplacian::VirtualRefinement;
     /// Free: no heat flows across the boundary. Fixed: values there stay, bit for bit.
     Boundary boundary = Boundary::Free;
 };

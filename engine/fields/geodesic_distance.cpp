@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <memory_resource>
 #include <optional>
@@ -35,10 +36,9 @@ namespace {
 /// Heat is e^-r at the distance r √dt. Beyond this r it would vanish among the smallest numbers.
 constexpr double most_diffusion_lengths = 400.0;
 
-/// √dt in mean edge lengths: less makes the directions depend on those of edges, more smooths over ridges.
-constexpr double edges_of_diffusion = 2.0;
-/// Between several vertices to measure from there are ridges.
-constexpr double edges_of_diffusion_from_several = 1.0;
+/// √dt in mean edge lengths: less makes the directions depend on those of edges, more smooths over ridges and bends
+/// the directions at the boundary.
+constexpr double edges_of_diffusion = 1.0;
 
 /// After this time, in squared diagonals, K alone decides.
 constexpr double squared_diagonals_to_rest_of_distance = 1e4;
@@ -194,19 +194,28 @@ void measure_from(const PolygonMesh& mesh, const EdgePaths& paths, double edge, 
     distance.array() -= sum / std::max(n, 1.0);
 }
 
-/// Lets all vertices have equations but for those of the boundary, if it is held, and those without a row.
-void take_all(const PolygonMesh& mesh, Topology& topology, Boundary boundary, const Executor& exec)
+/// Lets all vertices have equations but for those without a row.
+void free_all(const PolygonMesh& mesh, Topology& topology, const Executor& exec)
 {
     for (std::size_t v = 0; v < topology.kind.size(); ++v)
-        topology.fixed[v] = topology.kind[v] == VertexKind::Isolated ||
-                                    (topology.kind[v] == VertexKind::Boundary && boundary == Boundary::Fixed)
-                                ? 1
-                                : 0;
+        topology.fixed[v] = topology.kind[v] == VertexKind::Isolated ? 1 : 0;
     hold(topology, vertices_without_row(mesh, topology, Laplacian::VirtualRefinement, exec));
 }
 
+/// Takes the equations away at the boundary, but for sources.
+void hold_boundary(Topology& topology, std::span<const Index> from)
+{
+    const std::vector<std::uint8_t> held = topology.fixed;
+    for (std::size_t v = 0; v < topology.kind.size(); ++v)
+        if (topology.kind[v] == VertexKind::Boundary)
+            topology.fixed[v] = 1;
+    for (const Index v : from)
+        topology.fixed[v] = held[v];
+}
+
 /// The heat, or its logarithm where there is any: the mean of those with a boundary that lets none through and with one
-/// that takes all, which leaves the least of the boundary's own effect (section 3.4 of Crane and others).
+/// that takes all but at sources, which leaves the least of the boundary's own effect (section 3.4 of Crane and
+/// others).
 Eigen::VectorXd logarithm_of_heat(const PolygonMesh& mesh, Topology& topology, WholeMeshHeat& free,
                                   std::span<const Index> from, double time_step, const Progress& progress)
 {
@@ -214,10 +223,8 @@ Eigen::VectorXd logarithm_of_heat(const PolygonMesh& mesh, Topology& topology, W
     for (const Index v : from)
         sources[v] = 1.0;
     Eigen::VectorXd heat = free.solve(sources, time_step);
-    const auto is_on_boundary = [&](Index v) { return topology.kind[v] == VertexKind::Boundary; };
-    const bool has_boundary = std::ranges::find(topology.kind, VertexKind::Boundary) != topology.kind.end();
-    if (has_boundary && std::ranges::none_of(from, is_on_boundary)) {
-        take_all(mesh, topology, Boundary::Fixed, progress.exec());
+    if (std::ranges::find(topology.kind, VertexKind::Boundary) != topology.kind.end()) {
+        hold_boundary(topology, from);
         heat += WholeMeshHeat(mesh, topology, progress).solve(sources, time_step);
     }
     for (double& one : heat)
@@ -232,9 +239,8 @@ Eigen::VectorXd distance_on(const PolygonMesh& mesh, std::span<const Index> from
     Topology topology = make_topology(mesh, progress.exec());
     const double diagonal = (mesh.vertices.colwise().maxCoeff() - mesh.vertices.colwise().minCoeff()).norm();
     const double edge = mean_edge_length(mesh);
-    const double length = std::max((from.size() > 1 ? edges_of_diffusion_from_several : edges_of_diffusion) * edge,
-                                   diagonal / most_diffusion_lengths);
-    take_all(mesh, topology, Boundary::Free, progress.exec());
+    const double length = std::max(edges_of_diffusion * edge, diagonal / most_diffusion_lengths);
+    free_all(mesh, topology, progress.exec());
     WholeMeshHeat free(mesh, topology, progress);
     const Eigen::VectorXd heat = logarithm_of_heat(mesh, topology, free, from, length * length, progress);
     const double time_step = squared_diagonals_to_rest_of_distance * diagonal * diagonal;

@@ -26,10 +26,14 @@ std::string remark_on_non_manifold_vertices(std::int64_t n, std::string_view rem
     return remark;
 }
 
-std::string remark_on_junctions(std::int64_t n)
+std::string remark_on_junctions(std::int64_t n, Laplacian laplacian)
 {
-    return fmt::format("{} on edges of three faces or more {} with all of these faces.",
-                       n == 1 ? "1 vertex" : fmt::format("{} vertices", n), n == 1 ? "flows" : "flow");
+    const bool depends_on_faces = laplacian == Laplacian::Fujiwara || laplacian == Laplacian::Uniform;
+    return fmt::format("{} on edges of three faces or more {} with all of these faces.{}",
+                       n == 1 ? "1 vertex" : fmt::format("{} vertices", n), n == 1 ? "flows" : "flow",
+                       depends_on_faces ? " Angles between sheets tend to 120 degrees with --laplacian "
+                                          "virtual-refinement."
+                                        : "");
 }
 
 std::string remark_on_undefined_vertices(std::int64_t n, std::int64_t first, Laplacian laplacian)

@@ -20,7 +20,7 @@ std::string remark_on_repeated_faces(std::int64_t n);
 std::string remark_on_non_manifold_vertices(std::int64_t n, std::string_view remedy = {});
 
 /// On vertices that move where sheets meet.
-std::string remark_on_junctions(std::int64_t n);
+std::string remark_on_junctions(std::int64_t n, Laplacian laplacian);
 
 /// On vertices that are held where the Laplacian is not defined.
 /// @param first the lowest of them.

@@ -177,7 +177,7 @@ void describe(const PreparedFlow& prepared, const FlowingMesh& mesh, FlowReport&
         report.remarks.push_back(
             remark_on_non_manifold_vertices(report.mesh.non_manifold_vertices, prepared.need_of_junctions));
     if (report.mesh.junction_vertices > 0)
-        report.remarks.push_back(remark_on_junctions(report.mesh.junction_vertices));
+        report.remarks.push_back(remark_on_junctions(report.mesh.junction_vertices, options.laplacian));
     for (Index v = 0; v < mesh.mesh().n_vertices(); ++v)
         report.mesh.fixed_vertices += topology.moves(mesh.moves_with(v)) ? 0 : 1;
     if (prepared.cut.n_parts > 1 && options.steps > 0 && !options.accuracy.tolerance) {

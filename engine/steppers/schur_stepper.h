@@ -70,8 +70,7 @@ class SchurStepper final : public ConvergedStepper {
     struct FactorStore {
         Precision precision = Precision::Automatic;
         KeptFactors plan;
-        /// Of those kept: the pool, or the heap if there is a limit, as a factor's size may differ in each step.
-        FactorMemory* memory = nullptr;
+        /// Of those kept, unless there is a limit: then it is the heap, as a factor's size may differ in each step.
         SharedFactorPool pool;
         /// Of factors that are recomputed.
         std::optional<SharedFactorPool> passing;

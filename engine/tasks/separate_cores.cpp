@@ -34,11 +34,11 @@ SeparateCores::SeparateCores(int threads)
 
 void SeparateCores::enter(int place)
 {
+    leave(place);
     const auto own = static_cast<std::size_t>(place);
     if (own >= core_.size())
         return;
     const std::lock_guard lock(mutex_);
-    core_[own] = no_core;
     if (std::find(core_.begin(), core_.end(), ::sched_getcpu()) != core_.end())
         leave_for_another(core_);
     core_[own] = ::sched_getcpu();
@@ -46,11 +46,9 @@ void SeparateCores::enter(int place)
 
 void SeparateCores::leave(int place)
 {
-    const auto own = static_cast<std::size_t>(place);
-    if (own >= core_.size())
-        return;
     const std::lock_guard lock(mutex_);
-    core_[own] = no_core;
+    if (const auto own = static_cast<std::size_t>(place); own < core_.size())
+        core_[own] = no_core;
 }
 
 }  // namespace seamflow

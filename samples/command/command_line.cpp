@@ -201,7 +201,10 @@ std::string complaint_of_surplus(const CLI::App& app)
     if (left.empty())
         return {};
     if (option == left.end())
-        return in_quotes(left.front()) + " is one argument too many";
+        return in_quotes(left.front()) + " is one argument too many" +
+               (app.get_option_no_throw("--out-dir") != nullptr
+                    ? ": meshes that are tiles of one surface need --out-dir, for their results"
+                    : "");
     const std::string name = option->substr(0, option->find('='));
     std::string nearest;
     std::size_t fewest = std::max<std::size_t>(name.size() / 3, 2);

@@ -120,6 +120,9 @@ void require_fields(const CLI::App& app, SmoothCommand& command)
                                            "smooth: give one of them");
     if (command.fields.fwhm && app.count("--steps") == 0)
         command.options.steps = steps_of_fwhm;
+    if (app.count("--laplacian") == 0)
+        command.options.laplacian = FieldOptions().laplacian;
+    command.fields.options.laplacian = command.options.laplacian;
     if (app.count("--boundary") > 0)
         command.fields.options.boundary = command.options.motion.boundary;
 }

@@ -60,7 +60,7 @@ void add_kind(CLI::App& app, SmoothCommand& command)
                        describe_presets())
         ->check(CLI::IsMember(names).description(""))
         ->type_name("scan|cad|terrain|fair");
-    add_field(app, options, "--laplacian", "discrete Laplacian [fujiwara]");
+    add_field(app, options, "--laplacian", "discrete Laplacian [fujiwara; of fields virtual-refinement]");
     add_field(app, options, "--flow",
               "conformalized keeps the weights of the Laplacian; necks do not pinch [mean-curvature]\n"
               "It turns closed surfaces without handles into spheres, but not with fujiwara. linear keeps all of the "

@@ -208,8 +208,14 @@ struct FieldWords {
     bool is_free = true;
 };
 
+struct FieldArrays {
+    std::vector<Index> fixed;
+    /// #F, or empty.
+    std::vector<Index> labels;
+};
+
 /// @param fields #V by n, which receives the result.
-FieldReport diffuse_fields(PolygonMesh mesh, std::vector<std::string> words, const std::vector<Index>& fixed,
+FieldReport diffuse_fields(PolygonMesh mesh, std::vector<std::string> words, const FieldArrays& arrays,
                            const FieldWords& of_fields, Eigen::MatrixXd& fields, const FlowControl& control)
 {
     // So that no preset chooses an amount.
@@ -219,13 +225,15 @@ FieldReport diffuse_fields(PolygonMesh mesh, std::vector<std::string> words, con
     command.fields.names = {"fields"};
     if (!of_fields.fwhm.empty())
         command.fields.fwhm = parse_length(of_fields.fwhm);
-    command.options.motion.fixed_vertices = fixed;
+    command.options.motion.fixed_vertices = arrays.fixed;
+    command.options.cut.labels = arrays.labels;
     RunRecord record = begin_record(command);
     require_valid(mesh);
     resolve_field_amount(command, mesh, run_serially, record);
     FieldOptions options = command.fields.options;
     if (of_fields.keep_edges != 0.0)
         options.keep_edges = of_fields.keep_edges;
+    options.laplacian = command.options.laplacian;
     options.fill = of_fields.fill;
     options.boundary = of_fields.is_free ? Boundary::Free : Boundary::Fixed;
     if (options.fwhm)
@@ -236,7 +244,7 @@ FieldReport diffuse_fields(PolygonMesh mesh, std::vector<std::string> words, con
 template <class Integer>
 py::tuple diffuse_arrays(const Array<double>& positions, const Array<Integer>& corners,
                          const Array<std::int64_t>& offsets, const std::vector<std::string>& words,
-                         const Array<Index>& fixed, const Array<double>& fields,
+                         const Array<Index>& fixed, const Array<Index>& labels, const Array<double>& fields,
                          const std::tuple<std::string, double, bool, bool>& of_fields)
 {
     using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
@@ -244,9 +252,9 @@ py::tuple diffuse_arrays(const Array<double>& positions, const Array<Integer>& c
     Eigen::MatrixXd values = Eigen::Map<const Rows>(fields.data(), fields.shape(0), fields.shape(1));
     const auto& [fwhm, keep_edges, fill, is_free] = of_fields;
     const FieldWords field_words{fwhm, keep_edges, fill, is_free};
-    const std::vector<Index> fixed_vertices = to_vector(fixed);
+    const FieldArrays arrays{to_vector(fixed), to_vector(labels)};
     const auto work = [&](const FlowControl& control) {
-        return diffuse_fields(std::move(mesh), words, fixed_vertices, field_words, values, control);
+        return diffuse_fields(std::move(mesh), words, arrays, field_words, values, control);
     };
     const FieldReport report = run_interruptibly(work, py::none());
     py::array_t<double> result({fields.shape(0), fields.shape(1)});
@@ -275,7 +283,7 @@ template <class Integer>
 void define_fields(py::module_& module)
 {
     module.def("diffuse", &diffuse_arrays<Integer>, py::arg("positions").noconvert(), py::arg("corners").noconvert(),
-               py::arg("offsets").noconvert(), py::arg("words"), py::arg("fixed"), py::arg("fields"),
+               py::arg("offsets").noconvert(), py::arg("words"), py::arg("fixed"), py::arg("labels"), py::arg("fields"),
                py::arg("of_fields"));
     module.def("geodesic_distance", &distance_arrays<Integer>, py::arg("positions").noconvert(),
                py::arg("corners").noconvert(), py::arg("offsets").noconvert(), py::arg("from"), py::arg("threads"));

@@ -73,6 +73,7 @@ MESH = ARGUMENTS[:2]
 lines += function("diffuse", [*MESH, "fields: npt.ArrayLike | None = None", "*", "fwhm: float | str | None = None",
                               "keep_edges: float | None = None", "fill: bool = False",
                               'boundary: Literal["free", "fixed"] = "free"', "fixed: npt.ArrayLike | None = None",
+                              "labels: npt.ArrayLike | None = None",
                               *(option for option in OPTIONS if not option.startswith(
                                   ("keep_edges", "boundary", "preset", "noise", "direction", "feather", "strict",
                                    "self_intersections")))],

@@ -20,6 +20,7 @@
 #include "partition/formats/ply_header.h"
 #include "partition/io/input_file.h"
 #include "partition/io/input_position.h"
+#include "samples/files/about_file.h"
 #include "samples/files/mesh_results.h"
 #include "samples/files/output_files.h"
 #include "samples/page/page_html.h"
@@ -46,7 +47,7 @@ void complete_options(SmoothCommand& command, const MeshFile& file, const FaultL
     if (!command.fix.empty())
         command.options.motion.fixed_vertices =
             read_vertex_set(command.fix, file.mesh.n_vertices(), command.fix_property);
-    resolve_field_amount(command, file.mesh, exec, run);
+    about_file(command.input, [&] { resolve_field_amount(command, file.mesh, exec, run); });
 }
 
 /// @returns the fields after all steps.
@@ -218,10 +219,10 @@ ExitStatus run_fields(SmoothCommand& command, RunRecord& run)
     try {
         interruption.begin_work();
         const FlowControl control{.stop = interruption.token()};
-        fields = command.fields.names.empty() ? distances(command, file, from, control, summary)
-                                              : diffused(command, file, before, control, summary);
-    } catch (const InputError& error) {
-        throw InputError(command.input.string() + ": " + error.what());
+        fields = about_file(command.input, [&] {
+            return command.fields.names.empty() ? distances(command, file, from, control, summary)
+                                                : diffused(command, file, before, control, summary);
+        });
     } catch (const Cancelled&) {
         std::cerr << "smooth: interrupted; no mesh was written\n";
         return interruption.status();

@@ -70,7 +70,7 @@ std::vector<double> read_weights(Communicator& comm, const SmoothCommand& comman
 }
 
 std::vector<double> read_strengths(Communicator& comm, const SmoothCommand& command, const PolygonMesh* whole,
-                                   const MeshScale& scale, std::int64_t n_vertices)
+                                   RunRecord& run, std::int64_t n_vertices)
 {
     std::vector<double> strengths;
     comm.at_first_rank([&] {
@@ -80,7 +80,7 @@ std::vector<double> read_strengths(Communicator& comm, const SmoothCommand& comm
                 "of INPUT with a larger --whole-up-to, or use smooth");
         strengths = read_region(command, static_cast<Index>(n_vertices));
         if (whole != nullptr)
-            feather(command, *whole, scale, run_in_parallel, strengths);
+            feather(command, *whole, run_in_parallel, run, strengths);
     });
     return strengths;
 }

@@ -9,24 +9,13 @@
 #include "engine/distributed/cut/joined_seams.h"
 #include "engine/distributed/parts/mesh_part.h"
 #include "engine/distributed/ranks/communicator.h"
-#include "partition/errors.h"
 #include "partition/io/fault_log.h"
 #include "samples/command/smooth_command.h"
+#include "samples/report/run_record.h"
 
 /// The inputs of a run of ranks besides the mesh, and how they are shared. Rank 0 reads them; all ranks call these
 /// functions together.
 namespace seamflow {
-
-/// Errors in a mesh are reported with the name of its file.
-template <class Action>
-void about_file(const std::filesystem::path& path, Action&& action)
-{
-    try {
-        action();
-    } catch (const InputError& error) {
-        throw InputError(path.string() + ": " + error.what());
-    }
-}
 
 /// How many threads a rank has: the ranks on a machine share its cores.
 /// @param host the machine of this rank.
@@ -49,9 +38,9 @@ std::vector<double> read_weights(Communicator& comm, const SmoothCommand& comman
 
 /// The strengths of --region and --feather, #V of the whole mesh at rank 0; empty elsewhere, and without a region.
 /// @param whole the mesh at rank 0; null: it has not read all of it, so that there is no --feather.
-/// @param scale of the mesh; `command` has lengths resolved by it.
+/// @param run as for feather.
 std::vector<double> read_strengths(Communicator& comm, const SmoothCommand& command, const PolygonMesh* whole,
-                                   const MeshScale& scale, std::int64_t n_vertices);
+                                   RunRecord& run, std::int64_t n_vertices);
 
 /// What numbers of vertices that move as one become.
 enum class OfSeam { Least, Largest };

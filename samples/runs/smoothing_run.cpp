@@ -1,5 +1,6 @@
 #include "samples/runs/smoothing_run.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <optional>
 #include <utility>
@@ -64,15 +65,22 @@ std::vector<double> read_region(const SmoothCommand& command, Index n_vertices)
     return read_vertex_strengths(command.input, n_vertices, command.region.string());
 }
 
-void feather(const SmoothCommand& command, const PolygonMesh& mesh, const MeshScale& scale, const Executor& exec,
+void feather(const SmoothCommand& command, const PolygonMesh& mesh, const Executor& exec, RunRecord& run,
              std::vector<double>& strength)
 {
     if (!command.feather)
         return;
     if (strength.empty())
         throw OptionError("--feather is for the rim of a region: give --region as well");
-    strength = feathered(mesh, std::move(strength), length_of(*command.feather, scale.diagonal),
+    const auto largest = [&] { return strength.empty() ? 0.0 : std::ranges::max(strength); };
+    const double given = largest();
+    strength = feathered(mesh, std::move(strength), length_of(*command.feather, run.scale.diagonal),
                          command.options.motion.weld, exec);
+    constexpr double little = 0.9;
+    if (largest() < little * given)
+        run.remarks.push_back(fmt::format("The region is less deep than --feather is long: nowhere is there more than "
+                                          "{:.2g}% of the strength. Give a shorter --feather.",
+                                          100.0 * largest() / given));
 }
 
 void resolve_lengths(SmoothCommand& command, RunRecord& run)
@@ -95,7 +103,7 @@ void resolve_amount(SmoothCommand& command, const PolygonMesh& mesh, const Execu
     else
         command.options.time_step =
             time_step_of(command.amount, run.scale, command.options.steps, filter_of(command.options));
-    feather(command, mesh, run.scale, exec, command.options.motion.strength);
+    feather(command, mesh, exec, run, command.options.motion.strength);
     // As the identity of checkpoints has it.
     command.options.uniform_edge = uniform_edge_of(command.options, mesh);
     run.has_attachment_weights = !command.options.motion.attachment_weights.empty();

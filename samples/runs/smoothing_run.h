@@ -17,10 +17,11 @@ RunRecord begin_record(const SmoothCommand& command);
 /// The strengths of --region, #V: of a file, or of a property of the input; empty without that option.
 std::vector<double> read_region(const SmoothCommand& command, Index n_vertices);
 
-/// Lets strengths rise over the length of --feather, if it is given.
-/// @param strength #V of `mesh`. @param scale, weld of the whole mesh, as resolve_lengths leaves it.
+/// Lets strengths rise over the length of --feather, if it is given. A region that is less deep gets a remark in `run`.
+/// @param strength #V of `mesh`. @param run with the size of the whole mesh; lengths are resolved (see
+/// resolve_lengths).
 /// @throws OptionError without a region.
-void feather(const SmoothCommand& command, const PolygonMesh& mesh, const MeshScale& scale, const Executor& exec,
+void feather(const SmoothCommand& command, const PolygonMesh& mesh, const Executor& exec, RunRecord& run,
              std::vector<double>& strength);
 
 /// Computes the values of `command` that depend on the sizes in `run`: lengths, and an attachment, which it records in

@@ -1,16 +1,11 @@
 #include "solvers/systems/whole_mesh_system.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
-#include <numeric>
-#include <span>
 #include <utility>
 
-#include "partition/cut/boxes.h"
 #include "partition/errors.h"
-#include "partition/index_lists.h"
 #include "solvers/laplacian/vertex_row.h"
 
 namespace seamflow {
@@ -24,8 +19,7 @@ struct RowGeometry {
     /// By vertices, and by rows.
     const Points& positions;
     const Points& of_rows;
-    const IndexLists& blocks;
-    const std::vector<Index>& row_of;
+    const WholeMeshRows& rows;
     BlockRowMatrix& matrix;
 };
 
@@ -35,7 +29,7 @@ struct RowGeometry {
 template <class Kernel, class Entry>
 double visit_matrix_row(Kernel kernel, const RowGeometry& g, const BlockRowMatrix::Place& place, Entry&& entry)
 {
-    const Index v = g.blocks.values[place.row];
+    const Index v = g.rows.vertices.values[place.row];
     if constexpr (EdgeKernel<Kernel>)
         // The entries of the matrix are the edges, of two faces each.
         if (g.topology.kind[v] == VertexKind::Interior) {
@@ -51,7 +45,7 @@ double visit_matrix_row(Kernel kernel, const RowGeometry& g, const BlockRowMatri
             return Kernel::averages_mass ? mass / n_edges : mass;
         }
     return visit_row(kernel, g.mesh, g.topology, g.positions, v, [&](Index w, double k) {
-        const Index j = g.row_of[w];
+        const Index j = g.rows.row_of[w];
         entry([&]() -> float& { return g.matrix.entry(place, j); }, j, k);
     });
 }
@@ -70,52 +64,6 @@ void with_rows(const ScaledLaplacian& laplacian, const RowGeometry& geometry, Ac
     });
 }
 
-/// Finds the columns of the rows of a matrix.
-class RowPattern {
-  public:
-    RowPattern(const PolygonMesh& mesh, const Topology& topology, const std::vector<Index>& row_of, Reach reach)
-        : mesh_(&mesh)
-        , topology_(&topology)
-        , row_of_(&row_of)
-        , along_edges_(reach == Reach::Edges || mesh.n_corners() == 3 * mesh.n_faces())
-    {
-    }
-
-    /// The columns of the row of v, ascending and without v itself, until the next call.
-    const std::vector<Index>& list(Index v)
-    {
-        columns_.clear();
-        for (const Index corner : topology_->corners_at(v)) {
-            if (along_edges_) {
-                add(topology_->next(*mesh_, corner));
-                if (!next_are_all(v))
-                    add(topology_->previous(*mesh_, corner));
-                continue;
-            }
-            for (const Index w : mesh_->face(topology_->face_of[corner]))
-                columns_.push_back((*row_of_)[w]);
-        }
-        sort_unique(columns_);
-        std::erase(columns_, (*row_of_)[v]);
-        return columns_;
-    }
-
-  private:
-    /// Whether the vertices after v in its faces are all that share edges with it, each met once.
-    [[nodiscard]] bool next_are_all(Index v) const
-    {
-        return along_edges_ && topology_->oriented && topology_->kind[v] == VertexKind::Interior;
-    }
-
-    void add(Index corner) { columns_.push_back((*row_of_)[mesh_->face_vertices[corner]]); }
-
-    const PolygonMesh* mesh_;
-    const Topology* topology_;
-    const std::vector<Index>* row_of_;
-    bool along_edges_;
-    std::vector<Index> columns_;
-};
-
 /// The most reduction in one pass of single precision; and the fraction of a residual that may then be left with enough
 /// progress.
 constexpr double most_reduction_at_once = 1e-4;
@@ -130,109 +78,6 @@ Eigen::Array4f to_row(const Point& point)
     return {static_cast<float>(point[0]), static_cast<float>(point[1]), static_cast<float>(point[2]), 0.0F};
 }
 
-/// This many blocks keep as many threads busy; smaller ones leave more out of the preconditioner.
-constexpr Index most_blocks = 64;
-constexpr Index fewest_rows = 512;
-constexpr Index usual_rows = BlockRowMatrix::most_rows / 2;
-/// As a fraction of the edges.
-constexpr double most_between_blocks = 1.0 / 6.0;
-
-Index number_of_blocks(Index n_rows)
-{
-    const Index wanted = std::max(std::min(n_rows / fewest_rows, most_blocks), n_rows / usual_rows);
-    return static_cast<Index>(std::bit_floor(static_cast<unsigned>(std::max(wanted, 1))));
-}
-
-/// The vertices in the order of their numbers.
-IndexLists consecutive_blocks(Index n_rows, Index n_blocks)
-{
-    IndexLists blocks;
-    blocks.values.resize(at(n_rows));
-    std::iota(blocks.values.begin(), blocks.values.end(), 0);
-    for (Index block = 1; block <= n_blocks; ++block)
-        blocks.offsets.push_back(static_cast<Index>(std::int64_t{n_rows} * block / n_blocks));
-    return blocks;
-}
-
-/// The fraction of the edges of faces whose ends are in different blocks.
-double part_between(const PolygonMesh& mesh, const IndexLists& blocks, const Executor& exec)
-{
-    std::vector<Index> block_of(at(mesh.n_vertices()));
-    for_each(exec, blocks.size(),
-             [&](Index block) { std::fill_n(block_of.begin() + blocks.offsets[block], blocks[block].size(), block); });
-    const double n_between = sum(exec, mesh.n_faces(), [&](Index f) {
-        const std::span<const Index> face = mesh.face(f);
-        double n = block_of[face.back()] != block_of[face.front()] ? 1.0 : 0.0;
-        for (std::size_t i = 1; i < face.size(); ++i)
-            n += block_of[face[i - 1]] != block_of[face[i]] ? 1.0 : 0.0;
-        return n;
-    });
-    return n_between / static_cast<double>(std::max<std::size_t>(mesh.face_vertices.size(), 1));
-}
-
-/// The vertices without faces where they are most of all, as outside a region that flows alone: they need no rows.
-std::vector<Index> vertices_without_rows(const Topology& topology, const Executor& exec)
-{
-    const auto n = static_cast<Index>(topology.kind.size());
-    std::vector<Index> isolated = select(exec, n, [&](Index v) { return topology.kind[v] == VertexKind::Isolated; });
-    return 2 * isolated.size() > topology.kind.size() ? std::move(isolated) : std::vector<Index>();
-}
-
-/// Boxes of the vertices that have faces.
-IndexLists divide_vertices_of_faces(const PolygonMesh& mesh, const Topology& topology, const Executor& exec)
-{
-    const std::vector<Index> vertices =
-        select(exec, mesh.n_vertices(), [&](Index v) { return topology.kind[v] != VertexKind::Isolated; });
-    const auto n = static_cast<Index>(vertices.size());
-    IndexLists blocks = divide_into_boxes(mesh.vertices(vertices, Eigen::all), number_of_blocks(n), exec);
-    for (Index& v : blocks.values)
-        v = vertices[v];
-    return blocks;
-}
-
-/// Blocks of consecutive vertices need no set-up; but the order of the vertices in most scans separates neighbours.
-IndexLists make_blocks(const PolygonMesh& mesh, const Topology& topology, bool have_all_rows, const Executor& exec)
-{
-    if (!have_all_rows)
-        return divide_vertices_of_faces(mesh, topology, exec);
-    const Index n = number_of_blocks(mesh.n_vertices());
-    IndexLists blocks = consecutive_blocks(mesh.n_vertices(), n);
-    if (part_between(mesh, blocks, exec) <= most_between_blocks)
-        return blocks;
-    return divide_into_boxes(mesh.vertices, n, exec);
-}
-
-std::vector<Index> make_row_of(const IndexLists& blocks, Index n_vertices, const Executor& exec)
-{
-    std::vector<Index> row_of(at(n_vertices), -1);
-    for_each(exec, static_cast<Index>(blocks.values.size()), [&](Index i) { row_of[blocks.values[i]] = i; });
-    return row_of;
-}
-
-/// Vertices that do not move have the row of the identity.
-BlockRowMatrix make_matrix(const PolygonMesh& mesh, const Topology& topology, const IndexLists& vertices,
-                           const std::vector<Index>& row_of, Reach reach, const Executor& exec)
-{
-    std::vector<Index> begin{0};
-    for (Index block = 0; block < vertices.size(); ++block)
-        while (begin.back() < vertices.offsets[block + 1])
-            begin.push_back(std::min(begin.back() + BlockRowMatrix::most_rows, vertices.offsets[block + 1]));
-    return {begin,
-            [&](Index block) {
-                RowPattern pattern(mesh, topology, row_of, reach);
-                IndexLists rows;
-                for (Index i = begin[block]; i < begin[block + 1]; ++i) {
-                    if (topology.moves(vertices.values[i])) {
-                        const std::vector<Index>& columns = pattern.list(vertices.values[i]);
-                        rows.values.insert(rows.values.end(), columns.begin(), columns.end());
-                    }
-                    rows.close();
-                }
-                return rows;
-            },
-            exec};
-}
-
 }  // namespace
 
 WholeMeshSystem::WholeMeshSystem(const PolygonMesh& mesh, const Topology& topology, const ScaledLaplacian& laplacian,
@@ -240,31 +85,29 @@ WholeMeshSystem::WholeMeshSystem(const PolygonMesh& mesh, const Topology& topolo
     : mesh_(&mesh)
     , topology_(&topology)
     , laplacian_(laplacian)
-    , without_rows_(vertices_without_rows(topology, exec))
-    , blocks_(make_blocks(mesh, topology, without_rows_.empty(), exec))
-    , row_of_(make_row_of(blocks_, mesh.n_vertices(), exec))
-    , matrix_(make_matrix(mesh, topology, blocks_, row_of_, traits_of(laplacian).reach, exec))
-    , moves_(blocks_.values.size())
+    , rows_(make_whole_mesh_rows(mesh, topology, exec))
+    , matrix_(make_matrix(mesh, topology, rows_, traits_of(laplacian).reach, exec))
+    , moves_(rows_.vertices.values.size())
     , masses_(is_applied_again ? moves_.size() : 0)
     , keeps_matrix_(terms.keeps_mass)
 {
-    for_each(exec, matrix_.n_rows(), [&](Index i) { moves_[i] = topology.moves(blocks_.values[i]) ? 1 : 0; });
+    for_each(exec, matrix_.n_rows(), [&](Index i) { moves_[i] = topology.moves(rows_.vertices.values[i]) ? 1 : 0; });
     if (keeps_matrix_) {
         kept_ = *terms.first;
         kept_of_rows_.resize(matrix_.n_rows(), 3);
-        for_each(exec, matrix_.n_rows(), [&](Index i) { kept_of_rows_.row(i) = kept_.row(blocks_.values[i]); });
+        for_each(exec, matrix_.n_rows(), [&](Index i) { kept_of_rows_.row(i) = kept_.row(rows_.vertices.values[i]); });
     }
     if (!terms.strengths.empty()) {
         strengths_.resize(moves_.size());
-        for_each(exec, matrix_.n_rows(), [&](Index i) { strengths_[i] = terms.strength(blocks_.values[i]); });
+        for_each(exec, matrix_.n_rows(), [&](Index i) { strengths_[i] = terms.strength(rows_.vertices.values[i]); });
     }
     if (!terms.attaches())
         return;
     screenings_.resize(moves_.size());
     first_.resize(matrix_.n_rows(), 3);
     for_each(exec, matrix_.n_rows(), [&](Index i) {
-        screenings_[i] = terms.weight(blocks_.values[i]) * strength(i);
-        first_.row(i) = terms.first->row(blocks_.values[i]);
+        screenings_[i] = terms.weight(rows_.vertices.values[i]) * strength(i);
+        first_.row(i) = terms.first->row(rows_.vertices.values[i]);
     });
 }
 
@@ -272,7 +115,7 @@ WholeMeshSystem::WholeMeshSystem(const PolygonMesh& mesh, const Topology& topolo
 /// @param of_rows V, by rows.
 WholeMeshSystem::Sizes WholeMeshSystem::assemble(const Points& of_rows, const Executor& exec)
 {
-    const RowGeometry geometry{*mesh_, *topology_, *before_, of_rows, blocks_, row_of_, matrix_};
+    const RowGeometry geometry{*mesh_, *topology_, *before_, of_rows, rows_, matrix_};
     using Sums = Eigen::Array<double, 8, 1>;
     Sums sums;
     with_rows(laplacian_, geometry, [&](auto&& visit) {
@@ -325,7 +168,7 @@ WholeMeshSystem::Sizes WholeMeshSystem::assemble(const Points& of_rows, const Ex
 /// @returns the sum of its squares, each over the diagonal.
 double WholeMeshSystem::measure(const Points& of_rows, const Points& data, bool is_pulled, const Executor& exec)
 {
-    const RowGeometry geometry{*mesh_, *topology_, *before_, of_rows, blocks_, row_of_, matrix_};
+    const RowGeometry geometry{*mesh_, *topology_, *before_, of_rows, rows_, matrix_};
     using Sum = Eigen::Array<double, 1, 1>;
     Sum squared;
     with_rows(laplacian_, geometry, [&](auto&& visit) {
@@ -369,7 +212,7 @@ double WholeMeshSystem::farthest_move(const Executor& exec) const
     return std::sqrt(reduce(
         exec, matrix_.n_rows(), 0.0,
         [&](double& largest, Index i) {
-            keep_larger(largest, (after_.row(i) - before_->row(blocks_.values[i])).squaredNorm());
+            keep_larger(largest, (after_.row(i) - before_->row(rows_.vertices.values[i])).squaredNorm());
         },
         keep_larger));
 }
@@ -401,7 +244,7 @@ WholeMeshSystem::Result WholeMeshSystem::step_with_kept_matrix(const Points& bef
         has_matrix_ = true;
     }
     data_.resize(matrix_.n_rows(), 3);
-    for_each(exec, matrix_.n_rows(), [&](Index i) { data_.row(i) = before.row(blocks_.values[i]); });
+    for_each(exec, matrix_.n_rows(), [&](Index i) { data_.row(i) = before.row(rows_.vertices.values[i]); });
     after_ = data_;
     const double squared = measure(kept_of_rows_, data_, true, exec);
     if (squared == 0.0) {
@@ -432,7 +275,7 @@ WholeMeshSystem::Result WholeMeshSystem::step(const Points& before, double time_
 /// Saves memory: a result has room for V, by rows, until it is known itself.
 void WholeMeshSystem::list_before(Points& result, const Executor& exec) const
 {
-    for_each(exec, matrix_.n_rows(), [&](Index i) { result.row(i) = before_->row(blocks_.values[i]); });
+    for_each(exec, matrix_.n_rows(), [&](Index i) { result.row(i) = before_->row(rows_.vertices.values[i]); });
 }
 
 WholeMeshSystem::Result WholeMeshSystem::apply(const Points& data, const IterationStop& stop, Points& result,
@@ -442,7 +285,7 @@ WholeMeshSystem::Result WholeMeshSystem::apply(const Points& data, const Iterati
     data_.resize(matrix_.n_rows(), 3);
     const Sum squared = matrix_.sum_of_rows<Sum>(exec, [&](const BlockRowMatrix::Place& place) -> Sum {
         const Index i = place.row;
-        data_.row(i) = data.row(blocks_.values[i]);
+        data_.row(i) = data.row(rows_.vertices.values[i]);
         if (moves_[i] == 0)
             return Sum::Zero();
         const Point residual = units_.length * masses_[i] * data_.row(i);
@@ -485,7 +328,8 @@ WholeMeshSystem::Result WholeMeshSystem::solve(const Beginning& beginning, const
     };
     if (beginning.guess != nullptr) {
         after_.resize(matrix_.n_rows(), 3);
-        for_each(exec, matrix_.n_rows(), [&](Index i) { after_.row(i) = beginning.guess->row(blocks_.values[i]); });
+        for_each(exec, matrix_.n_rows(),
+                 [&](Index i) { after_.row(i) = beginning.guess->row(rows_.vertices.values[i]); });
         renew();
         is_in_rows = left < 1.0;
         if (is_in_rows) {
@@ -497,7 +341,7 @@ WholeMeshSystem::Result WholeMeshSystem::solve(const Beginning& beginning, const
     }
     StoppingCriterion criterion(stop, most_left, left);
     const auto current = [&](Index i) {
-        return is_in_rows ? Point(after_.row(i)) : Point(before_->row(blocks_.values[i]));
+        return is_in_rows ? Point(after_.row(i)) : Point(before_->row(rows_.vertices.values[i]));
     };
     while (!criterion.is_met()) {
         const BlockRowMatrix::Result pass = matrix_.iterate(
@@ -511,7 +355,7 @@ WholeMeshSystem::Result WholeMeshSystem::solve(const Beginning& beginning, const
             return current(i) + length * matrix_.increment(i).head<3>().cast<double>().matrix().transpose();
         };
         if (is_last) {
-            for_each(exec, matrix_.n_rows(), [&](Index i) { after.row(blocks_.values[i]) = moved(i); });
+            for_each(exec, matrix_.n_rows(), [&](Index i) { after.row(rows_.vertices.values[i]) = moved(i); });
             is_written = true;
         } else {
             after_.resize(matrix_.n_rows(), 3);
@@ -525,9 +369,9 @@ WholeMeshSystem::Result WholeMeshSystem::solve(const Beginning& beginning, const
         criterion.note(pass.iterations, left, left / before_pass);
     }
     if (!is_written)
-        for_each(exec, matrix_.n_rows(), [&](Index i) { after.row(blocks_.values[i]) = current(i); });
-    for_each(exec, static_cast<Index>(without_rows_.size()), [&](Index i) {
-        const Index v = without_rows_[i];
+        for_each(exec, matrix_.n_rows(), [&](Index i) { after.row(rows_.vertices.values[i]) = current(i); });
+    for_each(exec, static_cast<Index>(rows_.without_row.size()), [&](Index i) {
+        const Index v = rows_.without_row[i];
         after.row(v) = beginning.before != nullptr ? Point(beginning.before->row(v)) : Point::Zero();
     });
     return {criterion.result(left), distance};

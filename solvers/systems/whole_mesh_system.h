@@ -6,13 +6,13 @@
 #include <Eigen/Core>
 
 #include "partition/executor.h"
-#include "partition/index_lists.h"
 #include "partition/polygon_mesh.h"
 #include "partition/topology.h"
 #include "solvers/krylov/stopping_criterion.h"
 #include "solvers/laplacian/flow_terms.h"
 #include "solvers/laplacian/laplacian.h"
 #include "solvers/systems/block_row_matrix.h"
+#include "solvers/systems/whole_mesh_rows.h"
 
 namespace seamflow {
 
@@ -111,11 +111,7 @@ class WholeMeshSystem {
     /// Those of this step.
     Units units_;
     double time_step_ = 0.0;
-    /// The vertices that have no rows, not even that of the identity.
-    std::vector<Index> without_rows_;
-    /// The vertices of rows, by blocks; and the rows of vertices.
-    IndexLists blocks_;
-    std::vector<Index> row_of_;
+    WholeMeshRows rows_;
     BlockRowMatrix matrix_;
     /// V as given to the last step.
     const Points* before_ = nullptr;

@@ -221,7 +221,8 @@ TEST_CASE("two balls with a common wall shrink alike")
     });
     CHECK(report.mesh.junction_vertices > 20);
     CHECK(report.mesh.non_manifold_vertices == 0);
-    CHECK(std::ranges::count(report.remarks, remark_on_junctions(report.mesh.junction_vertices)) == 1);
+    CHECK(std::ranges::count(report.remarks, remark_on_junctions(report.mesh.junction_vertices, options.laplacian)) ==
+          1);
     const auto mirrored = [](Point point) {
         point[2] = 24.0 - point[2];
         return point;

@@ -83,6 +83,9 @@ TEST_CASE("a region of a file, of another one, or of the mesh's own file is smoo
     CHECK(result("painted.ply out.ply --region paint") == result("painted.ply out.ply --region numbers.txt"));
     const Points soft = result("mesh.obj out.obj --region numbers.txt --feather 10%");
     CHECK(soft.topRows(300) == before.vertices.topRows(300));
+    CHECK(w.said().find("--feather") == std::string::npos);
+    result("mesh.obj out.obj --region numbers.txt --feather 500%");
+    CHECK(w.said().find("less deep than --feather is long") != std::string::npos);
     // The rim, beside vertex 300, is soft.
     CHECK((soft - before.vertices).middleRows(300, 25).norm() <
           0.75 * (after - before.vertices).middleRows(300, 25).norm());

@@ -62,7 +62,7 @@ class Fields(unittest.TestCase):
         self.fields = np.random.default_rng(1).standard_normal((900, 5))
 
     def test_columns(self):
-        smooth, report = seamflow.diffuse(self.V, self.F, self.fields, fwhm=0.2, laplacian="virtual-refinement")
+        smooth, report = seamflow.diffuse(self.V, self.F, self.fields, fwhm=0.2)
         self.assertEqual(smooth.shape, (900, 5))
         self.assertLess(smooth.std(), 0.3 * self.fields.std())
         self.assertLess(abs(report["fwhm"] - 0.2), 0.03)
@@ -86,6 +86,16 @@ class Fields(unittest.TestCase):
         fixed, _ = seamflow.diffuse(self.V, self.F, self.fields[:, 1], radius=0.1, boundary="fixed")
         np.testing.assert_array_equal(fixed[:30], self.fields[:30, 1])
 
+    def test_given_sub_meshes(self):
+        labels = (np.arange(841) % 29) // 10
+        given, _ = seamflow.diffuse(self.V, self.F, self.fields, radius=0.1, labels=labels, approach="converged")
+        cut, _ = seamflow.diffuse(self.V, self.F, self.fields, radius=0.1, subdomains=3, approach="converged")
+        whole, _ = seamflow.diffuse(self.V, self.F, self.fields, radius=0.1, approach="undecomposed")
+        self.assertTrue((given != cut).any())
+        np.testing.assert_allclose(given, whole, atol=1e-6)
+        with self.assertRaisesRegex(ValueError, "labels"):
+            seamflow.diffuse(self.V, self.F, self.fields, radius=0.1, labels=labels[:5])
+
     def test_edges_stay(self):
         step = np.where(self.V[:, 0] > 0.5, 100.0, 0.0)
         kept, _ = seamflow.diffuse(self.V, self.F, step, radius=0.1, keep_edges=5)
@@ -106,6 +116,9 @@ class Fields(unittest.TestCase):
             ({}, "needs one amount"),
             ({"fwhm": 1, "radius": 1}, "needs one amount"),
             ({"fwhm": 1, "preset": "scan"}, "no preset"),
+            ({"fwhm": 1, "region": np.ones(900)}, "no region"),
+            ({"fwhm": 1, "progress": print}, "no progress"),
+            ({"fwhm": 1, "keep_edges": 0}, "keep_edges is 0, but"),
             ({"fwhm": 1, "boundary": "open"}, "free or fixed"),
             ({"fwhm": 1, "approach": "sweep"}, "sweeps"),
         ):
@@ -113,8 +126,10 @@ class Fields(unittest.TestCase):
                 seamflow.diffuse(self.V, self.F, self.fields, **keywords)
         with self.assertRaisesRegex(ValueError, "7 rows"):
             seamflow.diffuse(self.V, self.F, self.fields[:7], fwhm=1)
-        with self.assertRaisesRegex(ValueError, "vertex 900"):
+        with self.assertRaisesRegex(ValueError, "sources names vertex 900"):
             seamflow.geodesic_distance(self.V, self.F, [900])
+        with self.assertRaisesRegex(ValueError, "needs sources"):
+            seamflow.geodesic_distance(self.V, self.F)
 
 
 class SameBits(WithFolder):
@@ -193,8 +208,10 @@ class SameBits(WithFolder):
                     self.assertEqual(own[name], report[name])
                 flow.step()
                 self.assertEqual(flow.n_steps, 4)
-        with self.assertRaisesRegex(ValueError, "n is -1, but has to be at least 0"):
+        with self.assertRaisesRegex(ValueError, "n is -1, but has to be a whole number"):
             flow.step(-1)
+        with self.assertRaisesRegex(ValueError, "n is 1.5, but has to be a whole number"):
+            flow.step(1.5)
         with self.assertRaisesRegex(ValueError, "flow linear takes none"):
             seamflow.Flow(V, F, radius="1%", flow="linear", approach="sweep")
         with self.assertRaisesRegex(ValueError, "^mesh: "):

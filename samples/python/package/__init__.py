@@ -89,8 +89,8 @@ class Flow:
 
     def step(self, n=1):
         """Takes n steps. After an error no further step can be taken."""
-        if n < 0:
-            raise ValueError(f"n is {n}, but has to be at least 0")
+        if not isinstance(n, (int, np.integer)) or n < 0:
+            raise ValueError(f"n is {n!r}, but has to be a whole number of steps from 0")
         self._flow.step(n)
 
     def hold(self, vertices):
@@ -150,7 +150,8 @@ class Flow:
         return _report(report, parts)
 
 
-def diffuse(V, F=None, fields=None, *, fwhm=None, keep_edges=None, fill=False, boundary="free", fixed=None, **options):
+def diffuse(V, F=None, fields=None, *, fwhm=None, keep_edges=None, fill=False, boundary="free", fixed=None, labels=None,
+            **options):
     """Smooths fields on a surface by its heat equation, while the surface stays. All columns share one factorisation.
 
     V, F: as for smooth(); with a mesh in place of V, F is None.
@@ -161,19 +162,23 @@ def diffuse(V, F=None, fields=None, *, fwhm=None, keep_edges=None, fill=False, b
     fill: gives vertices without data the harmonic extension of the others.
     boundary: "free": nothing flows across it; "fixed": values there stay.
     fixed: vertices whose values stay, as a mask or by their numbers.
+    labels: as for smooth(), the sub-mesh of each face, in place of a cut.
 
     Returns the fields, in the type of `fields` (float32, or else float64), and a dict: "fwhm", the width that was
     reached, as white noise shows (None without fwhm), "time_step", "without_data", "filled", "remarks".
 
-    The other keywords are those options of smooth() that concern how steps are solved: laplacian, steps, converge,
-    approach, threads, weld and so on. Raises as smooth().
+    The other keywords are those options of smooth() that concern how steps are solved: laplacian ("virtual-refinement"
+    unless told otherwise), steps, converge, approach, threads, weld and so on. Raises as smooth().
     """
     values = np.asarray(fields)
     if values.ndim not in (1, 2) or values.dtype.kind not in "fiu":
         raise ValueError(f"fields has to be real numbers, (#V,) or (#V, n), but is {values.dtype}, {values.shape}")
     if boundary not in ("free", "fixed"):
         raise ValueError(f"boundary is free or fixed, not {boundary!r}")
-    for name in ("preset", "noise", "direction", "feather", "strict", "self_intersections"):
+    if keep_edges is not None and not keep_edges > 0:
+        raise ValueError(f"keep_edges is {keep_edges!r}, but has to be a positive difference of fields")
+    for name in ("preset", "noise", "direction", "region", "feather", "strict", "self_intersections", "edges",
+                 "attach_weights", "progress"):
         if options.get(name) is not None:
             raise ValueError(f"diffuse has no {name}: the surface stays")
     amounts = [fwhm, *(options.get(name) for name in ("radius", "time_step", "time_step_edges"))]
@@ -181,14 +186,16 @@ def diffuse(V, F=None, fields=None, *, fwhm=None, keep_edges=None, fill=False, b
         raise ValueError("diffuse needs one amount: give fwhm, radius, time_step or time_step_edges")
     if fwhm is not None and options.get("steps") is None:
         options["steps"] = 10
-    (V, corners, offsets, words, arrays), _ = _arguments(V, F, options, fixed, None, None, None, None)
+    if options.get("laplacian") is None:
+        options["laplacian"] = "virtual-refinement"
+    (V, corners, offsets, words, arrays), _ = _arguments(V, F, options, fixed, labels, None, None, None)
     if len(values) != len(V):
         raise ValueError(f"fields has {len(values)} rows, but the mesh has {len(V)} vertices")
-    # The boundary is an argument of its own, and fixed vertices are an array.
-    words = [word for word in words if word != "--fix=array"]
+    # The boundary is an argument of its own, and these are arrays.
+    words = [word for word in words if word not in ("--fix=array", "--labels=array")]
     result, reached, without_data, filled, time_step, remarks, missed = _core.diffuse(
-        V, corners, offsets, words, arrays[0], np.ascontiguousarray(values.reshape(len(V), -1), dtype=np.float64),
-        ("" if fwhm is None else str(fwhm), float(keep_edges or 0.0), bool(fill), boundary == "free"))
+        V, corners, offsets, words, *arrays[:2], np.ascontiguousarray(values.reshape(len(V), -1), dtype=np.float64),
+        ("" if fwhm is None else str(fwhm), 0.0 if keep_edges is None else float(keep_edges), bool(fill), boundary == "free"))
     if missed:
         warnings.warn(f"the tolerance was missed in {missed} steps", RuntimeWarning, stacklevel=2)
     report = {"fwhm": reached, "time_step": time_step, "without_data": without_data, "filled": filled,
@@ -202,8 +209,11 @@ def geodesic_distance(V, F=None, sources=None, *, threads=0):
     V, F: as for smooth(); with a mesh in place of V, F is None.
     sources: vertices to measure from, as a mask or by their numbers.
     """
-    (V, corners, offsets, _, arrays), _ = _arguments(V, F, {}, np.atleast_1d(sources), None, None, None, None)
-    return _core.geodesic_distance(V, corners, offsets, arrays[0], threads)
+    if sources is None:
+        raise ValueError("geodesic_distance needs sources: the vertices to measure from")
+    (V, corners, offsets, _, _), _ = _arguments(V, F, {}, None, None, None, None, None)
+    sources = _vertex_set("sources", np.atleast_1d(sources), len(V))
+    return _core.geodesic_distance(V, corners, offsets, np.ascontiguousarray(sources, dtype=np.int32), threads)
 
 
 def _report(text, parts):
@@ -327,18 +337,23 @@ def _edges(value, count):
 
 
 def _fixed(value, count):
+    return _vertex_set("fixed", value, count)
+
+
+def _vertex_set(name, value, count):
+    """The numbers of vertices that are given so, or as a mask, each once."""
     array = np.asarray(value)
     if array.dtype.kind == "b":
-        return np.flatnonzero(_array_of("fixed", array, count, "b", "a mask or numbers of vertices"))
+        return np.flatnonzero(_array_of(name, array, count, "b", "a mask or numbers of vertices"))
     if array.dtype == np.uint8 and array.shape == (count,) and (count == 0 or array.max() <= 1):
         return np.flatnonzero(array)
     if array.size == 0:
         return []
     if array.ndim != 1 or array.dtype.kind not in "iu":
-        raise ValueError(f"fixed has to be a mask or numbers of vertices, but is {array.dtype}, {array.shape}")
+        raise ValueError(f"{name} has to be a mask or numbers of vertices, but is {array.dtype}, {array.shape}")
     wrong = array[(array < 0) | (array >= count)]
     if wrong.size > 0:
-        raise ValueError(f"fixed names vertex {wrong[0]}, but the mesh has {count} vertices")
+        raise ValueError(f"{name} names vertex {wrong[0]}, but the mesh has {count} vertices")
     return np.unique(array)
 
 

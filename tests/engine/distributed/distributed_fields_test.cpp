@@ -48,9 +48,9 @@ bool are_same_bits(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b)
            std::memcmp(a.data(), b.data(), static_cast<std::size_t>(a.size()) * sizeof(double)) == 0;
 }
 
-FlowOptions field_steps(Laplacian laplacian, double time_step, Index subdomains)
+FlowOptions field_steps(double time_step, Index subdomains)
 {
-    FlowOptions options{.laplacian = laplacian, .time_step = time_step, .steps = 2};
+    FlowOptions options{.time_step = time_step, .steps = 2};
     options.accuracy.approach = Approach::Converged;
     options.accuracy.tolerance = 1e-10;
     options.cut.subdomains = subdomains;
@@ -201,12 +201,12 @@ TEST_CASE("fields on ranks have the bits of one machine, for any number of ranks
 {
     for (const Laplacian laplacian : {Laplacian::Fujiwara, Laplacian::AlexaWardetzky, Laplacian::VirtualRefinement})
         for (const PolygonMesh& mesh : test::height_fields(900)) {
-            const FieldExample example{mesh, columns_on(mesh), field_steps(laplacian, 1e-2, 9)};
+            const FieldExample example{mesh, columns_on(mesh), field_steps(1e-2, 9), {.laplacian = laplacian}};
             const Eigen::MatrixXd after = check_fields(example, true);
             CHECK(after.col(6) == example.fields.col(6));
             CHECK(after.col(0) != example.fields.col(0));
         }
-    FieldExample example{make_mixed_polygons(900), {}, field_steps(Laplacian::VirtualRefinement, 1e-2, 9)};
+    FieldExample example{make_mixed_polygons(900), {}, field_steps(1e-2, 9)};
     example.mesh.vertices.rowwise() += Point(1e5, -3e4, 1e6);
     example.fields = columns_on(example.mesh);
     check_fields(example, true);
@@ -222,7 +222,7 @@ TEST_CASE("fields on ranks have the bits of one machine, for any number of ranks
 
 TEST_CASE("fields on ranks: a step that misses its tolerance counts once, with any columns")
 {
-    FieldExample example{make_triangles(900), {}, field_steps(Laplacian::AlexaWardetzky, 1e-2, 8)};
+    FieldExample example{make_triangles(900), {}, field_steps(1e-2, 8)};
     example.fields = columns_on(example.mesh);
     const std::vector<Index> labels = labels_for(example);
     example.options.accuracy.tolerance = 1e-40;
@@ -231,7 +231,7 @@ TEST_CASE("fields on ranks: a step that misses its tolerance counts once, with a
 
 TEST_CASE("fields on ranks: vertices and a boundary that are held keep their values, bit for bit")
 {
-    FieldExample example{make_triangles(900), {}, field_steps(Laplacian::AlexaWardetzky, 1e-2, 8)};
+    FieldExample example{make_triangles(900), {}, field_steps(1e-2, 8)};
     example.fields = columns_on(example.mesh);
     example.fixed = {17, 400, 401};
     example.of_fields.boundary = Boundary::Fixed;
@@ -245,7 +245,7 @@ TEST_CASE("fields on ranks: vertices and a boundary that are held keep their val
 TEST_CASE("fields on ranks: vertices without data take no part, whatever that leaves of sub-meshes")
 {
     for (const double time_step : {1e-3, 3e-2}) {
-        FieldExample example{make_triangles(1500), {}, field_steps(Laplacian::AlexaWardetzky, time_step, 12)};
+        FieldExample example{make_triangles(1500), {}, field_steps(time_step, 12)};
         example.fields = columns_on(example.mesh);
         take_data_away(example.mesh, example.fields);
         check_fields(example, false);
@@ -256,7 +256,7 @@ TEST_CASE("fields on ranks: vertices without data take no part, whatever that le
         CHECK(distance_of_fields(after.col(3), others.col(3)) < 1e-8);
     }
     // Two columns that differ at vertices that rank 0 does not have.
-    FieldExample apart{make_triangles(600), {}, field_steps(Laplacian::AlexaWardetzky, 1e-2, 6)};
+    FieldExample apart{make_triangles(600), {}, field_steps(1e-2, 6)};
     apart.fields = columns_on(apart.mesh).leftCols(2);
     const std::vector<Index> labels = labels_for(apart);
     for (Index v = 0; v < apart.mesh.n_vertices(); ++v)
@@ -265,7 +265,7 @@ TEST_CASE("fields on ranks: vertices without data take no part, whatever that le
     REQUIRE(apart.fields.col(1).hasNaN());
     check_fields(apart, false);
     // No column has any; data at one rank alone.
-    FieldExample example{make_triangles(600), {}, field_steps(Laplacian::AlexaWardetzky, 1e-2, 6)};
+    FieldExample example{make_triangles(600), {}, field_steps(1e-2, 6)};
     example.fields = columns_on(example.mesh);
     example.fields.col(1).setConstant(lacking_datum);
     example.fields.col(3).tail(example.mesh.n_vertices() - 20).setConstant(lacking_datum);
@@ -276,7 +276,7 @@ TEST_CASE("fields on ranks: vertices without data take no part, whatever that le
 
 TEST_CASE("fields on ranks: faces that repeat others are left out")
 {
-    FieldExample example{make_triangles(600), {}, field_steps(Laplacian::AlexaWardetzky, 1e-2, 6)};
+    FieldExample example{make_triangles(600), {}, field_steps(1e-2, 6)};
     const Index n = example.mesh.n_faces();
     for (Index f = 0; f < n; f += 3) {
         const auto face = example.mesh.face(f);
@@ -297,7 +297,7 @@ TEST_CASE("fields on ranks: faces that repeat others are left out")
 
 TEST_CASE("what fields on ranks cannot be is refused by all, and changes nothing")
 {
-    FieldExample example{make_triangles(400), {}, field_steps(Laplacian::AlexaWardetzky, 1e-2, 4)};
+    FieldExample example{make_triangles(400), {}, field_steps(1e-2, 4)};
     example.fields = columns_on(example.mesh);
     const auto refuses = [&](const std::string& what) {
         const std::string said = complaint_of_ranks(example);
@@ -333,7 +333,7 @@ TEST_CASE("fields of joined vertices are their means, and come back to all of th
     for (Index f = one.n_faces(); f < mesh.n_faces(); ++f)
         std::reverse(mesh.face_vertices.begin() + mesh.face_offsets[f],
                      mesh.face_vertices.begin() + mesh.face_offsets[f + 1]);
-    FieldExample example{mesh, columns_on(mesh), field_steps(Laplacian::AlexaWardetzky, 1e-2 * width, 5)};
+    FieldExample example{mesh, columns_on(mesh), field_steps(1e-2 * width, 5)};
     example.fields.col(6).setConstant(1.0 / 3.0);
     Eigen::MatrixXd expected = example.fields;
     diffuse(mesh, expected, example.options);

@@ -95,8 +95,7 @@ double largest_difference(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b)
 FlowOptions steps_of(const PolygonMesh& mesh, double squared_edges, int steps, Approach approach, Index subdomains)
 {
     const double edge = mean_edge_length(mesh);
-    FlowOptions options{
-        .laplacian = Laplacian::AlexaWardetzky, .time_step = squared_edges * edge * edge, .steps = steps};
+    FlowOptions options{.time_step = squared_edges * edge * edge, .steps = steps};
     options.accuracy.approach = approach;
     options.accuracy.tolerance = 1e-11;
     if (approach == Approach::Undecomposed)
@@ -413,6 +412,25 @@ TEST_CASE("edges of fields stay by the diffusivity of Perona and Malik")
           }) == "edges of fields are kept only in converged and undecomposed steps: leave the approach automatic");
 }
 
+TEST_CASE("a spike becomes as wide as it was asked to, on faces of any form")
+{
+    // The second moment grows by 4 t.
+    for (const PolygonMesh& mesh : {make_triangles(1500), make_quads(1500), make_hexagons(1500)}) {
+        PolygonMesh flat = mesh;
+        flat.vertices.col(2).setZero();
+        const Point middle = 0.5 * (flat.vertices.colwise().maxCoeff() + flat.vertices.colwise().minCoeff());
+        Eigen::Index v = 0;
+        (flat.vertices.rowwise() - middle).rowwise().squaredNorm().minCoeff(&v);
+        Eigen::MatrixXd spike = Eigen::MatrixXd::Zero(flat.n_vertices(), 1);
+        spike(v, 0) = 1.0;
+        const double fwhm = 5.0 * mean_edge_length(flat);
+        diffuse(flat, spike, {.steps = 4}, {.fwhm = fwhm});
+        const Eigen::VectorXd squares = (flat.vertices.rowwise() - flat.vertices.row(v)).rowwise().squaredNorm();
+        const double moment = spike.col(0).dot(squares) / spike.sum();
+        CHECK(moment == relative(4.0 * time_for_fwhm(fwhm), 0.02));
+    }
+}
+
 TEST_CASE("the width that a diffusion reaches comes near to the one asked for, the nearer the more steps")
 {
     const PolygonMesh mesh = make_noisy_sphere(8000, {.amplitude = 0.0, .noise = 0.0});
@@ -420,7 +438,7 @@ TEST_CASE("the width that a diffusion reaches comes near to the one asked for, t
     double before = 0.0;
     for (const int steps : {2, 10, 40}) {
         Eigen::MatrixXd fields = Eigen::MatrixXd::Zero(mesh.n_vertices(), 1);
-        FlowOptions options{.laplacian = Laplacian::AlexaWardetzky, .steps = steps};
+        FlowOptions options{.steps = steps};
         const FieldReport report = diffuse(mesh, fields, options, {.fwhm = fwhm});
         REQUIRE(report.fwhm);
         // The second moment of the spectrum of n backward Euler steps: (n - 1) / n of the square.
@@ -514,7 +532,10 @@ TEST_CASE("fields refuse what they do not have, and stay as they were")
     CHECK(complaint({.time_step = 1.0}, {.fwhm = 1.0}) ==
           "fwhm and time_step or radius both say how much is smoothed: leave one of them out");
     CHECK(complaint({}, {.fwhm = -1.0}) == "fwhm is -1, but must be positive and finite (a length)");
-    CHECK(complaint({.laplacian = Laplacian::PtackovaVelho, .time_step = 1.0}) ==
+    CHECK(complaint({.laplacian = Laplacian::AlexaWardetzky, .time_step = 1.0}) ==
+          "the Laplacian of a flow is alexa-wardetzky, but fields have one of their own, which is virtual-refinement: "
+          "choose it in FieldOptions");
+    CHECK(complaint({.time_step = 1.0}, {.laplacian = Laplacian::PtackovaVelho}) ==
           "fields diffuse by a symmetric matrix, which the Laplacian ptackova-velho does not have: use fujiwara, "
           "alexa-wardetzky, virtual-refinement or uniform");
     fields(3, 1) = std::numeric_limits<double>::infinity();

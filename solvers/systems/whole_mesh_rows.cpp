@@ -1,0 +1,176 @@
+#include "solvers/systems/whole_mesh_rows.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <numeric>
+#include <span>
+#include <utility>
+
+#include "partition/cut/boxes.h"
+
+namespace seamflow {
+
+namespace {
+
+/// This many blocks keep as many threads busy; smaller ones leave more out of the preconditioner.
+constexpr Index most_blocks = 64;
+constexpr Index fewest_rows = 512;
+constexpr Index usual_rows = BlockRowMatrix::most_rows / 2;
+/// As a fraction of the edges.
+constexpr double most_between_blocks = 1.0 / 6.0;
+
+Index number_of_blocks(Index n_rows)
+{
+    const Index wanted = std::max(std::min(n_rows / fewest_rows, most_blocks), n_rows / usual_rows);
+    return static_cast<Index>(std::bit_floor(static_cast<unsigned>(std::max(wanted, 1))));
+}
+
+/// The vertices in the order of their numbers.
+IndexLists consecutive_blocks(Index n_rows, Index n_blocks)
+{
+    IndexLists blocks;
+    blocks.values.resize(at(n_rows));
+    std::iota(blocks.values.begin(), blocks.values.end(), 0);
+    for (Index block = 1; block <= n_blocks; ++block)
+        blocks.offsets.push_back(static_cast<Index>(std::int64_t{n_rows} * block / n_blocks));
+    return blocks;
+}
+
+/// The fraction of the edges of faces whose ends are in different blocks.
+double part_between(const PolygonMesh& mesh, const IndexLists& blocks, const Executor& exec)
+{
+    std::vector<Index> block_of(at(mesh.n_vertices()));
+    for_each(exec, blocks.size(),
+             [&](Index block) { std::fill_n(block_of.begin() + blocks.offsets[block], blocks[block].size(), block); });
+    const double n_between = sum(exec, mesh.n_faces(), [&](Index f) {
+        const std::span<const Index> face = mesh.face(f);
+        double n = block_of[face.back()] != block_of[face.front()] ? 1.0 : 0.0;
+        for (std::size_t i = 1; i < face.size(); ++i)
+            n += block_of[face[i - 1]] != block_of[face[i]] ? 1.0 : 0.0;
+        return n;
+    });
+    return n_between / static_cast<double>(std::max<std::size_t>(mesh.face_vertices.size(), 1));
+}
+
+/// The vertices without faces where they are most of all, as outside a region that flows alone: they need no rows.
+std::vector<Index> vertices_without_rows(const Topology& topology, const Executor& exec)
+{
+    const auto n = static_cast<Index>(topology.kind.size());
+    std::vector<Index> isolated = select(exec, n, [&](Index v) { return topology.kind[v] == VertexKind::Isolated; });
+    return 2 * isolated.size() > topology.kind.size() ? std::move(isolated) : std::vector<Index>();
+}
+
+/// Boxes of the vertices that have faces.
+IndexLists divide_vertices_of_faces(const PolygonMesh& mesh, const Topology& topology, const Executor& exec)
+{
+    const std::vector<Index> vertices =
+        select(exec, mesh.n_vertices(), [&](Index v) { return topology.kind[v] != VertexKind::Isolated; });
+    const auto n = static_cast<Index>(vertices.size());
+    IndexLists blocks = divide_into_boxes(mesh.vertices(vertices, Eigen::all), number_of_blocks(n), exec);
+    for (Index& v : blocks.values)
+        v = vertices[v];
+    return blocks;
+}
+
+/// Blocks of consecutive vertices need no set-up; but the order of the vertices in most scans separates neighbours.
+IndexLists make_blocks(const PolygonMesh& mesh, const Topology& topology, bool have_all_rows, const Executor& exec)
+{
+    if (!have_all_rows)
+        return divide_vertices_of_faces(mesh, topology, exec);
+    const Index n = number_of_blocks(mesh.n_vertices());
+    IndexLists blocks = consecutive_blocks(mesh.n_vertices(), n);
+    if (part_between(mesh, blocks, exec) <= most_between_blocks)
+        return blocks;
+    return divide_into_boxes(mesh.vertices, n, exec);
+}
+
+std::vector<Index> make_row_of(const IndexLists& blocks, Index n_vertices, const Executor& exec)
+{
+    std::vector<Index> row_of(at(n_vertices), -1);
+    for_each(exec, static_cast<Index>(blocks.values.size()), [&](Index i) { row_of[blocks.values[i]] = i; });
+    return row_of;
+}
+
+/// Finds the columns of the rows of a matrix.
+class RowPattern {
+  public:
+    RowPattern(const PolygonMesh& mesh, const Topology& topology, const std::vector<Index>& row_of, Reach reach)
+        : mesh_(&mesh)
+        , topology_(&topology)
+        , row_of_(&row_of)
+        , along_edges_(reach == Reach::Edges || mesh.n_corners() == 3 * mesh.n_faces())
+    {
+    }
+
+    /// The columns of the row of v, ascending and without v itself, until the next call.
+    const std::vector<Index>& list(Index v)
+    {
+        columns_.clear();
+        for (const Index corner : topology_->corners_at(v)) {
+            if (along_edges_) {
+                add(topology_->next(*mesh_, corner));
+                if (!next_are_all(v))
+                    add(topology_->previous(*mesh_, corner));
+                continue;
+            }
+            for (const Index w : mesh_->face(topology_->face_of[corner]))
+                columns_.push_back((*row_of_)[w]);
+        }
+        sort_unique(columns_);
+        std::erase(columns_, (*row_of_)[v]);
+        return columns_;
+    }
+
+  private:
+    /// Whether the vertices after v in its faces are all that share edges with it, each met once.
+    [[nodiscard]] bool next_are_all(Index v) const
+    {
+        return along_edges_ && topology_->oriented && topology_->kind[v] == VertexKind::Interior;
+    }
+
+    void add(Index corner) { columns_.push_back((*row_of_)[mesh_->face_vertices[corner]]); }
+
+    const PolygonMesh* mesh_;
+    const Topology* topology_;
+    const std::vector<Index>* row_of_;
+    bool along_edges_;
+    std::vector<Index> columns_;
+};
+
+}  // namespace
+
+WholeMeshRows make_whole_mesh_rows(const PolygonMesh& mesh, const Topology& topology, const Executor& exec)
+{
+    WholeMeshRows rows;
+    rows.without_row = vertices_without_rows(topology, exec);
+    rows.vertices = make_blocks(mesh, topology, rows.without_row.empty(), exec);
+    rows.row_of = make_row_of(rows.vertices, mesh.n_vertices(), exec);
+    return rows;
+}
+
+BlockRowMatrix make_matrix(const PolygonMesh& mesh, const Topology& topology, const WholeMeshRows& rows, Reach reach,
+                           const Executor& exec)
+{
+    const IndexLists& vertices = rows.vertices;
+    std::vector<Index> begin{0};
+    for (Index block = 0; block < vertices.size(); ++block)
+        while (begin.back() < vertices.offsets[block + 1])
+            begin.push_back(std::min(begin.back() + BlockRowMatrix::most_rows, vertices.offsets[block + 1]));
+    return {begin,
+            [&](Index block) {
+                RowPattern pattern(mesh, topology, rows.row_of, reach);
+                IndexLists columns;
+                for (Index i = begin[block]; i < begin[block + 1]; ++i) {
+                    if (topology.moves(vertices.values[i])) {
+                        const std::vector<Index>& row = pattern.list(vertices.values[i]);
+                        columns.values.insert(columns.values.end(), row.begin(), row.end());
+                    }
+                    columns.close();
+                }
+                return columns;
+            },
+            exec};
+}
+
+}  // namespace seamflow
