@@ -180,7 +180,8 @@ TEST_CASE("distances from vertices of a file are those that the library makes")
     std::string floats = content_of(w.directory / "out.ply");
     floats.replace(floats.find("double distance"), 6, "float");
     (void)w.directory.with("floats.ply", floats);
-    REQUIRE(w.smooth("floats.ply again.ply --from from.txt --report r.json") == 0);
+    (void)w.directory.with("first.txt", "17\n");
+    REQUIRE(w.smooth("floats.ply again.ply --from first.txt --report r.json") == 0);
     const Eigen::VectorXd rounded = w.fields_of("again.ply", {"distance"}).values;
     CHECK(w.json("r.json")["fields"]["distance"]["after"]["most"] == rounded.maxCoeff());
     REQUIRE(w.smooth("mesh.obj from_obj.ply --from from.txt") == 0);
