@@ -178,20 +178,18 @@ TEST_CASE("normals stay continuous across gaps that --weld closes")
     (void)w.directory.with("gaps.off", text.str() + "3 0 1 2\n3 3 4 5\n3 6 7 8\n3 9 10 11\n");
     // Vertices that stay do not come together.
     (void)w.directory.with("stay", "0\n");
-    for (const bool closes : {false, true}) {
-        REQUIRE(w.smooth(
-                    std::string("gaps.off out.off --boundary free --fix stay --time-step .01 --every-step step%d.off") +
-                    (closes ? " --weld 1e-4" : "")) == 0);
-        for (const std::string name : {"out.off", "step1.off"}) {
-            std::istringstream lines(test::content_of(w.directory / name));
-            std::string word;
-            lines >> word >> word >> word >> word;
-            Eigen::Matrix<double, 12, 6> numbers;
-            for (double& number : numbers.transpose().reshaped())
-                lines >> number;
-            // Copies of one corner.
-            CHECK(((numbers.row(0) - numbers.row(3)).tail<3>().norm() < 1e-3) == closes);
-        }
+    REQUIRE(w.smooth("gaps.off out.off --weld 1e-4 --fix stay --time-step .01 --every-step step%d.off") == 0);
+    for (const std::string name : {"out.off", "step1.off"}) {
+        std::istringstream lines(test::content_of(w.directory / name));
+        std::string word;
+        lines >> word >> word >> word >> word;
+        Eigen::Matrix<double, 12, 6> numbers;
+        for (Index v = 0; v < 12; ++v)
+            for (Index k = 0; k < 6; ++k)
+                lines >> numbers(v, k);
+        // Copies of one corner.
+        CHECK((numbers.row(0) - numbers.row(3)).tail<3>().norm() < 1e-3);
+        CHECK((numbers.row(0) - numbers.row(3)).head<3>().norm() > 1e-6);
     }
 }
 
