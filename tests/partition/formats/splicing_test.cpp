@@ -10,7 +10,7 @@ using namespace seamflow;
 
 namespace {
 
-double mean_x(const PolygonMesh& mesh, Index f)
+double mean_x_of_face_at_seam(const PolygonMesh& mesh, Index f)
 {
     double sum = 0.0;
     for (const Index v : mesh.face(f))
@@ -18,7 +18,7 @@ double mean_x(const PolygonMesh& mesh, Index f)
     return sum / static_cast<double>(mesh.face(f).size());
 }
 
-Index nearest_other(const PolygonMesh& mesh, Index v)
+Index nearest_to_copy_at_seam(const PolygonMesh& mesh, Index v)
 {
     Eigen::VectorXd distances = (mesh.vertices.rowwise() - mesh.vertices.row(v)).rowwise().norm();
     distances[v] = distances.maxCoeff();
@@ -55,7 +55,7 @@ TEST_CASE("normals stay continuous across a seam as wide as is said")
     const double middle = 0.5 * (whole.vertices.col(0).minCoeff() + whole.vertices.col(0).maxCoeff());
     std::vector<Index> labels;
     for (Index f = 0; f < whole.n_faces(); ++f)
-        labels.push_back(mean_x(whole, f) > middle ? 1 : 0);
+        labels.push_back(mean_x_of_face_at_seam(whole, f) > middle ? 1 : 0);
     PolygonMesh mesh = test::split(whole, labels);
     constexpr double gap = 1e-3;
     const auto bend = [&](double left, double right) {
@@ -70,7 +70,7 @@ TEST_CASE("normals stay continuous across a seam as wide as is said")
     const Points before = mesh.vertices;
     bend(0.2, -0.9);
     const Index copy = mesh.n_vertices() - 3;
-    const Index of_copy = nearest_other(mesh, copy);
+    const Index of_copy = nearest_to_copy_at_seam(mesh, copy);
     const Point ridge(0, 0, 1);
     for (const double distance : {0.0, 2.0 * gap}) {
         const MovedNormals normals(mesh, before, run_serially, distance);
