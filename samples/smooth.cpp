@@ -101,7 +101,8 @@ StepObserver make_observer(const SmoothCommand& command, const MeshFile& input, 
         const Stopwatch watch;
         if (state.separated == nullptr)
             snapshot.vertices = state.positions;
-        write_state(command.every_step->path(state.step), snapshot, state.separated, input, exec);
+        write_state(command.every_step->path(state.step), snapshot, state.separated, input, exec,
+                    seam_distance_of(command));
         write_seconds += watch.seconds();
     };
 }
@@ -110,7 +111,8 @@ StepObserver make_observer(const SmoothCommand& command, const MeshFile& input, 
 std::vector<std::string> write_results(const SmoothCommand& command, const MeshFile& file, const FlowReport& report,
                                        const Executor& exec)
 {
-    auto remarks = write_state(command.output, file.mesh, report.separated ? &*report.separated : nullptr, file, exec);
+    auto remarks = write_state(command.output, file.mesh, report.separated ? &*report.separated : nullptr, file, exec,
+                               seam_distance_of(command));
     if (!command.parts.empty())
         write_labelled_ply(command.parts, file.mesh, report.cut.labels, exec);
     return remarks;

@@ -93,6 +93,7 @@ class RankRun {
         about_file(command_.input, [&] { inputs_.size = measure(comm, slice); });
         comm.at_first_rank([&] { require_faces(command_.input, inputs_.size.faces, file_->faults()); });
         comm.look_together([&] { settle_amount(); });
+        file_->keep_normals_across(seam_distance_of(command_));
         const SliceBounds bounds = gather_bounds(comm, slice);
         if (!command_.labels.empty())
             slice.labels = read_labels(comm, command_, file_->faults(), bounds.faces);

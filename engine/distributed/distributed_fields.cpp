@@ -53,41 +53,6 @@ FlowOptions flow_on_ranks(const FlowOptions& options, const FieldOptions& of_fie
     return own;
 }
 
-/// Groups columns by the vertices of all ranks at which they have data.
-/// @throws InputError if ranks have different numbers of columns.
-std::vector<FieldGroup> groups_of_all(Communicator& comm, const Eigen::MatrixXd& fields)
-{
-    const std::vector<FieldGroup> own = group_columns(fields);
-    const auto n = static_cast<std::size_t>(fields.cols());
-    // For each column, the first one like it here, and its group.
-    std::vector<std::size_t> like(n);
-    std::vector<const FieldGroup*> group_of(n);
-    for (const FieldGroup& group : own)
-        for (const Eigen::Index c : group.columns) {
-            like[static_cast<std::size_t>(c)] = static_cast<std::size_t>(group.columns.front());
-            group_of[static_cast<std::size_t>(c)] = &group;
-        }
-    for (const std::size_t other : comm.gather_all(std::vector{n}))
-        if (other != n)
-            throw InputError(fmt::format("some ranks have {} fields and others {}: give all the same", n, other));
-    const std::vector<std::size_t> of_all = comm.gather_all(like);
-    std::vector<FieldGroup> groups;
-    for (std::size_t c = 0; c < n; ++c) {
-        const auto is_alike = [&](const FieldGroup& group) {
-            const auto first = static_cast<std::size_t>(group.columns.front());
-            for (std::size_t i = 0; i < of_all.size(); i += n)
-                if (of_all[i + c] != of_all[i + first])
-                    return false;
-            return true;
-        };
-        auto group = std::ranges::find_if(groups, is_alike);
-        if (group == groups.end())
-            group = groups.insert(group, {{}, group_of[c]->lacks, group_of[c]->n_lacking});
-        group->columns.push_back(static_cast<Eigen::Index>(c));
-    }
-    return groups;
-}
-
 /// Those of the whole mesh.
 std::vector<ValueRange> ranges_of_all(Communicator& comm, const Eigen::MatrixXd& fields, const FieldGroup& group)
 {
@@ -210,6 +175,39 @@ FlowReport diffuse_group(Communicator& comm, const MeshPart& part, const FieldGr
 
 }  // namespace
 
+std::vector<FieldGroup> groups_of_all(Communicator& comm, const Eigen::MatrixXd& fields)
+{
+    const std::vector<FieldGroup> own = group_columns(fields);
+    const auto n = static_cast<std::size_t>(fields.cols());
+    // For each column, the first one like it here, and its group.
+    std::vector<std::size_t> like(n);
+    std::vector<const FieldGroup*> group_of(n);
+    for (const FieldGroup& group : own)
+        for (const Eigen::Index c : group.columns) {
+            like[static_cast<std::size_t>(c)] = static_cast<std::size_t>(group.columns.front());
+            group_of[static_cast<std::size_t>(c)] = &group;
+        }
+    for (const std::size_t other : comm.gather_all(std::vector{n}))
+        if (other != n)
+            throw InputError(fmt::format("some ranks have {} fields and others {}: give all the same", n, other));
+    const std::vector<std::size_t> of_all = comm.gather_all(like);
+    std::vector<FieldGroup> groups;
+    for (std::size_t c = 0; c < n; ++c) {
+        const auto is_alike = [&](const FieldGroup& group) {
+            const auto first = static_cast<std::size_t>(group.columns.front());
+            for (std::size_t i = 0; i < of_all.size(); i += n)
+                if (of_all[i + c] != of_all[i + first])
+                    return false;
+            return true;
+        };
+        auto group = std::ranges::find_if(groups, is_alike);
+        if (group == groups.end())
+            group = groups.insert(group, {{}, group_of[c]->lacks, group_of[c]->n_lacking});
+        group->columns.push_back(static_cast<Eigen::Index>(c));
+    }
+    return groups;
+}
+
 FieldReport diffuse_on_ranks(Transport& transport, const MeshPart& part, Eigen::MatrixXd& fields,
                              const FlowOptions& options, const FieldOptions& field_options)
 {
@@ -221,15 +219,19 @@ FieldReport diffuse_on_ranks(Transport& transport, const MeshPart& part, Eigen::
         comm.look_together([&] { require_fields_of(part.mesh.n_vertices(), fields, part.vertex_numbers); });
         Workers workers(options.resources.threads);
         workers.execute([&] {
-            for (const FieldGroup& group : groups_of_all(comm, fields)) {
+            const std::vector<FieldGroup> groups = groups_of_all(comm, fields);
+            std::vector<std::vector<std::string>> remarks;
+            for (const FieldGroup& group : groups) {
                 FlowReport of_group = diffuse_group(comm, part, group, of_flow, results);
+                remarks.push_back(of_group.remarks);
                 add_up(report.flow, of_group);
                 report.flow = std::move(of_group);
             }
+            report.remarks = remarks_on(groups, remarks, field_options.names);
         });
     });
     fields = std::move(results);
-    report.remarks = report.flow.remarks;
+    report.flow.remarks = report.remarks;
     return report;
 }
 

@@ -1,14 +1,23 @@
 #pragma once
 
+#include <vector>
+
 #include <Eigen/Core>
 
 #include "engine/distributed/parts/mesh_part.h"
+#include "engine/distributed/ranks/communicator.h"
 #include "engine/distributed/ranks/transport.h"
 #include "engine/fields/diffuse.h"
+#include "engine/fields/field_columns.h"
 #include "engine/fields/field_options.h"
 #include "engine/options/flow_options.h"
 
 namespace seamflow {
+
+/// Groups columns by the vertices of all ranks at which they have data. All ranks call this together.
+/// @param fields rows of some vertices of this rank. @returns `lacks` and `n_lacking` of these.
+/// @throws InputError if ranks have different numbers of columns.
+std::vector<FieldGroup> groups_of_all(Communicator& comm, const Eigen::MatrixXd& fields);
 
 /// Lets fields on a surface that no rank has as a whole diffuse, as diffuse does: each rank gives some of the
 /// sub-meshes with all their faces, and the fields of their vertices. All ranks call this together, with the same

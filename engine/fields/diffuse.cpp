@@ -131,8 +131,9 @@ Eigen::RowVectorXd means_of(const Eigen::MatrixXd& fields, const FieldGroup& gro
 }
 
 /// The harmonic extension, as what a long step makes of it.
-void extend(const PolygonMesh& mesh, FieldGroup& group, const FlowOptions& options, const FlowControl& control,
-            Eigen::MatrixXd& fields, FieldReport& report)
+/// @returns the report of that step.
+FlowReport extend(const PolygonMesh& mesh, FieldGroup& group, const FlowOptions& options, const FlowControl& control,
+                  Eigen::MatrixXd& fields, FieldReport& report)
 {
     const Index n_lacking = group.n_lacking;
     PolygonMesh surface = surface_for_extension(mesh, group, options.laplacian);
@@ -173,6 +174,18 @@ void extend(const PolygonMesh& mesh, FieldGroup& group, const FlowOptions& optio
     for (Index v = 0; v < mesh.n_vertices(); ++v)
         n_known += is_known(v) ? 1 : 0;
     report.filled += n_known - (mesh.n_vertices() - n_lacking);
+    return flow.report();
+}
+
+/// Adds what was reported on filling, in so far as the steps before have not said it: its choices are nobody's concern.
+void add_filling(const FlowReport& of_fill, FlowReport& of_group, std::vector<std::string>& remarks)
+{
+    FlowReport counted = of_fill;
+    counted.choices.clear();
+    add_up(counted, of_group);
+    for (const std::string& remark : of_fill.remarks)
+        if (std::ranges::find(of_group.remarks, remark) == of_group.remarks.end())
+            remarks.push_back("Filling: " + remark);
 }
 
 }  // namespace
@@ -187,7 +200,9 @@ FieldReport diffuse(const PolygonMesh& mesh, Eigen::MatrixXd& fields, const Flow
     FlowOptions of_flow = flow_for_fields(options, field_options);
     of_flow.time_step = time_step_of(of_flow, mesh);
     of_flow.radius.reset();
-    for (FieldGroup& group : group_columns(fields)) {
+    std::vector<FieldGroup> groups = group_columns(fields);
+    std::vector<std::vector<std::string>> remarks;
+    for (FieldGroup& group : groups) {
         FlowOptions own = of_flow;
         PolygonMesh surface = surface_of(mesh, group, own.laplacian, own.cut.labels);
         report.without_data = std::max(report.without_data, group.n_lacking);
@@ -211,13 +226,17 @@ FieldReport diffuse(const PolygonMesh& mesh, Eigen::MatrixXd& fields, const Flow
             report.fwhm = fwhm_of_noise(surface, noise);
             of_group.seconds = flow.report().seconds;
         }
+        remarks.push_back(of_group.remarks);
+        if (field_options.fill && group.n_lacking > 0 && group.n_lacking < mesh.n_vertices()) {
+            const FlowReport of_fill = extend(mesh, group, of_flow, control, results, report);
+            add_filling(of_fill, of_group, remarks.back());
+        }
         add_up(report.flow, of_group);
         report.flow = std::move(of_group);
-        if (field_options.fill && group.n_lacking > 0 && group.n_lacking < mesh.n_vertices())
-            extend(mesh, group, of_flow, control, results, report);
     }
     fields = std::move(results);
-    report.remarks = report.flow.remarks;
+    report.remarks = remarks_on(groups, remarks, field_options.names);
+    report.flow.remarks = report.remarks;
     return report;
 }
 

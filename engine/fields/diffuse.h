@@ -17,7 +17,8 @@ namespace seamflow {
 /// What diffuse did.
 struct FieldReport {
     /// Of the flow; its steps count all columns. Columns whose data are at different vertices have flows of their own:
-    /// its remarks and choices are those of all these, once each.
+    /// its remarks and choices are those of all these, once each; a remark on some columns names them. Those on filling
+    /// say so.
     FlowReport flow;
     /// With FieldOptions::fwhm: the width that was reached, in length, as white noise at the vertices shows that has
     /// diffused in the same way: from the variances of values and of their differences along edges (Forman and others,

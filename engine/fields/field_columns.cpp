@@ -130,12 +130,56 @@ void add_up(const FlowReport& before, FlowReport& report)
     report.seconds.cut += before.seconds.cut;
     report.seconds.analyse += before.seconds.analyse;
     report.seconds.step += before.seconds.step;
-    for (std::vector<std::string> FlowReport::*const list : {&FlowReport::choices, &FlowReport::remarks}) {
-        std::vector<std::string> sentences = before.*list;
-        for (const std::string& sentence : report.*list)
-            add_once(sentences, sentence);
-        report.*list = std::move(sentences);
+    std::vector<std::string> choices = before.choices;
+    for (const std::string& choice : report.choices)
+        add_once(choices, choice);
+    report.choices = std::move(choices);
+}
+
+namespace {
+
+/// As "For 'a', 'b' and 'c': ".
+std::string about(const std::vector<Eigen::Index>& columns, std::span<const std::string> names)
+{
+    constexpr std::size_t most = 4;
+    std::string text = "For ";
+    if (names.empty())
+        text += columns.size() == 1 ? "column " : "columns ";
+    const std::size_t n_named = columns.size() > most + 1 ? most : columns.size();
+    for (std::size_t i = 0; i < n_named; ++i) {
+        text += i == 0 ? "" : i + 1 == columns.size() ? " and " : ", ";
+        text += names.empty() ? std::to_string(columns[i]) : in_quotes(names[static_cast<std::size_t>(columns[i])]);
     }
+    if (n_named < columns.size())
+        text += fmt::format(" and {} others", columns.size() - n_named);
+    return text + (names.empty() ? " (numbered from 0): " : ": ");
+}
+
+}  // namespace
+
+std::vector<std::string> remarks_on(std::span<const FieldGroup> groups,
+                                    std::span<const std::vector<std::string>> of_groups,
+                                    std::span<const std::string> names)
+{
+    std::vector<std::string> seen;
+    std::vector<std::string> remarks;
+    for (const std::vector<std::string>& of_group : of_groups)
+        for (const std::string& remark : of_group) {
+            if (std::ranges::find(seen, remark) != seen.end())
+                continue;
+            seen.push_back(remark);
+            std::vector<Eigen::Index> columns;
+            bool is_on_all = true;
+            for (std::size_t g = 0; g < groups.size(); ++g) {
+                const bool is_on_group = std::ranges::find(of_groups[g], remark) != of_groups[g].end();
+                is_on_all = is_on_all && is_on_group;
+                if (is_on_group)
+                    columns.insert(columns.end(), groups[g].columns.begin(), groups[g].columns.end());
+            }
+            std::ranges::sort(columns);
+            remarks.push_back(is_on_all ? remark : about(columns, names) + remark);
+        }
+    return remarks;
 }
 
 }  // namespace seamflow

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <string>
 #include <vector>
 
 #include <Eigen/Core>
@@ -69,8 +70,15 @@ class ScaledFields {
 /// How many times the steps of the flow are taken: once for each three columns.
 int n_blocks(Eigen::Index n_columns);
 
-/// Adds what was reported on columns before: sentences for the user, also on choices, once each, in their order. Steps
-/// that miss their tolerance are those of the columns that miss it most often.
+/// Adds what was reported on columns before, except remarks: sentences on choices once each, in their order. Steps that
+/// miss their tolerance are those of the columns that miss it most often.
 void add_up(const FlowReport& before, FlowReport& report);
+
+/// The remarks of all groups, once each, in their order. One that other groups are without begins with the columns that
+/// it is about.
+/// @param of_groups one list for each group. @param names see FieldOptions.
+std::vector<std::string> remarks_on(std::span<const FieldGroup> groups,
+                                    std::span<const std::vector<std::string>> of_groups,
+                                    std::span<const std::string> names);
 
 }  // namespace seamflow

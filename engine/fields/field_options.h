@@ -1,6 +1,8 @@
 #pragma once
 
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "engine/options/flow_options.h"
 
@@ -26,6 +28,8 @@ struct FieldOptions {
     Laplacian laplacian = Laplacian::VirtualRefinement;
     /// Free: no heat flows across the boundary. Fixed: values there stay, bit for bit.
     Boundary boundary = Boundary::Free;
+    /// Of the columns, for remarks; empty: they are called by their numbers, from 0.
+    std::vector<std::string> names = {};
 };
 
 /// The time of a kernel of that width, FWHM² / (16 ln 2), in length².

@@ -24,6 +24,7 @@
 #include "partition/metrics/vertex_distance.h"
 #include "partition/topology.h"
 #include "partition/weld.h"
+#include "solvers/direct/ldl_solver.h"
 #include "solvers/direct/solver_workspace.h"
 #include "solvers/laplacian/degenerate.h"
 #include "solvers/laplacian/virtual_refinement.h"
@@ -269,6 +270,25 @@ Eigen::VectorXd distance_over(const PolygonMesh& surface, const Topology& topolo
     return distance;
 }
 
+/// The unit of length in which squares of lengths neither overflow nor vanish: 1 for all but extreme sizes.
+double sound_unit(const PolygonMesh& surface, const Topology& topology)
+{
+    constexpr double extreme = 0x1p300;
+    double largest = 0.0;
+    for (Index v = 0; v < surface.n_vertices(); ++v)
+        if (!topology.corners_at(v).empty())
+            largest = std::max(largest, surface.vertices.row(v).cwiseAbs().maxCoeff());
+    return largest > extreme || largest < 1.0 / extreme ? power_of_two_near(largest) : 1.0;
+}
+
+/// @throws InputError
+double in_unit(double distance, double unit)
+{
+    if (std::isfinite(distance) && std::isinf(distance * unit))
+        throw InputError("distances are larger than numbers can be: give the coordinates in a larger unit");
+    return distance * unit;
+}
+
 }  // namespace
 
 Eigen::VectorXd geodesic_distance(const PolygonMesh& mesh, std::span<const Index> from,
@@ -283,15 +303,22 @@ Eigen::VectorXd geodesic_distance(const PolygonMesh& mesh, std::span<const Index
     for (const Index v : from)
         sources.push_back(joined(v));
     sort_unique(sources);
+    const Topology& topology_of_surface = welded ? welded->topology : topology;
+    const double unit = sound_unit(welded ? welded->mesh : mesh, topology_of_surface);
+    PolygonMesh scaled;
+    if (unit != 1.0) {
+        scaled = welded ? welded->mesh : mesh;
+        scaled.vertices /= unit;
+    }
+    const PolygonMesh& surface = unit != 1.0 ? scaled : welded ? welded->mesh : mesh;
     Eigen::VectorXd of_surface;
     const Progress progress(control);
     Workers(resources.threads).execute([&] {
-        of_surface = welded ? distance_over(welded->mesh, welded->topology, sources, progress)
-                            : distance_over(mesh, topology, sources, progress);
+        of_surface = distance_over(surface, topology_of_surface, sources, progress);
     });
     Eigen::VectorXd distance(mesh.n_vertices());
     for (Index v = 0; v < mesh.n_vertices(); ++v)
-        distance[v] = of_surface[joined(v)];
+        distance[v] = in_unit(of_surface[joined(v)], unit);
     return distance;
 }
 

@@ -19,7 +19,8 @@ namespace seamflow {
 /// @param resources threads.
 /// @returns #V: in length; 0 for the vertices themselves, infinite where the surface does not lead from any of them.
 ///          Along seams (see weld) surfaces continue.
-/// @throws InputError for a mesh that cannot be used, for no vertices, and for those that do not exist; as
+/// @throws InputError for a mesh that cannot be used, for no vertices, and for those that do not exist; for distances
+///         beyond the largest number; as
 ///         mean_curvature_flow.
 Eigen::VectorXd geodesic_distance(const PolygonMesh& mesh, std::span<const Index> from,
                                   const ResourceOptions& resources = {}, const FlowControl& control = {});

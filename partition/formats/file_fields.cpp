@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include <fmt/format.h>
@@ -35,6 +37,24 @@ std::vector<std::string> fields_meant_by(const std::string& word)
     return {word};
 }
 
+bool fits_in_single_precision(const auto& values)
+{
+    return std::ranges::none_of(
+        values, [](double value) { return std::abs(value) > double{std::numeric_limits<float>::max()}; });
+}
+
+double in_single_precision(double value, Decimals decimals)
+{
+    const auto single = static_cast<float>(value);
+    double read = single;
+    if (decimals == Decimals::SingleText && std::isfinite(value)) {
+        std::array<char, 32> text{};
+        const char* const end = std::to_chars(text.data(), text.data() + text.size(), single).ptr;
+        std::from_chars(text.data(), end, read);
+    }
+    return read;
+}
+
 void require_good_names(const std::filesystem::path& path, const FileFields& fields)
 {
     const auto refuse = [&](const std::string& name, const char* why) {
@@ -59,13 +79,22 @@ Index FileFields::column(std::string_view name) const
     return found != names.end() ? static_cast<Index>(found - names.begin()) : -1;
 }
 
-void round_as_written(FileFields& fields)
+void round_as_written(FileFields& fields, const Eigen::MatrixXd& extremes, const Executor& exec)
 {
-    for (std::size_t c = 0; c < fields.whole.size(); ++c)
-        if (const std::optional<WholeRange>& range = fields.whole[c])
-            for (double& value : fields.values.col(static_cast<Eigen::Index>(c)))
-                // The sum is not -0.
-                value = std::clamp(std::round(value), range->least, range->largest) + 0.0;
+    const auto round_column = [&](Eigen::Index c, auto&& rounded) {
+        for_each(exec, static_cast<Index>(fields.values.rows()),
+                 [&](Index v) { fields.values(v, c) = rounded(fields.values(v, c)); });
+    };
+    for (Eigen::Index c = 0; c < fields.values.cols(); ++c) {
+        const auto column = static_cast<std::size_t>(c);
+        if (const auto range = column < fields.whole.size() ? fields.whole[column] : std::nullopt)
+            // The sum is not -0.
+            round_column(
+                c, [&](double value) { return std::clamp(std::round(value), range->least, range->largest) + 0.0; });
+        else if (column < fields.decimals.size() && fields.decimals[column] != Decimals::Double &&
+                 fits_in_single_precision(extremes.col(c)))
+            round_column(c, [&](double value) { return in_single_precision(value, fields.decimals[column]); });
+    }
 }
 
 std::vector<std::string> names_of_fields(const std::filesystem::path& path, std::span<const std::string> names,

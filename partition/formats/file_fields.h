@@ -21,6 +21,15 @@ struct WholeRange {
     double largest = 0.0;
 };
 
+/// How a file holds numbers that need not be whole.
+enum class Decimals {
+    Double,
+    /// In four bytes.
+    Single,
+    /// As the shortest text that reads back to the same number in single precision.
+    SingleText
+};
+
 /// Numbers of the vertices of a file besides their positions, such as colours, normals or measurements.
 struct FileFields {
     /// One for each column, each once.
@@ -29,13 +38,18 @@ struct FileFields {
     Eigen::MatrixXd values = {};
     /// Of fields that were read, one for each column: nothing where its numbers need not be whole.
     std::vector<std::optional<WholeRange>> whole = {};
+    /// The same where they need not be.
+    std::vector<Decimals> decimals = {};
 
     /// The column of that name; -1 if there is none.
     [[nodiscard]] Index column(std::string_view name) const;
 };
 
-/// Rounds the values of columns of whole numbers as write_mesh_like does: to the nearest within their range.
-void round_as_written(FileFields& fields);
+/// Rounds the values of fields that were read as write_mesh_like does: whole numbers to the nearest within their range,
+/// others to single precision where the file has them in that. Reading the result gives these numbers.
+/// @param extremes n by columns: among them the least and the largest of each column in the whole file. Where single
+///        precision cannot hold them, they are written as doubles.
+void round_as_written(FileFields& fields, const Eigen::MatrixXd& extremes, const Executor& exec);
 
 /// The names of fields, each once, with nx, ny, nz for `normal`, and red, green, blue for `colour` or `color`.
 /// @param is_there whether the file itself has a field of that name, which then is meant.

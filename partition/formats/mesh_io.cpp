@@ -127,7 +127,8 @@ struct Format {
     void (*write)(OutputFile& file, const PolygonMesh& mesh, Encoding encoding, const Slicing& slicing);
     /// See write_mesh_like.
     std::vector<std::string> (*rewrite)(OutputFile& file, const std::filesystem::path& path, std::string_view content,
-                                        const PolygonMesh& mesh, const Slicing& slicing, const FileFields& fields);
+                                        const PolygonMesh& mesh, const Slicing& slicing, const FileFields& fields,
+                                        double seam_distance);
     /// See read_fields; null: there are none.
     FileFields (*read_fields)(const std::filesystem::path& path, std::string_view content,
                               std::span<const std::string> names, const Slicing& slicing);
@@ -171,8 +172,8 @@ constexpr std::array<Format, 4> all_formats = {{
      .require_fits = require_fits_stl,
      .write = write_stl,
      .rewrite = [](OutputFile& file, const std::filesystem::path& path, std::string_view content,
-                   const PolygonMesh& mesh, const Slicing& slicing,
-                   const FileFields&) { return rewrite_stl(file, path, content, mesh, slicing); },
+                   const PolygonMesh& mesh, const Slicing& slicing, const FileFields&,
+                   double) { return rewrite_stl(file, path, content, mesh, slicing); },
      .read_fields = nullptr,
      .extras = extras_of_stl},
 }};
@@ -298,13 +299,14 @@ std::vector<std::string> write_mesh(const std::filesystem::path& path, const Pol
 }
 
 std::vector<std::string> write_mesh_like(const MeshSource& source, const std::filesystem::path& path,
-                                         const PolygonMesh& mesh, const Executor& exec)
+                                         const PolygonMesh& mesh, const Executor& exec, double seam_distance)
 {
-    return write_mesh_like(source, path, mesh, {}, exec);
+    return write_mesh_like(source, path, mesh, {}, exec, seam_distance);
 }
 
 std::vector<std::string> write_mesh_like(const MeshSource& source, const std::filesystem::path& path,
-                                         const PolygonMesh& mesh, const FileFields& fields, const Executor& exec)
+                                         const PolygonMesh& mesh, const FileFields& fields, const Executor& exec,
+                                         double seam_distance)
 {
     require_readable(path, mesh, exec);
     source.require_same_faces(path, mesh, exec);
@@ -314,7 +316,7 @@ std::vector<std::string> write_mesh_like(const MeshSource& source, const std::fi
         refuse_fields(path, source.kind().format);
     const InputFile input = source.read_again(exec);
     OutputFile file(path);
-    auto remarks = format.rewrite(file, source.path(), input.content(), mesh, {exec}, fields);
+    auto remarks = format.rewrite(file, source.path(), input.content(), mesh, {exec}, fields, seam_distance);
     file.commit();
     return remarks;
 }

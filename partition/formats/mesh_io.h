@@ -58,11 +58,14 @@ std::vector<std::string> write_mesh(const std::filesystem::path& path, const Pol
 /// types are those of the file: floats in a binary file mean rounding; whole numbers become doubles. Facets of STL
 /// files that thereby become lines stay. The file may be written over itself.
 /// @param mesh with as many vertices as the file and the same faces.
+/// @param seam_distance across seams of this width (see weld), in length, shading that was
+///        continuous stays so.
 /// @returns remarks for the user, in sentences: normals that could not be updated, rounding.
 /// @throws OutputError naming the file; also if the mesh does not fit the file that was read.
 /// @throws InputError if that file has been changed in place since. Replacing or removing it does not matter.
 std::vector<std::string> write_mesh_like(const MeshSource& source, const std::filesystem::path& path,
-                                         const PolygonMesh& mesh, const Executor& exec = run_serially);
+                                         const PolygonMesh& mesh, const Executor& exec = run_serially,
+                                         double seam_distance = 0.0);
 
 /// Reads numbers of the vertices besides positions from a file that was read.
 ///
@@ -93,7 +96,7 @@ FileFields read_fields(const MeshSource& source, std::span<const std::string> na
 /// @throws InputError also naming the line where a colour is missing.
 std::vector<std::string> write_mesh_like(const MeshSource& source, const std::filesystem::path& path,
                                          const PolygonMesh& mesh, const FileFields& fields,
-                                         const Executor& exec = run_serially);
+                                         const Executor& exec = run_serially, double seam_distance = 0.0);
 
 /// As write_mesh, with numbers of the vertices as properties (double) of a PLY file.
 /// @param fields not infinite.

@@ -48,10 +48,12 @@ void write_obj(OutputFile& file, const PolygonMesh& mesh, const Slicing& slicing
 /// of its faces that name them; others stay.
 /// @param path of the text, for messages only. @param mesh with the faces of the file.
 /// @param fields colours, see NewColours.
+/// @param seam_distance see write_mesh_like.
 /// @returns remarks for the user, in sentences.
 /// @throws OutputError
 std::vector<std::string> rewrite_obj(OutputFile& file, const std::filesystem::path& path, std::string_view text,
-                                     const PolygonMesh& mesh, const Slicing& slicing, const FileFields& fields = {});
+                                     const PolygonMesh& mesh, const Slicing& slicing, const FileFields& fields = {},
+                                     double seam_distance = 0.0);
 
 /// Rewrites one of some slices of a file as rewrite_obj does, but keeps all normals.
 /// @param positions of the vertices of all of the slices.

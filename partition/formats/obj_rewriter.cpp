@@ -52,10 +52,10 @@ struct StayingNormals {
 class NormalUpdate {
   public:
     /// @param normals see corners_of_obj_normals. @param before #V by 3, where the vertices were.
-    NormalUpdate(IndexLists normals, const PolygonMesh& mesh, Points before, const Executor& exec)
+    NormalUpdate(IndexLists normals, const PolygonMesh& mesh, Points before, const Executor& exec, double seam_distance)
         : normals_(std::move(normals))
         , mesh_(mesh)
-        , moved_(mesh, std::move(before), exec)
+        , moved_(mesh, std::move(before), exec, seam_distance)
     {
     }
 
@@ -195,7 +195,8 @@ IndexLists corners_of_obj_normals(const std::filesystem::path& path, std::string
 }
 
 std::vector<std::string> rewrite_obj(OutputFile& file, const std::filesystem::path& path, std::string_view text,
-                                     const PolygonMesh& mesh, const Slicing& slicing, const FileFields& fields)
+                                     const PolygonMesh& mesh, const Slicing& slicing, const FileFields& fields,
+                                     double seam_distance)
 {
     const TextScanner whole(path, text, obj_syntax);
     const std::vector<std::string_view> slices = whole.slices(slicing.bytes);
@@ -205,7 +206,7 @@ std::vector<std::string> rewrite_obj(OutputFile& file, const std::filesystem::pa
     FaultLog known_faults{.of_faces_alone = true};
     if (counts.back().n_normals > 0)
         normals.emplace(corners_of_obj_normals(path, text, slicing), mesh,
-                        read_obj(path, text, slicing, &known_faults).vertices, slicing.exec);
+                        read_obj(path, text, slicing, &known_faults).vertices, slicing.exec, seam_distance);
     std::vector<StayingNormals> staying(slices.size());
     file.text(text.substr(0, text.size() - whole.rest().size()));
     file.slices(static_cast<Index>(slices.size()), slicing.exec, [&](Index i, OutputBuffer& slice) {

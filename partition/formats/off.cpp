@@ -352,7 +352,8 @@ void write_off(OutputFile& file, const PolygonMesh& mesh, const Slicing& slicing
 }
 
 std::vector<std::string> rewrite_off(OutputFile& file, const std::filesystem::path& path, std::string_view content,
-                                     const PolygonMesh& mesh, const Slicing& slicing, const FileFields& fields)
+                                     const PolygonMesh& mesh, const Slicing& slicing, const FileFields& fields,
+                                     double seam_distance)
 {
     const NewColours colours(file.path(), fields, [&](Index n) { return read_off_colours(path, content, n, slicing); });
     if (const auto data = start_of_binary_off(content)) {
@@ -368,7 +369,7 @@ std::vector<std::string> rewrite_off(OutputFile& file, const std::filesystem::pa
     std::optional<MovedNormals> normals;
     FaultLog known_faults{.of_faces_alone = true};
     if (header.has_normals())
-        normals.emplace(mesh, read_off(path, content, slicing, &known_faults).vertices, slicing.exec);
+        normals.emplace(mesh, read_off(path, content, slicing, &known_faults).vertices, slicing.exec, seam_distance);
     const NewVertices<MovedNormals> now{mesh.vertices, 0, normals ? &*normals : nullptr};
     if (crosses_lines) {
         rewrite_slice(Splicer(file, content), scanner, 0, mesh.n_vertices(), now, header);

@@ -33,10 +33,12 @@ void write_off(OutputFile& file, const PolygonMesh& mesh, const Slicing& slicing
 /// everything else except normals keep their characters; binary files hold floats.
 /// @param path of the content, for messages only. @param mesh with the faces of the file.
 /// @param fields colours, see NewColours; none for a binary file.
+/// @param seam_distance see write_mesh_like.
 /// @returns remarks for the user, in sentences.
 /// @throws OutputError; also for coordinates beyond single precision in a binary file.
 std::vector<std::string> rewrite_off(OutputFile& file, const std::filesystem::path& path, std::string_view content,
-                                     const PolygonMesh& mesh, const Slicing& slicing, const FileFields& fields = {});
+                                     const PolygonMesh& mesh, const Slicing& slicing, const FileFields& fields = {},
+                                     double seam_distance = 0.0);
 
 /// Content besides the surface, in a few words each; comments do not count.
 /// @param path for messages only.

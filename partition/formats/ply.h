@@ -51,6 +51,9 @@ struct PlyExtras {
 void write_ply(OutputFile& file, const PolygonMesh& mesh, Encoding encoding, const Slicing& slicing,
                const PlyExtras& extras = {});
 
+/// How a property of the vertices holds numbers. @param type not of whole numbers.
+Decimals decimals_of(PlyType type, Encoding encoding);
+
 /// Reads properties of the vertices of a file read by `read_ply`; see read_fields.
 /// @param path for messages only.
 /// @throws InputError naming the line, or the element and its byte.
@@ -63,9 +66,11 @@ FileFields read_ply_fields(const std::filesystem::path& path, std::string_view c
 /// numbers in text. Coordinates keep their type, which may mean rounding to float; where it cannot hold the results
 /// (whole numbers, or beyond single precision) it becomes double.
 /// @param path of the content, for messages only. @param mesh with the faces of the file.
+/// @param seam_distance see write_mesh_like.
 /// @returns remarks for the user, in sentences.
 /// @throws OutputError
 std::vector<std::string> rewrite_ply(OutputFile& file, const std::filesystem::path& path, std::string_view content,
-                                     const PolygonMesh& mesh, const Slicing& slicing, const FileFields& fields = {});
+                                     const PolygonMesh& mesh, const Slicing& slicing, const FileFields& fields = {},
+                                     double seam_distance = 0.0);
 
 }  // namespace seamflow

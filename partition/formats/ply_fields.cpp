@@ -76,26 +76,36 @@ std::optional<WholeRange> whole_range_of(PlyType type)
 
 /// Fields of a file, without values.
 /// @throws InputError for names that it does not have.
-FileFields find_fields(const TextScanner& scanner, const std::filesystem::path& path, const PlyElement& vertices,
+FileFields find_fields(const TextScanner& scanner, const std::filesystem::path& path, const PlyHeader& header,
                        std::span<const std::string> names)
 {
+    const PlyElement& vertices = *header.element("vertex");
     FileFields fields{
         names_of_fields(path, names, [&](std::string_view name) { return vertices.property(name) != nullptr; })};
     for (const std::string& name : fields.names) {
         require_number(scanner, vertices, name);
-        fields.whole.push_back(whole_range_of(vertices.property(name)->type));
+        const PlyType type = vertices.property(name)->type;
+        fields.whole.push_back(whole_range_of(type));
+        fields.decimals.push_back(decimals_of(type, header.encoding));
     }
     return fields;
 }
 
 }  // namespace
 
+Decimals decimals_of(PlyType type, Encoding encoding)
+{
+    if (type != PlyType::Float32)
+        return Decimals::Double;
+    return encoding == Encoding::Ascii ? Decimals::SingleText : Decimals::Single;
+}
+
 FileFields read_ply_fields(const std::filesystem::path& path, std::string_view content,
                            std::span<const std::string> names, const Slicing& slicing)
 {
     TextScanner scanner(path, content, ply_syntax);
     const PlyHeader header = read_ply_header(scanner);
-    FileFields fields = find_fields(scanner, path, *header.element("vertex"), names);
+    FileFields fields = find_fields(scanner, path, header, names);
     const auto read = [&](const Slicing& sliced) {
         return read_columns({path, content, header, scanner, sliced}, header, fields, sliced.exec);
     };
@@ -111,7 +121,7 @@ FileFields read_ply_fields(const PlyRanges& ply, std::span<const std::string> na
     TextScanner scanner(ply.path(), ply.content(), ply_syntax);
     const PlyElement& vertices = ply.vertex_element();
     static_cast<void>(read_ply_header(scanner));
-    FileFields fields = find_fields(scanner, ply.path(), vertices, names);
+    FileFields fields = find_fields(scanner, ply.path(), ply.header(), names);
     const std::vector<ReadProperty> properties = properties_to_read(vertices, fields);
     fields.values.resize(end - begin, static_cast<Index>(fields.names.size()));
     const auto offset = static_cast<std::size_t>(ply.bytes_of_vertices(begin, end).data() - ply.content().data());

@@ -351,7 +351,8 @@ void rewrite_ply_text(ByteWriter& file, const TextScanner& after_header, const P
 }
 
 std::vector<std::string> rewrite_ply(OutputFile& file, const std::filesystem::path& path, std::string_view content,
-                                     const PolygonMesh& mesh, const Slicing& slicing, const FileFields& fields)
+                                     const PolygonMesh& mesh, const Slicing& slicing, const FileFields& fields,
+                                     double seam_distance)
 {
     TextScanner scanner(path, content, ply_syntax);
     const PlyHeader header = read_ply_header(scanner);
@@ -365,7 +366,8 @@ std::vector<std::string> rewrite_ply(OutputFile& file, const std::filesystem::pa
     std::optional<MovedNormals> normals;
     FaultLog known_faults{.of_faces_alone = true};
     if (kind == Normals::Usable)
-        normals.emplace(mesh, read_ply(path, content, slicing, &known_faults).mesh.vertices, slicing.exec);
+        normals.emplace(mesh, read_ply(path, content, slicing, &known_faults).mesh.vertices, slicing.exec,
+                        seam_distance);
     const std::string_view before_elements = content.substr(0, content.size() - scanner.rest().size());
     for (std::string& remark : rewrite_header(file, path, before_elements, vertices, changes, fields))
         remarks.push_back(std::move(remark));

@@ -66,12 +66,12 @@ void exchange_normal(Splicer& splicer, const WrittenNormal& before, const Point&
             splicer.exchange(before.parts[k]).number(static_cast<float>(after[k]));
 }
 
-MovedNormals::MovedNormals(const PolygonMesh& mesh, Points before, const Executor& exec)
+MovedNormals::MovedNormals(const PolygonMesh& mesh, Points before, const Executor& exec, double seam_distance)
     : mesh_(mesh)
     , before_(std::move(before))
     , topology_(make_topology(mesh, exec))
     , normals_(mesh, topology_)
-    , welded_(weld(mesh, topology_, 0.0, exec))
+    , welded_(weld(mesh, topology_, seam_distance, exec))
 {
     if (welded_)
         across_seams_.emplace(welded_->mesh, welded_->topology);

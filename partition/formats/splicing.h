@@ -62,8 +62,9 @@ void exchange_normal(Splicer& splicer, const WrittenNormal& before, const Point&
 class MovedNormals {
   public:
     /// @param mesh where the vertices are now; must outlive this object.
-    /// @param before #V by 3, where they were.
-    MovedNormals(const PolygonMesh& mesh, Points before, const Executor& exec = run_serially);
+    /// @param before #V by 3, where they were. @param seam_distance see weld.
+    MovedNormals(const PolygonMesh& mesh, Points before, const Executor& exec = run_serially,
+                 double seam_distance = 0.0);
     MovedNormals(const MovedNormals&) = delete;
     MovedNormals& operator=(const MovedNormals&) = delete;
 

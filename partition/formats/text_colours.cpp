@@ -121,6 +121,8 @@ FileFields fields_of_colours(const std::filesystem::path& path, std::span<const 
             fields.values.col(column) = colours.col(static_cast<Index>(k));
     if (const std::optional<double> largest = largest_whole(colours))
         fields.whole.assign(fields.names.size(), WholeRange{0.0, *largest});
+    else
+        fields.decimals.assign(fields.names.size(), Decimals::SingleText);
     return fields;
 }
 

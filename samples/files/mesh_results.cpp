@@ -18,10 +18,11 @@ bool has_format_of(const MeshFile& input, const std::filesystem::path& path)
 }  // namespace
 
 std::vector<std::string> write_state(const std::filesystem::path& path, const PolygonMesh& mesh,
-                                     const PolygonMesh* separated, const MeshFile& input, const Executor& exec)
+                                     const PolygonMesh* separated, const MeshFile& input, const Executor& exec,
+                                     double seam_distance)
 {
     if (separated == nullptr && has_format_of(input, path))
-        return write_mesh_like(*input.source, path, mesh, exec);
+        return write_mesh_like(*input.source, path, mesh, exec, seam_distance);
     return write_mesh(path, separated == nullptr ? mesh : *separated, kind_for_writing(path, input.kind), exec);
 }
 

@@ -13,11 +13,12 @@ namespace seamflow {
 /// Writes a state of a mesh: in the form of the input (see write_mesh_like) if the format of `path` is the same and the
 /// sub-meshes are joined, else as a plain mesh.
 /// @param separated the sub-meshes, each with its own copies of shared vertices; null: they are joined.
+/// @param seam_distance see write_mesh_like.
 /// @returns remarks for the user.
 /// @throws OutputError, InputError (see write_mesh_like).
 std::vector<std::string> write_state(const std::filesystem::path& path, const PolygonMesh& mesh,
                                      const PolygonMesh* separated, const MeshFile& input,
-                                     const Executor& exec = run_serially);
+                                     const Executor& exec = run_serially, double seam_distance = 0.0);
 
 /// Lists the data of the input that such a file will not have.
 /// @param joined whether the sub-meshes will be joined.

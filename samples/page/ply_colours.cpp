@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 
 #include "partition/errors.h"
 #include "partition/formats/ply_source.h"
+#include "partition/io/mesh_builder.h"
 #include "samples/page/texture_images.h"
 
 namespace seamflow {
@@ -43,6 +45,11 @@ bool has(const PlyElement& element, PlyColourRole role)
     return std::any_of(element.properties.begin(), element.properties.end(), [&](const PlyProperty& property) {
         return !property.length_type && colour_role_of(property.name) == role;
     });
+}
+
+bool is_list_of_corners(const PlyProperty& property)
+{
+    return property.length_type && (property.name == "vertex_indices" || property.name == "vertex_index");
 }
 
 /// The first image that comments of the header name; empty if there is none.
@@ -113,23 +120,35 @@ class PlyColourReader {
     void read_face(Source& source, const PlyElement& element, std::uint64_t number)
     {
         const bool is_there = !std::binary_search(left_out_.begin(), left_out_.end(), static_cast<Index>(number));
+        std::vector<std::int64_t> vertices;
+        std::optional<std::vector<double>> numbers;
+        const auto read_list = [&](const PlyProperty& property, auto& list, auto&& next) {
+            for (std::int64_t n = read_length(source, property, "file"); n > 0; --n)
+                list.push_back(next(property.type));
+        };
         source.begin_element(element, number);
-        for (const PlyProperty& property : element.properties) {
-            if (property.name != "texcoord" || !property.length_type || !is_there) {
+        for (const PlyProperty& property : element.properties)
+            if (is_there && property.length_type && property.name == "texcoord")
+                read_list(property, numbers.emplace(), [&](PlyType type) { return source.number(type); });
+            else if (is_there && is_list_of_corners(property))
+                read_list(property, vertices, [&](PlyType type) { return source.integer(type); });
+            else
                 pass_over(source, property, "file");
-                continue;
-            }
-            const std::int64_t n = read_length(source, property, "file");
-            const std::size_t corners = n_faces_ < mesh_.n_faces() ? mesh_.face(n_faces_).size() : 0;
-            std::vector<float> numbers;
-            for (std::int64_t k = 0; k < n; ++k)
-                numbers.push_back(static_cast<float>(source.number(property.type)));
-            numbers.resize(2 * corners);
-            for (std::size_t k = 0; k < corners; ++k)
-                of_corners_.push_back({numbers[2 * k], numbers[2 * k + 1]});
-        }
         source.end_element();
+        if (numbers)
+            add_places({vertices.begin(), vertices.end()}, std::move(*numbers));
         n_faces_ += is_there ? 1 : 0;
+    }
+
+    /// Adds the places of a face's corners, of those that the mesh has.
+    /// @param numbers two for each corner; those that are missing are 0.
+    void add_places(const std::vector<Index>& vertices, std::vector<double> numbers)
+    {
+        numbers.resize(2 * vertices.size());
+        std::vector<Index> distinct;
+        find_distinct_corners(vertices, distinct);
+        for (const Index k : distinct)
+            of_corners_.push_back({static_cast<float>(numbers[2 * at(k)]), static_cast<float>(numbers[2 * at(k) + 1])});
     }
 
     void number_places_of_corners();

@@ -35,6 +35,21 @@ ReportJson json_of(const FieldRange& range)
     return json;
 }
 
+/// The names as keys of JSON, in which all bytes that are not UTF-8 look alike: a number behind the later of two alike
+/// tells them apart, which no name has, as it is one word.
+std::vector<std::string> keys_of(const std::vector<std::string>& names)
+{
+    std::vector<std::string> keys;
+    for (const std::string& name : names) {
+        const std::string shown = ReportJson::parse(seamflow::text_of(ReportJson(name))).get<std::string>();
+        std::string key = shown;
+        for (int n = 2; std::ranges::find(keys, key) != keys.end(); ++n)
+            key = fmt::format("{} ({})", shown, n);
+        keys.push_back(key);
+    }
+    return keys;
+}
+
 }  // namespace
 
 void FieldRange::add(const FieldRange& other)
@@ -136,12 +151,13 @@ std::string field_report_json(const RunRecord& run, const FlowOptions& options, 
         json["fwhm"] = *report.fwhm;
     json["without_data"] = report.without_data;
     json["filled"] = report.filled;
-    for (std::size_t c = 0; c < summary.names.size(); ++c) {
+    const std::vector<std::string> keys = keys_of(summary.names);
+    for (std::size_t c = 0; c < keys.size(); ++c) {
         ReportJson field;
         if (!summary.before.empty())
             field["before"] = json_of(summary.before[c]);
         field["after"] = json_of(summary.after[c]);
-        json["fields"][summary.names[c]] = field;
+        json["fields"][keys[c]] = field;
     }
     const PhaseSeconds& phases = report.flow.seconds;
     json["seconds"] = {{"read", run.read_seconds},

@@ -17,6 +17,7 @@
 #include "partition/errors.h"
 #include "partition/formats/index_files.h"
 #include "partition/formats/mesh_io.h"
+#include "partition/formats/ply.h"
 #include "partition/formats/ply_header.h"
 #include "partition/io/input_file.h"
 #include "partition/io/input_position.h"
@@ -62,6 +63,7 @@ FileFields diffused(SmoothCommand& command, const MeshFile& file, const FileFiel
     // It is the same, from steps that are told.
     if (of_fields.fwhm)
         options.time_step = 0.0;
+    of_fields.names = fields.names;
     summary.report = diffuse(file.mesh, fields.values, options, of_fields, control);
     renormalise(fields, before.values);
     return fields;
@@ -87,19 +89,23 @@ FileFields distances(const SmoothCommand& command, const MeshFile& file, const s
     return fields;
 }
 
-/// Distances would be rounded in a property of whole numbers. @throws OutputError
-void require_no_whole_distances(const MeshFile& file, const std::filesystem::path& input)
+/// How the result will hold distances.
+/// @throws OutputError where that is in whole numbers, to which they would be rounded.
+Decimals decimals_of_distances(const MeshFile& file, const std::filesystem::path& input)
 {
     if (file.kind.format != FileFormat::Ply || is_input_stream(input))
-        return;
+        return Decimals::Double;
     const InputFile read{OpenFile(input)};
     TextScanner scanner(input, read.content(), ply_syntax);
     const PlyHeader header = read_ply_header(scanner);
-    for (const PlyProperty& property : header.element("vertex")->properties)
-        if (property.name == distance && (property.length_type || is_integer(property.type)))
-            throw OutputError(fmt::format("{}: has whole numbers or lists named distance, which cannot hold distances: "
-                                          "rename that property",
-                                          input.string()));
+    const PlyProperty* const property = header.element("vertex")->property(distance);
+    if (property == nullptr)
+        return Decimals::Double;
+    if (property->length_type || is_integer(property->type))
+        throw OutputError(fmt::format("{}: has whole numbers or lists named distance, which cannot hold distances: "
+                                      "rename that property",
+                                      input.string()));
+    return decimals_of(property->type, header.encoding);
 }
 
 /// The vertices of --from. @throws InputError
@@ -112,7 +118,7 @@ std::vector<Index> read_sources(const SmoothCommand& command, Index n_vertices)
 }
 
 /// In the form of the input where the format stays.
-/// @param fields whole numbers are rounded to what was written.
+/// @param fields are rounded to what was written.
 std::vector<std::string> write_fields(const SmoothCommand& command, const MeshFile& file, FileFields& fields,
                                       const Executor& exec)
 {
@@ -120,7 +126,8 @@ std::vector<std::string> write_fields(const SmoothCommand& command, const MeshFi
     if (kind.format != file.kind.format)
         return write_mesh(command.output, file.mesh, kind, fields, exec);
     std::vector<std::string> remarks = write_mesh_like(*file.source, command.output, file.mesh, fields, exec);
-    round_as_written(fields);
+    const Eigen::MatrixXd& all = fields.values;
+    round_as_written(fields, all, exec);
     return remarks;
 }
 
@@ -214,8 +221,7 @@ ExitStatus run_fields(SmoothCommand& command, RunRecord& run)
         before = read_fields(*file.source, command.fields.names, exec);
     else
         from = read_sources(command, file.mesh.n_vertices());
-    if (!from.empty())
-        require_no_whole_distances(file, command.input);
+    const Decimals of_distances = from.empty() ? Decimals::Double : decimals_of_distances(file, command.input);
     try {
         interruption.begin_work();
         const FlowControl control{.stop = interruption.token()};
@@ -227,6 +233,8 @@ ExitStatus run_fields(SmoothCommand& command, RunRecord& run)
         std::cerr << "smooth: interrupted; no mesh was written\n";
         return interruption.status();
     }
+    if (!from.empty())
+        fields.decimals = {of_distances};
     const Stopwatch writing;
     for (const auto& remarks :
          {remarks_on_losses(command.output, true, file, exec), write_fields(command, file, fields, exec)})

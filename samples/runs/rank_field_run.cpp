@@ -57,56 +57,87 @@ class RankFieldRun {
     {
         const Stopwatch whole;
         run_together(ranks_, [&](Communicator& comm) { begin(comm); });
-        FlowOptions options = command_.options;
-        options.cut = {};
-        options.motion.weld.reset();
-        FieldOptions of_fields = command_.fields.options;
-        // It is the same, from steps that are told.
-        of_fields.fwhm.reset();
-        about_file(command_.input, [&] {
-            const FieldReport report = diffuse_on_ranks(ranks_, part_, of_part_, options, of_fields);
-            add_to_summary(report);
-        });
+        for (const FieldGroup& group : groups_) {
+            run_together(ranks_, [&](Communicator& comm) { deal_group(comm, group); });
+            about_file(command_.input, [&] { diffuse_group(); });
+            run_together(ranks_, [&](Communicator& comm) { collect_group(comm, group); });
+        }
         run_together(ranks_, [&](Communicator& comm) { end(comm, whole); });
         return require_converged(command_, summary_.report.flow.convergence,
                                  ranks_.rank() == 0 ? "smooth-distributed" : "");
     }
 
   private:
-    /// Reads, cuts, and deals the sub-meshes and their fields to the ranks.
+    /// Reads, and groups the fields.
     void begin(Communicator& comm)
     {
         command_.options.resources.threads = threads_of_rank(comm, ranks_.host(), command_);
         workers_.emplace(command_.options.resources.threads);
         const Stopwatch reading;
         file_ = open_together(comm, command_.input, sharing_, workers_->exec());
-        RankSlice slice = file_->read(comm);
+        slice_ = file_->read(comm);
         SharedMeshSize size;
-        about_file(command_.input, [&] { size = measure(comm, slice); });
+        about_file(command_.input, [&] { size = measure(comm, slice_); });
         comm.at_first_rank([&] {
             require_faces(command_.input, size.faces, file_->faults());
             look_at_result();
         });
         comm.look_together([&] { settle_amount(size); });
-        const SliceBounds bounds = gather_bounds(comm, slice);
+        const SliceBounds bounds = gather_bounds(comm, slice_);
         bounds_ = bounds.vertices;
         fields_ = file_->read_fields(comm, command_.fields.names);
         summary_ = {.names = fields_.names, .n_vertices = size.vertices, .before = ranges_of_all(comm, fields_.values)};
         if (!command_.labels.empty())
-            slice.labels = read_labels(comm, command_, file_->faults(), bounds.faces);
-        std::vector<std::int64_t> fixed = read_fixed(comm, command_, size.vertices);
+            slice_.labels = read_labels(comm, command_, file_->faults(), bounds.faces);
+        fixed_ = read_fixed(comm, command_, size.vertices);
         run_.read_seconds = reading.seconds();
         print_input(out_, run_, size.vertices, size.faces);
         print_field_amount(out_, run_.scale, command_.options, command_.fields.options);
+        before_ = fields_.values;
+        groups_ = groups_of_all(comm, before_);
+    }
 
+    /// Cuts the surface of the fields of a group, those faces whose vertices all have data, so that seams are joined as
+    /// on one machine, and deals the sub-meshes and their fields to the ranks.
+    void deal_group(Communicator& comm, const FieldGroup& group)
+    {
         const Stopwatch cutting;
+        RankSlice slice = &group == &groups_.back() ? std::move(slice_) : slice_;
+        if (summary_.before[static_cast<std::size_t>(group.columns.front())].n < summary_.n_vertices)
+            leave_out_faces_without_data(comm, group.lacks, slice);
+        values_ = before_(Eigen::all, group.columns);
         cut(comm, slice);
         about_file(command_.input, [&] { part_ = deal(comm, slice); });
+        std::vector<std::int64_t> fixed = fixed_;
         hold_in_part(seams_, fixed, part_);
-        before_ = fields_.values;
-        about_file(command_.input, [&] { join_fields(comm, seams_, bounds_, fields_.values); });
-        of_part_ = fetch_fields(comm, fields_.values, part_.vertex_numbers, bounds_);
-        cut_seconds_ = cutting.seconds();
+        about_file(command_.input, [&] { join_fields(comm, seams_, bounds_, values_); });
+        of_part_ = fetch_fields(comm, values_, part_.vertex_numbers, bounds_);
+        of_group_.seconds.cut = cutting.seconds();
+    }
+
+    void diffuse_group()
+    {
+        FlowOptions options = command_.options;
+        options.cut = {};
+        options.motion.weld.reset();
+        FieldOptions of_fields = command_.fields.options;
+        // It is the same, from steps that are told.
+        of_fields.fwhm.reset();
+        const FieldReport report = diffuse_on_ranks(ranks_, part_, of_part_, options, of_fields);
+        std::vector<std::string>& remarks = remarks_of_groups_.back();
+        remarks.insert(remarks.end(), report.remarks.begin(), report.remarks.end());
+        of_group_.convergence = report.flow.convergence;
+        of_group_.seconds.analyse = report.flow.seconds.analyse;
+        of_group_.seconds.step = report.flow.seconds.step;
+        add_up(summary_.report.flow, of_group_);
+        summary_.report.flow = of_group_;
+    }
+
+    void collect_group(Communicator& comm, const FieldGroup& group)
+    {
+        collect_fields(comm, part_.vertex_numbers, of_part_, values_);
+        bring_back_fields(comm, seams_, bounds_, values_);
+        fields_.values(Eigen::all, group.columns) = values_;
     }
 
     /// Whether OUTPUT can hold the fields, and what of the input it will lack. On rank 0.
@@ -135,36 +166,23 @@ class RankFieldRun {
     {
         DistributedCut found = command_.labels.empty() ? cut_together(comm, slice, command_.options)
                                                        : cut_together_by_labels(comm, slice, command_.options);
+        of_group_ = {};
         if (!found.choice.empty())
-            summary_.report.flow.choices.push_back(found.choice);
-        summary_.report.remarks = std::move(found.remarks);
+            of_group_.choices.push_back(found.choice);
+        remarks_of_groups_.push_back(std::move(found.remarks));
         seams_ = std::move(found.seams);
-    }
-
-    void add_to_summary(const FieldReport& report)
-    {
-        FieldReport& all = summary_.report;
-        all.flow.convergence = report.flow.convergence;
-        all.flow.seconds = report.flow.seconds;
-        all.flow.seconds.cut = cut_seconds_;
-        all.remarks.insert(all.remarks.end(), report.remarks.begin(), report.remarks.end());
     }
 
     /// Writes, and reports what was done.
     void end(Communicator& comm, const Stopwatch& whole)
     {
         const Stopwatch writing;
-        collect_fields(comm, part_.vertex_numbers, of_part_, fields_.values);
-        bring_back_fields(comm, seams_, bounds_, fields_.values);
         renormalise(fields_, before_);
         const std::vector<std::string> of_writing = file_->write_fields(comm, command_.output, fields_);
         summary_.after = ranges_of_all(comm, fields_.values);
         summary_.report.without_data = count_without_data();
         std::vector<std::string>& remarks = summary_.report.remarks;
-        if (!seams_.vertices.empty() && summary_.report.without_data > 0)
-            remarks.emplace_back(
-                "Vertices along seams have the mean of all that they are joined with, also where no face "
-                "around one of these has data: smooth leaves such vertices apart.");
+        remarks = remarks_on(groups_, remarks_of_groups_, fields_.names);
         for (const auto& more : {remarks_, of_writing})
             remarks.insert(remarks.end(), more.begin(), more.end());
         run_.write_seconds = writing.seconds();
@@ -192,14 +210,21 @@ class RankFieldRun {
     std::ostream& out_;
     std::optional<Workers> workers_;
     std::unique_ptr<SharedMeshFile> file_;
-    /// Of the vertices of this rank's range, now and before; those bounds; and of the vertices of its part.
+    /// As it was read; moved on to the last group.
+    RankSlice slice_;
+    std::vector<std::int64_t> fixed_;
+    /// Of the vertices of this rank's range, now and before; and those bounds.
     FileFields fields_;
     Eigen::MatrixXd before_;
     std::vector<std::int64_t> bounds_;
+    std::vector<FieldGroup> groups_;
+    /// Of the group that diffuses: its fields in the range and in the part, the part, and what is reported.
+    Eigen::MatrixXd values_;
     Eigen::MatrixXd of_part_;
     MeshPart part_;
     JoinedSeams seams_;
-    double cut_seconds_ = 0.0;
+    FlowReport of_group_;
+    std::vector<std::vector<std::string>> remarks_of_groups_;
     FieldSummary summary_;
     /// Of files.
     std::vector<std::string> remarks_;

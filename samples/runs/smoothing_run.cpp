@@ -94,6 +94,11 @@ void resolve_lengths(SmoothCommand& command, RunRecord& run)
         run.attachment = motion.attachment;
 }
 
+double seam_distance_of(const SmoothCommand& command)
+{
+    return command.options.motion.weld.value_or(0.0);
+}
+
 void resolve_amount(SmoothCommand& command, const PolygonMesh& mesh, const Executor& exec, RunRecord& run)
 {
     run.scale = measure_scale(mesh, exec);

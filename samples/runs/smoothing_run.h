@@ -28,6 +28,9 @@ void feather(const SmoothCommand& command, const PolygonMesh& mesh, const Execut
 /// `run`.
 void resolve_lengths(SmoothCommand& command, RunRecord& run);
 
+/// The distance at which --weld joins borders, in length, once lengths are resolved; 0 if it joins none.
+double seam_distance_of(const SmoothCommand& command);
+
 /// Computes the values of `command` that depend on the mesh: an amount that depends on its size or noise, and an
 /// attachment; records them in `run`.
 /// @param mesh valid (see require_valid).

@@ -267,8 +267,8 @@ void TiledRun::write(Index tile, const Points& positions)
         throw InputError(summary.path.string() + ": has been changed since the run began; start over with it");
     report_.add_result(input.file.mesh.vertices, positions);
     input.file.mesh.vertices = positions;
-    for (const std::string& remark :
-         write_state(command_.out_dir / summary.path.filename(), input.file.mesh, nullptr, input.file, exec_))
+    for (const std::string& remark : write_state(command_.out_dir / summary.path.filename(), input.file.mesh, nullptr,
+                                                 input.file, exec_, options_.motion.weld.value_or(0.0)))
         report_.add_remark(summary.path, remark);
     if (run_.n_shared > 0 && has_normals(input.file, exec_))
         report_.add_remark(summary.path, summary.path.string() +

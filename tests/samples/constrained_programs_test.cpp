@@ -169,6 +169,33 @@ TEST_CASE("a surface whose file doubles vertices along seams is smoothed as the 
     CHECK(w.smooth("gaps.obj out.obj --time-step .01 --weld sometimes") == 2);
 }
 
+TEST_CASE("normals stay continuous across gaps that --weld closes")
+{
+    const Workshop w;
+    const MeshFile file = read_mesh(w.directory.with("gaps.obj", loose_tetrahedron(1e-5)));
+    std::ostringstream text;
+    text << "NOFF\n12 4 0\n";
+    for (Index v = 0; v < 12; ++v)
+        text << file.mesh.vertices.row(v) << ' ' << (file.mesh.vertices.row(v).array() - 0.25).matrix().normalized()
+             << '\n';
+    (void)w.directory.with("gaps.off", text.str() + "3 0 1 2\n3 3 4 5\n3 6 7 8\n3 9 10 11\n");
+    // Vertices that stay do not come together.
+    (void)w.directory.with("stay", "0\n");
+    REQUIRE(w.smooth("gaps.off out.off --weld 1e-4 --fix stay --time-step .01 --every-step step%d.off") == 0);
+    for (const std::string name : {"out.off", "step1.off"}) {
+        std::istringstream lines(test::content_of(w.directory / name));
+        std::string word;
+        lines >> word >> word >> word >> word;
+        Eigen::Matrix<double, 12, 6> numbers;
+        for (Index v = 0; v < 12; ++v)
+            for (Index k = 0; k < 6; ++k)
+                lines >> numbers(v, k);
+        // Copies of one corner.
+        CHECK((numbers.row(0) - numbers.row(3)).tail<3>().norm() < 1e-3);
+        CHECK((numbers.row(0) - numbers.row(3)).head<3>().norm() > 1e-6);
+    }
+}
+
 TEST_CASE("sheets that meet flow unless they are to be held, and the report counts their vertices")
 {
     const Workshop w;

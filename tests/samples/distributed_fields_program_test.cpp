@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -56,6 +57,50 @@ void write_field_sheet(const Workshop& w)
     }
     (void)w.directory.with("sheet.ply", bytes);
     (void)w.directory.with("labels", labels);
+}
+
+/// A sheet whose vertices at x = ½ are doubled, with columns that all vertices have, that vertices on both sides of
+/// that seam lack, and that vertices on one side lack.
+void write_seam_with_holes(const Workshop& w)
+{
+    PolygonMesh mesh = make_triangles(2000);
+    const Index n = mesh.n_vertices();
+    const auto is_right = [&](Index f) {
+        const auto face = mesh.face(f);
+        return mesh.vertices(face[0], 0) + mesh.vertices(face[1], 0) + mesh.vertices(face[2], 0) > 1.5;
+    };
+    std::vector<Index> copy(at(n), -1);
+    for (Index f = 0; f < mesh.n_faces(); ++f)
+        for (const Index v : mesh.face(f))
+            copy[at(v)] = is_right(f) ? copy[at(v)] : v;
+    std::vector<Index> originals;
+    std::ostringstream faces;
+    for (Index f = 0; f < mesh.n_faces(); ++f) {
+        faces << '3';
+        for (const Index v : mesh.face(f)) {
+            // Vertices of faces on the left keep their numbers.
+            if (is_right(f) && copy[at(v)] == v) {
+                copy[at(v)] = n + static_cast<Index>(originals.size());
+                originals.push_back(v);
+            }
+            faces << ' ' << (is_right(f) && copy[at(v)] >= 0 ? copy[at(v)] : v);
+        }
+        faces << '\n';
+    }
+    std::ostringstream text;
+    text << "ply\nformat ascii 1.0\nelement vertex " << n + std::ssize(originals)
+         << "\nproperty double x\nproperty double y\nproperty double z\nproperty double whole\n"
+            "property double both\nproperty double one\nelement face "
+         << mesh.n_faces() << "\nproperty list uchar int vertex_indices\nend_header\n";
+    text.precision(17);
+    for (Index v = 0; v < n + std::ssize(originals); ++v) {
+        const Point p = mesh.vertices.row(v < n ? v : originals[at(v - n)]);
+        const bool is_near = std::abs(std::remainder(p.y(), 0.25)) < 0.05 && std::abs(p.x() - 0.5) < 0.08;
+        const std::string value = std::to_string((v * 37) % 10);
+        text << p << ' ' << value << ' ' << (is_near ? "nan" : value) << ' '
+             << (is_near && (v >= n || p.x() > 0.51) ? "nan" : value) << '\n';
+    }
+    (void)w.directory.with("seam.ply", text.str() + faces.str());
 }
 
 FileFields fields_in(const Workshop& w, const std::string& name, const std::vector<std::string>& names)
@@ -125,6 +170,31 @@ TEST_CASE("fields on ranks: seams are joined, vertices are held, colours of OBJ 
     CHECK((of_one.values - of_ranks.values).cwiseAbs().maxCoeff() < 1e-6);
     CHECK(of_ranks.values.row(1) == of_ranks.values.row(4));
     CHECK(of_ranks.values.row(2) == of_ranks.values.row(7));
+}
+
+TEST_CASE("fields on ranks: seams beside vertices without data are those of smooth, and remarks name their columns")
+{
+    const Workshop w;
+    write_seam_with_holes(w);
+    const std::string options = " --fields whole,both,one --radius 5% --steps 2 --converge 1e-12 --threads 1";
+    REQUIRE(w.smooth("seam.ply one.ply" + options) == 0);
+    const std::vector<std::string> names{"whole", "both", "one"};
+    const FileFields of_one = fields_in(w, "one.ply", names);
+    for (const int n : {1, 2})
+        for (const std::string more : {"", " --subdomains 5"}) {
+            CAPTURE(n);
+            CAPTURE(more);
+            REQUIRE(on_ranks(w, n, "seam.ply n.ply" + options + more) == 0);
+            const FileFields of_ranks = fields_in(w, "n.ply", names);
+            CHECK((of_one.values.array().isNaN() == of_ranks.values.array().isNaN()).all());
+            CHECK((of_one.values - of_ranks.values)
+                      .array()
+                      .isNaN()
+                      .select(0.0, (of_one.values - of_ranks.values))
+                      .cwiseAbs()
+                      .maxCoeff() < 1e-7);
+            CHECK(w.said().find("remark     For 'whole': ") != std::string::npos);
+        }
 }
 
 TEST_CASE("fields that ranks do not take are refused, with one sentence")

@@ -86,15 +86,20 @@ TEST_CASE("fields of a file are those that the library makes, and all else stays
     CHECK(json["fields"]["thickness"]["after"]["vertices"] == w.file().mesh.n_vertices() - 1);
 }
 
-TEST_CASE("what is said of whole numbers is what was written, unless they are written as others")
+TEST_CASE("what is said of whole numbers and of floats is what was written, unless they are written as others")
 {
     const FieldWorkshop w;
+    std::string floats = content_of(w.directory / "in.ply");
+    floats.replace(floats.find("uchar red"), 5, "float");
+    (void)w.directory.with("floats.ply", floats);
     (void)w.directory.with("colours.obj", "v 0 0 0 1 9 0\nv 1 0 0 250 0 0\nv 1 1 0 7 8 0\nv 0 1 0 99 3 0\nf 1 2 3 4\n");
-    for (const std::string files : {"in.ply out.ply", "colours.obj out.obj", "colours.obj out.ply"}) {
+    for (const std::string files :
+         {"in.ply out.ply", "colours.obj out.obj", "colours.obj out.ply", "floats.ply out.ply"}) {
         CAPTURE(files);
         REQUIRE(w.smooth(files + " --fields red --radius 20% --report report.json") == 0);
         const Eigen::VectorXd red = w.fields_of(files.substr(files.find(' ') + 1), {"red"}).values;
-        CHECK(((red.array() == red.array().round()).all() == (files != "colours.obj out.ply")));
+        CHECK(((red.array() == red.array().round()).all() ==
+               (files == "in.ply out.ply" || files == "colours.obj out.obj")));
         const Json after = w.json("report.json")["fields"]["red"]["after"];
         CHECK(after["least"] == red.minCoeff());
         CHECK(after["most"] == red.maxCoeff());
@@ -110,21 +115,23 @@ TEST_CASE("fields of the largest numbers have a mean, and names that are not UTF
     const Workshop w;
     const PolygonMesh mesh = make_triangles(200);
     const std::string name = "\xe9paisseur";
+    const std::string other = "\xe8paisseur";
     std::ostringstream text;
     text << "ply\nformat ascii 1.0\nelement vertex " << mesh.n_vertices()
-         << "\nproperty double x\nproperty double y\nproperty double z\nproperty double " << name << "\nelement face "
-         << mesh.n_faces() << "\nproperty list uchar int vertex_indices\nend_header\n";
+         << "\nproperty double x\nproperty double y\nproperty double z\nproperty double " << name << "\nproperty float "
+         << other << "\nelement face " << mesh.n_faces() << "\nproperty list uchar int vertex_indices\nend_header\n";
     for (Index v = 0; v < mesh.n_vertices(); ++v)
-        text << mesh.vertices.row(v) << ' ' << v % 10 << "e307\n";
+        text << mesh.vertices.row(v) << ' ' << v % 10 << "e307 " << v % 7 << '\n';
     for (Index f = 0; f < mesh.n_faces(); ++f)
         text << "3 " << mesh.face(f)[0] << ' ' << mesh.face(f)[1] << ' ' << mesh.face(f)[2] << '\n';
     (void)w.directory.with("large.ply", text.str());
-    REQUIRE(w.smooth("large.ply out.ply --fields " + name + " --radius 2% --report report.json") == 0);
+    REQUIRE(w.smooth("large.ply out.ply --fields " + name + "," + other + " --radius 2% --report report.json") == 0);
     CHECK(w.said().find("nan") == std::string::npos);
     CHECK(content_of(w.directory / "out.ply").find("property double " + name + "\n") != std::string::npos);
     const Json fields = w.json("report.json")["fields"];
-    REQUIRE(fields.size() == 1);
+    REQUIRE(fields.size() == 2);
     CHECK(fields.begin().key() == "\xef\xbf\xbdpaisseur");
+    CHECK(fields["\xef\xbf\xbdpaisseur (2)"]["before"]["most"] == 6.0);
     double tenths = 0.0;
     for (Index v = 0; v < mesh.n_vertices(); ++v)
         tenths += v % 10;
@@ -169,6 +176,14 @@ TEST_CASE("distances from vertices of a file are those that the library makes")
     const Eigen::MatrixXd expected = geodesic_distance(w.file().mesh, std::array<Index, 2>{17, 400});
     CHECK(w.fields_of("out.ply", {"distance"}).values == expected);
     CHECK(w.fields_of("out.ply", {"id"}).values == w.fields_of("in.ply", {"id"}).values);
+    // In place of floats.
+    std::string floats = content_of(w.directory / "out.ply");
+    floats.replace(floats.find("double distance"), 6, "float");
+    (void)w.directory.with("floats.ply", floats);
+    (void)w.directory.with("first.txt", "17\n");
+    REQUIRE(w.smooth("floats.ply again.ply --from first.txt --report r.json") == 0);
+    const Eigen::VectorXd rounded = w.fields_of("again.ply", {"distance"}).values;
+    CHECK(w.json("r.json")["fields"]["distance"]["after"]["most"] == rounded.maxCoeff());
     REQUIRE(w.smooth("mesh.obj from_obj.ply --from from.txt") == 0);
     CHECK(w.fields_of("from_obj.ply", {"distance"}).values(17, 0) == 0.0);
     CHECK(w.smooth("mesh.obj out.obj --from from.txt") == 5);

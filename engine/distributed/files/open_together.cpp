@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/distributed/files/shared_writing.h"
 #include "engine/distributed/files/sliced_ply_file.h"
 #include "engine/distributed/files/sliced_stl_file.h"
 #include "engine/distributed/files/sliced_text_file.h"
@@ -59,7 +60,7 @@ class WholeMeshFile final : public SharedMeshFile {
         comm.at_first_rank([&] {
             const FileKind kind = kind_for_writing(path, file_.kind);
             if (kind.format == file_.kind.format)
-                remarks = write_mesh_like(*file_.source, path, file_.mesh, exec_);
+                remarks = write_mesh_like(*file_.source, path, file_.mesh, exec_, seam_distance_);
             else
                 remarks = write_mesh(path, file_.mesh, kind, exec_);
         });
@@ -73,6 +74,7 @@ class WholeMeshFile final : public SharedMeshFile {
         FileFields own;
         own.names = names_of_first(comm, all);
         own.whole = comm.broadcast(all.whole);
+        own.decimals = comm.broadcast(all.decimals);
         const std::int64_t n = comm.broadcast(std::vector<std::int64_t>{file_.mesh.n_vertices()}).front();
         const std::vector<std::int64_t> bounds = bounds_of_ranges(n, comm.size(), sharing_.block);
         own.values.resize(bounds[comm.rank() + 1] - bounds[comm.rank()], std::ssize(own.names));
@@ -104,7 +106,7 @@ class WholeMeshFile final : public SharedMeshFile {
                                        : write_mesh(path, file_.mesh, kind, all, exec_);
         });
         if (comm.broadcast(is_alike)[0] != 0)
-            round_as_written(fields);
+            round_as_written(fields, extremes_of_all(comm, fields.values), exec_);
         return remarks;
     }
 

@@ -43,6 +43,9 @@ class SharedMeshFile {
     /// @throws OptionError
     virtual void require_writable_as(const std::filesystem::path& path) const = 0;
 
+    /// Lets normals stay continuous across seams of this width where rank 0 writes the file (see write_mesh_like).
+    void keep_normals_across(double seam_distance) { seam_distance_ = seam_distance; }
+
     /// Writes the mesh: in the form of the file (see write_mesh_like) where the format of `path` is the same, else as a
     /// plain mesh. It appears whole or not at all.
     /// @param vertices where the vertices of this rank's range are now.
@@ -56,7 +59,7 @@ class SharedMeshFile {
     virtual FileFields read_fields(Communicator& comm, const std::vector<std::string>& names);
 
     /// Writes the mesh as `write` does, with other fields. It stays where it was.
-    /// @param fields those that were read, of this rank's range; whole numbers are rounded to what was written.
+    /// @param fields those that were read, of this rank's range; they are rounded to what was written.
     /// @returns, throws as write_mesh_like.
     virtual std::vector<std::string> write_fields(Communicator& comm, const std::filesystem::path& path,
                                                   FileFields& fields);
@@ -74,6 +77,7 @@ class SharedMeshFile {
 
   protected:
     FaultLog faults_{.of_faces_alone = true};
+    double seam_distance_ = 0.0;
 
   private:
     [[noreturn]] void refuse_fields() const;

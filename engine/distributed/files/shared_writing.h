@@ -32,6 +32,11 @@ void check_together(Communicator& comm, const std::function<void()>& check);
 /// Whether the types of a file can hold the coordinates x, y and z of all ranks. @param own those of this rank.
 std::array<bool, 3> fit_all(Communicator& comm, const std::array<bool, 3>& own);
 
+/// What decides about the types of columns of all ranks: the least and the largest value of each, and NaN if there is
+/// any.
+/// @returns 3 by n.
+Eigen::MatrixXd extremes_of_all(Communicator& comm, const Eigen::MatrixXd& own);
+
 /// This rank's share of a file: consecutive pieces, which follow those of the ranks before it.
 struct FilePieces {
     /// In bytes, each.

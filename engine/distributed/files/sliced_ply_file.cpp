@@ -90,38 +90,6 @@ ByteRange find_faces(Communicator& comm, const PlyRanges& ply, const ElementRang
     return own;
 }
 
-/// What decides about the types of columns of all ranks: the least and the largest value of each, and NaN if there is
-/// any.
-/// @returns 3 by n.
-Eigen::MatrixXd extremes_of_all(Communicator& comm, const Eigen::MatrixXd& own)
-{
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    std::vector<std::array<double, 3>> of_rank;
-    for (const auto& column : own.colwise()) {
-        std::array<double, 3>& extremes = of_rank.emplace_back(std::array{infinity, -infinity, 0.0});
-        for (const double value : column) {
-            extremes[0] = value < extremes[0] ? value : extremes[0];
-            extremes[1] = value > extremes[1] ? value : extremes[1];
-            extremes[2] = std::isnan(value) ? value : extremes[2];
-        }
-    }
-    Eigen::MatrixXd all(3, own.cols());
-    all.colwise() = Eigen::Vector3d(infinity, -infinity, 0.0);
-    Eigen::Index i = 0;
-    for (const auto& [least, most, no_data] : comm.gather_all(of_rank)) {
-        auto column = all.col(i++ % own.cols());
-        column[0] = std::min(column[0], least);
-        column[1] = std::max(column[1], most);
-        column[2] = std::isnan(no_data) ? no_data : column[2];
-    }
-    for (auto column : all.colwise())
-        if (column[0] > column[1])
-            column.setConstant(column[2]);
-        else if (!std::isnan(column[2]))
-            column[2] = column[0];
-    return all;
-}
-
 class SlicedPlyFile final : public SharedMeshFile {
   public:
     SlicedPlyFile(const std::filesystem::path& path, FileFormat format, const FileSharing& sharing)
@@ -224,7 +192,7 @@ class SlicedPlyFile final : public SharedMeshFile {
             const auto of_header = write_slice(comm, output, ply, own, changes, rewrite).first;
             remarks.insert(remarks.end(), of_header.begin(), of_header.end());
         });
-        round_as_written(fields);
+        round_as_written(fields, extremes.values, run_serially);
         return remarks;
     }
 

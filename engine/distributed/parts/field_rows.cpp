@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "engine/distributed/parts/deal.h"
+#include "engine/distributed/parts/number_set.h"
+#include "engine/distributed/parts/still_faces.h"
+#include "engine/tasks/parallel_executor.h"
+#include "partition/executor.h"
 
 namespace seamflow {
 
@@ -16,6 +19,22 @@ Eigen::MatrixXd fetch_fields(Communicator& comm, const Eigen::MatrixXd& of_range
     Rows fetched(static_cast<Eigen::Index>(numbers.size()), own.cols());
     fetch_rows(comm, {span_of(own), own.cols()}, numbers, bounds, span_of(fetched));
     return fetched;
+}
+
+void leave_out_faces_without_data(Communicator& comm, std::span<const std::uint8_t> lacks, RankSlice& slice)
+{
+    const std::vector<double> own(lacks.begin(), lacks.end());
+    const NumberSet<std::int64_t> corners(slice.corners);
+    const std::vector<std::int64_t> numbers = corners.numbers();
+    std::vector<double> of_corners(numbers.size());
+    fetch_rows(comm, {own, 1}, numbers, gather_bounds(comm, slice).vertices, of_corners);
+    const auto lacks_data = [&](std::int64_t corner) { return of_corners[at(corners.place_of(corner))] != 0.0; };
+    leave_out(select(run_in_parallel, slice.n_faces(),
+                     [&](Index f) {
+                         return std::any_of(slice.corners.begin() + slice.face_offsets[f],
+                                            slice.corners.begin() + slice.face_offsets[f + 1], lacks_data);
+                     }),
+              slice);
 }
 
 void collect_fields(Communicator& comm, std::span<const std::int64_t> numbers, const Eigen::MatrixXd& of_part,

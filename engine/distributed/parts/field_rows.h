@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 
+#include "engine/distributed/parts/deal.h"
 #include "engine/distributed/ranks/communicator.h"
 
 /// Fields of a mesh of which each rank has a range of the vertices. All ranks call these functions together, with the
@@ -17,6 +18,10 @@ namespace seamflow {
 /// @returns #numbers by n.
 Eigen::MatrixXd fetch_fields(Communicator& comm, const Eigen::MatrixXd& of_range, std::span<const std::int64_t> numbers,
                              std::span<const std::int64_t> bounds);
+
+/// Takes the faces of vertices without data out of the ranges of all ranks.
+/// @param lacks of the vertices of this rank's range: 1 where there are none.
+void leave_out_faces_without_data(Communicator& comm, std::span<const std::uint8_t> lacks, RankSlice& slice);
 
 /// Puts the rows of all parts into the ranges to which they belong.
 /// @param numbers of the vertices of a part. @param of_part #numbers by n; rows that several ranks have are the same.

@@ -348,13 +348,67 @@ TEST_CASE("columns with data at different vertices: what is said of any is said 
 {
     FlowReport first;
     first.choices = {"a", "b"};
-    first.remarks = {"r"};
     FlowReport second;
     second.choices = {"c", "a"};
-    second.remarks = {"s", "r"};
     add_up(first, second);
     CHECK(second.choices == std::vector<std::string>{"a", "b", "c"});
-    CHECK(second.remarks == std::vector<std::string>{"r", "s"});
+    using Sentences = std::vector<std::string>;
+    const std::vector<FieldGroup> groups{{{0, 3}, {}}, {{1}, {}}, {{2, 4, 5, 6, 7}, {}}};
+    const std::vector<Sentences> of_groups{{"r"}, {"s", "r"}, {"r", "t", "t"}};
+    CHECK(remarks_on(groups, of_groups, {}) ==
+          Sentences{"r", "For column 1 (numbered from 0): s", "For columns 2, 4, 5, 6 and 7 (numbered from 0): t"});
+    const std::vector<FieldGroup> two{{{0, 2, 4, 5, 6, 7}, {}}, {{1, 3}, {}}};
+    const Sentences names{"a", "b", "c", "d", "e", "f", "g", "h\n"};
+    CHECK(remarks_on(two, std::vector<Sentences>{{"r"}, {"s"}}, names) ==
+          Sentences{"For 'a', 'c', 'e', 'f' and 2 others: r", "For 'b' and 'd': s"});
+    CHECK(remarks_on({}, {}, names).empty());
+}
+
+TEST_CASE("columns that cannot flow are named where others flow")
+{
+    const PolygonMesh mesh = test::triangle_grid(4, 4);
+    Eigen::MatrixXd fields = Eigen::MatrixXd::Random(mesh.n_vertices(), 4);
+    // Single faces, along the boundary of their own.
+    for (const Eigen::Index c : {1, 3}) {
+        const auto face = mesh.face(c == 1 ? 0 : 9);
+        for (Index v = 0; v < mesh.n_vertices(); ++v)
+            if (std::ranges::find(face, v) == face.end())
+                fields(v, c) = no_data;
+    }
+    const auto remarks = [&](const FieldOptions& of_fields, Eigen::MatrixXd of) {
+        return diffuse(mesh, of, {.time_step = 0.1}, of_fields).remarks;
+    };
+    const std::string sentence =
+        "No vertex can flow: each is fixed, on the boundary, or where the mesh is not manifold. A free boundary would "
+        "flow.";
+    CHECK(remarks({.boundary = Boundary::Fixed}, fields) ==
+          std::vector{"For columns 1 and 3 (numbered from 0): " + sentence});
+    CHECK(remarks({.boundary = Boundary::Fixed, .names = {"a", "b", "c", "d"}}, fields) ==
+          std::vector{"For 'b' and 'd': " + sentence});
+    // If none can, there is none to name.
+    CHECK(remarks({.boundary = Boundary::Fixed, .names = {"d"}}, fields.rightCols(1)) == std::vector{sentence});
+}
+
+TEST_CASE("what is said of filling says so, and once")
+{
+    const PolygonMesh plates = test::plates(std::array{0.0, 2.0, 4.0}, 4, 4);
+    Eigen::MatrixXd fields = Eigen::MatrixXd::Constant(plates.n_vertices(), 1, no_data);
+    fields(0, 0) = 1.0;
+    const auto report_of = [&](FlowOptions options) {
+        Eigen::MatrixXd filled = fields;
+        return diffuse(plates, filled, options, {.fill = true});
+    };
+    const std::string first = report_of({.time_step = 0.1}).remarks.at(0);
+    CHECK(first.starts_with("Filling: "));
+    CHECK(first.find("on edges of three faces or more flow with all of these faces.") != std::string::npos);
+    // A vertex away from where sheets meet lacks data: both flows say the same of these.
+    fields.setOnes();
+    fields(plates.n_vertices() - 1, 0) = no_data;
+    const FieldReport most = report_of({.time_step = 0.1});
+    CHECK(most.filled == 1);
+    CHECK(std::ranges::count_if(most.remarks, [](const std::string& remark) {
+              return remark.find("three faces or more") != std::string::npos;
+          }) == 1);
 }
 
 TEST_CASE("a column without any data, and a component without any, stay so")

@@ -115,6 +115,15 @@ TEST_CASE("geodesic distances scale with the mesh, and do not depend on threads 
     PolygonMesh scaled = mesh;
     scaled.vertices *= 0x1p-20;
     CHECK((geodesic_distance(scaled, from) * 0x1p20 - distance).cwiseAbs().maxCoeff() < 1e-7);
+    // Of sizes whose squares overflow, or vanish: the same bits.
+    for (const double unit : {0x1p600, 0x1p-600, 0x1p1000, 0x1p-990}) {
+        CAPTURE(unit);
+        scaled.vertices = mesh.vertices * unit;
+        CHECK(geodesic_distance(scaled, from) / unit == distance);
+    }
+    scaled.vertices = mesh.vertices * 0x1p1023;
+    CHECK_THROWS_WITH_AS(geodesic_distance(scaled, from),
+                         "distances are larger than numbers can be: give the coordinates in a larger unit", InputError);
     PolygonMesh far = mesh;
     far.vertices.rowwise() += Eigen::RowVector3d(1e5, -2e5, 3e5);
     CHECK((geodesic_distance(far, from) - distance).cwiseAbs().maxCoeff() < 1e-5);

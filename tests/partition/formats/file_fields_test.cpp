@@ -248,6 +248,32 @@ TEST_CASE("fields of whole numbers are rounded once and kept within the range of
     }
 }
 
+TEST_CASE("fields are rounded to what was written, as it is read again")
+{
+    const auto check = [](const std::string& name, const std::string& content, const FieldNames& names, auto&& change) {
+        CAPTURE(name);
+        FileFields fields = fields_in(name, content, names);
+        fields.values = fields.values.unaryExpr(change).eval();
+        const Eigen::MatrixXd computed = fields.values;
+        const Rewritten after = with_fields(name, content, fields);
+        round_as_written(fields, computed, run_serially);
+        CHECK(are_same(fields.values, fields_in(name, after.content, names).values));
+        return !are_same(fields.values, computed);
+    };
+    const auto third = [](double value) { return value / 3.0; };
+    const FieldNames names{"double", "float", "uint8", "int64"};
+    for (const Encoding encoding : {Encoding::Ascii, Encoding::BinaryLittleEndian, Encoding::BinaryBigEndian}) {
+        const std::string ply = file_of_all_types(encoding, values_of_all_types(), "\n");
+        CHECK(check("a.ply", ply, names, third));
+        CHECK(check("a.ply", ply, {"float"}, third));
+        CHECK_FALSE(check("a.ply", ply, {"double"}, third));
+        // The property becomes one of doubles.
+        CHECK_FALSE(check("a.ply", ply, {"float"}, [](double value) { return 1e100 * value / 3.0; }));
+    }
+    CHECK(check("a.obj", coloured_obj, {"red", "green", "blue"}, third));
+    CHECK(check("a.off", coloured_off, {"red", "alpha"}, third));
+}
+
 TEST_CASE("fields beyond single precision become doubles")
 {
     const Rewritten text = with_fields("a.ply", scalar_ply, one_field("quality", {1.5, 1e39, no_data}));
@@ -504,7 +530,7 @@ TEST_CASE("fields are the same in whatever slices they are read and written")
             const Slicing slicing{run_serially, bytes};
             CHECK(are_same(read(name, content, names, slicing).values, values));
             OutputFile file(folder / name);
-            rewrite(file, name, content, mesh, slicing, fields);
+            rewrite(file, name, content, mesh, slicing, fields, 0.0);
             file.commit();
             CHECK((content_of(folder / name) == whole));
         }

@@ -1,3 +1,5 @@
+#include <vector>
+
 #include <doctest/doctest.h>
 
 #include "partition/formats/splicing.h"
@@ -5,6 +7,27 @@
 #include "tests/support/test_meshes.h"
 
 using namespace seamflow;
+
+namespace {
+
+double mean_x_of_face_at_seam(const PolygonMesh& mesh, Index f)
+{
+    double sum = 0.0;
+    for (const Index v : mesh.face(f))
+        sum += mesh.vertices(v, 0);
+    return sum / static_cast<double>(mesh.face(f).size());
+}
+
+Index nearest_to_copy_at_seam(const PolygonMesh& mesh, Index v)
+{
+    Eigen::VectorXd distances = (mesh.vertices.rowwise() - mesh.vertices.row(v)).rowwise().norm();
+    distances[v] = distances.maxCoeff();
+    Eigen::Index nearest = 0;
+    distances.minCoeff(&nearest);
+    return static_cast<Index>(nearest);
+}
+
+}  // namespace
 
 TEST_CASE("normals of faces that have not moved stay, those of others turn with them")
 {
@@ -24,6 +47,37 @@ TEST_CASE("normals of faces that have not moved stay, those of others turn with 
     CHECK(tilted->dot(up) > 0.5);
     CHECK(normals.of_face(0, -up) == std::optional<Point>(-*tilted));
     CHECK(normals.around_vertex(mesh.face(0)[0], -up)->dot(up) < -0.5);
+}
+
+TEST_CASE("normals stay continuous across a seam as wide as is said")
+{
+    const PolygonMesh whole = test::quad_grid(6, 6);
+    const double middle = 0.5 * (whole.vertices.col(0).minCoeff() + whole.vertices.col(0).maxCoeff());
+    std::vector<Index> labels;
+    for (Index f = 0; f < whole.n_faces(); ++f)
+        labels.push_back(mean_x_of_face_at_seam(whole, f) > middle ? 1 : 0);
+    PolygonMesh mesh = test::split(whole, labels);
+    constexpr double gap = 1e-3;
+    const auto bend = [&](double left, double right) {
+        for (Index v = 0; v < mesh.n_vertices(); ++v) {
+            const double x = mesh.vertices(v, 0) - middle;
+            mesh.vertices(v, 2) = (x < 0.0 ? left : right) * x;
+        }
+    };
+    // Copies are the last.
+    mesh.vertices.bottomRows(mesh.n_vertices() - whole.n_vertices()).col(1).array() += gap;
+    bend(0.5, -0.5);
+    const Points before = mesh.vertices;
+    bend(0.2, -0.9);
+    const Index copy = mesh.n_vertices() - 3;
+    const Index of_copy = nearest_to_copy_at_seam(mesh, copy);
+    const Point ridge(0, 0, 1);
+    for (const double distance : {0.0, 2.0 * gap}) {
+        const MovedNormals normals(mesh, before, run_serially, distance);
+        const Point here = *normals.around_vertex(of_copy, ridge);
+        const Point there = *normals.around_vertex(copy, ridge);
+        CHECK(((here - there).norm() < 1e-2) == (distance > 0.0));
+    }
 }
 
 TEST_CASE("the normal of some corners is that of their faces alone")

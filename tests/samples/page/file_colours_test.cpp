@@ -175,6 +175,35 @@ TEST_CASE("PLY: places of corners, but of faces that are left out")
     CHECK(without.remarks.at(0).find("map.png") != std::string::npos);
 }
 
+TEST_CASE("PLY: places of corners stay with them where the file repeats a corner, or lists the places first")
+{
+    const ColouredFile file("a.ply");
+    file.beside("map.png", png);
+    const std::string corners = "property list uchar int vertex_index\n";
+    const std::string places = "property list uchar float texcoord\n";
+    const std::string points = "end_header\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
+    const FileColours behind = file.read(ply_header + "element face 3\n" + corners + places + points +
+                                         "4 0 1 1 2 8 0 0 .5 0 9 9 .5 1\n3 0 2 3 6 .25 0 .5 1 1 1\n"
+                                         "4 0 1 2 0 8 0 0 .5 0 .5 1 9 9\n");
+    const FileColours before = file.read(ply_header + "element face 3\n" + places + corners + points +
+                                         "8 0 0 .5 0 9 9 .5 1 4 0 1 1 2\n6 .25 0 .5 1 1 1 3 0 2 3\n"
+                                         "8 0 0 .5 0 .5 1 9 9 4 0 1 2 0\n");
+    for (const FileColours& colours : {behind, before}) {
+        REQUIRE(colours.place_of_corner.size() == 9);
+        const std::vector<Place> expected{{0, 0}, {0.5, 0}, {0.5, 1}, {0.25, 0}, {0.5, 1},
+                                          {1, 1}, {0, 0},   {0.5, 0}, {0.5, 1}};
+        for (std::size_t corner = 0; corner < expected.size(); ++corner)
+            CHECK(place(colours, corner) == expected[corner]);
+    }
+    // A list that is too short, as one too long, is no reason to stop.
+    const FileColours odd = file.read(ply_header + "element face 2\n" + corners + places + points +
+                                      "3 0 1 2 2 .5 .5\n3 0 2 3 8 .25 0 .5 1 1 1 7 7\n");
+    REQUIRE(odd.place_of_corner.size() == 6);
+    CHECK(place(odd, 0) == Place{0.5, 0.5});
+    CHECK(place(odd, 2) == Place{0, 0});
+    CHECK(place(odd, 5) == Place{1, 1});
+}
+
 TEST_CASE("a file that is not that of the mesh, and formats without colours, have none")
 {
     const ColouredFile file("a.obj");
