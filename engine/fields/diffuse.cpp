@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <utility>
 
@@ -131,11 +132,11 @@ Eigen::RowVectorXd means_of(const Eigen::MatrixXd& fields, const FieldGroup& gro
 }
 
 /// The harmonic extension, as what a long step makes of it.
-/// @returns the report of that step.
+/// @param filled #V: gets 1 where there are data now. @returns the report of that step.
 FlowReport extend(const PolygonMesh& mesh, FieldGroup& group, const FlowOptions& options, const FlowControl& control,
-                  Eigen::MatrixXd& fields, FieldReport& report)
+                  Eigen::MatrixXd& fields, std::vector<std::uint8_t>& filled)
 {
-    const Index n_lacking = group.n_lacking;
+    const std::vector<std::uint8_t> lacked_first = group.lacks;
     PolygonMesh surface = surface_for_extension(mesh, group, options.laplacian);
     const SeamsOfFields seams(surface, options.motion);
     seams.complete(group, fields);
@@ -169,11 +170,9 @@ FlowReport extend(const PolygonMesh& mesh, FieldGroup& group, const FlowOptions&
         for (const Eigen::Index c : group.columns)
             if (group.lacks[v] == 0)
                 fields(v, c) = extended(v, c) + means[c];
-    const auto is_known = [&](Index v) { return !std::isnan(fields(v, group.columns.front())); };
-    Index n_known = 0;
     for (Index v = 0; v < mesh.n_vertices(); ++v)
-        n_known += is_known(v) ? 1 : 0;
-    report.filled += n_known - (mesh.n_vertices() - n_lacking);
+        if (lacked_first[v] != 0 && !std::isnan(fields(v, group.columns.front())))
+            filled[v] = 1;
     return flow.report();
 }
 
@@ -202,10 +201,13 @@ FieldReport diffuse(const PolygonMesh& mesh, Eigen::MatrixXd& fields, const Flow
     of_flow.radius.reset();
     std::vector<FieldGroup> groups = group_columns(fields);
     std::vector<std::vector<std::string>> remarks;
+    // #V: whether a column lacks data there, or has got some.
+    std::vector<std::uint8_t> lacking(at(mesh.n_vertices()), 0);
+    std::vector<std::uint8_t> filled = lacking;
     for (FieldGroup& group : groups) {
         FlowOptions own = of_flow;
         PolygonMesh surface = surface_of(mesh, group, own.laplacian, own.cut.labels);
-        report.without_data = std::max(report.without_data, group.n_lacking);
+        std::ranges::transform(lacking, group.lacks, lacking.begin(), std::bit_or<>());
         const bool measures = field_options.fwhm && !report.fwhm && options.steps > 0;
         own.steps = options.steps * (n_blocks(std::ssize(group.columns)) + (measures ? 1 : 0));
         Flow flow(surface, own, {}, control);
@@ -228,12 +230,14 @@ FieldReport diffuse(const PolygonMesh& mesh, Eigen::MatrixXd& fields, const Flow
         }
         remarks.push_back(of_group.remarks);
         if (field_options.fill && group.n_lacking > 0 && group.n_lacking < mesh.n_vertices()) {
-            const FlowReport of_fill = extend(mesh, group, of_flow, control, results, report);
+            const FlowReport of_fill = extend(mesh, group, of_flow, control, results, filled);
             add_filling(of_fill, of_group, remarks.back());
         }
         add_up(report.flow, of_group);
         report.flow = std::move(of_group);
     }
+    report.without_data = static_cast<Index>(std::ranges::count(lacking, 1));
+    report.filled = static_cast<Index>(std::ranges::count(filled, 1));
     fields = std::move(results);
     report.remarks = remarks_on(groups, remarks, field_options.names);
     report.flow.remarks = report.remarks;

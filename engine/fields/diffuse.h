@@ -24,7 +24,7 @@ struct FieldReport {
     /// diffused in the same way: from the variances of values and of their differences along edges (Forman and others,
     /// Improved Assessment of Significant Activation in Functional Magnetic Resonance Imaging, 1995).
     std::optional<double> fwhm = {};
-    /// How many vertices have no data in a column, or several; and to how many of them the extension has given some.
+    /// How many vertices have no data in one column at least; and to how many of them the extension has given some.
     Index without_data = 0;
     Index filled = 0;
     /// Sentences for the user.

@@ -180,7 +180,9 @@ class RankFieldRun {
         renormalise(fields_, before_);
         const std::vector<std::string> of_writing = file_->write_fields(comm, command_.output, fields_);
         summary_.after = ranges_of_all(comm, fields_.values);
-        summary_.report.without_data = count_without_data();
+        const Index without_data = static_cast<Index>(before_.array().isNaN().rowwise().any().count());
+        for (const Index n : comm.gather_all(std::vector{without_data}))
+            summary_.report.without_data += n;
         std::vector<std::string>& remarks = summary_.report.remarks;
         remarks = remarks_on(groups_, remarks_of_groups_, fields_.names);
         for (const auto& more : {remarks_, of_writing})
@@ -192,15 +194,6 @@ class RankFieldRun {
                 write_text(command_.report, field_report_json(run_, command_.options, summary_));
         });
         print_fields(out_, run_, summary_);
-    }
-
-    /// In the column that has the fewest data.
-    [[nodiscard]] Index count_without_data() const
-    {
-        std::int64_t most = 0;
-        for (const FieldRange& range : summary_.after)
-            most = std::max(most, summary_.n_vertices - range.n);
-        return static_cast<Index>(most);
     }
 
     Transport& ranks_;

@@ -246,6 +246,14 @@ TEST_CASE("vertices without data take no part, and stay without, or get the harm
     const FieldReport of_filling = diffuse(mesh, filled, options, {.fill = true});
     CHECK(of_filling.filled == std::ssize(lacking));
     CHECK(filled.allFinite());
+    // Vertices count once, however many columns lack data there.
+    filled = before;
+    filled(0, 2) = filled(lacking[0], 2) = no_data;
+    const FieldReport of_three = diffuse(mesh, filled, options, {.fill = true});
+    CHECK(of_three.without_data == std::ssize(lacking) + 1);
+    CHECK(of_three.filled == std::ssize(lacking) + 1);
+    filled = before;
+    diffuse(mesh, filled, options, {.fill = true});
     const CotangentMatrices of_mesh = by_cotangents(mesh);
     for (Index v = 0; v < mesh.n_vertices(); ++v)
         if (std::isnan(before(v, 0)))
