@@ -330,7 +330,8 @@ TEST_CASE("components that shrink to points are held, released and attached like
 
 TEST_CASE("a small component that is moved flows as if it had been there from the beginning")
 {
-    const PolygonMesh mesh = test::together({test::ball(1.0, {0.0, 0.0, 0.0}, 400), test::ball(1e-4, {3.0, 0.0, 0.0}, 100)});
+    const PolygonMesh mesh =
+        test::together({test::ball(1.0, {0.0, 0.0, 0.0}, 400), test::ball(1e-4, {3.0, 0.0, 0.0}, 100)});
     const Index n = mesh.n_vertices() - 100;
     std::vector<Index> small(100);
     std::iota(small.begin(), small.end(), n);

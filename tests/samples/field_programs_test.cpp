@@ -216,7 +216,8 @@ TEST_CASE("distances from vertices of a file are those that the library makes")
     REQUIRE(w.smooth("mesh.obj from_obj.ply --from from.txt") == 0);
     CHECK(w.fields_of("from_obj.ply", {"distance"}).values(17, 0) == 0.0);
     // What the surface does not lead to is counted.
-    (void)w.directory.with("two.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 5 0 0\nv 6 0 0\nv 6 1 0\nv 5 1 0\nf 1 2 3\nf 4 5 6 7\n");
+    (void)w.directory.with("two.obj",
+                           "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 5 0 0\nv 6 0 0\nv 6 1 0\nv 5 1 0\nf 1 2 3\nf 4 5 6 7\n");
     (void)w.directory.with("first.txt", "1\n");
     REQUIRE(w.smooth("two.obj two.ply --from first.txt --report report.json") == 0);
     CHECK(w.json("report.json")["without_data"] == 4);
