@@ -7,6 +7,7 @@
 
 #include "engine/flow.h"
 #include "engine/mean_curvature_flow.h"
+#include "engine/state/flow_state.h"
 #include "partition/errors.h"
 #include "partition/metrics/vertex_distance.h"
 #include "samples/meshes/meshes.h"
