@@ -42,10 +42,10 @@ void TileReport::print_input(std::span<const TileSummary> tiles, const MeshScale
 
 void TileReport::add_step(const FlowReport& report, const std::filesystem::path& tile, int step)
 {
-    if (const std::string missed = missed_tolerance(command_, report.convergence); !missed.empty()) {
-        ++n_missed_;
-        missed_ = missed;
-    }
+    if (!missed_tolerance(command_, report.convergence).empty())
+        missed_by_.insert(tile);
+    convergence_.steps_short_of_tolerance += report.convergence.steps_short_of_tolerance;
+    convergence_.steps_stagnated += report.convergence.steps_stagnated;
     has_remarks_on_steps_ = has_remarks_on_steps_ || !report.remarks.empty();
     if (!command_.verbose)
         return;
@@ -99,10 +99,10 @@ void TileReport::print_result(double seconds, int threads, const MeshScale& scal
 
 ExitStatus TileReport::status() const
 {
-    if (n_missed_ == 0)
+    if (missed_by_.empty())
         return ExitStatus::Success;
-    std::cerr << fmt::format("smooth: {} of {}; {} has the last state\n", missed_, counted(n_missed_, "file", "files"),
-                             command_.out_dir.string());
+    std::cerr << fmt::format("smooth: {} of {}; {} has the last state\n", missed_tolerance(command_, convergence_),
+                             counted(missed_by_.size(), "file", "files"), command_.out_dir.string());
     return ExitStatus::ComputationFailed;
 }
 

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <iosfwd>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -62,9 +63,9 @@ class TileReport {
     LengthSums moved_;
     std::uint64_t n_written_ = 0;
     std::uint64_t n_earlier_ = 0;
-    /// How many steps of tiles have missed the tolerance, and what is to be said of the last.
-    std::uint64_t n_missed_ = 0;
-    std::string missed_;
+    /// Of all steps of tiles; and the tiles that have missed the tolerance.
+    ConvergenceReport convergence_;
+    std::set<std::filesystem::path> missed_by_;
 };
 
 }  // namespace seamflow

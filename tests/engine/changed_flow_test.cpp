@@ -7,6 +7,7 @@
 
 #include "engine/flow.h"
 #include "engine/mean_curvature_flow.h"
+#include "engine/state/flow_state.h"
 #include "partition/errors.h"
 #include "partition/metrics/vertex_distance.h"
 #include "samples/meshes/meshes.h"
@@ -231,7 +232,7 @@ TEST_CASE("changes are those of the given mesh, wherever it lies and whatever is
     PolygonMesh mesh = test::height_fields(900)[0];
     mesh.vertices.rowwise() += Point(1e6, -2e6, 5e5);
     // A copy of a vertex, along a seam.
-    const Index copied = mesh.n_vertices() / 2;
+    const Index copied = mesh.n_vertices() / 2 + 15;
     const Index copy = mesh.n_vertices();
     mesh.vertices.conservativeResize(copy + 1, 3);
     mesh.vertices.row(copy) = mesh.vertices.row(copied);
@@ -246,6 +247,7 @@ TEST_CASE("changes are those of the given mesh, wherever it lies and whatever is
     flow.step();
     CHECK(moved.vertices.row(copied) == there.row(copied));
     CHECK(moved.vertices.row(copy) == there.row(copy));
+    CHECK(there.row(copy) != mesh.vertices.row(copy));
     const Point to = moved.vertices.row(copied) + Point(0.0, 0.0, 0.25);
     flow.move(std::vector<Index>{copied}, to);
     CHECK((moved.vertices.row(copied) - to).norm() < 1e-9);
@@ -315,15 +317,37 @@ TEST_CASE("components that shrink to points are held, released and attached like
     flow.step(2);
     CHECK(moved.vertices.allFinite());
 
-    const std::vector<double> strong(all_small.size(), 4.0);
+    // Stronger on one side, to which they pull.
+    std::vector<double> strong(all_small.size(), 4.0);
+    std::fill(strong.begin(), strong.begin() + 20, 40.0);
     PolygonMesh attached = mesh;
     Flow changed(attached, options);
     changed.attach(all_small, strong);
     changed.step();
-    for (const Index v : all_small)
-        options.motion.attachment_weights[v] = 4.0;
+    std::ranges::copy(strong, options.motion.attachment_weights.begin() + n);
     options.steps = 1;
     CHECK(test::largest_difference(attached.vertices, test::flowed(mesh, options)) < 1e-9);
+}
+
+TEST_CASE("a small component that is moved flows as if it had been there from the beginning")
+{
+    const PolygonMesh mesh =
+        test::together({test::ball(1.0, {0.0, 0.0, 0.0}, 400), test::ball(1e-4, {3.0, 0.0, 0.0}, 100)});
+    const Index n = mesh.n_vertices() - 100;
+    std::vector<Index> small(100);
+    std::iota(small.begin(), small.end(), n);
+    FlowOptions options = converged(FlowEquation::Conformalized, Laplacian::Fujiwara, mesh);
+    options.time_step = 0.5;
+    options.cut.subdomains = 4;
+    options.motion.attachment = 1.0;
+    options.steps = 1;
+    PolygonMesh there = mesh;
+    there.vertices.bottomRows(100).rowwise() += Point(0.0, 1.0, 0.0);
+    PolygonMesh moved = mesh;
+    Flow flow(moved, options);
+    flow.move(small, there.vertices.bottomRows(100));
+    flow.step();
+    CHECK(test::largest_difference(moved.vertices, test::flowed(there, options)) < 1e-8);
 }
 
 TEST_CASE("vertices without faces go where they are put, also far from the origin, and limits go along")
@@ -383,7 +407,13 @@ TEST_CASE("changes that cannot be are refused, and nothing has changed")
     flow.step();
 
     options.motion.attachment = 1.0;
-    Flow attached(moved, options);
+    Flow attached(moved, options,
+                  [&](const StepState& state) { of_capture = message_of([&] { (void)state.capture(); }); });
+    attached.step();
+    CHECK(of_capture.empty());
+    attached.attach(std::vector<Index>{1}, std::vector<double>{2.0});
+    attached.step();
+    CHECK(of_capture.starts_with("a flow that was changed between its steps"));
     CHECK_THROWS_AS(attached.attach(std::vector<Index>{1, 2}, std::vector<double>{1.0}), OptionError);
     CHECK_THROWS_AS(attached.attach(std::vector<Index>{1}, std::vector<double>{-1.0}), OptionError);
     options.report.reference = true;

@@ -232,6 +232,20 @@ TEST_CASE("a strength of 1 everywhere is none, bit for bit")
     }
 }
 
+TEST_CASE("strengths too small to move anything are none, bit for bit")
+{
+    const PolygonMesh mesh = make_triangles(900);
+    FlowOptions options = region_options(mesh, Laplacian::Fujiwara);
+    options.motion.strength = disc(mesh, 0.3);
+    // So that faces elsewhere are not left out.
+    options.motion.boundary = Boundary::Free;
+    const FlowOptions masked = options;
+    for (double& strength : options.motion.strength)
+        strength = std::max(strength, 0.5 * MotionOptions::least_strength);
+    for (std::size_t way = 0; way < 3; ++way)
+        CHECK(same_bits(flowed(mesh, all_ways(options)[way]), flowed(mesh, all_ways(masked)[way])));
+}
+
 TEST_CASE("the flow of a region has the same bits on any number of threads")
 {
     const PolygonMesh mesh = make_triangles(20'000);
@@ -451,6 +465,25 @@ TEST_CASE("copies of a vertex along a seam have the least of their strengths, an
             }
     const Points expected = flowed(whole, of_whole);
     CHECK(largest_difference(flowed(mesh, options).topRows(whole.n_vertices()), expected) < 1e-9);
+}
+
+TEST_CASE("a face that repeats another is in its sub-mesh, also where faces beside a region are left out")
+{
+    const PolygonMesh mesh = make_triangles(1600);
+    const Index repeated = mesh.n_faces() / 2 + 20;
+    PolygonMesh with_repeated;
+    with_repeated.vertices = mesh.vertices;
+    for (Index f = 0; f < mesh.n_faces(); ++f)
+        for (int i = 0; i < (f == repeated ? 2 : 1); ++i)
+            with_repeated.add_face(mesh.face(f));
+    FlowOptions options = in_four_sub_meshes(region_options(mesh, Laplacian::Fujiwara));
+    options.motion.strength = disc(mesh, 0.3);
+    PolygonMesh flowing = mesh;
+    std::vector<Index> expected = mean_curvature_flow(flowing, options).cut.labels;
+    CHECK(expected[at(repeated)] < 4);
+    expected.insert(expected.begin() + repeated, expected[at(repeated)]);
+    CHECK(mean_curvature_flow(with_repeated, options).cut.labels == expected);
+    CHECK(same_bits(with_repeated.vertices, flowing.vertices));
 }
 
 TEST_CASE("the way of taking steps that is chosen for a region is never by sweeps")

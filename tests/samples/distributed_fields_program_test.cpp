@@ -162,14 +162,21 @@ TEST_CASE("fields on ranks: seams are joined, vertices are held, colours of OBJ 
     (void)w.directory.with("seam.obj", "v 0 0 0 0.5 0 0\nv 1 0 0 1 0 0\nv 1 1 0 0 0 1\nv 0 1 0 0 1 0\n"
                                        "v 1 0 0 0 0 0\nv 2 0 0 0 1 1\nv 2 1 0 1 1 1\nv 1 1 0 0 0 1\n"
                                        "f 1 2 3\nf 1 3 4\nf 5 6 7\nf 5 7 8\n");
+    // A copy that is held holds the vertex that it is joined with.
+    (void)w.directory.with("copy", "7\n");
     const std::string joined = " --fields colour --time-step 0.1 --steps 2 --threads 1 --approach converged";
-    REQUIRE(w.smooth("seam.obj one.obj" + joined) == 0);
-    REQUIRE(on_ranks(w, 2, "seam.obj n.obj" + joined) == 0);
-    const FileFields of_one = fields_in(w, "one.obj", {"colour"});
-    const FileFields of_ranks = fields_in(w, "n.obj", {"colour"});
-    CHECK((of_one.values - of_ranks.values).cwiseAbs().maxCoeff() < 1e-6);
-    CHECK(of_ranks.values.row(1) == of_ranks.values.row(4));
-    CHECK(of_ranks.values.row(2) == of_ranks.values.row(7));
+    for (const std::string more : {"", " --laplacian uniform", " --fix copy"}) {
+        CAPTURE(more);
+        REQUIRE(w.smooth("seam.obj one.obj" + joined + more) == 0);
+        REQUIRE(on_ranks(w, 2, "seam.obj n.obj" + joined + more) == 0);
+        const FileFields of_one = fields_in(w, "one.obj", {"colour"});
+        const FileFields of_ranks = fields_in(w, "n.obj", {"colour"});
+        CHECK((of_one.values - of_ranks.values).cwiseAbs().maxCoeff() < 1e-6);
+        CHECK(of_ranks.values.row(1) == of_ranks.values.row(4));
+        CHECK(of_ranks.values.row(2) == of_ranks.values.row(7));
+        const bool is_still = of_ranks.values.row(2) == fields_in(w, "seam.obj", {"colour"}).values.row(2);
+        CHECK(is_still == (more == " --fix copy"));
+    }
 }
 
 TEST_CASE("fields on ranks: seams beside vertices without data are those of smooth, and remarks name their columns")
@@ -214,6 +221,14 @@ TEST_CASE("fields that ranks do not take are refused, with one sentence")
     refuses("--from from", 2, "has no --from");
     refuses("--fields red", 2, "--fields needs an amount");
     refuses("--fields red --fwhm 1% --approach cg", 2, "in converged steps");
+    (void)w.directory.with(
+        "sheet.ply",
+        "ply\nformat ascii 1.0\nelement vertex 8\nproperty float x\nproperty float y\nproperty float z\n"
+        "property float heat\nelement face 2\nproperty list uchar int vertex_indices\nend_header\n"
+        "0 0 0 1\n1 0 0 2\n1 1 0 3\n0 1 0 4\n1 0 0 2\n2 0 0 6\n2 1 0 7\n1 1 0 nan\n4 0 1 2 3\n4 4 5 6 7\n");
+    refuses("--fields heat --fwhm 1%", 3,
+            "vertices 2 and 7 (numbered from 0) are joined along a seam, but only one of");
+    write_field_sheet(w);
     for (const std::string sharing : {"", " --whole-up-to 1"})
         refuses("--fields heat --fwhm 1%" + sharing, 3, "sheet.ply:3: the vertices have no number 'heat'");
 }

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "engine/fields/diffuse.h"
 #include "engine/fields/geodesic_distance.h"
 #include "partition/formats/mesh_io.h"
@@ -153,6 +155,48 @@ TEST_CASE("fields are filled, keep their edges, and stay on a boundary that is f
     CHECK(kept > 0.0);
     REQUIRE(w.smooth("in.ply fixed.ply --fields thickness --radius 2% --boundary fixed") == 0);
     CHECK(w.fields_of("fixed.ply", {"thickness"}).values(0, 0) == 0.0);
+    (void)w.directory.with("fix.txt", "401\n");
+    REQUIRE(w.smooth("in.ply held.ply --fields thickness --radius 2% --fix fix.txt") == 0);
+    const Eigen::MatrixXd held = w.fields_of("held.ply", {"thickness"}).values;
+    CHECK(held(401, 0) == (401 * 37) % 10);
+    CHECK(held(400, 0) != (400 * 37) % 10);
+}
+
+TEST_CASE("--fwhm is a length or a part of the diagonal, over any number of steps")
+{
+    const FieldWorkshop w;
+    const Points& vertices = w.file().mesh.vertices;
+    const double diagonal = (vertices.colwise().maxCoeff() - vertices.colwise().minCoeff()).norm();
+    Eigen::MatrixXd expected = w.fields_of("in.ply", {"thickness"}).values;
+    diffuse(w.file().mesh, expected, {.steps = 3}, {.fwhm = 0.08 * diagonal});
+    REQUIRE(w.smooth("in.ply out.ply --fields thickness --fwhm 8% --steps 3 --report report.json") == 0);
+    CHECK(w.json("report.json")["steps"] == 3);
+    const Eigen::MatrixXd after = w.fields_of("out.ply", {"thickness"}).values;
+    for (Index v = 0; v < vertices.rows(); ++v)
+        if (v != 5)
+            CHECK(after(v, 0) == relative(expected(v, 0), 1e-9));
+    // The same time in other steps, of which the width is told.
+    const double time = 3.0 * w.json("report.json")["time_step"].get<double>();
+    const std::string width = fmt::format(": a kernel {:.6g} wide at half its height", 0.08 * diagonal);
+    for (const int steps : {1, 3, 4}) {
+        REQUIRE(w.smooth(fmt::format("in.ply out.ply --fields thickness --time-step {:.17g} --steps {}", time / steps,
+                                     steps)) == 0);
+        CHECK(w.said().find(width) != std::string::npos);
+    }
+}
+
+TEST_CASE("normals that diffuse keep the lengths that they had")
+{
+    const Workshop w;
+    const PolygonMesh mesh = make_triangles(400);
+    FileFields normals{.names = {"nx", "ny", "nz"}, .values = Eigen::MatrixXd(mesh.n_vertices(), 3)};
+    for (Index v = 0; v < mesh.n_vertices(); ++v)
+        normals.values.row(v) = (1.0 + v % 3) * Point(0.3 * std::sin(v), 0.3 * std::cos(3.0 * v), 1.0);
+    write_mesh(w.directory / "in.ply", mesh, {FileFormat::Ply, Encoding::BinaryLittleEndian}, normals);
+    REQUIRE(w.smooth("in.ply out.ply --fields normal --radius 2%") == 0);
+    const Eigen::MatrixXd after = read_fields(*read_mesh(w.directory / "out.ply").source, normals.names).values;
+    CHECK((after.rowwise().norm() - normals.values.rowwise().norm()).cwiseAbs().maxCoeff() < 1e-12);
+    CHECK((after - normals.values).cwiseAbs().maxCoeff() > 0.1);
 }
 
 TEST_CASE("steps of fields that miss their tolerance, of any columns, end with status 4")
@@ -186,6 +230,14 @@ TEST_CASE("distances from vertices of a file are those that the library makes")
     CHECK(w.json("r.json")["fields"]["distance"]["after"]["most"] == rounded.maxCoeff());
     REQUIRE(w.smooth("mesh.obj from_obj.ply --from from.txt") == 0);
     CHECK(w.fields_of("from_obj.ply", {"distance"}).values(17, 0) == 0.0);
+    // What the surface does not lead to is counted.
+    (void)w.directory.with("two.obj",
+                           "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 5 0 0\nv 6 0 0\nv 6 1 0\nv 5 1 0\nf 1 2 3\nf 4 5 6 7\n");
+    (void)w.directory.with("first.txt", "1\n");
+    REQUIRE(w.smooth("two.obj two.ply --from first.txt --report report.json") == 0);
+    CHECK(w.json("report.json")["without_data"] == 4);
+    CHECK(w.said().find("no data    at 4 vertices\n") != std::string::npos);
+    CHECK(w.fields_of("two.ply", {"distance"}).values.bottomRows(4).array().isNaN().all());
     CHECK(w.smooth("mesh.obj out.obj --from from.txt") == 5);
     CHECK(w.said().find("only .ply files hold such fields") != std::string::npos);
     CHECK_FALSE(w.has("out.obj"));

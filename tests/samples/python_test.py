@@ -73,6 +73,13 @@ class Fields(unittest.TestCase):
         np.testing.assert_allclose(one, smooth[:, 3], atol=1e-6)
         constant, _ = seamflow.diffuse(self.V, self.F, np.full(900, 0.1), radius="5%", steps=2)
         np.testing.assert_array_equal(constant, 0.1)
+        for keywords, steps in ({}, 10), ({"steps": 4}, 4):
+            _, report = seamflow.diffuse(self.V, self.F, self.fields, fwhm=0.2, **keywords)
+            self.assertAlmostEqual(steps * report["time_step"], 0.2**2 / (16 * np.log(2)), places=12)
+
+    def test_missed_tolerance(self):
+        with self.assertWarnsRegex(RuntimeWarning, "missed in 2 steps"):
+            seamflow.diffuse(self.V, self.F, self.fields, radius=0.1, steps=2, converge=1e-40, approach="cg")
 
     def test_no_data_and_what_stays(self):
         self.fields[5, 0] = np.nan
@@ -110,6 +117,7 @@ class Fields(unittest.TestCase):
         mask = np.zeros(900, bool)
         mask[0] = True
         np.testing.assert_array_equal(seamflow.geodesic_distance(self.V, self.F, mask, threads=1), distance)
+        np.testing.assert_array_equal(seamflow.geodesic_distance(self.V, self.F, 0), distance)
 
     def test_refusals(self):
         for keywords, words in (

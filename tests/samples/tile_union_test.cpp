@@ -10,7 +10,9 @@
 
 #include "partition/topology.h"
 #include "samples/tiles/tile_borders.h"
+#include "samples/tiles/tile_stepper.h"
 #include "samples/tiles/tile_union.h"
+#include "tests/support/relative.h"
 
 using namespace seamflow;
 
@@ -96,6 +98,24 @@ TEST_CASE("a neighbourhood has all points within a width, and none that are much
             CHECK(near.contains(other));
         if (largest_coordinate > 1.5 * width)
             CHECK_FALSE(near.contains(other));
+    }
+}
+
+TEST_CASE("bands are as wide as a step reaches, and wider with higher orders of a filter")
+{
+    const FlowOptions step{.time_step = 4.0};
+    CHECK(width_of_bands({.time_step = 16.0}, 0.0) == test::relative(2.0 * width_of_bands(step, 0.0), 1e-12));
+    CHECK(width_of_bands(step, 1.0) > width_of_bands(step, 0.0) + 2.0);
+    for (const Filter filter : {Filter::Diffusion, Filter::LowPass}) {
+        FlowOptions options = step;
+        options.filter = filter;
+        double before = width_of_bands(step, 1.0);
+        for (const int order : {2, 3}) {
+            options.order = order;
+            const double width = width_of_bands(options, 1.0);
+            CHECK(width > 1.05 * before);
+            before = width;
+        }
     }
 }
 

@@ -202,7 +202,8 @@ TEST_CASE("files whose borders coincide become what the whole mesh becomes, with
                             Case{"noisy-sphere", block}, Case{"triangles", block}})
         for (const std::string flow :
              {" --time-step-edges 3 --steps 3", " --time-step-edges 0.3 --steps 2 --laplacian virtual-refinement",
-              " --time-step-edges 2 --laplacian uniform --order 2", " --radius 1% --boundary free --steps 2"}) {
+              " --time-step-edges 2 --laplacian uniform --order 2 --steps 2",
+              " --radius 1% --boundary free --steps 2"}) {
             CAPTURE(one.kind);
             CAPTURE(flow);
             const TiledWorkshop w(one.kind, 4000, one.label_of);
@@ -290,6 +291,71 @@ TEST_CASE("borders with a gap are joined by --weld, and a remark says where none
     REQUIRE(w.smooth(w.inputs() + flow + " --weld 2e-4") == 0);
     CHECK(w.said().find("No borders") == std::string::npos);
     CHECK(w.distance("out", "expected.ply") < 0.02);
+}
+
+TEST_CASE("borders that do not overlap are joined by --weld, at the place of the first file")
+{
+    constexpr int n = 40;
+    constexpr double gap = 0.05;
+    PolygonMesh whole;
+    whole.vertices.resize((n + 1) * (n + 1), 3);
+    const auto number = [&](int i, int j) { return i * (n + 1) + j; };
+    for (int i = 0; i <= n; ++i)
+        for (int j = 0; j <= n; ++j)
+            whole.vertices.row(number(i, j)) << i + (2 * i > n ? gap : 0.0), j, 0.3 * std::sin(37.0 * number(i, j));
+    std::vector<Index> files;
+    for (int i = 0; i < n; ++i)
+        for (int j = 0; j < n; ++j) {
+            whole.add_face(std::vector<Index>{number(i, j), number(i + 1, j), number(i + 1, j + 1), number(i, j + 1)});
+            files.push_back(2 * i < n ? 0 : 1);
+        }
+    const Workshop w;
+    write_mesh(w.directory / "whole.ply", whole, TiledWorkshop::binary_ply);
+    write_mesh(w.directory / "tile0.ply", tile_of(whole, files, 0).mesh, TiledWorkshop::binary_ply);
+    CutTile second = tile_of(whole, files, 1);
+    second.mesh.vertices.topRows(n + 1).col(0).array() += gap;
+    write_mesh(w.directory / "tile1.ply", second.mesh, TiledWorkshop::binary_ply);
+    const std::string flow = " --time-step 1.5 --steps 2" + exact;
+    REQUIRE(w.smooth("whole.ply expected.ply" + flow) == 0);
+    REQUIRE(w.smooth("tile0.ply tile1.ply --out-dir out --weld 0.08" + flow) == 0);
+    const Points expected = read_mesh(w.directory / "expected.ply").mesh.vertices;
+    for (const Index file : {0, 1}) {
+        const Points after = read_mesh(w.directory / ("out/tile" + std::to_string(file) + ".ply")).mesh.vertices;
+        CHECK((after - expected(tile_of(whole, files, file).vertices, Eigen::all)).cwiseAbs().maxCoeff() < most_edges);
+    }
+}
+
+TEST_CASE("lengths in percent and filters of several files are those of the whole mesh")
+{
+    // So that the diagonal is not 1.
+    const TiledWorkshop w("noisy-sphere", 4000, quarter);
+    for (const std::string flow : {" --time-step-edges 3 --attach 2%", " --time-step-edges 3 --within 0.2%",
+                                   " --time-step-edges 0.3 --filter low-pass --order 8"}) {
+        CAPTURE(flow);
+        REQUIRE(w.smooth("whole.ply expected.ply" + flow + exact) == 0);
+        REQUIRE(w.smooth(w.inputs() + "--out-dir out" + flow + exact) == 0);
+        CHECK(w.distance("out", "expected.ply") < most_edges);
+    }
+}
+
+TEST_CASE("what is said of several files is in mean edge lengths, and counts steps and files that miss the tolerance")
+{
+    const TiledWorkshop w("triangles", 2000, quarter);
+    const auto moved = [&](const std::string& inputs) {
+        REQUIRE(w.smooth(inputs + "--out-dir out --time-step-edges 3" + exact) == 0);
+        const std::string said = w.said();
+        return said.substr(said.find("\nresult     4 files in out: moved "));
+    };
+    const std::string of_tiles = moved(w.inputs());
+    for (std::size_t i = 0; i < 4; ++i) {
+        PolygonMesh large = w.tiles()[i].mesh;
+        large.vertices *= 1024.0;
+        write_mesh(w.directory / w.names()[i], large, TiledWorkshop::binary_ply);
+    }
+    CHECK(moved(w.inputs()) == of_tiles);
+    CHECK(w.smooth(w.inputs() + "--out-dir out --time-step-edges 3 --steps 2 --subdomains 4 --converge 1e-40") == 4);
+    CHECK(w.said().find("smooth: the tolerance 1e-40 was missed in 8 steps of 4 files; out has the last state\n") !=
+          std::string::npos);
 }
 
 TEST_CASE("sheets that meet at a border of files and cannot be joined stay together")

@@ -360,6 +360,12 @@ TEST_CASE("columns with data at different vertices: what is said of any is said 
     second.choices = {"c", "a"};
     add_up(first, second);
     CHECK(second.choices == std::vector<std::string>{"a", "b", "c"});
+    // The steps of the group that misses its tolerance most often.
+    first.convergence.steps_short_of_tolerance = 3;
+    second.convergence.steps_stagnated = 2;
+    add_up(first, second);
+    CHECK(second.convergence.steps_short_of_tolerance == 3);
+    CHECK(second.convergence.steps_stagnated == 2);
     using Sentences = std::vector<std::string>;
     const std::vector<FieldGroup> groups{{{0, 3}, {}}, {{1}, {}}, {{2, 4, 5, 6, 7}, {}}};
     const std::vector<Sentences> of_groups{{"r"}, {"s", "r"}, {"r", "t", "t"}};
@@ -432,6 +438,12 @@ TEST_CASE("a column without any data, and a component without any, stay so")
     CHECK(fields.col(0).tail(mesh.n_vertices() - 36).array().isNaN().all());
     CHECK(fields.col(0).head(36).allFinite());
     CHECK(report.filled == 1);
+    // Of two columns that lack data at different vertices.
+    fields.setOnes();
+    fields(7, 0) = fields(8, 1) = fields(9, 1) = no_data;
+    const FieldReport of_both = diffuse(mesh, fields, {.time_step = 0.5}, {.fill = true});
+    CHECK(of_both.without_data == 2);
+    CHECK(of_both.filled == 3);
 }
 
 TEST_CASE("edges of fields stay by the diffusivity of Perona and Malik")
@@ -509,6 +521,7 @@ TEST_CASE("the width that a diffusion reaches comes near to the one asked for, t
         before = *report.fwhm;
     }
     CHECK(time_for_fwhm(2.0) == relative(4.0 / (16.0 * std::numbers::ln2), 1e-15));
+    CHECK(fwhm_for_time(time_for_fwhm(0.3)) == relative(0.3, 1e-15));
 }
 
 TEST_CASE("a step that misses its tolerance counts once, whatever takes it: columns, their groups, or measured noise")
@@ -546,6 +559,32 @@ TEST_CASE("white noise has no width, and its numbers a variance of 1")
     CHECK_FALSE(fwhm_of_noise(mesh, Eigen::MatrixXd::Ones(mesh.n_vertices(), 3)));
 }
 
+TEST_CASE("the width of noise is that of its correlation along edges of mean length, whatever its mean is")
+{
+    // Edges of length 1, 5 and √26, as many of each.
+    PolygonMesh mesh = test::triangle_grid(30, 30);
+    mesh.vertices.col(0) *= 5.0;
+    Eigen::MatrixXd noise = white_noise(mesh.n_vertices());
+    diffuse(mesh, noise, {.laplacian = Laplacian::Uniform, .time_step = 3.0});
+    const Eigen::RowVectorXd means = noise.colwise().mean();
+    double n = 0.0;
+    double lengths = 0.0;
+    Eigen::RowVectorXd squares = Eigen::RowVectorXd::Zero(3);
+    for (Index f = 0; f < mesh.n_faces(); ++f)
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Index v = mesh.face(f)[k];
+            const Index w = mesh.face(f)[(k + 1) % 3];
+            n += 1.0;
+            lengths += (mesh.vertices.row(v) - mesh.vertices.row(w)).norm();
+            squares += (noise.row(v) - noise.row(w)).cwiseAbs2();
+        }
+    const Eigen::RowVectorXd variances = (noise.rowwise() - means).cwiseAbs2().colwise().mean();
+    const Eigen::ArrayXd correlations = 1.0 - squares.array() / n / (2.0 * variances.array());
+    const double expected = lengths / n * (-2.0 * std::numbers::ln2 / correlations.log()).sqrt().mean();
+    CHECK(fwhm_of_noise(mesh, noise).value() == relative(expected, 1e-9));
+    CHECK(fwhm_of_noise(mesh, noise.array() + 7.0).value() == relative(expected, 1e-9));
+}
+
 TEST_CASE("vertices along seams get one value")
 {
     const PolygonMesh whole = bumpy_triangles(600);
@@ -575,6 +614,16 @@ TEST_CASE("vertices along seams get one value")
     diffuse(mesh, apart, options);
     CHECK((apart.col(3) - fields.col(3)).cwiseAbs().maxCoeff() < 1e-6);
     CHECK(apart.row(copy) == apart.row(of_copy));
+    // Where just one of them has data, it counts, and so does it where data are filled.
+    Eigen::MatrixXd one = waves_on(mesh).col(1);
+    one(copy, 0) = no_data;
+    FlowOptions still = options;
+    still.steps = 0;
+    const double known = one(of_copy, 0);
+    const FieldReport report = diffuse(mesh, one, still, {.fill = true});
+    CHECK(report.filled == 1);
+    CHECK(one(copy, 0) == known);
+    CHECK(one(of_copy, 0) == known);
 }
 
 TEST_CASE("fields refuse what they do not have, and stay as they were")

@@ -1,11 +1,14 @@
 #include <algorithm>
 #include <functional>
+#include <numeric>
 #include <string>
 #include <vector>
 
 #include <doctest/doctest.h>
 
+#include "engine/flow.h"
 #include "engine/mean_curvature_flow.h"
+#include "engine/steppers/vanishing_components.h"
 #include "tests/support/flows.h"
 #include "tests/support/relative.h"
 
@@ -191,4 +194,42 @@ TEST_CASE("a component that is held does not count as one that vanishes")
     CHECK(std::ranges::none_of(report.remarks, [](const auto& r) { return r.find("small compared with") != r.npos; }));
     CHECK(Point(mesh.vertices.row(mesh.n_vertices() - 1)) == held);
     CHECK((mesh.vertices.bottomRows(100).rowwise() - held).rowwise().norm().maxCoeff() < 1e-8);
+}
+
+TEST_CASE("a component with a vertex that hardly moves does not count as one that vanishes")
+{
+    PolygonMesh mesh = together({ball(1.0, {0.0, 0.0, 0.0}, 300), ball(1e-6, {3.0, 0.0, 0.0}, 100)});
+    FlowOptions options;
+    options.time_step = 0.002;
+    options.accuracy.approach = Approach::Undecomposed;
+    const auto n_small = [&](double strength) {
+        options.motion.strength.assign(at(mesh.n_vertices()), 0.5);
+        options.motion.strength.back() = strength;
+        const Topology topology = make_topology(mesh);
+        return find_small_components(mesh, topology, options.motion.strength)(mesh.vertices, 1e-3).rows.size();
+    };
+    CHECK(n_small(0.5) == 1);
+    CHECK(n_small(0.001) == 0);
+}
+
+TEST_CASE("a small component is pulled as far as any vertex of a region that is attached")
+{
+    // (1 / s + dt w) x = x⁰ / s + dt w x⁰ of its centre, which is elsewhere than its target.
+    const PolygonMesh mesh = together({ball(1.0, {0.0, 0.0, 0.0}, 300), ball(1e-6, {3.0, 0.0, 0.0}, 100)});
+    FlowOptions options;
+    options.time_step = 0.002;
+    options.accuracy = {.tolerance = 1e-10, .approach = Approach::Converged};
+    options.cut.subdomains = 4;
+    options.motion.attachment = 600.0;
+    options.motion.strength.assign(at(mesh.n_vertices()), 0.25);
+    std::vector<Index> small(100);
+    std::iota(small.begin(), small.end(), mesh.n_vertices() - 100);
+    PolygonMesh moved = mesh;
+    Flow flow(moved, options);
+    const Point away(0.0, 0.5, 0.0);
+    flow.move(small, mesh.vertices.bottomRows(100).rowwise() + away);
+    flow.step();
+    const double pull = 0.25 * options.time_step * options.motion.attachment;
+    const Point expected = mesh.vertices.bottomRows(100).colwise().mean() + away / (1.0 + pull);
+    CHECK((moved.vertices.bottomRows(100).colwise().mean() - expected).norm() < 1e-6);
 }

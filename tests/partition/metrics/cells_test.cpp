@@ -112,6 +112,10 @@ TEST_CASE("two boxes with a common wall are two cells, whichever way faces and v
     PolygonMesh far = mesh;
     far.vertices.rowwise() += Point(1e6, -1e6, 1e6);
     check_near(volumes_of_cells(far), {60.0, 24.0});
+    // However flat they are.
+    PolygonMesh flat = mesh;
+    flat.vertices.col(2) *= 0x1p-10;
+    check_near(volumes_of_cells(flat), {60.0 * 0x1p-10, 24.0 * 0x1p-10});
 }
 
 TEST_CASE("a cell with a hole is open, cells with a hole between them are one, and fins do not matter")
