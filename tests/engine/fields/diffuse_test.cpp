@@ -565,7 +565,7 @@ TEST_CASE("the width of noise is that of its correlation along edges of mean len
     PolygonMesh mesh = test::triangle_grid(30, 30);
     mesh.vertices.col(0) *= 5.0;
     Eigen::MatrixXd noise = white_noise(mesh.n_vertices());
-    diffuse(mesh, noise, {.laplacian = Laplacian::Uniform, .time_step = 3.0});
+    diffuse(mesh, noise, {.time_step = 3.0}, {.laplacian = Laplacian::Uniform});
     const Eigen::RowVectorXd means = noise.colwise().mean();
     double n = 0.0;
     double lengths = 0.0;

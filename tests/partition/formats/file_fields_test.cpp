@@ -236,7 +236,7 @@ TEST_CASE("fields of whole numbers are rounded once and kept within the range of
     CHECK(clamped.content == with(with(scalar_ply, "007", "0"), " 10 ", " 0 "));
     FileFields as_written = one_field("red", {-3, 0.4999, 1e300});
     as_written.whole = {WholeRange{0.0, 255.0}};
-    round_as_written(as_written);
+    round_as_written(as_written, as_written.values, run_serially);
     CHECK(as_written.values == Eigen::Vector3d(0.0, 0.0, 255.0));
     REQUIRE(clamped.remarks.size() == 1);
     CHECK(clamped.remarks[0] == "some values of 'red' are beyond the range of uchar and are written as its least or "
