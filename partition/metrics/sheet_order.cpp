@@ -107,10 +107,8 @@ std::vector<Spoke> SheetOrder::around(Index h) const
         spokes.push_back(spoke_of(other, axis, first));
     std::ranges::sort(spokes, {}, [](const Spoke& s) { return std::tuple(s.angle, s.halfedge); });
     begin_behind_gap(spokes);
-    const auto lies_on = [](const Spoke& one, const Spoke& next) {
-        const double gap = next.angle - one.angle;
-        return (gap < 0.0 ? gap + 2.0 * std::numbers::pi : gap) <= smallest_angle;
-    };
+    // Where angles start again from -π, the gap is small.
+    const auto lies_on = [](const Spoke& one, const Spoke& next) { return next.angle - one.angle <= smallest_angle; };
     const auto have_same_corners = [](const Spoke& one, const Spoke& next) { return one.rate == next.rate; };
     for_each_run(std::span(spokes), lies_on, [&](std::span<Spoke> together) {
         std::ranges::sort(together, {}, [](const Spoke& s) { return std::tuple(s.rate, s.halfedge); });
