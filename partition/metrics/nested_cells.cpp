@@ -44,6 +44,14 @@ struct Crossing {
     Index region_above;
 };
 
+/// Those of sorted crossings whose member has a value.
+std::span<const Crossing> those_with(std::span<const Crossing> sorted, Index Crossing::*member, Index value)
+{
+    const auto begin = std::ranges::lower_bound(sorted, value, {}, member);
+    const auto end = std::ranges::upper_bound(sorted, value, {}, member);
+    return sorted.subspan(static_cast<std::size_t>(begin - sorted.begin()), static_cast<std::size_t>(end - begin));
+}
+
 /// A triangle in the frame of the lines.
 struct SeenTriangle {
     Triangle vertices;
@@ -110,8 +118,8 @@ class NestSearch {
         const std::vector<Crossing> crossings = crossings_of(lines, exec);
         std::vector<Index> cell_around(at(regions_.count()), -1);
         for_each(exec, static_cast<Index>(outer.size()), [&](Index line) {
-            const auto its = std::ranges::equal_range(crossings, line, {}, &Crossing::line);
-            cell_around[lines.outer[line]] = innermost_around(lines.outer[line], {its.begin(), its.end()});
+            const Index region = lines.outer[line];
+            cell_around[region] = innermost_around(region, those_with(crossings, &Crossing::line, line));
         });
         return cell_around;
     }
@@ -241,8 +249,8 @@ std::optional<double> NestSearch::height_within(std::span<const Crossing> own) c
 /// Of all cells around a point within the surface, the smallest. Copies of the surface do not contain each other.
 Index NestSearch::innermost_around(Index outer, std::span<const Crossing> crossings) const
 {
-    const auto own = std::ranges::equal_range(crossings, component_of_[outer], {}, &Crossing::component);
-    const std::optional<double> height = height_within({own.begin(), own.end()});
+    const std::optional<double> height =
+        height_within(those_with(crossings, &Crossing::component, component_of_[outer]));
     if (!height)
         return -1;
     const double smallest = -(1.0 + 1e-7) * regions_.volumes[outer];
