@@ -38,7 +38,7 @@ void join_around(const SheetOrder& order, const Topology& topology, Index h, Dis
     const auto side_forwards = [&](Index other) {
         return 2 * topology.face_of[other] + (order.runs_up(other) ? 0 : 1);
     };
-    const std::vector<Spoke> spokes = order.around(h);
+    const std::vector<SheetSpoke> spokes = order.around(h);
     for (std::size_t i = 0; i < spokes.size(); ++i) {
         const Index side = side_forwards(spokes[i > 0 ? i - 1 : spokes.size() - 1].halfedge);
         sides.join(side, side_forwards(spokes[i].halfedge) ^ 1);

@@ -33,7 +33,7 @@ struct Piece {
 constexpr Index no_fan = std::numeric_limits<Index>::max();
 
 /// The pieces from `begin` to before `end` share an edge.
-struct Fan {
+struct PiecesOfFan {
     Edge edge;
     Index begin;
     Index end;
@@ -69,7 +69,7 @@ class CrossingSearch {
     [[nodiscard]] std::vector<FacePair> run(const Executor& exec) const
     {
         std::vector<FacePair> found;
-        for (const Fan& fan : fans_)
+        for (const PiecesOfFan& fan : fans_)
             search_within(fan, found);
         for (Index first = 0; first < tree_.size() && found.size() < most_self_intersections;
              first += tasks_of_round * leaves_of_task)
@@ -92,12 +92,12 @@ class CrossingSearch {
         return box;
     }
 
-    [[nodiscard]] std::vector<Fan> mark_fans();
+    [[nodiscard]] std::vector<PiecesOfFan> mark_fans();
     void sort_pieces(const Executor& exec);
     [[nodiscard]] std::vector<Box> boxes_of_leaves(const Executor& exec) const;
     void run_round(Index first, std::vector<FacePair>& found, const Executor& exec) const;
     void add_if_crossing(const Piece& one, const Piece& other, std::vector<FacePair>& found) const;
-    void search_within(const Fan& fan, std::vector<FacePair>& found) const;
+    void search_within(const PiecesOfFan& fan, std::vector<FacePair>& found) const;
     [[nodiscard]] Index first_to_search(Index leaf) const;
     void search(Index leaf, std::vector<FacePair>& found) const;
     void search(const Piece& piece, const Box& its_box, Index begin, Index end, std::vector<FacePair>& found) const;
@@ -111,18 +111,18 @@ class CrossingSearch {
     const Points& positions_;
     /// Those of fans first, one fan after the other.
     std::vector<Piece> pieces_;
-    std::vector<Fan> fans_;
+    std::vector<PiecesOfFan> fans_;
     BoxTree tree_;
 };
 
 /// Fans as they will be when pieces are sorted.
-std::vector<Fan> CrossingSearch::mark_fans()
+std::vector<PiecesOfFan> CrossingSearch::mark_fans()
 {
     std::vector<Triangle> triangles;
     triangles.reserve(pieces_.size());
     for (const Piece& piece : pieces_)
         triangles.push_back(piece.vertices);
-    std::vector<Fan> fans;
+    std::vector<PiecesOfFan> fans;
     Index begin = 0;
     for (const EdgeFan& fan : edge_fans_of(triangles, static_cast<Index>(positions_.rows()))) {
         for (const Index i : fan.triangles)
@@ -133,7 +133,7 @@ std::vector<Fan> CrossingSearch::mark_fans()
     return fans;
 }
 
-/// Fan by fan and along the curve, those at one place in their previous order.
+/// PiecesOfFan by fan and along the curve, those at one place in their previous order.
 void CrossingSearch::sort_pieces(const Executor& exec)
 {
     const auto n = static_cast<Index>(pieces_.size());
@@ -180,7 +180,7 @@ void CrossingSearch::add_if_crossing(const Piece& one, const Piece& other, std::
         found.push_back({std::min(one.face, other.face), std::max(one.face, other.face)});
 }
 
-void CrossingSearch::search_within(const Fan& fan, std::vector<FacePair>& found) const
+void CrossingSearch::search_within(const PiecesOfFan& fan, std::vector<FacePair>& found) const
 {
     std::vector<Point> third;
     for (Index i = fan.begin; i < fan.end; ++i)

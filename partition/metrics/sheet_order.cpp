@@ -55,19 +55,19 @@ std::pair<std::vector<Index>, bool> sorted_corners(std::span<const Index> face)
 }
 
 /// Begins the cycle behind a gap, so that no faces that lie on each other are at both ends.
-void begin_behind_gap(std::vector<Spoke>& spokes)
+void begin_behind_gap(std::vector<SheetSpoke>& spokes)
 {
     if (spokes.front().angle + 2.0 * std::numbers::pi - spokes.back().angle > smallest_angle)
         return;
     const auto gap = std::ranges::adjacent_find(
-        spokes, [](const Spoke& one, const Spoke& next) { return next.angle - one.angle > smallest_angle; });
+        spokes, [](const SheetSpoke& one, const SheetSpoke& next) { return next.angle - one.angle > smallest_angle; });
     if (gap != spokes.end())
         std::rotate(spokes.begin(), gap + 1, spokes.end());
 }
 
 /// Calls action with the runs of spokes each of which belongs to the one before it.
 template <class Belongs, class Action>
-void for_each_run(std::span<Spoke> spokes, Belongs&& belongs, Action&& action)
+void for_each_run(std::span<SheetSpoke> spokes, Belongs&& belongs, Action&& action)
 {
     for (std::size_t begin = 0; begin < spokes.size();) {
         std::size_t end = begin + 1;
@@ -82,7 +82,7 @@ void for_each_run(std::span<Spoke> spokes, Belongs&& belongs, Action&& action)
 
 /// Its angle is that of the direction from the edge into the face, upright on the edge, from the first one that is not
 /// zero. The bits depend neither on the first corner of the face nor on its sense.
-Spoke SheetOrder::spoke_of(Index h, const Point& axis, Point& first) const
+SheetSpoke SheetOrder::spoke_of(Index h, const Point& axis, Point& first) const
 {
     const auto [corners, is_same_sense] = sorted_corners(mesh_.face(topology_.face_of[h]));
     const double sign = runs_up(h) == is_same_sense ? 1.0 : -1.0;
@@ -96,27 +96,29 @@ Spoke SheetOrder::spoke_of(Index h, const Point& axis, Point& first) const
     return {std::atan2(inwards.dot(axis.cross(first)), inwards.dot(first)), std::isfinite(rate) ? rate : 0.0, h, false};
 }
 
-std::vector<Spoke> SheetOrder::around(Index h) const
+std::vector<SheetSpoke> SheetOrder::around(Index h) const
 {
     const auto [lower, higher] = std::minmax(mesh_.face_vertices[h], mesh_.face_vertices[topology_.next(mesh_, h)]);
     const Point axis = direction_of(positions_.row(higher) - positions_.row(lower));
-    std::vector<Spoke> spokes;
+    std::vector<SheetSpoke> spokes;
     Point first = Point::Zero();
     spokes.push_back(spoke_of(h, axis, first));
     for (Index other = topology_.next_at_junction(h); other != h; other = topology_.next_at_junction(other))
         spokes.push_back(spoke_of(other, axis, first));
-    std::ranges::sort(spokes, {}, [](const Spoke& s) { return std::tuple(s.angle, s.halfedge); });
+    std::ranges::sort(spokes, {}, [](const SheetSpoke& s) { return std::tuple(s.angle, s.halfedge); });
     begin_behind_gap(spokes);
     // Where angles start again from -π, the gap is small.
-    const auto lies_on = [](const Spoke& one, const Spoke& next) { return next.angle - one.angle <= smallest_angle; };
-    const auto have_same_corners = [](const Spoke& one, const Spoke& next) { return one.rate == next.rate; };
-    for_each_run(std::span(spokes), lies_on, [&](std::span<Spoke> together) {
-        std::ranges::sort(together, {}, [](const Spoke& s) { return std::tuple(s.rate, s.halfedge); });
-        for_each_run(together, have_same_corners, [&](std::span<Spoke> repeated) {
+    const auto lies_on = [](const SheetSpoke& one, const SheetSpoke& next) {
+        return next.angle - one.angle <= smallest_angle;
+    };
+    const auto have_same_corners = [](const SheetSpoke& one, const SheetSpoke& next) { return one.rate == next.rate; };
+    for_each_run(std::span(spokes), lies_on, [&](std::span<SheetSpoke> together) {
+        std::ranges::sort(together, {}, [](const SheetSpoke& s) { return std::tuple(s.rate, s.halfedge); });
+        for_each_run(together, have_same_corners, [&](std::span<SheetSpoke> repeated) {
             if (!runs_up(repeated.front().halfedge))
                 std::ranges::reverse(repeated);
         });
-        for (Spoke& spoke : together.subspan(1))
+        for (SheetSpoke& spoke : together.subspan(1))
             spoke.lies_on_previous = true;
     });
     return spokes;

@@ -9,7 +9,7 @@
 namespace seamflow {
 
 /// A half-edge among all those at one edge.
-struct Spoke {
+struct SheetSpoke {
     /// Of its face about the edge, in radians, from -π to π.
     double angle;
     /// How fast the angle grows if each vertex moves in a direction of its own: a tie-breaker.
@@ -42,10 +42,10 @@ class SheetOrder {
     /// direction that depends on its number: so the two halves of a flat quad that one sheet cuts along one diagonal
     /// lie on the same side of those of another sheet that cuts along the other, at all four edges. Faces with the same
     /// corners are in the order of their numbers, seen along the half-edge of the lowest.
-    [[nodiscard]] std::vector<Spoke> around(Index h) const;
+    [[nodiscard]] std::vector<SheetSpoke> around(Index h) const;
 
   private:
-    [[nodiscard]] Spoke spoke_of(Index h, const Point& axis, Point& first) const;
+    [[nodiscard]] SheetSpoke spoke_of(Index h, const Point& axis, Point& first) const;
 
     const PolygonMesh& mesh_;
     const Points& positions_;
