@@ -105,7 +105,9 @@ TEST_CASE("volumes of cells are left out where sheets with different faces lie o
     PolygonMesh mesh = touching_balls(10);
     const auto volumes_and_remarks = [&] {
         const SurfaceChangeMeter meter(mesh, run_serially);
-        const SurfaceChange change = meter.measure(mesh, {.junction_vertices = 20}, false, run_serially);
+        MeshReport report;
+        report.junction_vertices = 20;
+        const SurfaceChange change = meter.measure(mesh, report, false, run_serially);
         std::vector<std::string> remarks;
         remark_on_folds({}, change, remarks);
         CHECK(change.before.cell_volumes.size() == change.after.cell_volumes.size());
