@@ -56,8 +56,28 @@ Components connected_components(Index n_nodes, ForEachNeighbour&& for_each_neigh
     return found;
 }
 
-/// Calls visit(half-edge, face across it) for the half-edges of face f that have a twin, and for every further face at
-/// those of a junction (see free_junctions).
+/// At an edge of more faces, only those that follow each other are neighbours: pairs of all would be quadratic.
+inline constexpr Index most_mutual_neighbours = 16;
+
+/// Calls visit with the half-edges of other faces at half-edge h of a junction (see free_junctions) that are neighbours
+/// of its face: all of them, or of more than most_mutual_neighbours faces, the next and the previous one.
+template <class Visit>
+void for_each_at_junction(const Topology& topology, Index h, Visit&& visit)
+{
+    const Index place = topology.place_at_junction(h);
+    if (place < 0)
+        return;
+    const JunctionLink& link = topology.junctions[place];
+    visit(link.next);
+    if (link.n_faces > most_mutual_neighbours)
+        visit(link.previous);
+    else
+        for (Index other = topology.next_at_junction(link.next); other != h; other = topology.next_at_junction(other))
+            visit(other);
+}
+
+/// Calls visit(half-edge, face across it) for the half-edges of face f that have a twin, and for further faces at those
+/// of a junction.
 template <class Visit>
 void for_each_neighbour(const PolygonMesh& mesh, const Topology& topology, Index f, Visit&& visit)
 {
@@ -65,8 +85,7 @@ void for_each_neighbour(const PolygonMesh& mesh, const Topology& topology, Index
         if (const Index twin = topology.twin[h]; twin >= 0)
             visit(h, topology.face_of[twin]);
         else
-            for (Index other = topology.next_at_junction(h); other != h; other = topology.next_at_junction(other))
-                visit(h, topology.face_of[other]);
+            for_each_at_junction(topology, h, [&](Index other) { visit(h, topology.face_of[other]); });
 }
 
 /// The connected components of the faces of a mesh. Faces are connected through edges of exactly two faces: a shared

@@ -209,12 +209,16 @@ void free_boundary(Topology& topology)
             topology.fixed[v] = 0;
 }
 
+Index Topology::place_at_junction(Index h) const
+{
+    const auto found = std::ranges::lower_bound(junctions, h, {}, &JunctionLink::halfedge);
+    return found != junctions.end() && found->halfedge == h ? static_cast<Index>(found - junctions.begin()) : -1;
+}
+
 Index Topology::next_at_junction(Index h) const
 {
-    if (junctions.empty())
-        return h;
-    const auto found = std::ranges::lower_bound(junctions, h, {}, &JunctionLink::halfedge);
-    return found != junctions.end() && found->halfedge == h ? found->next : h;
+    const Index place = place_at_junction(h);
+    return place < 0 ? h : junctions[place].next;
 }
 
 void free_junctions(const PolygonMesh& mesh, Topology& topology, const Executor& exec)
@@ -228,8 +232,10 @@ void free_junctions(const PolygonMesh& mesh, Topology& topology, const Executor&
         for_each_edge(spokes, [&](std::span<const Spoke> edge) {
             is_at_junction |= edge.size() > 2;
             is_on_boundary |= edge.size() == 1;
-            for (std::size_t i = 0; edge.size() > 2 && edge[0].neighbour > v && i < edge.size(); ++i)
-                topology.junctions.push_back({edge[i].halfedge, edge[(i + 1) % edge.size()].halfedge});
+            const std::size_t n = edge.size();
+            for (std::size_t i = 0; n > 2 && edge[0].neighbour > v && i < n; ++i)
+                topology.junctions.push_back({edge[i].halfedge, edge[(i + 1) % n].halfedge,
+                                              edge[(i + n - 1) % n].halfedge, static_cast<Index>(n)});
         });
         if (!is_at_junction)
             continue;

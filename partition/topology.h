@@ -63,11 +63,14 @@ class FaceOfHalfedge {
     std::vector<Index> faces_;
 };
 
-/// Two half-edges at an edge of three faces or more: each is followed by the next higher one there, the highest by the
-/// lowest.
+/// A half-edge at an edge of three faces or more, between two others there: each is followed by the next higher one,
+/// the highest by the lowest.
 struct JunctionLink {
     Index halfedge;
     Index next;
+    Index previous;
+    /// How many faces share the edge.
+    Index n_faces;
 };
 
 /// How the faces of a mesh are connected. Half-edge h runs from corner h to the next corner of the same face, so that
@@ -93,6 +96,9 @@ struct Topology {
 
     /// Whether a flow moves vertex v.
     [[nodiscard]] bool moves(Index v) const { return fixed[v] == 0; }
+
+    /// The place of half-edge h in `junctions`, or -1 if it is at none. Logarithmic in their number.
+    [[nodiscard]] Index place_at_junction(Index h) const;
 
     /// The half-edge that follows h at a junction (see JunctionLink); h itself elsewhere.
     [[nodiscard]] Index next_at_junction(Index h) const;

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -34,6 +36,24 @@ struct Box {
                other.low[1] <= high[1] && low[2] <= other.high[2] && other.low[2] <= high[2];
     }
 };
+
+/// The centre of a box in 2²¹ steps along each side of another, the bits of all three interleaved: numbers that are
+/// close belong to boxes that are close, too (Morton, A Computer Oriented Geodetic Data Base, 1966).
+inline std::uint64_t place_on_curve(const Box& box, const Box& whole)
+{
+    constexpr int n_bits = 21;
+    std::uint64_t place = 0;
+    for (int c = 0; c < 3; ++c) {
+        // Halved, because sums of large numbers overflow.
+        const double side = 0.5 * whole.high[c] - 0.5 * whole.low[c];
+        const double offset = 0.5 * (0.5 * box.low[c] + 0.5 * box.high[c] - whole.low[c]);
+        const double part = side > 0.0 ? std::clamp(offset / side, 0.0, 1.0) : 0.0;
+        const auto step = static_cast<std::uint64_t>(part * ((1U << n_bits) - 1U));
+        for (int bit = 0; bit < n_bits; ++bit)
+            place |= (step >> bit & 1U) << (3 * bit + c);
+    }
+    return place;
+}
 
 /// A binary tree over boxes in an order that keeps neighbours together. Node k of a level spans the nodes 2k and 2k + 1
 /// of the level below, as far as these exist.

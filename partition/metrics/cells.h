@@ -9,21 +9,24 @@
 namespace seamflow {
 
 /// The cells that the faces of a mesh enclose: the bounded regions of space between sheets that meet, such as the
-/// bubbles of a foam. However faces are oriented, they are found by walking around edges: from the side of a face to
-/// the side of the next face that looks at it, and at an edge of one face to its other side. A region with a hole is
-/// thus one with what is behind the hole, and no cell if that is the outside.
+/// bubbles of a foam, however faces are oriented (see Regions). A region with a hole in its sheets is one with what is
+/// behind the hole, and no cell if that is the outside. What lies within a cell, touching its sheets at no edge, is not
+/// a part of it: the surface around that is a further boundary of the cell.
 struct EnclosedCells {
     /// One list for each cell, the largest cell first: the sides of faces around it, 2 f for the side of face f that
     /// its normal points to, and 2 f + 1 for the other. Faces with both sides in one cell are left out.
     IndexLists sides;
+    /// At how many edges two faces lie on each other, and what should be nothing between them has a volume: parts of
+    /// sheets that have different faces there. The cells on both sides may then be one, and volumes mean nothing.
+    Index n_overlaps = 0;
 
     [[nodiscard]] Index count() const { return sides.size(); }
 };
 
-/// Finds the cells. Surfaces that lie in a cell without touching the sheets around it are not joined with these: such a
-/// cell contains the ones in it. Linear in the size of the mesh, but for sorting at edges of three faces or more.
-/// @param positions #V by 3, not necessarily those of the mesh; where sheets cross each other, or lie on
-///        each other without being the same faces, cells mean nothing.
+/// Finds the cells. The same bits for every executor. Linear in the size of the mesh, but for sorting at edges of three
+/// faces or more and for surfaces that do not touch. Sheets may lie on each other if they have the same faces there, or
+/// the same quads, cut along one diagonal or the other.
+/// @param positions #V by 3, not necessarily those of the mesh; where sheets cross each other, cells mean nothing.
 EnclosedCells find_cells(const PolygonMesh& mesh, const Points& positions, const Executor& exec = run_serially);
 
 /// The volume of each cell in length³, negative for cells turned inside out.

@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
+#include <tuple>
 #include <utility>
 
 #include "partition/index_lists.h"
 #include "partition/metrics/box_tree.h"
+#include "partition/metrics/edge_fans.h"
 #include "partition/metrics/triangle_crossing.h"
 #include "partition/metrics/triangulation.h"
 
@@ -23,25 +26,18 @@ constexpr Index tasks_of_round = 64;
 struct Piece {
     Triangle vertices;
     Index face;
+    /// The number of its edge fan, no_fan for most.
+    Index fan;
 };
 
-/// The centre of a box in 2²¹ steps along each side of another, the bits of all three interleaved: numbers that are
-/// close belong to boxes that are close, too (Morton, A Computer Oriented Geodetic Data Base, 1966).
-std::uint64_t place_on_curve(const Box& box, const Box& whole)
-{
-    constexpr int n_bits = 21;
-    std::uint64_t place = 0;
-    for (int c = 0; c < 3; ++c) {
-        // Halved, because sums of large numbers overflow.
-        const double side = 0.5 * whole.high[c] - 0.5 * whole.low[c];
-        const double offset = 0.5 * (0.5 * box.low[c] + 0.5 * box.high[c] - whole.low[c]);
-        const double part = side > 0.0 ? std::clamp(offset / side, 0.0, 1.0) : 0.0;
-        const auto step = static_cast<std::uint64_t>(part * ((1U << n_bits) - 1U));
-        for (int bit = 0; bit < n_bits; ++bit)
-            place |= (step >> bit & 1U) << (3 * bit + c);
-    }
-    return place;
-}
+constexpr Index no_fan = std::numeric_limits<Index>::max();
+
+/// The pieces from `begin` to before `end` share an edge.
+struct PiecesOfFan {
+    Edge edge;
+    Index begin;
+    Index end;
+};
 
 /// All triangles of all faces with finite corners, face by face.
 std::vector<Piece> pieces_of(const PolygonMesh& mesh, const Points& positions, const Executor& exec)
@@ -52,7 +48,7 @@ std::vector<Piece> pieces_of(const PolygonMesh& mesh, const Points& positions, c
         std::vector<Triangle> triangles;
         triangulate(mesh.face(f), positions, triangles);
         for (const Triangle& t : triangles)
-            pieces.push_back({t, f});
+            pieces.push_back({t, f, no_fan});
     };
     return reduce(exec, mesh.n_faces(), std::vector<Piece>{}, add_face,
                   [](auto& pieces, const auto& part) { pieces.insert(pieces.end(), part.begin(), part.end()); });
@@ -64,6 +60,7 @@ class CrossingSearch {
     CrossingSearch(const PolygonMesh& mesh, const Points& positions, const Executor& exec)
         : positions_(positions)
         , pieces_(pieces_of(mesh, positions, exec))
+        , fans_(mark_fans())
         , tree_((sort_pieces(exec), boxes_of_leaves(exec)))
     {
     }
@@ -72,6 +69,8 @@ class CrossingSearch {
     [[nodiscard]] std::vector<FacePair> run(const Executor& exec) const
     {
         std::vector<FacePair> found;
+        for (const PiecesOfFan& fan : fans_)
+            search_within(fan, found);
         for (Index first = 0; first < tree_.size() && found.size() < most_self_intersections;
              first += tasks_of_round * leaves_of_task)
             run_round(first, found, exec);
@@ -93,9 +92,13 @@ class CrossingSearch {
         return box;
     }
 
+    [[nodiscard]] std::vector<PiecesOfFan> mark_fans();
     void sort_pieces(const Executor& exec);
     [[nodiscard]] std::vector<Box> boxes_of_leaves(const Executor& exec) const;
     void run_round(Index first, std::vector<FacePair>& found, const Executor& exec) const;
+    void add_if_crossing(const Piece& one, const Piece& other, std::vector<FacePair>& found) const;
+    void search_within(const PiecesOfFan& fan, std::vector<FacePair>& found) const;
+    [[nodiscard]] Index first_to_search(Index leaf) const;
     void search(Index leaf, std::vector<FacePair>& found) const;
     void search(const Piece& piece, const Box& its_box, Index begin, Index end, std::vector<FacePair>& found) const;
 
@@ -106,22 +109,42 @@ class CrossingSearch {
     }
 
     const Points& positions_;
+    /// Those of fans first, one fan after the other.
     std::vector<Piece> pieces_;
+    std::vector<PiecesOfFan> fans_;
     BoxTree tree_;
 };
 
-/// Along the curve, those at one place in their previous order.
+/// Fans as they will be when pieces are sorted.
+std::vector<PiecesOfFan> CrossingSearch::mark_fans()
+{
+    std::vector<Triangle> triangles;
+    triangles.reserve(pieces_.size());
+    for (const Piece& piece : pieces_)
+        triangles.push_back(piece.vertices);
+    std::vector<PiecesOfFan> fans;
+    Index begin = 0;
+    for (const EdgeFan& fan : edge_fans_of(triangles, static_cast<Index>(positions_.rows()))) {
+        for (const Index i : fan.triangles)
+            pieces_[i].fan = static_cast<Index>(fans.size());
+        fans.push_back({fan.edge, begin, begin + static_cast<Index>(fan.triangles.size())});
+        begin = fans.back().end;
+    }
+    return fans;
+}
+
+/// PiecesOfFan by fan and along the curve, those at one place in their previous order.
 void CrossingSearch::sort_pieces(const Executor& exec)
 {
     const auto n = static_cast<Index>(pieces_.size());
     Box whole;
     for (const Piece& piece : pieces_)
         whole.add(box(piece));
-    std::vector<std::pair<std::uint64_t, Index>> order(pieces_.size());
-    for_each(exec, n, [&](Index i) { order[i] = {place_on_curve(box(pieces_[i]), whole), i}; });
+    std::vector<std::tuple<Index, std::uint64_t, Index>> order(pieces_.size());
+    for_each(exec, n, [&](Index i) { order[i] = {pieces_[i].fan, place_on_curve(box(pieces_[i]), whole), i}; });
     std::sort(order.begin(), order.end());
     std::vector<Piece> sorted(pieces_.size());
-    for_each(exec, n, [&](Index i) { sorted[i] = pieces_[order[i].second]; });
+    for_each(exec, n, [&](Index i) { sorted[i] = pieces_[std::get<2>(order[i])]; });
     pieces_ = std::move(sorted);
 }
 
@@ -151,12 +174,38 @@ void CrossingSearch::run_round(Index first, std::vector<FacePair>& found, const 
         found.insert(found.end(), pairs.begin(), pairs.end());
 }
 
+void CrossingSearch::add_if_crossing(const Piece& one, const Piece& other, std::vector<FacePair>& found) const
+{
+    if (one.face != other.face && cross(corners(one), corners(other)))
+        found.push_back({std::min(one.face, other.face), std::max(one.face, other.face)});
+}
+
+void CrossingSearch::search_within(const PiecesOfFan& fan, std::vector<FacePair>& found) const
+{
+    std::vector<Point> third;
+    for (Index i = fan.begin; i < fan.end; ++i)
+        third.push_back(positions_.row(
+            *std::ranges::find_if(pieces_[i].vertices, [&](Index v) { return v != fan.edge[0] && v != fan.edge[1]; })));
+    const std::array<Point, 2> edge{positions_.row(fan.edge[0]), positions_.row(fan.edge[1])};
+    for_each_pair_in_one_plane(edge, third, [&](Index i, Index j) {
+        add_if_crossing(pieces_[fan.begin + i], pieces_[fan.begin + j], found);
+        return found.size() < most_self_intersections;
+    });
+}
+
+/// From which leaf on pieces may cross those of a leaf that are not of the same fan.
+Index CrossingSearch::first_to_search(Index leaf) const
+{
+    const Index fan = pieces_[begin_of(leaf)].fan;
+    return fan != no_fan && end_of(leaf) <= fans_[fan].end ? fans_[fan].end / leaf_size : leaf;
+}
+
 void CrossingSearch::search(Index leaf, std::vector<FacePair>& found) const
 {
     std::array<Box, leaf_size> boxes;
     for (Index i = begin_of(leaf); i < end_of(leaf); ++i)
         boxes[i - begin_of(leaf)] = box(pieces_[i]);
-    tree_.for_each_meeting(tree_.leaf(leaf), leaf, [&](Index other) {
+    tree_.for_each_meeting(tree_.leaf(leaf), first_to_search(leaf), [&](Index other) {
         for (Index i = begin_of(leaf); i < end_of(leaf); ++i)
             search(pieces_[i], boxes[i - begin_of(leaf)], other == leaf ? i + 1 : begin_of(other), end_of(other),
                    found);
@@ -167,9 +216,8 @@ void CrossingSearch::search(const Piece& piece, const Box& its_box, Index begin,
                             std::vector<FacePair>& found) const
 {
     for (Index j = begin; j < end; ++j)
-        if (pieces_[j].face != piece.face && box(pieces_[j]).meets(its_box) &&
-            cross(corners(piece), corners(pieces_[j])))
-            found.push_back({std::min(piece.face, pieces_[j].face), std::max(piece.face, pieces_[j].face)});
+        if ((pieces_[j].fan == no_fan || pieces_[j].fan != piece.fan) && box(pieces_[j]).meets(its_box))
+            add_if_crossing(piece, pieces_[j], found);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "partition/index_lists.h"
 #include "partition/metrics/cells.h"
@@ -38,8 +39,16 @@ class Surface {
         sample_ = extract(corners, sampled_vertices_);
     }
 
-    /// From now on, looks have the cells that the sheets enclose at these positions.
-    void find_cells(const Points& positions) { cells_ = seamflow::find_cells(mesh_, positions, exec_); }
+    /// From now on, looks have the cells that the sheets enclose at these positions, unless sheets overlap.
+    /// @returns at how many edges they do.
+    std::size_t find_cells(const Points& positions)
+    {
+        EnclosedCells cells = seamflow::find_cells(mesh_, positions, exec_);
+        const std::size_t n_overlaps = at(cells.n_overlaps);
+        if (n_overlaps == 0)
+            cells_ = std::move(cells);
+        return n_overlaps;
+    }
 
     [[nodiscard]] SurfaceLook look(const Points& positions) const
     {
@@ -113,10 +122,12 @@ SurfaceChange SurfaceChangeMeter::measure(const PolygonMesh& mesh, const MeshRep
         welded = joined(mesh, report.moved_with, exec);
     const PolygonMesh& faces = welded ? *welded : mesh;
     Surface surface(faces, exec);
-    if (report.junction_vertices + report.non_manifold_vertices > 0)
-        surface.find_cells(positions_);
-    SurfaceChange change{
-        .before = surface.look(positions_), .after = surface.look(mesh.vertices), .moved = moved.statistics()};
+    const bool has_sheets = report.junction_vertices + report.non_manifold_vertices > 0;
+    const std::size_t overlaps = has_sheets ? surface.find_cells(positions_) : 0;
+    SurfaceChange change{.before = surface.look(positions_),
+                         .after = surface.look(mesh.vertices),
+                         .moved = moved.statistics(),
+                         .overlaps = overlaps};
     const std::vector<Index> flipped = flipped_faces(faces, positions_, mesh.vertices, exec);
     change.flipped_faces = flipped.size();
     change.folded_faces = flipped.empty() ? 0 : folded_faces(faces, positions_, mesh.vertices, flipped).size();

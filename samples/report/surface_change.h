@@ -37,6 +37,9 @@ struct SurfaceChange {
     /// folded over (see folded_faces). Empty where ranks share the mesh.
     std::optional<std::size_t> flipped_faces = std::nullopt;
     std::optional<std::size_t> folded_faces = std::nullopt;
+    /// At how many edges sheets lay on each other with different faces before, so that the volumes of cells are unknown
+    /// and left out (see EnclosedCells::n_overlaps).
+    std::size_t overlaps = 0;
     /// The number of pairs of faces that cross each other but did not before, if requested.
     std::optional<std::size_t> new_self_intersections = std::nullopt;
 };

@@ -11,6 +11,7 @@
 #include "engine/setup/smoothed_radius.h"
 #include "partition/errors.h"
 #include "partition/formats/index_files.h"
+#include "partition/io/input_position.h"
 #include "partition/metrics/feathered.h"
 #include "samples/command/parse_smooth_command.h"
 #include "samples/command/presets.h"
@@ -157,6 +158,11 @@ void remark_on_loss(const FlowOptions& options, const SurfaceChange& change, std
 
 void remark_on_folds(const FlowOptions& options, const SurfaceChange& change, std::vector<std::string>& remarks)
 {
+    if (change.overlaps > 0)
+        remarks.push_back(
+            fmt::format("Sheets lie on each other with different faces, at {}: the volumes of cells are not "
+                        "known. They would be if such sheets had the same faces.",
+                        counted(change.overlaps, "edge", "edges")));
     std::string what;
     if (const std::size_t n = change.folded_faces.value_or(0); n > 0)
         what = fmt::format("{} turned over against neighbouring faces",

@@ -43,7 +43,8 @@ void resolve_amount(SmoothCommand& command, const PolygonMesh& mesh, const Execu
 void remark_on_loss(const FlowOptions& options, const SurfaceChange& change, std::vector<std::string>& remarks,
                     bool can_rescale = true);
 
-/// Adds a remark, with a remedy, if the surface has folded over, or crosses itself where it did not before.
+/// Adds a remark, with a remedy, if the surface has folded over, or crosses itself where it did not before, or if
+/// sheets lie on each other so that cells are not known.
 void remark_on_folds(const FlowOptions& options, const SurfaceChange& change, std::vector<std::string>& remarks);
 
 /// "the tolerance 1e-08 was missed in 2 steps"; empty if no step has failed (see steps_failed).

@@ -1,6 +1,8 @@
+#include <array>
 #include <cmath>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <doctest/doctest.h>
@@ -10,6 +12,7 @@
 #include "samples/meshes/meshes.h"
 #include "samples/report/surface_change.h"
 #include "samples/runs/smoothing_run.h"
+#include "tests/support/junction_meshes.h"
 #include "tests/support/relative.h"
 #include "tests/support/test_meshes.h"
 
@@ -95,6 +98,30 @@ TEST_CASE("a loss of much of the volume is remarked on, or of most of the area w
     // What the user has asked for already is no advice.
     CHECK(remark(0.75, 0.9).find("--filter low-pass") != std::string::npos);
     CHECK(remark(0.75, 0.9, Rescale::None, Filter::LowPass).find("--filter") == std::string::npos);
+}
+
+TEST_CASE("volumes of cells are left out where sheets with different faces lie on each other, with a remark")
+{
+    PolygonMesh mesh = touching_balls(10);
+    const auto volumes_and_remarks = [&] {
+        const SurfaceChangeMeter meter(mesh, run_serially);
+        MeshReport report;
+        report.junction_vertices = 20;
+        const SurfaceChange change = meter.measure(mesh, report, false, run_serially);
+        std::vector<std::string> remarks;
+        remark_on_folds({}, change, remarks);
+        CHECK(change.before.cell_volumes.size() == change.after.cell_volumes.size());
+        return std::pair(change.before.cell_volumes.size(), remarks);
+    };
+    CHECK(volumes_and_remarks() == std::pair(std::size_t{2}, std::vector<std::string>{}));
+    // The half of a quad on that quad.
+    const auto quad = mesh.face(0);
+    mesh.add_face(std::array{quad[0], quad[1], quad[2]});
+    const auto [n_cells, remarks] = volumes_and_remarks();
+    CHECK(n_cells == 0);
+    REQUIRE(remarks.size() == 1);
+    CHECK(
+        remarks[0].starts_with("Sheets lie on each other with different faces, at 2 edges: the volumes of cells are "));
 }
 
 TEST_CASE("a mesh without faces has no surface")

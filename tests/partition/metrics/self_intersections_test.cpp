@@ -1,6 +1,8 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <tuple>
 #include <vector>
 
@@ -124,6 +126,73 @@ TEST_CASE("loose faces cross as each pair of them does")
             CHECK(pairs == brute_force(mesh));
         }
     }
+}
+
+namespace {
+
+/// Triangles, and some quads, at two edges with a common vertex and through them.
+/// @param n_angles many are at the same angle, on one side of the edge in the same plane or nearly so.
+PolygonMesh crowded_edges(Index n_of_edge, int n_angles, std::uint32_t seed)
+{
+    RandomNumbers random(seed);
+    std::vector<Point> points{Point(0, 0, 0), Point(0, 0, 1), Point(2, 0, 1)};
+    PolygonMesh mesh = soup(40, 4, 0.8, random);
+    const Index first = mesh.n_vertices();
+    for (Index i = 0; i < 2 * n_of_edge; ++i) {
+        const Index edge = i % 2;
+        const double angle = 2.0 * std::numbers::pi * random.below(n_angles) / n_angles;
+        const double radius = random.below(4) == 0 ? 0.3 : std::exp2(random.below(3));
+        const Point upright = radius * Point(0, std::sin(angle), std::cos(angle));
+        const Point end = edge == 0 ? Point(upright[2], upright[1], 0.25) : Point(0.5, upright[1], 1 + upright[2]);
+        std::vector<Index> corners{first + edge, first + edge + 1, first + static_cast<Index>(points.size())};
+        points.push_back(end);
+        if (random.below(8) == 0) {
+            corners.push_back(first + static_cast<Index>(points.size()));
+            points.push_back(end - Point(0.1, 0.05, 0.3));
+        }
+        std::rotate(corners.begin(), corners.begin() + random.below(3), corners.end());
+        mesh.add_face(corners);
+    }
+    mesh.vertices.conservativeResize(first + std::ssize(points), 3);
+    for (std::size_t v = 0; v < points.size(); ++v)
+        mesh.vertices.row(first + static_cast<Eigen::Index>(v)) = points[v];
+    return mesh;
+}
+
+}  // namespace
+
+TEST_CASE("many faces around an edge cross as each pair of them does")
+{
+    for (const std::uint32_t seed : {1U, 2U}) {
+        for (const int n_angles : {200, 100000}) {
+            const PolygonMesh mesh = crowded_edges(501, n_angles, seed);
+            const Pairs pairs = self_intersections(mesh, mesh.vertices);
+            const Pairs expected = brute_force(mesh);
+            CHECK(pairs == expected);
+            const Index first = 40;
+            const auto at_one_edge = [&](const FacePair& p) { return p[0] >= first && (p[1] - p[0]) % 2 == 0; };
+            if (n_angles == 200)
+                CHECK(std::ranges::count_if(pairs, at_one_edge) > 500);
+            CHECK(std::ranges::count_if(pairs, [&](const FacePair& p) { return !at_one_edge(p); }) > 500);
+        }
+    }
+}
+
+TEST_CASE("a hundred thousand faces around one edge are searched in seconds, and in one plane up to the limit")
+{
+    constexpr Index n = 100000;
+    PolygonMesh mesh;
+    mesh.vertices = Points::Zero(n + 2, 3);
+    mesh.vertices(1, 2) = 1.0;
+    for (Index i = 0; i < n; ++i) {
+        const double angle = 2.0 * std::numbers::pi * i / n;
+        mesh.vertices.row(i + 2) = Point(std::cos(angle), std::sin(angle), 0.5);
+        mesh.add_face(std::array<Index, 3>{1, i + 2, 0});
+    }
+    CHECK(self_intersections(mesh, mesh.vertices).empty());
+    for (Index i = 0; i < n; ++i)
+        mesh.vertices.row(i + 2) = Point(1.0, 0.0, 1.0 * i / n);
+    CHECK(self_intersections(mesh, mesh.vertices).size() == most_self_intersections);
 }
 
 TEST_CASE("a noisy surface crosses itself as each pair of its faces does")

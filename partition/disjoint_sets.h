@@ -1,0 +1,76 @@
+#pragma once
+
+#include <atomic>
+#include <utility>
+#include <vector>
+
+#include "partition/executor.h"
+
+namespace seamflow {
+
+/// The numbers 0 … n - 1 in sets that are joined (union-find). Several threads may join at once: which sets there are
+/// in the end, and what represents them, does not depend on the order.
+class DisjointSets {
+  public:
+    /// At first each number is a set of its own.
+    DisjointSets(Index n, const Executor& exec)
+        : towards_lowest_(at(n))
+    {
+        for_each(exec, n, [&](Index i) { towards_lowest_[i].store(i, std::memory_order_relaxed); });
+    }
+
+    [[nodiscard]] Index size() const { return static_cast<Index>(towards_lowest_.size()); }
+
+    /// The lowest number of the set that i is in; while sets are joined, one that is in it.
+    Index find(Index i)
+    {
+        for (;;) {
+            Index next = next_of(i);
+            const Index after = next_of(next);
+            if (next == after)
+                return next;
+            // Halves the path. Another thread may have done better.
+            towards_lowest_[i].compare_exchange_weak(next, after, std::memory_order_relaxed);
+            i = after;
+        }
+    }
+
+    void join(Index a, Index b)
+    {
+        for (;;) {
+            a = find(a);
+            b = find(b);
+            if (a == b)
+                return;
+            if (a < b)
+                std::swap(a, b);
+            // Unless another thread has joined the set of a to a lower one.
+            Index expected = a;
+            if (towards_lowest_[a].compare_exchange_strong(expected, b, std::memory_order_relaxed))
+                return;
+        }
+    }
+
+    /// For each number the place of its set, the sets being in the order of their lowest numbers, and how many there
+    /// are.
+    std::pair<std::vector<Index>, Index> numbered(const Executor& exec)
+    {
+        const std::vector<Index> lowest = select(exec, size(), [&](Index i) { return next_of(i) == i; });
+        std::vector<Index> number(towards_lowest_.size());
+        const auto n = static_cast<Index>(lowest.size());
+        for_each(exec, n, [&](Index set) { number[lowest[set]] = set; });
+        for_each(exec, size(), [&](Index i) {
+            if (const Index first = find(i); first != i)
+                number[i] = number[first];
+        });
+        return {std::move(number), n};
+    }
+
+  private:
+    [[nodiscard]] Index next_of(Index i) const { return towards_lowest_[i].load(std::memory_order_relaxed); }
+
+    /// Another number of the set, lower than the own one; the lowest has itself.
+    std::vector<std::atomic<Index>> towards_lowest_;
+};
+
+}  // namespace seamflow
