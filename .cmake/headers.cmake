@@ -23,6 +23,7 @@ set(SEAMFLOW_HEADERS
     engine/distributed/ranks/thread_transport.h
     engine/eigen.h
     engine/fields/diffuse.h
+    engine/fields/field_columns.h
     engine/fields/field_options.h
     engine/fields/geodesic_distance.h
     engine/flow.h

@@ -221,14 +221,6 @@ TEST_CASE("fields that ranks do not take are refused, with one sentence")
     refuses("--from from", 2, "has no --from");
     refuses("--fields red", 2, "--fields needs an amount");
     refuses("--fields red --fwhm 1% --approach cg", 2, "in converged steps");
-    (void)w.directory.with(
-        "sheet.ply",
-        "ply\nformat ascii 1.0\nelement vertex 8\nproperty float x\nproperty float y\nproperty float z\n"
-        "property float heat\nelement face 2\nproperty list uchar int vertex_indices\nend_header\n"
-        "0 0 0 1\n1 0 0 2\n1 1 0 3\n0 1 0 4\n1 0 0 2\n2 0 0 6\n2 1 0 7\n1 1 0 nan\n4 0 1 2 3\n4 4 5 6 7\n");
-    refuses("--fields heat --fwhm 1%", 3,
-            "vertices 2 and 7 (numbered from 0) are joined along a seam, but only one of");
-    write_field_sheet(w);
     for (const std::string sharing : {"", " --whole-up-to 1"})
         refuses("--fields heat --fwhm 1%" + sharing, 3, "sheet.ply:3: the vertices have no number 'heat'");
 }

@@ -1,13 +1,9 @@
 #include "engine/distributed/cut/seams_of_fields.h"
 
 #include <algorithm>
-#include <cmath>
 #include <vector>
 
-#include <fmt/format.h>
-
 #include "engine/distributed/parts/field_rows.h"
-#include "partition/errors.h"
 #include "partition/index_lists.h"
 
 namespace seamflow {
@@ -32,20 +28,6 @@ std::vector<std::int64_t> firsts_of(const std::vector<SeamVertex>& joined)
     return firsts;
 }
 
-/// Adds a row to a mean of `n` rows. Equal rows stay the same, bit for bit.
-/// @throws InputError where just one of them has data.
-void add_to_mean(Eigen::Ref<Eigen::RowVectorXd> mean, double n, const Eigen::RowVectorXd& row, const SeamVertex& one)
-{
-    for (Eigen::Index c = 0; c < mean.size(); ++c) {
-        if (std::isnan(mean[c]) != std::isnan(row[c]))
-            throw InputError(fmt::format("vertices {} and {} (numbered from 0) are joined along a seam, but only one "
-                                         "of them has data: give both a number, leave them apart (weld, --weld), or "
-                                         "use a single process",
-                                         one.first, one.vertex));
-        mean[c] += (row[c] - mean[c]) / (n + 1.0);
-    }
-}
-
 }  // namespace
 
 void join_fields(Communicator& comm, const JoinedSeams& seams, std::span<const std::int64_t> bounds,
@@ -63,9 +45,8 @@ void join_fields(Communicator& comm, const JoinedSeams& seams, std::span<const s
     std::vector<double> n(firsts.size(), 1.0);
     for (std::size_t i = 0; i < joined.size(); ++i) {
         const Index place = place_in(firsts, joined[i].first);
-        Eigen::RowVectorXd mean = means.row(place);
-        add_to_mean(mean, n[place]++, rows.row(static_cast<Eigen::Index>(i)), joined[i]);
-        means.row(place) = mean;
+        // Equal rows stay the same, bit for bit.
+        means.row(place) += (rows.row(static_cast<Eigen::Index>(i)) - means.row(place)) / ++n[place];
     }
     const std::int64_t begin = bounds[static_cast<std::size_t>(comm.rank())];
     for (std::size_t i = 0; i < firsts.size(); ++i)

@@ -13,7 +13,6 @@ namespace seamflow {
 
 /// Gives all vertices that are joined the mean of their fields.
 /// @param fields #V of this rank's range by n. @param bounds of vertices (see SliceBounds).
-/// @throws InputError where some of them have data and others have not.
 void join_fields(Communicator& comm, const JoinedSeams& seams, std::span<const std::int64_t> bounds,
                  Eigen::MatrixXd& fields);
 
