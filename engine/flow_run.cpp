@@ -150,7 +150,7 @@ void FlowRun::free_topology()
     topology.twin = std::vector<Index>();
     topology.junctions = std::vector<JunctionLink>();
     // Steps of sub-meshes do not use the whole mesh.
-    const bool is_whole = options().keep_edges || options().scheme == Scheme::ExplicitEuler ||
+    const bool is_whole = smooths_normals(options()) || options().scheme == Scheme::ExplicitEuler ||
                           takes_whole_mesh(options().accuracy.approach);
     const bool needs_normals = options().motion.direction.kind == MotionDirection::Kind::Normal;
     if (is_whole || options().report.measures || tools_->limited || needs_normals)

@@ -26,7 +26,7 @@ namespace {
 /// Setup takes about as long as so many steps.
 double fraction_of_setup(const FlowOptions& options, const FlowState* resume)
 {
-    const bool is_simple = options.scheme == Scheme::ExplicitEuler || options.keep_edges;
+    const bool is_simple = options.scheme == Scheme::ExplicitEuler || smooths_normals(options);
     const double as_steps = options.accuracy.tolerance ? 4.0 : is_simple ? 3.0 : 6.0;
     const double to_do = options.steps - (resume != nullptr ? resume->n_steps() : 0);
     return as_steps / (as_steps + to_do);

@@ -143,6 +143,14 @@ struct ConvergenceReport {
     int steps_stagnated = 0;
 };
 
+/// The noise that was found where FlowOptions::denoise removes it.
+struct NoiseReport {
+    /// Along the normals, root mean square over the faces that have some, in lengths of the edges there.
+    double deviation = 0.0;
+    /// The fraction of faces that have some.
+    double part = 0.0;
+};
+
 /// Resources that the flow used.
 struct ResourceReport {
     int threads = 0;
@@ -158,6 +166,8 @@ struct ResourceReport {
 struct FlowReport {
     MeshReport mesh;
     CutReport cut;
+    /// With FlowOptions::denoise, after the first step.
+    std::optional<NoiseReport> noise;
     /// dt, in length².
     double time_step = 0.0;
     ConvergenceReport convergence;

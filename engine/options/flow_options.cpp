@@ -34,6 +34,11 @@ StepFilter filter_of(const FlowOptions& options)
     return filter;
 }
 
+bool smooths_normals(const FlowOptions& options)
+{
+    return options.denoise || options.keep_edges.has_value();
+}
+
 bool attaches(const MotionOptions& motion)
 {
     return motion.attachment > 0.0 || !motion.attachment_weights.empty();

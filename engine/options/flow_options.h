@@ -377,6 +377,12 @@ struct FlowOptions {
     /// are no sub-meshes, no equations of the Laplacian (which still gives the reported mean curvatures), and no
     /// undecomposed flow to compare with: options about these are refused. nullopt: mean curvature flow.
     std::optional<double> keep_edges = {};
+    /// Removes noise in place of a flow: each step estimates the true normal of each face and how large the noise is
+    /// there, and moves vertices to fit (see denoised_normals); along the normals, unless a face would fold. Edges,
+    /// round parts and details stay, and where there is no noise, vertices stay bit for bit. No amount is needed:
+    /// time_step is ignored. One step is enough; further ones treat what is left as noise. As with keep_edges there are
+    /// no sub-meshes and no equations of the Laplacian.
+    bool denoise = false;
     CutOptions cut = {};
     InterfaceOptions interface = {};
     AccuracyOptions accuracy = {};
@@ -406,6 +412,9 @@ StepFilter filter_of(const FlowOptions& options);
 
 /// Whether a sweep uses predictions of the other side of Γ.
 bool predicts(const FlowOptions& options);
+
+/// Whether steps smooth the normals of faces on the whole mesh, in place of a flow: with keep_edges or denoise.
+bool smooths_normals(const FlowOptions& options);
 
 /// Whether there is a screening term.
 bool attaches(const MotionOptions& motion);

@@ -72,8 +72,8 @@ template <class Options>
 auto option_table(Options& options)
 {
     using namespace concern;
-    auto& [laplacian, flow, filter, order, time_step, radius, uniform_edge, steps, scheme, keep_edges, cut, interface,
-           accuracy, motion, resources, report] = options;
+    auto& [laplacian, flow, filter, order, time_step, radius, uniform_edge, steps, scheme, keep_edges, denoise, cut,
+           interface, accuracy, motion, resources, report] = options;
     auto& [subdomains, labels] = cut;
     auto& [conditions, transmission, p, p_rule, p_edge, q, overlap, colouring, sweep, correction] = interface;
     auto& [tolerance, approach, converge_iterations, largest_update] = accuracy;
@@ -132,6 +132,7 @@ auto option_table(Options& options)
         row("reference", "--reference", solution | one_process, reference),
         row("keep_edges", "--keep-edges", one_process, keep_edges,
             Limits{0.0, 180.0, true, true, "above 0 and below 180 (degrees)"}),
+        row("denoise", "", one_process, denoise),
         row("feature_edges", "--edges", one_process, feature_edges),
         row("boundary", "--boundary", 0, boundary),
         row("junctions", "--junctions", 0, junctions),

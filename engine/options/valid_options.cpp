@@ -248,17 +248,19 @@ void require_valid_flow(const FlowOptions& options)
 /// Steps that keep edges take the whole mesh.
 void require_valid_edges(const FlowOptions& options)
 {
-    if (!options.keep_edges)
+    if (!smooths_normals(options))
         return;
     std::string_view other = first_set(options, concern::equations & ~concern::sub_meshes);
     if (options.cut.subdomains > 1 || !options.cut.labels.empty())
         other = "sub-meshes";
     else if (!is_plain_flow(options))
         other = "another flow, a filter or an attachment";
+    else if (options.denoise && options.keep_edges)
+        other = "keep_edges";
     if (!other.empty())
-        throw OptionError(fmt::format(
-            "keep_edges is given, which smooths normals on the whole mesh and rules out {}: leave one of them out",
-            other));
+        throw OptionError(
+            fmt::format("{} is given, which smooths normals on the whole mesh and rules out {}: leave one of them out",
+                        options.denoise ? "denoise" : "keep_edges", other));
 }
 
 }  // namespace

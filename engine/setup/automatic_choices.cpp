@@ -71,7 +71,7 @@ bool speaks_of_sub_meshes(const FlowOptions& options)
 /// Whether an option is set that means nothing to converged steps.
 bool speaks_of_sweeps(const FlowOptions& options)
 {
-    return options.accuracy.approach == Approach::Sweep || options.keep_edges ||
+    return options.accuracy.approach == Approach::Sweep || smooths_normals(options) ||
            !first_set(options, concern::sweeps | concern::method).empty() ||
            is_foreign(options.resources.factorisation);
 }
@@ -119,7 +119,7 @@ ToleranceChoice choose_tolerance(const PolygonMesh& mesh, const MeshSize& size, 
         return {loose_tolerance, ""};
     if (options.accuracy.approach == Approach::Undecomposed)
         return {};
-    if (!options.motion.strength.empty() && options.scheme == Scheme::BackwardEuler && !options.keep_edges &&
+    if (!options.motion.strength.empty() && options.scheme == Scheme::BackwardEuler && !smooths_normals(options) &&
         mesh.n_faces() > 0)
         return {loose_tolerance, "in a region steps differ from vertex to vertex, which single sweeps do not support"};
     if (rim_moves && !speaks_of_sweeps(options) && may_be_cut(options))
@@ -195,7 +195,7 @@ ApproachChoice choose_approach(const PolygonMesh& mesh, const Topology& topology
     if (takes_whole_mesh(asked))
         return {.approach = asked, .tolerance = tolerance.tolerance};
     if (asked != Approach::Automatic || speaks_of_sub_meshes(options) || !is_symmetric(options.laplacian) ||
-        options.scheme == Scheme::ExplicitEuler || options.keep_edges || mesh.n_faces() == 0)
+        options.scheme == Scheme::ExplicitEuler || smooths_normals(options) || mesh.n_faces() == 0)
         return in_sub_meshes(tolerance);
     const FlowSize flow{.vertices = size.vertices,
                         .rows = average_rows(mesh, topology, laplacian_of(options)),

@@ -35,7 +35,8 @@ FlowIdentity require_sound(const PolygonMesh& mesh, const FlowOptions& options, 
 Cut make_cut(const PolygonMesh& mesh, const MeshSize& size, const Topology& topology, const FlowOptions& options,
              const Executor& exec, const Alongside& alongside, std::vector<std::string>& choices)
 {
-    if (options.keep_edges || options.scheme == Scheme::ExplicitEuler || takes_whole_mesh(options.accuracy.approach))
+    if (smooths_normals(options) || options.scheme == Scheme::ExplicitEuler ||
+        takes_whole_mesh(options.accuracy.approach))
         return cut_into(mesh, topology, 1, exec);
     if (!options.cut.labels.empty())
         return cut_by_labels(mesh, topology, options.cut.labels, exec);
@@ -51,7 +52,7 @@ Cut make_cut(const PolygonMesh& mesh, const MeshSize& size, const Topology& topo
 /// moving boundary could open.
 bool flows_alone(const FlowOptions& options)
 {
-    return !options.motion.strength.empty() && !options.keep_edges && !options.motion.limits.exist() &&
+    return !options.motion.strength.empty() && !smooths_normals(options) && !options.motion.limits.exist() &&
            !options.motion.strict && !options.report.reference && !options.report.keep_gaps &&
            options.motion.boundary == Boundary::Fixed;
 }

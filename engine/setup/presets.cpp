@@ -23,6 +23,10 @@ namespace {
 constexpr int denoising_order = 3;
 
 constexpr std::array table{
+    PresetTraits{.preset = Preset::Automatic,
+                 .name = "automatic",
+                 .purpose = "finds out how large the noise is at each place, removes it, and keeps edges and details",
+                 .denoise = true},
     PresetTraits{.preset = Preset::Scan,
                  .name = "scan",
                  .purpose = "removes the measured noise, and hardly changes larger features",
@@ -143,6 +147,12 @@ void choose_amount(const PresetTraits& preset, const PolygonMesh& mesh, const st
                    PresetChoice& choice, const Executor& exec)
 {
     FlowOptions& options = choice.options;
+    if (preset.denoise) {
+        // No step depends on it, but some messages print it.
+        const double mean_edge = mean_edge_length(mesh, mesh.vertices, exec);
+        options.time_step = std::isnormal(mean_edge * mean_edge) ? mean_edge * mean_edge : 1.0;
+        return;
+    }
     options.motion.limits = {.volume = most_volume_change};
     if (preset.time_step_edges) {
         const double mean_edge = mean_edge_length(mesh, mesh.vertices, exec);
@@ -169,6 +179,9 @@ PresetChoice options_for(Preset preset, const PolygonMesh& mesh, const FlowOptio
     options.filter = traits.filter;
     options.order = traits.order;
     options.keep_edges = traits.keep_edges;
+    options.denoise = traits.denoise;
+    if (traits.denoise)
+        options.motion.boundary = Boundary::Free;
     options.steps = traits.steps;
     options.radius.reset();
     if (traits.attach)

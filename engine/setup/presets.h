@@ -13,6 +13,7 @@ namespace seamflow {
 
 /// Options that together suit one kind of mesh.
 enum class Preset {
+    Automatic,
     Scan,
     Cad,
     Terrain,
@@ -33,6 +34,8 @@ struct PresetTraits {
     int order = 1;
     /// In degrees, if edges are kept.
     std::optional<double> keep_edges = {};
+    /// FlowOptions::denoise, which needs no amount; then boundaries are free.
+    bool denoise = false;
     /// Length for attachment_of, if vertices are attached.
     std::optional<LengthOnMesh> attach = {};
     int steps = 1;
@@ -41,7 +44,7 @@ struct PresetTraits {
     std::optional<double> time_step_edges = {};
     std::optional<LengthOnMesh> radius = {};
 
-    [[nodiscard]] bool measures_noise() const { return !time_step_edges && !radius; }
+    [[nodiscard]] bool measures_noise() const { return !denoise && !time_step_edges && !radius; }
 };
 
 /// All of them, first the one for meshes of unspecified kind.

@@ -137,7 +137,7 @@ VanishingComponents::VanishingComponents(const FlowOptions& options, const Point
     , find_(std::move(find))
 {
     // The Laplacian with uniform weights does not depend on any size.
-    if (options.scheme == Scheme::BackwardEuler && !options.keep_edges && options.laplacian != Laplacian::Uniform)
+    if (options.scheme == Scheme::BackwardEuler && !smooths_normals(options) && options.laplacian != Laplacian::Uniform)
         extent_ = std::sqrt(options.time_step / small_by_steps);
     // The matrix of a linear flow has the sizes of the first surface in all steps, and keeps enough of its masses.
     if (options.flow == FlowEquation::Linear && extent_ > 0.0)

@@ -11,6 +11,9 @@ std::vector<PresetOption> options_of(const PresetTraits& preset)
     using Attach = std::optional<LengthOnMesh>;
     const PresetTraits defaults{};
     std::vector<PresetOption> options;
+    if (preset.denoise)
+        return {{"", "", [](FlowOptions& o, Attach&) { o.denoise = true; }},
+                {"--boundary", "free", [](FlowOptions& o, Attach&) { o.motion.boundary = Boundary::Free; }}};
     // Steps that keep edges do not use the Laplacian.
     if (!preset.keep_edges)
         options.push_back({"--laplacian", std::string(name_of(preset.laplacian)),

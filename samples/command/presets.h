@@ -12,7 +12,7 @@ namespace seamflow {
 
 /// One of the options that have the same effect as a preset, besides its amount.
 struct PresetOption {
-    /// "--steps", "3".
+    /// "--steps", "3"; empty: only the preset sets it.
     std::string_view name;
     std::string value;
     /// Applies the option.

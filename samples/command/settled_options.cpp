@@ -52,10 +52,10 @@ std::string first_given(const CLI::App& app, unsigned concerns)
 void require_room_for_edges(const CLI::App& app, const SmoothCommand& command)
 {
     const std::string other = first_given(app, concern::equations);
-    if (command.options.keep_edges && !other.empty())
-        throw OptionError(other +
-                          " is about the equations of mean curvature flow, but --keep-edges smooths face normals "
-                          "on the whole mesh: leave one of them out");
+    if (smooths_normals(command.options) && !other.empty())
+        throw OptionError(fmt::format("{} is about the equations of mean curvature flow, but {} smooths face normals "
+                                      "on the whole mesh: leave one of them out",
+                                      other, command.options.denoise ? "--preset automatic" : "--keep-edges"));
 }
 
 /// @param of_sweeps an option for sweeps; may be empty.
@@ -119,6 +119,8 @@ void require_effective(const CLI::App& app, const SmoothCommand& command)
 /// Whether an option of a preset was given, or does not fit those that were.
 bool is_said(const CLI::App& app, const SmoothCommand& command, std::string_view option)
 {
+    if (option.empty())
+        return false;
     if (app.count(std::string(option)) > 0)
         return true;
     const bool is_further = option == "--flow" || option == "--filter" || option == "--order" || option == "--attach";
@@ -138,6 +140,18 @@ bool names_edges(const CLI::App& app)
 bool keeps_edges(const CLI::App& app)
 {
     return app.count("--keep-edges") > 0 || names_edges(app);
+}
+
+/// The preset without an amount: options that are about the equations of a flow want one.
+std::string_view default_preset(const CLI::App& app)
+{
+    if (keeps_edges(app))
+        return "cad";
+    const bool is_flow = !first_given(app, concern::equations).empty() ||
+                         !first_given(app, {"--laplacian", "--flow", "--filter", "--order", "--attach",
+                                            "--attach-weights", "--noise", "--rescale"})
+                              .empty();
+    return is_flow ? "scan" : all_presets().front().name;
 }
 
 /// Takes options that were not given from the preset that was, or that is the default without an amount.
@@ -161,7 +175,7 @@ void apply_preset(const CLI::App& app, SmoothCommand& command)
                         command.preset.empty() ? "cannot be combined with a preset" : "and --preset exclude each other",
                         command.preset.empty() ? "" : ", and leave the preset out"));
     if (command.preset.empty())
-        command.preset = keeps_edges(app) ? "cad" : all_presets().front().name;
+        command.preset = default_preset(app);
     const PresetTraits& preset = preset_of(command.preset);
     if (command.noise && !preset.measures_noise())
         throw OptionError("--noise is for --preset scan and terrain; the amount of " + command.preset +
@@ -174,7 +188,8 @@ void apply_preset(const CLI::App& app, SmoothCommand& command)
             continue;
         }
         option.set(command.options, command.attach);
-        command.chosen += fmt::format("{} {} ", option.name, option.value);
+        if (!option.name.empty())
+            command.chosen += fmt::format("{} {} ", option.name, option.value);
     }
     if (!left_out.empty())
         command.remarks.push_back(fmt::format("--preset {} leaves out {}, which --laplacian {} does not support.",

@@ -59,7 +59,7 @@ void add_kind(CLI::App& app, SmoothCommand& command)
                    "Options on the command line override those of the preset." +
                        describe_presets())
         ->check(CLI::IsMember(names).description(""))
-        ->type_name("scan|cad|terrain|fair");
+        ->type_name("automatic|scan|cad|terrain|fair");
     add_field(app, options, "--laplacian", "discrete Laplacian [fujiwara; of fields virtual-refinement]");
     add_field(app, options, "--flow",
               "conformalized keeps the weights of the Laplacian; necks do not pinch [mean-curvature]\n"
@@ -320,7 +320,7 @@ void add_files(CLI::App& app, SmoothCommand& command, std::string& every_step)
 
 std::string smooth_examples()
 {
-    return "smooth scan.obj smooth.obj                             the amount follows from the measured noise\n"
+    return "smooth scan.obj smooth.obj                             the noise goes, edges and details stay\n"
            "smooth scan.ply smooth.ply --radius 1% --within 0.2    bumps up to 1 % of the size; no vertex goes further "
            "than 0.2\n"
            "smooth part.stl smooth.stl --preset cad                sharp edges and flat faces stay\n";

@@ -167,17 +167,24 @@ std::string smooth_report_json(const RunRecord& run, const FlowReport& report)
         json["preset"] = run.preset;
     if (run.noise)
         json["noise"] = json_number(*run.noise);
+    if (report.noise) {
+        json["noise"] = json_number(report.noise->deviation);
+        json["noisy_part"] = json_number(report.noise->part);
+    }
     if (run.attachment)
         json["attachment"] = json_number(*run.attachment);
     json["attachment_weights"] = run.has_attachment_weights;
     json["rescale"] = option_name(run.rescale);
     if (run.keep_edges)
         json["keep_edges"] = json_number(*run.keep_edges);
-    json["time_step"] = json_number(report.time_step);
-    json["time_step_edges"] = json_number(report.time_step / (run.scale.mean_edge * run.scale.mean_edge));
-    json["radius"] = json_number(
-        smoothed_radius(report.time_step, static_cast<int>(std::max<std::size_t>(report.steps.size(), 1)), run.filter));
-    if (!run.keep_edges)
+    // Where normals are smoothed there is no equation, and where noise is removed there is no amount.
+    if (!report.noise) {
+        json["time_step"] = json_number(report.time_step);
+        json["time_step_edges"] = json_number(report.time_step / (run.scale.mean_edge * run.scale.mean_edge));
+        json["radius"] = json_number(smoothed_radius(
+            report.time_step, static_cast<int>(std::max<std::size_t>(report.steps.size(), 1)), run.filter));
+    }
+    if (!run.keep_edges && !report.noise)
         json["approach"] = option_name(report.convergence.approach);
     add_convergence(json, report.convergence);
     json["threads"] = report.resources.threads;

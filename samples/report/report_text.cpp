@@ -140,6 +140,10 @@ void print_amount(std::ostream& out, const MeshScale& scale, const FlowOptions& 
         out << "amount     none" << std::endl;
         return;
     }
+    if (options.denoise) {
+        out << "amount     as much as there is noise at each place" << std::endl;
+        return;
+    }
     const std::string steps = fmt::format("amount     {} of {:.6g} squared mean edge lengths (dt {:.6g})",
                                           counted(options.steps, "step", "steps"),
                                           options.time_step / (scale.mean_edge * scale.mean_edge), options.time_step);
@@ -181,7 +185,9 @@ void print_step(std::ostream& out, const StepReport& report, int step, int steps
 void print_details(std::ostream& out, const RunRecord& run, const FlowReport& report)
 {
     out << "flow       "
-        << (run.keep_edges ? fmt::format("edges sharper than {:g} degrees kept", *run.keep_edges) : run.laplacian);
+        << (report.noise     ? std::string("noise removed")
+            : run.keep_edges ? fmt::format("edges sharper than {:g} degrees kept", *run.keep_edges)
+                             : run.laplacian);
     if (run.flow != FlowEquation::MeanCurvature)
         out << ", " << option_name(run.flow);
     if (!run.filter.is_plain())
@@ -192,7 +198,9 @@ void print_details(std::ostream& out, const RunRecord& run, const FlowReport& re
         out << ", attached by weights";
     if (run.rescale != Rescale::None)
         out << ", " << option_name(run.rescale) << " kept";
-    out << ", time step " << digits(report.time_step, 10) << '\n';
+    if (!report.noise)
+        out << ", time step " << digits(report.time_step, 10);
+    out << '\n';
     print_cut(out, report);
     print_factors(out, report);
     out << fmt::format(

@@ -10,10 +10,7 @@ namespace seamflow {
 
 namespace {
 
-/// Iterations with and without relaxation along the surface, and the most relaxation at once (measured: see
-/// engine/accuracy.md).
-constexpr int relaxing_fits = 10;
-constexpr int plain_fits = 20;
+/// The most relaxation at once (measured, like the default numbers of rounds: see engine/accuracy.md).
 constexpr double most_relaxation = 0.1;
 /// Of the step before, which makes the iterations worth several times as many (Polyak's heavy ball).
 constexpr double fit_momentum = 0.5;
@@ -63,13 +60,13 @@ void fit_vertices(const PolygonMesh& mesh, const Topology& topology, const Featu
     const double relaxation = std::min(wanted.noise, most_relaxation);
     WantedFaces faces{mesh, topology, wanted.normals, Points(mesh.n_faces(), 3)};
     Points before = vertices;
-    for (int i = 0; i < relaxing_fits + plain_fits; ++i) {
+    for (int i = 0; i < wanted.relaxing_rounds + wanted.plain_rounds; ++i) {
         for_each(exec, mesh.n_faces(), [&](Index f) { faces.centroids.row(f) = centroid(mesh.face(f), vertices); });
         before.swap(vertices);
         for_each(exec, mesh.n_vertices(), [&](Index v) {
             if (!topology.moves(v))
                 return;
-            const bool relaxes = i < relaxing_fits && topology.kind[v] == VertexKind::Interior;
+            const bool relaxes = i < wanted.relaxing_rounds && topology.kind[v] == VertexKind::Interior;
             // `vertices` has the positions of the iteration before the last.
             vertices.row(v) = lines.on_line(v, before.row(v) + fit_momentum * (before.row(v) - vertices.row(v)) +
                                                    fitting_step(faces, before, v, relaxes ? relaxation : 0.0));

@@ -12,6 +12,9 @@ struct NoisyNormals {
     const Points& normals;
     /// Of the normals before smoothing: a chord.
     double noise;
+    /// How often vertices move with relaxation along the surface, and then without.
+    int relaxing_rounds = 10;
+    int plain_rounds = 20;
 };
 
 /// Moves vertices so that faces get the wanted normals (Sun et al., Fast and effective feature-preserving mesh

@@ -46,7 +46,8 @@ TEST_CASE("without an amount a mesh loses its noise, and hardly anything else")
         REQUIRE(w.run(GENERATE " noisy-sphere noisy.obj" + shape + noise) == 0);
         REQUIRE(w.run(GENERATE " noisy-sphere true.obj" + shape + "0") == 0);
         REQUIRE(w.smooth("noisy.obj out.obj") == 0);
-        CHECK(chosen(w).find("--order 3") != std::string::npos);
+        CHECK(w.said().find("preset     automatic: --boundary free") != std::string::npos);
+        CHECK(w.said().find("chosen     noise of 0.") != std::string::npos);
         const auto distance = [&](const char* mesh) {
             REQUIRE(w.run(std::string(COMPARE " true.obj ") + mesh + " --report distance.json") == 0);
             return w.json("distance.json")["h_rms"].get<double>();

@@ -33,7 +33,7 @@ class Progress(NamedTuple):
 def smooth(V, F=None, *, fixed=None, labels=None, edges=None, attach_weights=None, region=None,
            progress=None, **options):
     """Smooths a mesh by mean curvature flow; with the same options the result has the same bits as that of the program
-    `smooth`. Without an amount it removes the measured noise.
+    `smooth`. Without an amount it finds the noise of each place and removes it.
 
     V: positions, (#V, 3), of which a copy is smoothed; or, without F, a mesh that has .vertices and .faces (trimesh) or
         .points and .cells (meshio).

@@ -62,6 +62,7 @@ std::vector<Change> all_changes()
          [](FlowOptions& o) {
              o.motion.direction = {MotionDirection::Kind::Vector, Point(0.0, 0.0, 1.0)};
          }},
+        {"denoise", [](FlowOptions& o) { o.denoise = true; }},
         {"rescale", [](FlowOptions& o) { o.motion.rescale = Rescale::Area; }},
         {"within", [](FlowOptions& o) { o.motion.within = 0.5; }},
         {"limit_of_volume", [](FlowOptions& o) { o.motion.limits.volume = 0.1; }},

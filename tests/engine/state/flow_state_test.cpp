@@ -222,6 +222,7 @@ TEST_CASE("every option that changes results tells flows apart, by its own name"
         {"conditions", [](FlowOptions& o) { o.interface.conditions = Conditions::Ventcell; }},
         {"scheme", [](FlowOptions& o) { o.scheme = Scheme::ExplicitEuler; }},
         {"keep_edges", [](FlowOptions& o) { o.keep_edges = 30.0; }},
+        {"denoise", [](FlowOptions& o) { o.denoise = true; }},
         {"transmission", [](FlowOptions& o) { o.interface.transmission = Transmission::Derivative; }},
         {"p", [](FlowOptions& o) { o.interface.p = 2.0; }},
         {"p_rule", [](FlowOptions& o) { o.interface.p_rule = PRule::InverseStep; }},

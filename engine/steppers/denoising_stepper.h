@@ -1,0 +1,50 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "engine/measure/flow_report.h"
+#include "engine/options/flow_options.h"
+#include "engine/steppers/stepper.h"
+#include "engine/tasks/progress.h"
+#include "partition/polygon_mesh.h"
+#include "partition/topology.h"
+#include "solvers/denoising/denoised_normals.h"
+#include "solvers/denoising/noisy_places.h"
+
+namespace seamflow {
+
+/// Takes steps that remove noise (FlowOptions::denoise): face normals are estimated, and the vertices move to fit them.
+/// The whole mesh at once, its faces and vertices shared among the threads; the bits do not depend on their number.
+class DenoisingStepper final : public Stepper {
+  public:
+    /// @param mesh, topology, progress must outlive the stepper; the twins of the topology are not needed later.
+    DenoisingStepper(const PolygonMesh& mesh, const Topology& topology, const FlowOptions& options, Progress& progress);
+
+    /// @throws ComputationError if the result is not finite.
+    void step(const Points& before) override;
+    [[nodiscard]] const Points& positions() const override { return positions_; }
+    void continue_from(const Points& image, const Similarity&) override { positions_ = image; }
+    void move(std::span<const Index> vertices, const Points& to) override { move_rows(vertices, to, positions_); }
+    void save(StepMemory& memory) const override;
+    void restore(const StepMemory& memory) override;
+    /// There are no tasks.
+    void add_seconds(PhaseSeconds&) const override {}
+    /// A single step has nothing to report.
+    void describe(StepReport&) const override {}
+    void describe(FlowReport& report) const override;
+
+  private:
+    const PolygonMesh* mesh_;
+    const Topology* topology_;
+    /// #V: the part of each displacement that vertices go; empty: 1.
+    std::vector<double> strengths_;
+    NormalDenoiser denoiser_;
+    NoisyPlaces places_;
+    Points positions_;
+    LoopCount loops_;
+    /// Before the first step.
+    std::optional<NoiseReport> noise_;
+};
+
+}  // namespace seamflow

@@ -1,0 +1,94 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "partition/executor.h"
+#include "partition/topology.h"
+#include "solvers/normals/face_neighbours.h"
+
+namespace seamflow {
+
+/// #F by 4: one vector per face; the last number is 0, so that rows fill registers.
+using FaceVectors = Eigen::Matrix<float, Eigen::Dynamic, 4, Eigen::RowMajor>;
+using FaceVector = Eigen::Matrix<float, 1, 4>;
+
+/// How much each neighbour of each face counts in an average.
+struct AverageWeights {
+    /// As FaceNeighbours::faces.
+    std::vector<float> of_neighbours;
+    /// #F: one over the weight of the face itself and of its neighbours; 0 where all weights are 0.
+    std::vector<float> inverse_sums;
+};
+
+/// Averages vectors over each face and the faces that share a vertex with it. The weight of face g at face f is
+///
+///     w_fg = a_g exp(-|c_f - c_g|² / (r_f r_g)) exp(-|n_f - n_g|² / 2σ²)
+///
+/// a is the area, c the centroid, r the root mean square distance of the neighbours' centroids, and n a guide normal,
+/// where one is given: with it this is the joint bilateral filter of normals (Zheng et al., Bilateral normal filtering
+/// for mesh denoising, 2011). Several rounds reach further. Bits do not depend on how loops are run.
+class FaceAverages {
+  public:
+    /// Nothing is measured yet.
+    /// @param mesh must outlive the object; its vertices are not used. @param topology with twins; not needed later.
+    FaceAverages(const PolygonMesh& mesh, const Topology& topology, const Executor& exec = run_serially);
+
+    /// Takes areas and centroids from these positions, #V by 3, from now on.
+    void measure(const Points& positions, const Executor& exec = run_serially);
+
+    /// Unit normals in these positions, on the same side of the surface where faces share an edge; 0 for faces without
+    /// area.
+    void measure_normals(const Points& positions, FaceVectors& normals, const Executor& exec = run_serially) const;
+
+    /// 1 or -1 for the faces whose normals are turned; empty: none is.
+    [[nodiscard]] const std::vector<std::int8_t>& signs() const { return signs_; }
+
+    // The results of the following replace what their last arguments had, whose memory is used again.
+
+    /// Weights without a guide.
+    void weigh(AverageWeights& weights, const Executor& exec = run_serially) const;
+
+    /// @param guide of length 1 or 0. @param sigma σ: a chord of unit normals.
+    void weigh(const FaceVectors& guide, float sigma, AverageWeights& weights,
+               const Executor& exec = run_serially) const;
+
+    /// The mean around each face. Unit vectors that differ have a mean that is shorter than 1.
+    void average(const AverageWeights& weights, const FaceVectors& vectors, FaceVectors& means,
+                 const Executor& exec = run_serially) const;
+
+    /// The bilateral mean: vectors of length 1 or 0 are their own guide.
+    void average(float sigma, const FaceVectors& vectors, FaceVectors& means,
+                 const Executor& exec = run_serially) const;
+
+    /// The mean of that patch, a face and its neighbours, around the face or around one of its neighbours, whose
+    /// vectors agree best (Zhang et al., Guided mesh normal filtering, 2015).
+    void average_best_patch(const FaceVectors& vectors, FaceVectors& means, const Executor& exec = run_serially) const;
+
+    /// Numbers of faces, one row each.
+    using Rows = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+    /// Replaces each row of numbers by its mean over the face and its neighbours, all with the same weight, several
+    /// times.
+    /// @param near #F by any number; replaced by the means after some rounds.
+    /// @param around as large; replaced by those after further rounds.
+    void spread(Rows& near, Rows& around, int rounds, int further_rounds, const Executor& exec = run_serially) const;
+
+    [[nodiscard]] Index n_faces() const { return static_cast<Index>(areas_.size()); }
+
+  private:
+    const PolygonMesh* mesh_;
+    FaceNeighbours neighbours_;
+    std::vector<std::int8_t> signs_;
+    /// #F: in mean face areas.
+    std::vector<float> areas_;
+    /// As FaceNeighbours::faces: the weights without a guide.
+    std::vector<float> near_;
+};
+
+/// Scales each vector to length 1; those of length 0 stay.
+void normalise(FaceVectors& vectors, const Executor& exec = run_serially);
+
+}  // namespace seamflow

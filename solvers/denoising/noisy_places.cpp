@@ -1,0 +1,138 @@
+#include "solvers/denoising/noisy_places.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "partition/vector_area.h"
+
+namespace seamflow {
+
+namespace {
+
+// Lengths are in lengths of the edges at the vertex. Measured on surfaces that are known, without noise and with noise
+// of 0.03 to 0.5.
+
+/// The median of the motions is larger where there is noise, and at least this part of their root mean square.
+constexpr double least_median = 0.009;
+constexpr double least_part = 0.3;
+/// Of the largest motions, which may be those of spikes, this part does not count.
+constexpr double part_of_spikes = 0.005;
+/// Noise that leaves no doubt, as the median over the faces.
+constexpr float much_noise = 0.1F;
+/// With fewer faces nothing can be told.
+constexpr std::size_t fewest_faces = 100;
+/// The mean motion around a vertex up to which it stays, and from which on it goes all the way.
+constexpr float calm = 0.002F;
+constexpr float restless = 0.005F;
+constexpr int rounds = 24;
+/// No vertex moves further than this many standard deviations of the noise there.
+constexpr double most_deviations = 4.0;
+/// The standard deviation of a normal distribution over its mean absolute value.
+constexpr double deviation_by_mean = 1.2533;
+
+template <class Number>
+Number middle_of(std::vector<Number>& numbers)
+{
+    const auto middle = numbers.begin() + std::ssize(numbers) / 2;
+    std::ranges::nth_element(numbers, middle);
+    return *middle;
+}
+
+/// From 0 to 1 without a bend at either end.
+double smooth_step(double x)
+{
+    const double t = std::clamp(x, 0.0, 1.0);
+    return t * t * (3.0 - 2.0 * t);
+}
+
+/// @param motions of the vertices of all faces of a component; sorted in part. @param noise of its faces, likewise.
+bool is_noisy(std::vector<float>& motions, std::vector<float>& noise)
+{
+    if (noise.size() < fewest_faces)
+        return false;
+    if (middle_of(noise) > much_noise)
+        return true;
+    const double median = middle_of(motions);
+    const auto n_counted = static_cast<Index>((1.0 - part_of_spikes) * static_cast<double>(motions.size()));
+    std::ranges::nth_element(motions, motions.begin() + n_counted);
+    double squares = 0.0;
+    for (Index i = 0; i < n_counted; ++i)
+        squares += static_cast<double>(motions[i]) * static_cast<double>(motions[i]);
+    return median > least_median && median > least_part * std::sqrt(squares / n_counted);
+}
+
+}  // namespace
+
+NoisyPlaces::NoisyPlaces(const PolygonMesh& mesh, const Topology& topology, const FaceAverages& averages)
+    : averages_(&averages)
+    , components_(face_components(mesh, topology))
+{
+}
+
+Noise NoisyPlaces::find(const PolygonMesh& mesh, const Topology& topology, const Points& before, const Points& after,
+                        const DenoisedNormals& found, const Executor& exec) const
+{
+    const Index n = mesh.n_vertices();
+    std::vector<float> motions(at(n), 0.0F);
+    for_each(exec, n, [&](Index v) {
+        Point normal = Point::Zero();
+        double edges = 0.0;
+        const auto corners = topology.corners_at(v);
+        for (const Index corner : corners) {
+            const Point of_face = found.normals.row(topology.face_of[corner]);
+            normal += of_face.dot(normal) < 0.0 ? Point(-of_face) : of_face;
+            const Index next = mesh.face_vertices[topology.next(mesh, corner)];
+            edges += (before.row(next) - before.row(v)).norm();
+        }
+        const double length = normal.norm() * edges / static_cast<double>(std::max(corners.size(), std::size_t{1}));
+        if (length > 0.0)
+            motions[v] = static_cast<float>(std::abs((after.row(v) - before.row(v)).dot(normal)) / length);
+    });
+    std::vector<std::uint8_t> noisy(at(components_.count()));
+    for_each(exec, components_.count(), [&](Index c) {
+        std::vector<float> of_vertices;
+        std::vector<float> of_faces;
+        for (const Index f : components_.nodes[c]) {
+            of_faces.push_back(found.noise[f]);
+            for (const Index v : mesh.face(f))
+                of_vertices.push_back(motions[v]);
+        }
+        noisy[c] = is_noisy(of_vertices, of_faces) ? 1 : 0;
+    });
+    FaceAverages::Rows near(mesh.n_faces(), 1);
+    FaceAverages::Rows around(mesh.n_faces(), 1);
+    for_each(exec, mesh.n_faces(), [&](Index f) {
+        near(f, 0) = 0.0F;
+        for (const Index v : mesh.face(f))
+            near(f, 0) += motions[v] / static_cast<float>(mesh.face(f).size());
+    });
+    averages_->spread(near, around, 0, rounds, exec);
+    Noise noise{std::vector<double>(at(n), 0.0), std::vector<double>(at(mesh.n_faces()))};
+    for_each(exec, mesh.n_faces(), [&](Index f) {
+        noise.of_faces[f] =
+            std::max(static_cast<double>(found.noise[f]), deviation_by_mean * static_cast<double>(around(f, 0)));
+    });
+    for_each(exec, n, [&](Index v) {
+        const auto corners = topology.corners_at(v);
+        const auto count = static_cast<double>(corners.size());
+        double deviation = 0.0;
+        // Of the harmonic mean, so that a few long edges do not count.
+        double inverse_edges = 0.0;
+        for (const Index corner : corners) {
+            const Index f = topology.face_of[corner];
+            const Index next = mesh.face_vertices[topology.next(mesh, corner)];
+            if (noisy[components_.component_of[f]] != 0)
+                noise.parts[v] += smooth_step((around(f, 0) - calm) / (restless - calm)) / count;
+            deviation += noise.of_faces[f] / count;
+            inverse_edges += 1.0 / (before.row(next) - before.row(v)).norm();
+        }
+        const double move = (after.row(v) - before.row(v)).norm();
+        const double most = most_deviations * deviation * count / inverse_edges;
+        if (move > most)
+            noise.parts[v] *= most / move;
+    });
+    return noise;
+}
+
+}  // namespace seamflow

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <vector>
+
+#include "partition/connected_components.h"
+#include "partition/executor.h"
+#include "partition/polygon_mesh.h"
+#include "partition/topology.h"
+#include "solvers/denoising/denoised_normals.h"
+#include "solvers/denoising/face_averages.h"
+
+namespace seamflow {
+
+/// Where a surface has noise.
+struct Noise {
+    /// #V: how much of its motion each vertex should make, from 0 to 1.
+    std::vector<double> parts;
+    /// #F: the standard deviation along the normals around each face, in lengths of the edges there: that of
+    /// DenoisedNormals, or of the motions where these are larger.
+    std::vector<double> of_faces;
+};
+
+/// Tells noise from shape by what a denoiser would take away.
+///
+/// Noise moves most vertices of a component, and all by about as much; a detail that the denoiser takes for noise is
+/// somewhere, and elsewhere there is nothing. So a component has noise if the median of the lengths along the normals
+/// by which its vertices would move is not tiny, and not small against their root mean square, the largest lengths left
+/// out; or if the noise is so large that there is no doubt. Within a component, places where vertices would hardly move
+/// have no noise. No other component matters, and no single vertex does. No vertex should move by more than four
+/// standard deviations of the noise there.
+class NoisyPlaces {
+  public:
+    /// @param topology with twins; not needed later. @param averages of the same mesh; must outlive the object.
+    NoisyPlaces(const PolygonMesh& mesh, const Topology& topology, const FaceAverages& averages);
+
+    /// @param before, after #V by 3. @param found of the positions before.
+    [[nodiscard]] Noise find(const PolygonMesh& mesh, const Topology& topology, const Points& before,
+                             const Points& after, const DenoisedNormals& found,
+                             const Executor& exec = run_serially) const;
+
+  private:
+    const FaceAverages* averages_;
+    /// Of faces.
+    Components components_;
+};
+
+}  // namespace seamflow

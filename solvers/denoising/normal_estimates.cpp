@@ -1,0 +1,212 @@
+#include "solvers/denoising/normal_estimates.h"
+
+#include <algorithm>
+#include <initializer_list>
+#include <utility>
+
+namespace seamflow {
+
+namespace {
+
+// All rounds and widths were chosen together with the networks that mix the estimates (see mixing_network.h): they are
+// of no use with others.
+
+/// Rounds of filters of positions, whose normals are the estimates; of the robust one for both.
+const std::vector<int> rounds_of_positions{2, 3, 4, 8, 16};
+const std::vector<int> rounds_of_robust_positions{3, 6};
+/// Of the surface from which the robust filter measures distances, among rounds_of_positions.
+constexpr std::size_t place_of_surface = 2;
+
+/// Replaces vectors one after the other.
+class Writer {
+  public:
+    explicit Writer(NormalEstimates& estimates)
+        : vectors_(&estimates.vectors)
+    {
+    }
+
+    FaceVectors& next()
+    {
+        if (count_ == vectors_->size())
+            vectors_->emplace_back();
+        return (*vectors_)[count_++];
+    }
+
+    void copy(const FaceVectors& vectors) { next() = vectors; }
+
+    void copy(const std::vector<FaceVectors>& list)
+    {
+        for (const FaceVectors& vectors : list)
+            copy(vectors);
+    }
+
+    [[nodiscard]] int count() const { return static_cast<int>(count_); }
+
+  private:
+    std::vector<FaceVectors>* vectors_;
+    std::size_t count_ = 0;
+};
+
+/// Means over more and more rounds.
+class Means {
+  public:
+    /// @param scratch two arrays, which are replaced.
+    Means(const FaceAverages& averages, const AverageWeights& weights, std::array<FaceVectors, 2>& scratch,
+          const Executor& exec)
+        : averages_(averages)
+        , weights_(weights)
+        , scratch_(scratch)
+        , exec_(exec)
+    {
+    }
+
+    /// Rounds of means of some vectors.
+    /// @param on_round called with the number of each round and its result.
+    template <class OnRound>
+    void take(const FaceVectors& vectors, int rounds, OnRound&& on_round)
+    {
+        for (int round = 1; round <= rounds; ++round) {
+            averages_.average(weights_, round == 1 ? vectors : scratch_[(round + 1) % 2], scratch_[round % 2], exec_);
+            on_round(round, scratch_[round % 2]);
+        }
+    }
+
+  private:
+    const FaceAverages& averages_;
+    const AverageWeights& weights_;
+    std::array<FaceVectors, 2>& scratch_;
+    const Executor& exec_;
+};
+
+/// Adds a part of 1 - (1 - S)³ = 3 S - 3 S² + S³, if the round is one of S, S² or S³.
+/// @param rounds those of S.
+void add_low_pass(int round, int rounds, const FaceVectors& mean, FaceVectors& total, const Executor& exec)
+{
+    if (round % rounds != 0 || round > 3 * rounds)
+        return;
+    const int power = round / rounds;
+    const float factor = power == 1 ? 3.0F : power == 2 ? -3.0F : 1.0F;
+    total.resize(mean.rows(), 4);
+    for_each(exec, static_cast<Index>(mean.rows()), [&](Index f) {
+        if (power == 1)
+            total.row(f) = factor * mean.row(f);
+        else
+            total.row(f) += factor * mean.row(f);
+    });
+}
+
+/// Adds bilateral means: each round is guided by the result of the round before.
+/// @param vectors of length 1 or 0; replaced.
+void add_bilateral_means(const FaceAverages& averages, FaceVectors& vectors, float sigma,
+                         std::initializer_list<int> wanted, Writer& found, FaceVectors& scratch, const Executor& exec)
+{
+    const int last = *(wanted.end() - 1);
+    for (int round = 1; round <= last; ++round) {
+        averages.average(sigma, vectors, scratch, exec);
+        vectors.swap(scratch);
+        if (std::ranges::find(wanted, round) != wanted.end())
+            found.copy(vectors);
+        normalise(vectors, exec);
+    }
+}
+
+}  // namespace
+
+NormalEstimator::NormalEstimator(const PolygonMesh& mesh, const Topology& topology, const Executor& exec)
+    : averages_(mesh, topology, exec)
+    , filters_(mesh, topology, exec)
+    , vertex_normals_(mesh, topology)
+{
+}
+
+void NormalEstimator::begin(const Points& positions, const Executor& exec)
+{
+    averages_.measure(positions, exec);
+    averages_.measure_normals(positions, noisy_, exec);
+    of_positions_.clear();
+    of_positions_further_.clear();
+    of_robust_positions_.clear();
+    const std::vector<Points> filtered = filters_.low_pass(positions, rounds_of_positions, exec);
+    for (std::size_t i = 0; i < filtered.size(); ++i) {
+        FaceVectors normals;
+        averages_.measure_normals(filtered[i], normals, exec);
+        if (rounds_of_positions[i] == 3 || rounds_of_positions[i] == 8)
+            of_positions_further_.push_back(normals);
+        if (rounds_of_positions[i] != 3)
+            of_positions_.push_back(std::move(normals));
+    }
+    const Points& surface = filtered[place_of_surface];
+    Points normals(positions.rows(), 3);
+    for_each(exec, static_cast<Index>(positions.rows()),
+             [&](Index v) { normals.row(v) = vertex_normals_(v, surface); });
+    for (const Points& robust : filters_.robust_low_pass(positions, surface, normals, rounds_of_robust_positions, exec))
+        averages_.measure_normals(robust, of_robust_positions_.emplace_back(), exec);
+}
+
+void NormalEstimator::first(NormalEstimates& found, const Executor& exec)
+{
+    Writer writer(found);
+    writer.copy(noisy_);
+    averages_.weigh(weights_, exec);
+    FaceVectors once;
+    FaceVectors twice;
+    FaceVectors low_pass;
+    Means(averages_, weights_, scratch_, exec).take(noisy_, 8, [&](int round, const FaceVectors& mean) {
+        if (round == 1 || round == 2 || round == 4 || round == 8)
+            writer.copy(mean);
+        if (round == 1)
+            once = mean;
+        if (round == 2)
+            twice = mean;
+        add_low_pass(round, 2, mean, low_pass, exec);
+    });
+    writer.copy(low_pass);
+    FaceVectors& bilateral = low_pass;
+    bilateral = noisy_;
+    add_bilateral_means(averages_, bilateral, 0.5F, {2, 5, 10}, writer, scratch_[0], exec);
+    const int bilateral_anchor = writer.count() - 1;
+    normalise(once, exec);
+    add_bilateral_means(averages_, once, 0.3F, {3, 10}, writer, scratch_[0], exec);
+    writer.copy(of_positions_);
+    found.anchors = {0, writer.count() - 2, bilateral_anchor};
+    averages_.average_best_patch(noisy_, writer.next(), exec);
+    normalise(twice, exec);
+    averages_.average_best_patch(twice, writer.next(), exec);
+    writer.copy(of_robust_positions_);
+}
+
+void NormalEstimator::further(const FaceVectors& normals, NormalEstimates& found, const Executor& exec)
+{
+    Writer writer(found);
+    writer.copy(normals);
+    writer.copy(noisy_);
+    Means means(averages_, weights_, scratch_, exec);
+    for (const float sigma : {0.1F, 0.2F, 0.4F}) {
+        averages_.weigh(normals, sigma, weights_, exec);
+        FaceVectors low_pass;
+        means.take(noisy_, 9, [&](int round, const FaceVectors& mean) {
+            if (round == 2 || round == 8)
+                writer.copy(mean);
+            add_low_pass(round, 3, mean, low_pass, exec);
+        });
+        writer.copy(low_pass);
+    }
+    const auto copy_first_and_last = [&](int rounds) {
+        means.take(normals, rounds, [&](int round, const FaceVectors& mean) {
+            if (round == 1 || round == rounds)
+                writer.copy(mean);
+        });
+    };
+    averages_.weigh(normals, 0.15F, weights_, exec);
+    copy_first_and_last(4);
+    averages_.weigh(weights_, exec);
+    copy_first_and_last(3);
+    averages_.average_best_patch(normals, writer.next(), exec);
+    FaceVectors bilateral = normals;
+    add_bilateral_means(averages_, bilateral, 0.3F, {4, 12}, writer, scratch_[0], exec);
+    found.anchors = {0, 1, writer.count() - 1};
+    writer.copy(of_positions_further_);
+    writer.copy(of_robust_positions_);
+}
+
+}  // namespace seamflow

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "partition/executor.h"
+#include "partition/metrics/vertex_normals.h"
+#include "partition/polygon_mesh.h"
+#include "partition/topology.h"
+#include "solvers/denoising/face_averages.h"
+#include "solvers/denoising/position_filters.h"
+
+namespace seamflow {
+
+/// Several estimates of the true normal of each face. Each is a vector along a normal; a mean of unit normals is
+/// shorter, the less they agree.
+struct NormalEstimates {
+    std::vector<FaceVectors> vectors;
+    /// Places of those that the others are compared with.
+    std::array<int, 3> anchors{};
+};
+
+/// The filters from which estimates come.
+class NormalEstimator {
+  public:
+    /// @param mesh its vertices are not used. @param topology with twins, which are not needed later. Both must outlive
+    /// the estimator.
+    NormalEstimator(const PolygonMesh& mesh, const Topology& topology, const Executor& exec = run_serially);
+
+    /// Begins with a noisy surface, #V by 3.
+    void begin(const Points& positions, const Executor& exec = run_serially);
+
+    /// Estimates from the noisy surface alone: means over one to eight rounds, bilateral means of two widths, normals
+    /// of surfaces whose vertices were filtered, means of patches on one side of edges.
+    /// @param found replaced; its memory is used again, as below.
+    void first(NormalEstimates& found, const Executor& exec = run_serially);
+
+    /// Estimates with the help of an earlier result: the noisy normals averaged where that result says that faces
+    /// belong together, and the result averaged further. Weights and areas are those of the last `refine`.
+    /// @param normals of length 1, or 0 for faces without area.
+    void further(const FaceVectors& normals, NormalEstimates& found, const Executor& exec = run_serially);
+
+    /// Takes areas and centroids from these positions, #V by 3, from now on.
+    void refine(const Points& positions, const Executor& exec = run_serially) { averages_.measure(positions, exec); }
+
+    [[nodiscard]] const FaceAverages& averages() const { return averages_; }
+
+  private:
+    FaceAverages averages_;
+    PositionFilters filters_;
+    VertexNormals vertex_normals_;
+    FaceVectors noisy_;
+    /// Normals of filtered surfaces, for `first` and `further`.
+    std::vector<FaceVectors> of_positions_;
+    std::vector<FaceVectors> of_positions_further_;
+    std::vector<FaceVectors> of_robust_positions_;
+    /// Used again in each round.
+    AverageWeights weights_;
+    std::array<FaceVectors, 2> scratch_;
+};
+
+}  // namespace seamflow

@@ -1,0 +1,111 @@
+#include "solvers/denoising/normal_motion.h"
+
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/LU>
+
+#include "partition/vector_area.h"
+
+namespace seamflow {
+
+namespace {
+
+/// A direction is kept by half where the mean squared cosine between it and the wanted normals is this much.
+constexpr double half_kept = 0.04;
+/// The cosine between a face and its wanted normal below which the face may fold, and the loss that decides that the
+/// motion along normals folds it.
+constexpr double least_cosine = 0.7;
+constexpr double loss_of_cosine = 0.02;
+/// How far vertices that move freely spread around folded faces, in rounds.
+constexpr int freeing_rounds = 6;
+/// How often motions are halved; after that vertices stay.
+constexpr int halvings = 9;
+
+class FoldedFaces {
+  public:
+    FoldedFaces(const PolygonMesh& mesh, const Topology& topology, const Points& wanted, const Executor& exec)
+        : mesh_(mesh)
+        , topology_(topology)
+        , wanted_(wanted)
+        , exec_(exec)
+    {
+    }
+
+    /// #F: between each face and its wanted normal; 1 where none is wanted, 0 for faces without area.
+    [[nodiscard]] std::vector<double> cosines(const Points& positions) const
+    {
+        std::vector<double> found(at(mesh_.n_faces()));
+        for_each(exec_, mesh_.n_faces(), [&](Index f) {
+            const Point normal = vector_area(mesh_.face(f), positions);
+            const double length = normal.norm();
+            found[f] = wanted_.row(f).isZero() ? 1.0 : length > 0.0 ? normal.dot(wanted_.row(f)) / length : 0.0;
+        });
+        return found;
+    }
+
+    /// The vertices of the faces that fulfil a condition.
+    template <class Condition>
+    [[nodiscard]] std::vector<Index> vertices_of(Condition&& condition) const
+    {
+        return select(exec_, mesh_.n_vertices(), [&](Index v) {
+            for (const Index corner : topology_.corners_at(v))
+                if (condition(topology_.face_of[corner]))
+                    return true;
+            return false;
+        });
+    }
+
+  private:
+    const PolygonMesh& mesh_;
+    const Topology& topology_;
+    const Points& wanted_;
+    const Executor& exec_;
+};
+
+}  // namespace
+
+Points along_normals(const PolygonMesh& mesh, const Topology& topology, const Points& before, const Points& after,
+                     const Points& wanted, const Executor& exec)
+{
+    Points positions(before.rows(), 3);
+    for_each(exec, mesh.n_vertices(), [&](Index v) {
+        // S = mean n nᵀ, m S² (S² + δ² I)⁻¹
+        Eigen::Matrix3d squared_cosines = Eigen::Matrix3d::Zero();
+        const auto corners = topology.corners_at(v);
+        for (const Index corner : corners) {
+            const Point normal = wanted.row(topology.face_of[corner]);
+            squared_cosines += normal.transpose() * normal / static_cast<double>(corners.size());
+        }
+        const Eigen::Matrix3d squared = squared_cosines * squared_cosines;
+        const Eigen::Matrix3d resistance = squared + half_kept * half_kept * Eigen::Matrix3d::Identity();
+        const Point motion = after.row(v) - before.row(v);
+        positions.row(v) = before.row(v) + motion * squared * resistance.inverse();
+    });
+    const FoldedFaces faces(mesh, topology, wanted, exec);
+    const std::vector<double> of_after = faces.cosines(after);
+    std::size_t n_free = 0;
+    for (int round = 0; round < freeing_rounds; ++round) {
+        const std::vector<double> cosines = faces.cosines(positions);
+        const std::vector<Index> folded = faces.vertices_of(
+            [&](Index f) { return cosines[f] < least_cosine && cosines[f] < of_after[f] - loss_of_cosine; });
+        for (const Index v : folded)
+            positions.row(v) = after.row(v);
+        if (folded.size() == n_free)
+            break;
+        n_free = folded.size();
+    }
+    const std::vector<double> of_before = faces.cosines(before);
+    for (int round = 0; round <= halvings; ++round) {
+        const std::vector<double> cosines = faces.cosines(positions);
+        const std::vector<Index> turned =
+            faces.vertices_of([&](Index f) { return cosines[f] <= 0.0 && of_before[f] > 0.0; });
+        if (turned.empty())
+            break;
+        for (const Index v : turned)
+            positions.row(v) = before.row(v) + (round < halvings ? 0.5 : 0.0) * (positions.row(v) - before.row(v));
+    }
+    return positions;
+}
+
+}  // namespace seamflow

@@ -1,0 +1,20 @@
+#pragma once
+
+#include "partition/executor.h"
+#include "partition/polygon_mesh.h"
+#include "partition/topology.h"
+
+namespace seamflow {
+
+/// Leaves of a motion what goes along the wanted normals of the faces at each vertex, so that vertices hardly slide and
+/// parameters stay: on smooth parts along the one normal, at edges and corners in all directions that change a face.
+/// Around faces that would fold by it, vertices go where the motion takes them. If a face would still point away from
+/// its wanted normal, to which it pointed before, its vertices go half of the way, and so on: no face turns over. Bits
+/// do not depend on how loops are run.
+/// @param topology needs no twins.
+/// @param before, after #V by 3. @param wanted #F by 3: the normals that faces are to have; 0: none.
+/// @returns #V by 3.
+Points along_normals(const PolygonMesh& mesh, const Topology& topology, const Points& before, const Points& after,
+                     const Points& wanted, const Executor& exec = run_serially);
+
+}  // namespace seamflow

@@ -1,0 +1,235 @@
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <Eigen/Geometry>
+#include <doctest/doctest.h>
+
+#include "engine/mean_curvature_flow.h"
+#include "engine/setup/presets.h"
+#include "partition/errors.h"
+#include "partition/metrics/vertex_distance.h"
+#include "samples/meshes/meshes.h"
+#include "solvers/laplacian/geometry.h"
+#include "tests/support/denoising.h"
+#include "tests/support/flows.h"
+#include "tests/support/test_meshes.h"
+
+using namespace seamflow;
+using test::largest_difference;
+
+namespace {
+
+struct Outcome {
+    Points positions;
+    FlowReport report;
+};
+
+Outcome denoised(PolygonMesh mesh, FlowOptions further = {})
+{
+    FlowReport report = mean_curvature_flow(mesh, options_for(Preset::Automatic, mesh, further).options);
+    return {std::move(mesh.vertices), std::move(report)};
+}
+
+PolygonMesh with(PolygonMesh mesh, Points positions)
+{
+    mesh.vertices = std::move(positions);
+    return mesh;
+}
+
+double mean_edge(const PolygonMesh& mesh)
+{
+    return mean_edge_length(mesh, mesh.vertices);
+}
+
+PolygonMesh bumpy_sphere(Index vertices = 4000)
+{
+    return make_noisy_sphere(vertices, {.amplitude = 0.1, .noise = 0.0});
+}
+
+/// Faces that point away from those of the true surface.
+int count_turned(const PolygonMesh& truth, const Points& positions)
+{
+    int n = 0;
+    for (Index f = 0; f < truth.n_faces(); ++f)
+        n += vector_area(truth.face(f), positions).dot(vector_area(truth.face(f), truth.vertices)) < 0.0 ? 1 : 0;
+    return n;
+}
+
+/// The mesh with its vertices in another order, and its faces in another order and begun at another corner.
+/// @param order #V: the old number of each vertex.
+PolygonMesh renumbered(const PolygonMesh& mesh, const std::vector<Index>& order)
+{
+    std::vector<Index> number(order.size());
+    PolygonMesh result;
+    result.vertices.resize(mesh.vertices.rows(), 3);
+    for (Index v = 0; v < mesh.n_vertices(); ++v) {
+        number[order[v]] = v;
+        result.vertices.row(v) = mesh.vertices.row(order[v]);
+    }
+    for (Index f = mesh.n_faces(); f-- > 0;) {
+        std::vector<Index> face;
+        for (const Index v : mesh.face(f))
+            face.push_back(number[v]);
+        std::rotate(face.begin(), face.begin() + 1, face.end());
+        result.add_face(face);
+    }
+    return result;
+}
+
+/// Root mean square.
+double difference(const Points& a, const Points& b)
+{
+    return std::sqrt((a - b).rowwise().squaredNorm().mean());
+}
+
+}  // namespace
+
+TEST_CASE("noise of any size goes, on round and on sharp shapes, better than by filters that know the truth")
+{
+    const test::BilateralGrid filters{{0.25, 0.35}, {10, 30}, {20}};
+    std::vector<PolygonMesh> truths{bumpy_sphere(), test::triangle_torus(80, 40)};
+    for (const char* kind : {"gear", "box", "chamfered-plate"})
+        truths.push_back(make_mesh(kind, 8000));
+    for (std::size_t i = 0; i < truths.size(); ++i)
+        for (const double noise : {0.1, 0.3, 0.6}) {
+            CAPTURE(i);
+            CAPTURE(noise);
+            const PolygonMesh noisy = test::with_gaussian_noise(truths[i], noise, 3);
+            const Outcome outcome = denoised(noisy);
+            const PolygonMesh result = with(noisy, outcome.positions);
+            const double left = test::angle_to_truth(truths[i], result);
+            CHECK(left < 0.35 * test::angle_to_truth(truths[i], noisy));
+            // With little noise, many rounds of a filter that knows how many are better.
+            if (noise > 0.1) {
+                CHECK(left <
+                      test::angle_to_truth(truths[i], test::best_of_bilateral_filters(truths[i], noisy, filters)));
+                CHECK(left < test::angle_to_truth(truths[i], test::taubin_smoothed(noisy, 15)));
+            }
+            CHECK(count_turned(truths[i], outcome.positions) <= count_turned(truths[i], noisy.vertices));
+            // Its part along random directions is a third of the variance.
+            CHECK(outcome.report.noise->deviation > 0.3 * noise);
+            CHECK(outcome.report.noise->deviation < 1.3 * noise);
+            CHECK(outcome.report.noise->part > 0.9);
+        }
+}
+
+TEST_CASE("surfaces without noise stay bit for bit")
+{
+    std::vector<PolygonMesh> clean{bumpy_sphere(), test::triangle_torus(60, 30), test::quad_torus(60, 30),
+                                   test::cylinder(80, 40), test::triangle_grid(40, 40)};
+    for (const char* kind : {"gear", "box", "stepped-cylinder", "chamfered-plate", "gear-quads"})
+        clean.push_back(make_mesh(kind, 6000));
+    for (std::size_t i = 0; i < clean.size(); ++i) {
+        CAPTURE(i);
+        const Outcome outcome = denoised(clean[i]);
+        CHECK(outcome.positions.cwiseEqual(clean[i].vertices).all());
+        CHECK(outcome.report.noise->part == 0.0);
+        CHECK(std::ranges::any_of(outcome.report.remarks,
+                                  [](const std::string& remark) { return remark.starts_with("No noise was found"); }));
+    }
+}
+
+TEST_CASE("a component decides for itself, whatever its size and wherever the others are")
+{
+    const PolygonMesh noisy = test::with_gaussian_noise(bumpy_sphere(3000), 0.3, 5);
+    PolygonMesh far = bumpy_sphere(2000);
+    far.vertices = (100.0 * far.vertices).rowwise() + Point(1e4, 0, 0);
+    const PolygonMesh both = test::together({noisy, far});
+    const Points together = denoised(both).positions;
+    CHECK(together.bottomRows(far.n_vertices()).cwiseEqual(far.vertices).all());
+    const Points alone = denoised(noisy).positions;
+    CHECK(difference(together.topRows(noisy.n_vertices()), alone) < 1e-3 * mean_edge(noisy));
+}
+
+TEST_CASE("the result does not depend on threads, and hardly on numbers, size, place and direction")
+{
+    const PolygonMesh mesh = test::with_gaussian_noise(make_mesh("gear", 4000), 0.3, 2);
+    const Points result = denoised(mesh, {.resources = {.threads = 1}}).positions;
+    CHECK(denoised(mesh, {.resources = {.threads = 2}}).positions.cwiseEqual(result).all());
+    const double little = 0.04 * mean_edge(mesh);  // ties among patches go either way
+
+    std::vector<Index> order(at(mesh.n_vertices()));
+    std::iota(order.begin(), order.end(), 0);
+    std::ranges::shuffle(order, std::mt19937(9));
+    const Points other = denoised(renumbered(mesh, order)).positions;
+    Points mapped(mesh.n_vertices(), 3);
+    for (Index v = 0; v < mesh.n_vertices(); ++v)
+        mapped.row(order[v]) = other.row(v);
+    CHECK(difference(mapped, result) < little);
+
+    for (const double size : {1e3, std::ldexp(1.0, -20)})
+        CHECK(difference(denoised(with(mesh, size * mesh.vertices)).positions / size, result) < little);
+    const Point far(1e6, -2e6, 3e5);
+    const Points moved = denoised(with(mesh, mesh.vertices.rowwise() + far)).positions.rowwise() - far;
+    CHECK(difference(moved, result) < little);
+    const Eigen::Matrix3d turn = Eigen::AngleAxisd(1.1, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
+    CHECK(difference(denoised(with(mesh, mesh.vertices * turn)).positions * turn.transpose(), result) < little);
+    CHECK(difference(denoised(test::with_faces_flipped(mesh, 4)).positions, result) < little);
+}
+
+TEST_CASE("a few spikes do not keep the rest from being smoothed")
+{
+    const PolygonMesh truth = bumpy_sphere();
+    PolygonMesh noisy = test::with_gaussian_noise(truth, 0.2, 1);
+    for (Index v = 17; v < noisy.n_vertices(); v += 400)
+        noisy.vertices.row(v) *= 1.0 + 5.0 * mean_edge(truth);
+    const PolygonMesh result = with(noisy, denoised(noisy).positions);
+    CHECK(test::angle_to_truth(truth, result) < 0.4 * test::angle_to_truth(truth, noisy));
+}
+
+TEST_CASE("where a part of a surface has no noise it stays")
+{
+    const PolygonMesh truth = test::triangle_grid(90, 60);
+    const PolygonMesh all = test::with_gaussian_noise(truth, 0.3, 1);
+    PolygonMesh mesh = truth;
+    for (Index v = 0; v < truth.n_vertices(); ++v)
+        if (truth.vertices(v, 0) < 60.0)
+            mesh.vertices.row(v) = all.vertices.row(v);
+    const Outcome outcome = denoised(mesh);
+    for (Index v = 0; v < truth.n_vertices(); ++v)
+        if (truth.vertices(v, 0) > 75.0)
+            CHECK((outcome.positions.row(v) - mesh.vertices.row(v)).norm() < 1e-3);
+    CHECK(test::angle_to_truth(truth, with(mesh, outcome.positions)) < 0.15 * test::angle_to_truth(truth, mesh));
+}
+
+TEST_CASE("vertices that are held stay, and strengths scale motions")
+{
+    const PolygonMesh mesh = test::with_gaussian_noise(bumpy_sphere(2000), 0.3, 6);
+    const Points free = denoised(mesh).positions;
+    const Points held = denoised(mesh, {.motion = {.fixed_vertices = {5, 700}}}).positions;
+    for (const Index v : {5, 700})
+        CHECK(held.row(v).cwiseEqual(mesh.vertices.row(v)).all());
+    CHECK(largest_difference(free, held) > 0.0);
+    std::vector<double> strength(at(mesh.n_vertices()), 1.0);
+    std::fill(strength.begin(), strength.begin() + 1000, 0.0);
+    const Points part = denoised(mesh, {.motion = {.strength = strength}}).positions;
+    CHECK(part.topRows(1000).cwiseEqual(mesh.vertices.topRows(1000)).all());
+    CHECK(largest_difference(part, mesh.vertices) > 0.0);
+}
+
+TEST_CASE("polygons of any number of sides lose noise, too")
+{
+    for (const char* kind : {"gear-quads", "hexagons", "mixed"}) {
+        CAPTURE(kind);
+        const PolygonMesh truth = make_mesh(kind, 6000);
+        const PolygonMesh noisy = test::with_gaussian_noise(truth, 0.2, 8);
+        const PolygonMesh result = with(noisy, denoised(noisy).positions);
+        CHECK(test::angle_to_truth(truth, result) < 0.7 * test::angle_to_truth(truth, noisy));
+    }
+}
+
+TEST_CASE("options about equations do not go with it")
+{
+    const PolygonMesh mesh = bumpy_sphere(500);
+    FlowOptions options = options_for(Preset::Automatic, mesh).options;
+    options.accuracy.tolerance = 1e-6;
+    PolygonMesh result = mesh;
+    CHECK_THROWS_WITH_AS(mean_curvature_flow(result, options), doctest::Contains("denoise is given"), OptionError);
+    options = options_for(Preset::Automatic, mesh).options;
+    options.keep_edges = 30.0;
+    CHECK_THROWS_WITH_AS(mean_curvature_flow(result, options), doctest::Contains("denoise is given"), OptionError);
+}
