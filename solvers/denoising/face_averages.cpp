@@ -183,7 +183,7 @@ void FaceAverages::average_best_patch(const FaceVectors& vectors, FaceVectors& m
 void FaceAverages::spread(Rows& near, Rows& around, int rounds, int further_rounds, const Executor& exec) const
 {
     // A few columns at a time, so that they fill registers and take little memory.
-    constexpr int width = 8;
+    constexpr int width = 16;
     using NarrowRows = Eigen::Matrix<float, Eigen::Dynamic, width, Eigen::RowMajor>;
     NarrowRows now = NarrowRows::Zero(n_faces(), width);
     NarrowRows before(n_faces(), width);

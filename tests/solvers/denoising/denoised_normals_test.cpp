@@ -71,14 +71,14 @@ TEST_CASE("numbers spread evenly: constants stay, and all columns do the same")
     const PolygonMesh mesh = test::triangle_torus(20, 12);
     FaceAverages averages(mesh, make_topology(mesh));
     averages.measure(mesh.vertices);
-    constexpr int n = 11;
+    constexpr int n = 19;
     FaceAverages::Rows near = FaceAverages::Rows::Zero(mesh.n_faces(), n);
     near.row(5).setOnes();
     near.col(3).setConstant(2.0F);
     FaceAverages::Rows around(mesh.n_faces(), n);
     averages.spread(near, around, 2, 3);
     // On a torus every face has as many neighbours: nothing is lost.
-    for (const int column : {0, 7, 10}) {
+    for (const int column : {0, 7, 18}) {
         CHECK(near.col(column).sum() == relative(1.0, 1e-5));
         CHECK(around.col(column).sum() == relative(1.0, 1e-5));
         CHECK(around.col(column).cwiseEqual(around.col(0)).all());
