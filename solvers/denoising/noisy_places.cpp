@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <span>
 
 #include "partition/vector_area.h"
 
@@ -13,13 +14,16 @@ namespace {
 // Lengths are in lengths of the edges at the vertex. Measured on surfaces that are known, without noise and with noise
 // of 0.03 to 0.5.
 
-/// The median of the motions is larger where there is noise, and at least this part of their root mean square.
-constexpr double least_median = 0.009;
-constexpr double least_part = 0.3;
-/// Of the largest motions, which may be those of spikes, this part does not count.
-constexpr double part_of_spikes = 0.005;
-/// Noise that leaves no doubt, as the median over the faces.
-constexpr float much_noise = 0.1F;
+/// The median of the motions is larger where there is noise.
+constexpr float least_median = 0.009F;
+/// The correlation of motions at neighbouring vertices is less: that of noise is about 0, -0.1 to 0.1 on most surfaces
+/// and up to 0.18 on scans; that of details that were taken for noise was 0.37 to 0.40. Around spikes it is large, too:
+/// so it may be that of faces whose vertices move by less than a few medians, which was 0.26 and more for details.
+constexpr double most_correlation = 0.28;
+constexpr double most_calm_correlation = 0.15;
+constexpr float most_medians = 10.0F;
+/// Noise that leaves no doubt, as the median over the faces: it may be alike at neighbours, too.
+constexpr float much_noise = 0.16F;
 /// With fewer faces nothing can be told.
 constexpr std::size_t fewest_faces = 100;
 /// The mean motion around a vertex up to which it stays, and from which on it goes all the way.
@@ -46,22 +50,6 @@ double smooth_step(double x)
     return t * t * (3.0 - 2.0 * t);
 }
 
-/// @param motions of the vertices of all faces of a component; sorted in part. @param noise of its faces, likewise.
-bool is_noisy(std::vector<float>& motions, std::vector<float>& noise)
-{
-    if (noise.size() < fewest_faces)
-        return false;
-    if (middle_of(noise) > much_noise)
-        return true;
-    const double median = middle_of(motions);
-    const auto n_counted = static_cast<Index>((1.0 - part_of_spikes) * static_cast<double>(motions.size()));
-    std::ranges::nth_element(motions, motions.begin() + n_counted);
-    double squares = 0.0;
-    for (Index i = 0; i < n_counted; ++i)
-        squares += static_cast<double>(motions[i]) * static_cast<double>(motions[i]);
-    return median > least_median && median > least_part * std::sqrt(squares / n_counted);
-}
-
 }  // namespace
 
 NoisyPlaces::NoisyPlaces(const PolygonMesh& mesh, const Topology& topology, const FaceAverages& averages)
@@ -75,6 +63,7 @@ Noise NoisyPlaces::find(const PolygonMesh& mesh, const Topology& topology, const
 {
     const Index n = mesh.n_vertices();
     std::vector<float> motions(at(n), 0.0F);
+    std::vector<double> edges_at(at(n), 0.0);
     for_each(exec, n, [&](Index v) {
         Point normal = Point::Zero();
         double edges = 0.0;
@@ -85,21 +74,52 @@ Noise NoisyPlaces::find(const PolygonMesh& mesh, const Topology& topology, const
             const Index next = mesh.face_vertices[topology.next(mesh, corner)];
             edges += (before.row(next) - before.row(v)).norm();
         }
-        const double length = normal.norm() * edges / static_cast<double>(std::max(corners.size(), std::size_t{1}));
+        edges_at[v] = edges / static_cast<double>(std::max(corners.size(), std::size_t{1}));
+        const double length = normal.norm() * edges_at[v];
         if (length > 0.0)
             motions[v] = static_cast<float>(std::abs((after.row(v) - before.row(v)).dot(normal)) / length);
     });
-    std::vector<std::uint8_t> noisy(at(components_.count()));
-    for_each(exec, components_.count(), [&](Index c) {
+    const auto is_noisy = [&](std::span<const Index> faces) {
+        if (faces.size() < fewest_faces)
+            return false;
         std::vector<float> of_vertices;
         std::vector<float> of_faces;
-        for (const Index f : components_.nodes[c]) {
+        for (const Index f : faces) {
             of_faces.push_back(found.noise[f]);
             for (const Index v : mesh.face(f))
-                of_vertices.push_back(motions[v]);
+                if (topology.moves(v))
+                    of_vertices.push_back(motions[v]);
         }
-        noisy[c] = is_noisy(of_vertices, of_faces) ? 1 : 0;
-    });
+        if (middle_of(of_faces) > much_noise)
+            return true;
+        if (of_vertices.empty())
+            return false;
+        const float median = middle_of(of_vertices);
+        if (median <= least_median)
+            return false;
+        // Products of neighbours and squares, of all faces and of those that are calm.
+        Eigen::Array2d all = Eigen::Array2d::Zero();
+        Eigen::Array2d of_calm = Eigen::Array2d::Zero();
+        for (const Index f : faces) {
+            const auto along_normal = [&](Index v) {
+                const double motion = (after.row(v) - before.row(v)).dot(found.normals.row(f));
+                return edges_at[v] > 0.0 ? motion / edges_at[v] : 0.0;
+            };
+            const auto corners = mesh.face(f);
+            Eigen::Array2d of_face = Eigen::Array2d::Zero();
+            for (std::size_t k = 0; k < corners.size(); ++k) {
+                const double motion = along_normal(corners[k]);
+                of_face +=
+                    Eigen::Array2d(motion * along_normal(corners[k + 1 < corners.size() ? k + 1 : 0]), motion * motion);
+            }
+            all += of_face;
+            if (std::ranges::none_of(corners, [&](Index v) { return motions[v] > most_medians * median; }))
+                of_calm += of_face;
+        }
+        return all[0] < most_correlation * all[1] || of_calm[0] < most_calm_correlation * of_calm[1];
+    };
+    std::vector<std::uint8_t> noisy(at(components_.count()));
+    for_each(exec, components_.count(), [&](Index c) { noisy[c] = is_noisy(components_.nodes[c]) ? 1 : 0; });
     FaceAverages::Rows near(mesh.n_faces(), 1);
     FaceAverages::Rows around(mesh.n_faces(), 1);
     for_each(exec, mesh.n_faces(), [&](Index f) {

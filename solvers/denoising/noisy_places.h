@@ -22,12 +22,12 @@ struct Noise {
 
 /// Tells noise from shape by what a denoiser would take away.
 ///
-/// Noise moves most vertices of a component, and all by about as much; a detail that the denoiser takes for noise is
-/// somewhere, and elsewhere there is nothing. So a component has noise if the median of the lengths along the normals
-/// by which its vertices would move is not tiny, and not small against their root mean square, the largest lengths left
-/// out; or if the noise is so large that there is no doubt. Within a component, places where vertices would hardly move
-/// have no noise. No other component matters, and no single vertex does. No vertex should move by more than four
-/// standard deviations of the noise there.
+/// Noise moves most vertices of a component, and neighbours hardly alike (its residual is white); a detail that the
+/// denoiser takes for noise is somewhere, and moves neighbours alike. So a component has noise if the median of the
+/// lengths along the normals by which its vertices would move is not tiny, and the motions of neighbours are hardly
+/// correlated; or if the noise is so large that there is no doubt. Within a component, places where vertices would
+/// hardly move have no noise. No other component matters, and no single vertex does. No vertex should move by more than
+/// four standard deviations of the noise there.
 class NoisyPlaces {
   public:
     /// @param topology with twins; not needed later. @param averages of the same mesh; must outlive the object.
