@@ -378,7 +378,7 @@ struct FlowOptions {
     /// undecomposed flow to compare with: options about these are refused. nullopt: mean curvature flow.
     std::optional<double> keep_edges = {};
     /// Removes noise in place of a flow: each step estimates the true normal of each face and how large the noise is
-    /// there, and moves vertices to fit (see denoised_normals); along the normals, unless a face would fold. Edges,
+    /// there, and moves vertices to fit (see NormalDenoiser); along the normals, unless a face would fold. Edges,
     /// round parts and details stay, and where there is no noise, vertices stay bit for bit. No amount is needed:
     /// time_step is ignored. One step is enough; further ones treat what is left as noise. As with keep_edges there are
     /// no sub-meshes and no equations of the Laplacian.

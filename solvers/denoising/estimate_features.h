@@ -13,7 +13,7 @@ namespace seamflow {
 /// scaled, or on how its faces are numbered: how much shorter than 1 each vector is, and the chords between estimates;
 /// and means of these over the faces around, near by and further off, which tell noise from shape.
 struct EstimateFeatures {
-    using Rows = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+    using Rows = FaceAverages::Rows;
 
     /// #F by 2 K - 1, for K estimates: logarithms of means over 6 rounds of FaceAverages::spread, and over 24.
     Rows near;

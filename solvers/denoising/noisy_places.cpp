@@ -50,6 +50,94 @@ double smooth_step(double x)
     return t * t * (3.0 - 2.0 * t);
 }
 
+/// Motions of vertices, in lengths of the edges there.
+struct Motion {
+    const PolygonMesh& mesh;
+    const Topology& topology;
+    const Points& before;
+    const Points& after;
+    const DenoisedNormals& found;
+    /// #V: along the normal, without sign.
+    std::vector<float> lengths;
+    /// #V: the mean length of the edges, in length.
+    std::vector<double> edges;
+
+    Motion(const PolygonMesh& of_mesh, const Topology& of_topology, const Points& from, const Points& to,
+           const DenoisedNormals& normals, const Executor& exec)
+        : mesh(of_mesh)
+        , topology(of_topology)
+        , before(from)
+        , after(to)
+        , found(normals)
+        , lengths(at(of_mesh.n_vertices()), 0.0F)
+        , edges(at(of_mesh.n_vertices()), 0.0)
+    {
+        for_each(exec, mesh.n_vertices(), [&](Index v) {
+            Point normal = Point::Zero();
+            double total = 0.0;
+            const auto corners = topology.corners_at(v);
+            for (const Index corner : corners) {
+                const Point of_face = found.normals.row(topology.face_of[corner]);
+                normal += of_face.dot(normal) < 0.0 ? Point(-of_face) : of_face;
+                const Index next = mesh.face_vertices[topology.next(mesh, corner)];
+                total += (before.row(next) - before.row(v)).norm();
+            }
+            edges[v] = total / static_cast<double>(std::max(corners.size(), std::size_t{1}));
+            const double length = normal.norm() * edges[v];
+            if (length > 0.0)
+                lengths[v] = static_cast<float>(std::abs((after.row(v) - before.row(v)).dot(normal)) / length);
+        });
+    }
+
+    /// The sums over the edges of a face of products of the motions at both ends, and over its corners of squares.
+    [[nodiscard]] Eigen::Array2d products(Index f) const
+    {
+        const auto along_normal = [&](Index v) {
+            const double length = (after.row(v) - before.row(v)).dot(found.normals.row(f));
+            return edges[v] > 0.0 ? length / edges[v] : 0.0;
+        };
+        const auto corners = mesh.face(f);
+        Eigen::Array2d sums = Eigen::Array2d::Zero();
+        for (std::size_t k = 0; k < corners.size(); ++k) {
+            const double here = along_normal(corners[k]);
+            sums += Eigen::Array2d(here * along_normal(corners[k + 1 < corners.size() ? k + 1 : 0]), here * here);
+        }
+        return sums;
+    }
+};
+
+/// @param faces of a component.
+bool is_noisy(const Motion& motion, std::span<const Index> faces)
+{
+    if (faces.size() < fewest_faces)
+        return false;
+    std::vector<float> of_vertices;
+    std::vector<float> of_faces;
+    for (const Index f : faces) {
+        of_faces.push_back(motion.found.noise[f]);
+        for (const Index v : motion.mesh.face(f))
+            if (motion.topology.moves(v))
+                of_vertices.push_back(motion.lengths[v]);
+    }
+    if (middle_of(of_faces) > much_noise)
+        return true;
+    if (of_vertices.empty())
+        return false;
+    const float median = middle_of(of_vertices);
+    if (median <= least_median)
+        return false;
+    Eigen::Array2d all = Eigen::Array2d::Zero();
+    Eigen::Array2d of_calm = Eigen::Array2d::Zero();
+    for (const Index f : faces) {
+        const Eigen::Array2d of_face = motion.products(f);
+        all += of_face;
+        if (std::ranges::none_of(motion.mesh.face(f),
+                                 [&](Index v) { return motion.lengths[v] > most_medians * median; }))
+            of_calm += of_face;
+    }
+    return all[0] < most_correlation * all[1] || of_calm[0] < most_calm_correlation * of_calm[1];
+}
+
 }  // namespace
 
 NoisyPlaces::NoisyPlaces(const PolygonMesh& mesh, const Topology& topology, const FaceAverages& averages)
@@ -62,70 +150,15 @@ Noise NoisyPlaces::find(const PolygonMesh& mesh, const Topology& topology, const
                         const DenoisedNormals& found, const Executor& exec) const
 {
     const Index n = mesh.n_vertices();
-    std::vector<float> motions(at(n), 0.0F);
-    std::vector<double> edges_at(at(n), 0.0);
-    for_each(exec, n, [&](Index v) {
-        Point normal = Point::Zero();
-        double edges = 0.0;
-        const auto corners = topology.corners_at(v);
-        for (const Index corner : corners) {
-            const Point of_face = found.normals.row(topology.face_of[corner]);
-            normal += of_face.dot(normal) < 0.0 ? Point(-of_face) : of_face;
-            const Index next = mesh.face_vertices[topology.next(mesh, corner)];
-            edges += (before.row(next) - before.row(v)).norm();
-        }
-        edges_at[v] = edges / static_cast<double>(std::max(corners.size(), std::size_t{1}));
-        const double length = normal.norm() * edges_at[v];
-        if (length > 0.0)
-            motions[v] = static_cast<float>(std::abs((after.row(v) - before.row(v)).dot(normal)) / length);
-    });
-    const auto is_noisy = [&](std::span<const Index> faces) {
-        if (faces.size() < fewest_faces)
-            return false;
-        std::vector<float> of_vertices;
-        std::vector<float> of_faces;
-        for (const Index f : faces) {
-            of_faces.push_back(found.noise[f]);
-            for (const Index v : mesh.face(f))
-                if (topology.moves(v))
-                    of_vertices.push_back(motions[v]);
-        }
-        if (middle_of(of_faces) > much_noise)
-            return true;
-        if (of_vertices.empty())
-            return false;
-        const float median = middle_of(of_vertices);
-        if (median <= least_median)
-            return false;
-        // Products of neighbours and squares, of all faces and of those that are calm.
-        Eigen::Array2d all = Eigen::Array2d::Zero();
-        Eigen::Array2d of_calm = Eigen::Array2d::Zero();
-        for (const Index f : faces) {
-            const auto along_normal = [&](Index v) {
-                const double motion = (after.row(v) - before.row(v)).dot(found.normals.row(f));
-                return edges_at[v] > 0.0 ? motion / edges_at[v] : 0.0;
-            };
-            const auto corners = mesh.face(f);
-            Eigen::Array2d of_face = Eigen::Array2d::Zero();
-            for (std::size_t k = 0; k < corners.size(); ++k) {
-                const double motion = along_normal(corners[k]);
-                of_face +=
-                    Eigen::Array2d(motion * along_normal(corners[k + 1 < corners.size() ? k + 1 : 0]), motion * motion);
-            }
-            all += of_face;
-            if (std::ranges::none_of(corners, [&](Index v) { return motions[v] > most_medians * median; }))
-                of_calm += of_face;
-        }
-        return all[0] < most_correlation * all[1] || of_calm[0] < most_calm_correlation * of_calm[1];
-    };
+    const Motion motion(mesh, topology, before, after, found, exec);
     std::vector<std::uint8_t> noisy(at(components_.count()));
-    for_each(exec, components_.count(), [&](Index c) { noisy[c] = is_noisy(components_.nodes[c]) ? 1 : 0; });
+    for_each(exec, components_.count(), [&](Index c) { noisy[c] = is_noisy(motion, components_.nodes[c]) ? 1 : 0; });
     FaceAverages::Rows near(mesh.n_faces(), 1);
     FaceAverages::Rows around(mesh.n_faces(), 1);
     for_each(exec, mesh.n_faces(), [&](Index f) {
         near(f, 0) = 0.0F;
         for (const Index v : mesh.face(f))
-            near(f, 0) += motions[v] / static_cast<float>(mesh.face(f).size());
+            near(f, 0) += motion.lengths[v] / static_cast<float>(mesh.face(f).size());
     });
     averages_->spread(near, around, 0, rounds, exec);
     Noise noise{std::vector<double>(at(n), 0.0), std::vector<double>(at(mesh.n_faces()))};
