@@ -30,8 +30,6 @@ constexpr std::size_t fewest_faces = 100;
 constexpr float calm = 0.002F;
 constexpr float restless = 0.005F;
 constexpr int rounds = 24;
-/// No vertex moves further than this many standard deviations of the noise there.
-constexpr double most_deviations = 4.0;
 /// The standard deviation of a normal distribution over its mean absolute value.
 constexpr double deviation_by_mean = 1.2533;
 
@@ -169,21 +167,11 @@ Noise NoisyPlaces::find(const PolygonMesh& mesh, const Topology& topology, const
     for_each(exec, n, [&](Index v) {
         const auto corners = topology.corners_at(v);
         const auto count = static_cast<double>(corners.size());
-        double deviation = 0.0;
-        // Of the harmonic mean, so that a few long edges do not count.
-        double inverse_edges = 0.0;
         for (const Index corner : corners) {
             const Index f = topology.face_of[corner];
-            const Index next = mesh.face_vertices[topology.next(mesh, corner)];
             if (noisy[components_.component_of[f]] != 0)
                 noise.parts[v] += smooth_step((around(f, 0) - calm) / (restless - calm)) / count;
-            deviation += noise.of_faces[f] / count;
-            inverse_edges += 1.0 / (before.row(next) - before.row(v)).norm();
         }
-        const double move = (after.row(v) - before.row(v)).norm();
-        const double most = most_deviations * deviation * count / inverse_edges;
-        if (move > most)
-            noise.parts[v] *= most / move;
     });
     return noise;
 }

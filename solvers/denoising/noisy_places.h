@@ -26,8 +26,7 @@ struct Noise {
 /// denoiser takes for noise is somewhere, and moves neighbours alike. So a component has noise if the median of the
 /// lengths along the normals by which its vertices would move is not tiny, and the motions of neighbours are hardly
 /// correlated; or if the noise is so large that there is no doubt. Within a component, places where vertices would
-/// hardly move have no noise. No other component matters, and no single vertex does. No vertex should move by more than
-/// four standard deviations of the noise there.
+/// hardly move have no noise. No other component matters, and no single vertex does.
 class NoisyPlaces {
   public:
     /// @param topology with twins; not needed later. @param averages of the same mesh; must outlive the object.
