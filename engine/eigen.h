@@ -31,11 +31,10 @@ FlowReport flow_into(Eigen::MatrixBase<Vertices>& vertices, PolygonMesh flowing,
 ///        integer type.
 /// @throws InputError also for matrices of another shape, and for a vertex that does not exist, naming row and column.
 template <class Vertices, class Faces>
-requires std::integral<typename Faces::Scalar> FlowReport mean_curvature_flow(Eigen::MatrixBase<Vertices>& vertices,
-                                                                              const Eigen::MatrixBase<Faces>& faces,
-                                                                              const FlowOptions& options,
-                                                                              const StepObserver& on_step = {},
-                                                                              const FlowControl& control = {})
+requires std::integral<typename Faces::Scalar>
+    FlowReport mean_curvature_flow(Eigen::MatrixBase<Vertices>& vertices, const Eigen::MatrixBase<Faces>& faces,
+                                   const FlowOptions& options = FlowOptions::denoising(),
+                                   const StepObserver& on_step = {}, const FlowControl& control = {})
 {
     return flow_into(vertices, to_polygon_mesh(vertices, faces), options, on_step, control);
 }
@@ -47,7 +46,8 @@ requires std::integral<typename Faces::Scalar> FlowReport mean_curvature_flow(Ei
 template <class Vertices>
 requires std::floating_point<typename Vertices::Scalar>
     FlowReport mean_curvature_flow(Eigen::MatrixBase<Vertices>& vertices, std::span<const Index> face_offsets,
-                                   std::span<const Index> face_vertices, const FlowOptions& options,
+                                   std::span<const Index> face_vertices,
+                                   const FlowOptions& options = FlowOptions::denoising(),
                                    const StepObserver& on_step = {}, const FlowControl& control = {})
 {
     return flow_into(vertices, to_polygon_mesh(vertices, face_offsets, face_vertices), options, on_step, control);

@@ -152,7 +152,7 @@ void FlowRun::free_topology()
     // Steps of sub-meshes do not use the whole mesh.
     const bool is_whole = smooths_normals(options()) || options().scheme == Scheme::ExplicitEuler ||
                           takes_whole_mesh(options().accuracy.approach);
-    const bool needs_normals = options().motion.direction.kind == MotionDirection::Kind::Normal;
+    const bool needs_normals = options().motion.direction.kind != MotionDirection::Kind::Any;
     if (is_whole || options().report.measures || tools_->limited || needs_normals)
         return;
     topology.vertex_offsets = std::vector<Index>();

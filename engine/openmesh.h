@@ -10,8 +10,8 @@ namespace seamflow {
 /// they are. Locked vertices and MotionOptions::fixed_vertices stay; so do, if any vertex is selected, all unselected
 /// ones (see held_by_status).
 template <OpenMeshMesh Mesh>
-FlowReport mean_curvature_flow(Mesh& mesh, const FlowOptions& options, const StepObserver& on_step = {},
-                               const FlowControl& control = {})
+FlowReport mean_curvature_flow(Mesh& mesh, const FlowOptions& options = FlowOptions::denoising(),
+                               const StepObserver& on_step = {}, const FlowControl& control = {})
 {
     PolygonMesh flowing = to_polygon_mesh(mesh);
     FlowOptions with_status = options;

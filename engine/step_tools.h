@@ -44,7 +44,7 @@ struct StepTools {
         if (limited)
             limited->apply(positions);
         if (directed_ && directed_->is_parallel() && has_results_apart())
-            directed_->project(mesh_->vertices, positions, run_in_parallel);
+            directed_->straighten(mesh_->vertices, positions, run_in_parallel);
     }
 
     /// Leaves of a step only the motion along the lines that the options ask for.

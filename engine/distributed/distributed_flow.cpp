@@ -214,7 +214,7 @@ class RankFlow {
         if (bound_)
             bound_->apply(result_);
         if (bound_ && directed_ && directed_->is_parallel())
-            directed_->project(before, result_, run_in_parallel);
+            directed_->straighten(before, result_, run_in_parallel);
     }
 
     /// All ranks call this together.
@@ -233,6 +233,7 @@ class RankFlow {
         if (!directed_)
             return;
         Points directed = stepper.positions();
+        fetch_foreign_(directed);
         directed_->project(before, directed, run_in_parallel);
         fetch_foreign_(directed);
         stepper.continue_from(directed, {});

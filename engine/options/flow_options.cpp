@@ -69,4 +69,12 @@ FlowOptions FlowOptions::plain()
     return options;
 }
 
+FlowOptions FlowOptions::denoising()
+{
+    FlowOptions options;
+    options.denoise = true;
+    options.motion.boundary = Boundary::Free;
+    return options;
+}
+
 }  // namespace seamflow

@@ -229,14 +229,15 @@ struct ComponentLimits {
     [[nodiscard]] bool exist() const { return std::isfinite(volume) || std::isfinite(move) || std::isfinite(slide); }
 };
 
-/// The lines along which vertices move: whatever a step does beside them is left out.
+/// The lines along which vertices move. What slides along the surface that a step makes is left out.
 struct MotionDirection {
     enum class Kind {
         /// Vertices move freely.
         Any,
-        /// Along `vector`. Coordinates that it does not have stay bit for bit, as x and y of a terrain with (0, 0, 1).
+        /// Along `vector`, to where the line through the vertex meets the surface that the step makes. Coordinates that
+        /// it does not have stay bit for bit, as x and y of a terrain with (0, 0, 1).
         Vector,
-        /// Along the normal that each vertex has before the step: parameters and textures hardly slide.
+        /// Along the normal that each vertex has after the step: parameters and textures hardly slide.
         Normal,
     };
     Kind kind = Kind::Any;
@@ -393,6 +394,9 @@ struct FlowOptions {
     /// The paper's method, generalised to many sub-meshes and nothing else: a fixed sweep and derivatives at Vᵏ. It
     /// does not change with the defaults.
     static FlowOptions plain();
+
+    /// Those without an amount: `denoise`, also of boundaries.
+    static FlowOptions denoising();
 };
 
 /// Whether every sub-mesh keeps its own copy of Γ.

@@ -46,7 +46,7 @@ void require_limits(const FlowOptions& options)
     if (options.radius && options.time_step != 0.0)
         throw OptionError("time_step and radius both say how much is smoothed: leave one of them out");
     for_each_option(options, [&](const auto& row) {
-        const bool is_open = row.field == "time_step" && options.radius;
+        const bool is_open = row.field == "time_step" && (options.radius || options.denoise);
         if constexpr (requires { require_within(row, *row.value); })
             if (!row.limits.text.empty() && !is_open)
                 require_within(row, *row.value);

@@ -26,6 +26,7 @@ constexpr std::array table{
     PresetTraits{.preset = Preset::Automatic,
                  .name = "automatic",
                  .purpose = "finds out how large the noise is at each place, removes it, and keeps edges and details",
+                 .order = denoising_order,
                  .denoise = true},
     PresetTraits{.preset = Preset::Scan,
                  .name = "scan",
@@ -33,14 +34,18 @@ constexpr std::array table{
                  .order = denoising_order},
     PresetTraits{.preset = Preset::Cad,
                  .name = "cad",
-                 .purpose = "removes noise, and keeps edges of more than 30 degrees",
+                 .purpose = "as automatic; with an amount or edges, keeps edges of more than 30 degrees",
                  .laplacian = Laplacian::VirtualRefinement,
                  .keep_edges = 30.0,
+                 .denoise = true,
                  .time_step_edges = 32.0},
     PresetTraits{.preset = Preset::Terrain,
                  .name = "terrain",
-                 .purpose = "removes noise, and keeps landforms larger than 5 % of the diagonal",
+                 .purpose = "as automatic, and x and y stay; with an amount, keeps landforms larger than 5 % of the "
+                            "diagonal",
                  .order = denoising_order,
+                 .denoise = true,
+                 .along_z = true,
                  .attach = LengthOnMesh{0.05, true}},
     PresetTraits{.preset = Preset::Fair,
                  .name = "fair",
@@ -96,7 +101,7 @@ void choose_by_noise(const PolygonMesh& mesh, const std::optional<LengthOnMesh>&
     if (*choice.noise == 0.0)
         return smooth_nothing(choice, mean_edge,
                               "No noise can be told from the shape of the mesh: nothing is smoothed. Use --radius to "
-                              "smooth anyway, or --preset cad to keep edges.");
+                              "smooth anyway, or --keep-edges to keep edges.");
     const double t = denoising_amount(flowing, joined, *choice.noise, exec).amount;
     // Of Δ_U, dt h²/4 of whose rows of the mean of differences are t.
     const double radius = smoothed_radius(0.25 * t * mean_edge * mean_edge, 1, {.order = denoising_order});
@@ -104,7 +109,7 @@ void choose_by_noise(const PolygonMesh& mesh, const std::optional<LengthOnMesh>&
         return smooth_nothing(
             choice, mean_edge,
             "The noise of the mesh cannot be told from its shape well enough for smoothing to bring it nearer to the "
-            "true surface: nothing is smoothed. Use --radius to smooth anyway, or --preset cad to keep edges.");
+            "true surface: nothing is smoothed. Use --radius to smooth anyway, or --keep-edges to keep edges.");
     const double edges = time_step_for_radius(radius, std::max(choice.options.steps, 1), filter_of(choice.options)) /
                          (mean_edge * mean_edge);
     choice.options.time_step = require_step(rounded(edges) * mean_edge * mean_edge);
@@ -147,7 +152,7 @@ void choose_amount(const PresetTraits& preset, const PolygonMesh& mesh, const st
                    PresetChoice& choice, const Executor& exec)
 {
     FlowOptions& options = choice.options;
-    if (preset.denoise) {
+    if (options.denoise) {
         // No step depends on it, but some messages print it.
         const double mean_edge = mean_edge_length(mesh, mesh.vertices, exec);
         options.time_step = std::isnormal(mean_edge * mean_edge) ? mean_edge * mean_edge : 1.0;
@@ -177,14 +182,16 @@ PresetChoice options_for(Preset preset, const PolygonMesh& mesh, const FlowOptio
     options.laplacian = traits.laplacian;
     options.flow = traits.flow;
     options.filter = traits.filter;
-    options.order = traits.order;
-    options.keep_edges = traits.keep_edges;
-    options.denoise = traits.denoise;
-    if (traits.denoise)
+    options.denoise = traits.denoise && !noise && options.motion.feature_edges.empty();
+    options.order = options.denoise ? 1 : traits.order;
+    options.keep_edges = options.denoise ? std::nullopt : traits.keep_edges;
+    if (traits.along_z)
+        options.motion.direction = along_z();
+    if (options.denoise)
         options.motion.boundary = Boundary::Free;
     options.steps = traits.steps;
     options.radius.reset();
-    if (traits.attach)
+    if (traits.attach && !options.denoise)
         options.motion.attachment = attachment_of(*traits.attach, extent_of(mesh.vertices));
     choose_amount(traits, mesh, noise, choice, exec);
     return choice;

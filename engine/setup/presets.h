@@ -21,7 +21,7 @@ enum class Preset {
 };
 
 /// The settings of a preset. An amount given here is applied in FlowOptions::steps steps; otherwise it follows from the
-/// noise of the mesh.
+/// noise of the mesh, or none is needed.
 struct PresetTraits {
     Preset preset;
     /// In lower case.
@@ -34,8 +34,11 @@ struct PresetTraits {
     int order = 1;
     /// In degrees, if edges are kept.
     std::optional<double> keep_edges = {};
-    /// FlowOptions::denoise, which needs no amount; then boundaries are free.
+    /// FlowOptions::denoise, which needs no amount and no equation; then boundaries are free. With an amount the preset
+    /// has its equation.
     bool denoise = false;
+    /// Whether vertices move along z alone.
+    bool along_z = false;
     /// Length for attachment_of, if vertices are attached.
     std::optional<LengthOnMesh> attach = {};
     int steps = 1;
@@ -44,8 +47,14 @@ struct PresetTraits {
     std::optional<double> time_step_edges = {};
     std::optional<LengthOnMesh> radius = {};
 
-    [[nodiscard]] bool measures_noise() const { return !denoise && !time_step_edges && !radius; }
+    /// Whether the amount for its equation follows from the noise.
+    [[nodiscard]] bool measures_noise() const { return !time_step_edges && !radius; }
 };
+
+inline MotionDirection along_z()
+{
+    return {MotionDirection::Kind::Vector, Point::UnitZ()};
+}
 
 /// All of them, first the one for meshes of unspecified kind.
 std::span<const PresetTraits> all_presets();
@@ -63,7 +72,8 @@ struct PresetChoice {
     std::string remark = {};
 };
 
-/// The options of a preset for a mesh, to be changed at will and given to mean_curvature_flow.
+/// The options of a preset for a mesh, to be changed at will and given to mean_curvature_flow. A preset that denoises
+/// does so where neither noise nor edges to keep are given.
 /// @param further options unrelated to the preset: fixed vertices, threads, reports, and so on.
 /// @param noise the standard deviation of the noise along the normals, where it is known.
 /// @throws InputError for a mesh that is not valid, or that has no size to measure by ("has no size …").
@@ -72,7 +82,7 @@ PresetChoice options_for(Preset preset, const PolygonMesh& mesh, const FlowOptio
 
 /// Chooses the amount of a preset and its limits, also for options other than its own: an amount by the noise halves
 /// the height of those bumps whose height the preset's own options would halve.
-/// @param choice has all options except the amount; receives that, the noise and the remark.
+/// @param choice has all options except the amount; receives that, the noise and the remark. What denoises needs none.
 void choose_amount(const PresetTraits& preset, const PolygonMesh& mesh, const std::optional<LengthOnMesh>& noise,
                    PresetChoice& choice, const Executor& exec = run_serially);
 

@@ -8,6 +8,7 @@
 
 #include "partition/errors.h"
 #include "solvers/denoising/normal_motion.h"
+#include "solvers/denoising/spikes.h"
 #include "solvers/normals/vertex_fit.h"
 
 namespace seamflow {
@@ -53,6 +54,7 @@ DenoisingStepper::DenoisingStepper(const PolygonMesh& mesh, const Topology& topo
     , strengths_(options.motion.strength)
     , denoiser_(mesh, topology, progress.exec())
     , places_(mesh, topology, denoiser_.averages())
+    , rims_(mesh, topology)
     , positions_(mesh.vertices)
     , loops_(1.0, progress)
 {
@@ -62,6 +64,20 @@ void DenoisingStepper::step(const Points& before)
 {
     assert(&before != &positions_);
     const Executor exec = loops_.begin();
+    spikes_ = find_spikes(*mesh_, *topology_, before, exec);
+    positions_ = before;
+    for (const Index v : spikes_)
+        positions_.row(v) = before(neighbours_of(*mesh_, *topology_, v), Eigen::all).colwise().mean();
+    positions_ = denoised(positions_, exec);
+    for (const Index v : spikes_)
+        positions_.row(v) = before.row(v);
+    loops_.end();
+    if (!positions_.allFinite())
+        throw ComputationError("the result is not finite: scale the mesh to a size nearer to 1");
+}
+
+Points DenoisingStepper::denoised(const Points& before, const Executor& exec)
+{
     const DenoisedNormals found = denoiser_.denoise(before, exec);
     Points fitted = before;
     fit_vertices(*mesh_, *topology_, {},
@@ -75,10 +91,10 @@ void DenoisingStepper::step(const Points& before)
         if (part < 1.0)
             fitted.row(v) = before.row(v) + part * (fitted.row(v) - before.row(v));
     });
-    positions_ = along_normals(*mesh_, *topology_, before, fitted, found.normals, exec);
-    loops_.end();
-    if (!positions_.allFinite())
-        throw ComputationError("the result is not finite: scale the mesh to a size nearer to 1");
+    Points result = along_normals(*mesh_, *topology_, before, fitted, found.normals, exec);
+    rims_.apply(*topology_, found.normals, noise.parts, result);
+    keep_facing(*mesh_, *topology_, before, found.normals, result, exec);
+    return result;
 }
 
 void DenoisingStepper::save(StepMemory& memory) const
@@ -100,6 +116,15 @@ void DenoisingStepper::describe(FlowReport& report) const
     if (!noise_)
         return;
     report.noise = noise_;
+    if (!spikes_.empty())
+        report.remarks.push_back(fmt::format(
+            "{} far from all neighbours, more than ten times the lengths of the edges there, and {}: remove {}, or "
+            "give "
+            "{} the right position.",
+            spikes_.size() == 1 ? fmt::format("Vertex {} is", spikes_[0])
+                                : fmt::format("{} vertices, the first of which is {}, are", spikes_.size(), spikes_[0]),
+            spikes_.size() == 1 ? "stays" : "stay", spikes_.size() == 1 ? "it" : "them",
+            spikes_.size() == 1 ? "it" : "them"));
     if (noise_->part == 0.0) {
         report.remarks.emplace_back("No noise was found: nothing is smoothed. Use --radius to smooth anyway.");
         return;

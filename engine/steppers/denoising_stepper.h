@@ -11,6 +11,7 @@
 #include "partition/topology.h"
 #include "solvers/denoising/denoised_normals.h"
 #include "solvers/denoising/noisy_places.h"
+#include "solvers/denoising/rim_filter.h"
 
 namespace seamflow {
 
@@ -35,16 +36,22 @@ class DenoisingStepper final : public Stepper {
     void describe(FlowReport& report) const override;
 
   private:
+    /// @param before #V by 3, without spikes.
+    Points denoised(const Points& before, const Executor& exec);
+
     const PolygonMesh* mesh_;
     const Topology* topology_;
     /// #V: the part of each displacement that vertices go; empty: 1.
     std::vector<double> strengths_;
     NormalDenoiser denoiser_;
     NoisyPlaces places_;
+    RimFilter rims_;
     Points positions_;
     LoopCount loops_;
     /// Before the first step.
     std::optional<NoiseReport> noise_;
+    /// They stay (see find_spikes).
+    std::vector<Index> spikes_;
 };
 
 }  // namespace seamflow

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <optional>
-
 #include "engine/options/flow_options.h"
 #include "partition/executor.h"
 #include "partition/metrics/vertex_normals.h"
@@ -10,23 +8,29 @@
 
 namespace seamflow {
 
-/// Leaves of displacements only what lies along the lines of a MotionDirection.
+/// Lets vertices move only along the lines of a MotionDirection, and the surface follow the one that the whole motion
+/// gives: what slides along that surface moves nothing.
 class DirectedMotion {
   public:
-    /// @param mesh, topology must outlive this, with the corners at its vertices where lines are normals.
+    /// @param mesh, topology must outlive this, with the corners at all vertices.
     DirectedMotion(const PolygonMesh& mesh, const Topology& topology, const MotionDirection& direction);
 
     /// Whether all lines are parallel, and the same for every step.
-    [[nodiscard]] bool is_parallel() const { return !normals_; }
+    [[nodiscard]] bool is_parallel() const { return !follows_normals_; }
 
-    /// V' = V + ((V̂ - V)·d) d, with d of length 1 at each vertex, that of V where it is the normal. Coordinates to
+    /// V' = V + ((V̂ - V)·n) n, with n the normal of V̂ at each vertex, of length 1; or V' = V + s d, the point on a line
+    /// of direction d where it meets the plane through V̂ with the normal n. So a plane stays a plane. Coordinates to
     /// which nothing is added stay bit for bit.
     /// @param before #V by 3: V. @param after in: V̂; out: V'.
     void project(const Points& before, Points& after, const Executor& exec) const;
 
+    /// Takes back what rounding has added beside parallel lines: V' = V + ((V̂ - V)·d) d.
+    void straighten(const Points& before, Points& after, const Executor& exec) const;
+
   private:
     Point direction_;
-    std::optional<VertexNormals> normals_;
+    bool follows_normals_;
+    VertexNormals normals_;
 };
 
 }  // namespace seamflow

@@ -86,7 +86,7 @@ std::optional<ExitStatus> parse_distributed_command(int argc, char** argv, int r
         throw OptionError("--preset cad keeps edges, which needs the whole mesh: use smooth");
     if (command.flow.chooses_amount) {
         const PresetTraits& preset = preset_of(command.flow.preset);
-        if (preset.measures_noise() || preset.denoise)
+        if (preset.measures_noise() || command.flow.options.denoise)
             throw OptionError("say how much to smooth with --time-step, --time-step-edges, --radius or --preset fair: "
                               "only smooth, which has the whole mesh, can measure its noise");
         command.flow.amount = {.time_step_edges = preset.time_step_edges, .radius = preset.radius};

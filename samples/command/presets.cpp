@@ -6,14 +6,18 @@
 
 namespace seamflow {
 
-std::vector<PresetOption> options_of(const PresetTraits& preset)
+std::vector<PresetOption> options_of(const PresetTraits& preset, bool denoise)
 {
     using Attach = std::optional<LengthOnMesh>;
     const PresetTraits defaults{};
     std::vector<PresetOption> options;
-    if (preset.denoise)
-        return {{"", "", [](FlowOptions& o, Attach&) { o.denoise = true; }},
-                {"--boundary", "free", [](FlowOptions& o, Attach&) { o.motion.boundary = Boundary::Free; }}};
+    if (preset.along_z)
+        options.push_back({"--direction", "z", [](FlowOptions& o, Attach&) { o.motion.direction = along_z(); }});
+    if (denoise) {
+        options.push_back({"", "", [](FlowOptions& o, Attach&) { o.denoise = true; }});
+        options.push_back({"--boundary", "free", [](FlowOptions& o, Attach&) { o.motion.boundary = Boundary::Free; }});
+        return options;
+    }
     // Steps that keep edges do not use the Laplacian.
     if (!preset.keep_edges)
         options.push_back({"--laplacian", std::string(name_of(preset.laplacian)),

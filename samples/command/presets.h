@@ -19,7 +19,8 @@ struct PresetOption {
     std::function<void(FlowOptions& options, std::optional<LengthOnMesh>& attach)> set;
 };
 
-std::vector<PresetOption> options_of(const PresetTraits& preset);
+/// @param denoise instead of the equation of the preset.
+std::vector<PresetOption> options_of(const PresetTraits& preset, bool denoise);
 
 /// The amount as an option, "--radius 3%"; empty if it follows from the noise of a mesh.
 std::string amount_of(const PresetTraits& preset);

@@ -55,7 +55,7 @@ void require_room_for_edges(const CLI::App& app, const SmoothCommand& command)
     if (smooths_normals(command.options) && !other.empty())
         throw OptionError(fmt::format("{} is about the equations of mean curvature flow, but {} smooths face normals "
                                       "on the whole mesh: leave one of them out",
-                                      other, command.options.denoise ? "--preset automatic" : "--keep-edges"));
+                                      other, command.options.denoise ? "--preset " + command.preset : "--keep-edges"));
 }
 
 /// @param of_sweeps an option for sweeps; may be empty.
@@ -116,22 +116,6 @@ void require_effective(const CLI::App& app, const SmoothCommand& command)
                           " has one number per line");
 }
 
-/// Whether an option of a preset was given, or does not fit those that were.
-bool is_said(const CLI::App& app, const SmoothCommand& command, std::string_view option)
-{
-    if (option.empty())
-        return false;
-    if (app.count(std::string(option)) > 0)
-        return true;
-    const bool is_further = option == "--flow" || option == "--filter" || option == "--order" || option == "--attach";
-    if (app.count("--laplacian") > 0 && !is_symmetric(command.options.laplacian))
-        return is_further;
-    if (option == "--flow")
-        return command.options.accuracy.approach == Approach::ConjugateGradients;
-    return (option == "--attach" && app.count("--attach-weights") > 0) ||
-           (option == "--order" && app.count("--filter") > 0);
-}
-
 bool names_edges(const CLI::App& app)
 {
     return app.count("--edges") + app.count("--edges-from-file") > 0;
@@ -142,16 +126,41 @@ bool keeps_edges(const CLI::App& app)
     return app.count("--keep-edges") > 0 || names_edges(app);
 }
 
-/// The preset without an amount: options that are about the equations of a flow want one.
+/// Whether an option of a preset was given, or does not fit those that were.
+bool is_said(const CLI::App& app, const SmoothCommand& command, std::string_view option)
+{
+    if (option.empty())
+        return false;
+    if (app.count(std::string(option)) > 0)
+        return true;
+    const bool is_further = option == "--flow" || option == "--filter" || option == "--order" || option == "--attach";
+    if (option == "--direction" &&
+        (app.count("--rescale") > 0 || names_edges(app) || is_classical(command.options.interface.conditions) ||
+         command.options.interface.conditions == Conditions::Schwarz))
+        return true;
+    if (app.count("--laplacian") > 0 && !is_symmetric(command.options.laplacian))
+        return is_further;
+    if (option == "--flow")
+        return command.options.accuracy.approach == Approach::ConjugateGradients;
+    return (option == "--attach" && app.count("--attach-weights") > 0) ||
+           (option == "--order" && app.count("--filter") > 0);
+}
+
+/// Whether options are about the equation of a flow.
+bool wants_equation(const CLI::App& app)
+{
+    return !first_given(app, concern::equations).empty() ||
+           !first_given(app, {"--laplacian", "--flow", "--filter", "--order", "--attach", "--attach-weights", "--noise",
+                              "--rescale"})
+                .empty();
+}
+
+/// The preset without an amount.
 std::string_view default_preset(const CLI::App& app)
 {
     if (keeps_edges(app))
         return "cad";
-    const bool is_flow = !first_given(app, concern::equations).empty() ||
-                         !first_given(app, {"--laplacian", "--flow", "--filter", "--order", "--attach",
-                                            "--attach-weights", "--noise", "--rescale"})
-                              .empty();
-    return is_flow ? "scan" : all_presets().front().name;
+    return wants_equation(app) ? "scan" : all_presets().front().name;
 }
 
 /// Takes options that were not given from the preset that was, or that is the default without an amount.
@@ -178,10 +187,11 @@ void apply_preset(const CLI::App& app, SmoothCommand& command)
         command.preset = default_preset(app);
     const PresetTraits& preset = preset_of(command.preset);
     if (command.noise && !preset.measures_noise())
-        throw OptionError("--noise is for --preset scan and terrain; the amount of " + command.preset +
+        throw OptionError("--noise is for --preset scan, terrain and automatic; the amount of " + command.preset +
                           " does not depend on it");
     std::string left_out;
-    for (const PresetOption& option : options_of(preset)) {
+    const bool denoise = preset.denoise && !has_amount && !wants_equation(app) && !keeps_edges(app);
+    for (const PresetOption& option : options_of(preset, denoise)) {
         if (is_said(app, command, option.name)) {
             if (app.count(std::string(option.name)) == 0 && !is_symmetric(command.options.laplacian))
                 left_out += fmt::format("{}{} {}", left_out.empty() ? "" : ", ", option.name, option.value);

@@ -19,9 +19,12 @@ std::string describe_presets()
     std::string text;
     for (const PresetTraits& preset : all_presets()) {
         text += fmt::format("\n{}: {} (", preset.name, preset.purpose);
-        for (const PresetOption& option : options_of(preset))
-            text += fmt::format("{} {} ", option.name, option.value);
-        text += (preset.measures_noise() ? "and what the noise asks for" : amount_of(preset)) + ")";
+        for (const PresetOption& option : options_of(preset, preset.denoise))
+            text += option.name.empty() ? "" : fmt::format("{} {} ", option.name, option.value);
+        text += (preset.denoise            ? "and what the noise of each place asks for"
+                 : preset.measures_noise() ? "and what the noise asks for"
+                                           : amount_of(preset)) +
+                ")";
     }
     return text;
 }
@@ -54,10 +57,12 @@ void add_kind(CLI::App& app, SmoothCommand& command)
     std::vector<std::string> names;
     for (const PresetTraits& preset : all_presets())
         names.emplace_back(preset.name);
-    app.add_option("--preset", command.preset,
-                   "options for a kind of mesh [scan if no amount is given; cad with --keep-edges or --edges]\n"
-                   "Options on the command line override those of the preset." +
-                       describe_presets())
+    app.add_option(
+           "--preset", command.preset,
+           "options for a kind of mesh [automatic if no amount is given]\n"
+           "Without an amount, options about equations choose scan, and edges choose cad. Options on the command "
+           "line override those of the preset." +
+               describe_presets())
         ->check(CLI::IsMember(names).description(""))
         ->type_name("automatic|scan|cad|terrain|fair");
     add_field(app, options, "--laplacian", "discrete Laplacian [fujiwara; of fields virtual-refinement]");
@@ -323,7 +328,7 @@ std::string smooth_examples()
     return "smooth scan.obj smooth.obj                             the noise goes, edges and details stay\n"
            "smooth scan.ply smooth.ply --radius 1% --within 0.2    bumps up to 1 % of the size; no vertex goes further "
            "than 0.2\n"
-           "smooth part.stl smooth.stl --preset cad                sharp edges and flat faces stay\n";
+           "smooth part.stl smooth.stl --keep-edges 30             sharp edges and flat faces stay\n";
 }
 
 }  // namespace seamflow

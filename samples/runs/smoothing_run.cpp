@@ -35,7 +35,7 @@ void choose_amount(SmoothCommand& command, const PolygonMesh& mesh, const Execut
         command.chosen = "nothing is smoothed";
     else if (preset.radius)
         command.chosen += amount_of(preset);
-    else if (!preset.denoise)
+    else if (!command.options.denoise)
         command.chosen += fmt::format("--time-step-edges {:.3g}",
                                       command.options.time_step / (run.scale.mean_edge * run.scale.mean_edge));
 }

@@ -80,7 +80,7 @@ StageInputs inputs_of_stage(const TrainingCase& item)
 float weight_of_case(const NormalEstimates& estimates, const FaceVectors& normals)
 {
     constexpr float weight = 0.1F;
-    constexpr float least_error = 0.05F;
+    constexpr float least_error = 0.03F;
     float best = std::numeric_limits<float>::max();
     for (FaceVectors estimate : estimates.vectors) {
         normalise(estimate);
@@ -113,7 +113,7 @@ struct MixingSamples {
     /// A smooth chord between the mix and the true normal, and a little for a mix whose length is not 1.
     float loss(Eigen::Index sample, std::span<const float> outputs, std::span<float> gradient) const
     {
-        constexpr float smoothing = 1e-4F;
+        constexpr float smoothing = 4e-6F;
         constexpr float least_length = 1e-6F;
         constexpr float of_length = 0.02F;
         const auto n = static_cast<Eigen::Index>(outputs.size());

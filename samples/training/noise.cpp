@@ -24,7 +24,14 @@ enum class NoiseKind {
 
 NoiseKind draw_kind(RandomNumbers& random)
 {
-    return chance(random, 0.5) ? NoiseKind::AlongNormals : static_cast<NoiseKind>(whole_between(random, 1, 6));
+    if (chance(random, 0.4))
+        return NoiseKind::AlongNormals;
+    // Twice as often at some vertices only.
+    constexpr NoiseKind others[] = {NoiseKind::AllDirections,    NoiseKind::Coordinates,
+                                    NoiseKind::SomeAlongNormals, NoiseKind::SomeInAllDirections,
+                                    NoiseKind::SomeAlongNormals, NoiseKind::SomeInAllDirections,
+                                    NoiseKind::OneAxis,          NoiseKind::Correlated};
+    return others[random.below(8)];
 }
 
 /// In mean edge lengths.

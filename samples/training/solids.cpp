@@ -14,6 +14,9 @@
 #include <CGAL/Polygon_mesh_processing/detect_features.h>
 #include <CGAL/Polygon_mesh_processing/measure.h>
 #include <CGAL/Polygon_mesh_processing/remesh.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Count_ratio_stop_predicate.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/GarlandHeckbert_policies.h>
+#include <CGAL/Surface_mesh_simplification/edge_collapse.h>
 #include <CGAL/boost/graph/Euler_operations.h>
 #include <CGAL/subdivision_method_3.h>
 #include <Eigen/Geometry>
@@ -288,7 +291,33 @@ PolygonMesh to_mesh(const Solid& solid)
     return mesh;
 }
 
+Solid to_solid(const PolygonMesh& mesh)
+{
+    Solid solid;
+    for (Index v = 0; v < mesh.n_vertices(); ++v)
+        solid.add_vertex(to_cgal(mesh.vertices.row(v)));
+    for (Index f = 0; f < mesh.n_faces(); ++f) {
+        std::vector<Solid::Vertex_index> corners;
+        for (const Index v : mesh.face(f))
+            corners.emplace_back(static_cast<Solid::size_type>(v));
+        solid.add_face(corners);
+    }
+    return solid;
+}
+
 }  // namespace
+
+void decimate(PolygonMesh& mesh, double part)
+{
+    namespace sms = CGAL::Surface_mesh_simplification;
+    Solid solid = to_solid(mesh);
+    const sms::GarlandHeckbert_plane_policies<Solid, CGAL::Exact_predicates_inexact_constructions_kernel> quadrics(
+        solid);
+    sms::edge_collapse(solid, sms::Count_ratio_stop_predicate<Solid>(part),
+                       CGAL::parameters::get_cost(quadrics.get_cost()).get_placement(quadrics.get_placement()));
+    solid.collect_garbage();
+    mesh = to_mesh(solid);
+}
 
 std::optional<PolygonMesh> make_solid(const SolidShape& shape, RandomNumbers& random)
 {

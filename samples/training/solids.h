@@ -28,4 +28,9 @@ struct SolidShape {
 /// @returns nothing where the bodies could not be cut with each other or meshed.
 std::optional<PolygonMesh> make_solid(const SolidShape& shape, RandomNumbers& random);
 
+/// Collapses edges where they matter least (Garland and Heckbert, Surface simplification using quadric error metrics,
+/// 1997): triangles become large where the surface is flat.
+/// @param part of its edges that stay.
+void decimate(PolygonMesh& mesh, double part);
+
 }  // namespace seamflow

@@ -19,20 +19,23 @@ namespace {
 
 constexpr Index fewest_faces = 1'000;
 /// Of a surface whose angles between faces, in degrees, have a larger mean, little can be learned.
-constexpr double roughest = 14.0;
+constexpr double roughest = 24.0;
 
 /// How a smooth surface gets its shape. Angles are in degrees.
 struct Relief {
     int least_rounds;
     int most_rounds;
     int most_octaves;
+    int least_layers;
     int most_layers;
     /// How much rougher than the base.
     double least_angle;
     double most_angle;
 };
-constexpr Relief plain{0, 25, 4, 3, 1.0, 8.0};
-constexpr Relief rich{15, 90, 6, 4, 1.5, 8.0};
+constexpr Relief plain{0, 25, 4, 0, 3, 0.5, 8.0};
+constexpr Relief rich{15, 90, 6, 1, 4, 1.5, 14.0};
+constexpr Relief calm{20, 90, 4, 0, 1, 0.2, 2.0};
+constexpr Relief of_height_field{0, 0, 6, 0, 3, 0.5, 10.0};
 
 /// The mean angle between faces that share an edge, in degrees.
 double mean_angle(const PolygonMesh& mesh, const Topology& topology, const Points& positions)
@@ -173,7 +176,7 @@ void add_relief(PolygonMesh& mesh, const Relief& relief, RandomNumbers& random)
             });
     const Points base = positions;
     const double most = mean_angle(mesh, topology, base) + between(random, relief.least_angle, relief.most_angle);
-    for (int layers = whole_between(random, 1, relief.most_layers); layers > 0; --layers) {
+    for (int layers = whole_between(random, relief.least_layers, relief.most_layers); layers > 0; --layers) {
         const Pattern pattern(edge, whole_between(random, 1, relief.most_octaves), random);
         move_all([&](Index v, const Points& before) { return Point(pattern(before.row(v)) * normals(v, before)); });
     }
@@ -228,27 +231,104 @@ void cut_open(PolygonMesh& mesh, RandomNumbers& random)
     mesh = std::move(kept);
 }
 
+/// A rectangle of triangles in a plane; each cell is cut along one diagonal.
+PolygonMesh make_rectangle(RandomNumbers& random)
+{
+    const int n = whole_between(random, 30, 75);
+    const int m = whole_between(random, 30, 75);
+    const int diagonals = random.below(3);
+    const double shift = chance(random, 0.5) ? between(random, 0.0, 0.25) : 0.0;
+    PolygonMesh mesh;
+    mesh.vertices.resize(Eigen::Index{n} * m, 3);
+    for (int j = 0; j < m; ++j)
+        for (int i = 0; i < n; ++i) {
+            const Point motion = shift * normal_vector(random);
+            mesh.vertices.row(Eigen::Index{j} * n + i) = Point(i + motion.x(), j + motion.y(), 0.0);
+        }
+    for (int j = 0; j + 1 < m; ++j)
+        for (int i = 0; i + 1 < n; ++i) {
+            const Index v = j * n + i;
+            const bool turned = diagonals == 1 ? (i + j) % 2 == 1 : diagonals == 2 && chance(random, 0.5);
+            mesh.add_face(std::array{v, v + 1, turned ? v + n : v + n + 1});
+            mesh.add_face(std::array{turned ? v + 1 : v, v + n + 1, v + n});
+        }
+    return mesh;
+}
+
+/// Raises rectangles and discs, whose walls are one row of triangles wide.
+void raise_blocks(PolygonMesh& mesh, RandomNumbers& random)
+{
+    const Point size = mesh.vertices.colwise().maxCoeff();
+    for (int k = whole_between(random, 1, 6); k > 0; --k) {
+        const Point middle(between(random, 0.0, size.x()), between(random, 0.0, size.y()), 0.0);
+        const Point half(between(random, 3.0, 20.0), between(random, 3.0, 20.0), 0.0);
+        const bool round = chance(random, 0.3);
+        const double turn = chance(random, 0.5) ? 0.0 : between(random, 0.0, std::numbers::pi);
+        const double height = between(random, -8.0, 8.0);
+        const double slope = chance(random, 0.3) ? between(random, -0.5, 0.5) : 0.0;
+        for (Index v = 0; v < mesh.n_vertices(); ++v) {
+            const Point p = mesh.vertices.row(v) - middle;
+            const double x = std::abs(std::cos(turn) * p.x() + std::sin(turn) * p.y()) / half.x();
+            const double y = std::abs(std::cos(turn) * p.y() - std::sin(turn) * p.x()) / half.y();
+            if (round ? x * x + y * y < 1.0 : std::max(x, y) < 1.0)
+                mesh.vertices(v, 2) += height + slope * half.x() * (1.0 - x);
+        }
+    }
+}
+
+PolygonMesh make_height_field(RandomNumbers& random)
+{
+    PolygonMesh mesh = make_rectangle(random);
+    add_relief(mesh, of_height_field, random);
+    if (chance(random, 0.6))
+        raise_blocks(mesh, random);
+    return mesh;
+}
+
+/// A solid that may be bent. One in five is simple and large: most of its faces are far from any edge.
+std::optional<PolygonMesh> make_part(RandomNumbers& random)
+{
+    SolidShape shape;
+    if (chance(random, 0.2))
+        shape = {.most_operations = 1, .may_have_grooves = false, .least_faces = 9'000, .most_faces = 20'000};
+    std::optional<PolygonMesh> mesh = make_solid(shape, random);
+    if (mesh && chance(random, 0.4))
+        bend(*mesh, random);
+    return mesh;
+}
+
+/// A smooth solid with patterns.
+std::optional<PolygonMesh> make_body(const Relief& relief, RandomNumbers& random)
+{
+    SolidShape shape{.most_operations = 3, .sharp_angle = 60.0, .may_blur = true, .may_have_grooves = false};
+    if (&relief == &rich) {
+        shape.least_faces = 5'000;
+        shape.most_faces = 14'000;
+    }
+    std::optional<PolygonMesh> mesh = make_solid(shape, random);
+    if (mesh)
+        add_relief(*mesh, relief, random);
+    return mesh;
+}
+
 }  // namespace
 
 std::optional<PolygonMesh> make_training_surface(std::uint32_t seed, int number)
 {
     RandomNumbers random(mixed_bits(seed, static_cast<std::uint32_t>(number)));
-    const int kind = number % 3;
-    SolidShape shape;
-    if (kind > 0)
-        shape = {.most_operations = 3, .sharp_angle = 60.0, .may_blur = true, .may_have_grooves = false};
-    if (kind == 2) {
-        shape.least_faces = 5'000;
-        shape.most_faces = 14'000;
-    }
-    std::optional<PolygonMesh> mesh = make_solid(shape, random);
+    const int kind = number % 8;
+    std::optional<PolygonMesh> mesh;
+    if (kind == 7)
+        mesh = make_height_field(random);
+    else if (kind == 0 || kind == 3)
+        mesh = make_part(random);
+    else
+        mesh = make_body(kind == 1 ? plain : kind == 4 ? calm : rich, random);
     if (!mesh)
         return mesh;
-    if (kind > 0)
-        add_relief(*mesh, kind == 1 ? plain : rich, random);
-    else if (chance(random, 0.4))
-        bend(*mesh, random);
-    if (chance(random, 0.25))
+    if (kind == 6)
+        decimate(*mesh, between(random, 0.15, 0.5));
+    if (kind != 7 && chance(random, 0.25))
         cut_open(*mesh, random);
     const bool useful = mesh->n_faces() >= fewest_faces && mesh->vertices.allFinite() &&
                         mean_angle(*mesh, make_topology(*mesh), mesh->vertices) <= roughest;

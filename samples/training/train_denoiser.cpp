@@ -1,6 +1,6 @@
 // Trains the networks of the denoiser anew.
 //
-//     solids ──► patterns ──► surfaces ──► noise ──► stage 1 ──► … ──► stage 4 ──► the noise ──► mixing_weights.cpp
+//     solids ──► patterns ──► surfaces ──► noise ──► stage 1 ──► … ──► stage 3 ──► the noise ──► mixing_weights.cpp
 //                                                 (estimates, samples, a network)
 
 #include <filesystem>
@@ -58,7 +58,7 @@ ExitStatus train(int argc, char** argv)
     add_integer(app, "--samples", training.samples_per_surface, 1, "faces of each surface for each stage [800]");
     add_integer(app, "--epochs", training.epochs, 1, "how often a stage sees each of them [9]");
     add_integer(app, "--seed", seed, 0, "of everything drawn at random [1]");
-    app.footer("train_denoiser solvers/denoising/mixing_weights.cpp     half an hour\n"
+    app.footer("train_denoiser solvers/denoising/mixing_weights.cpp     an hour\n"
                "train_denoiser copy.cpp --surfaces 30 --epochs 1        a trial: half a minute\n");
     if (const auto end = parse_command_line(app, argc, argv))
         return *end;

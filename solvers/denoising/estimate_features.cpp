@@ -7,7 +7,7 @@ namespace seamflow {
 
 namespace {
 
-constexpr int near_rounds = 6;
+constexpr int near_rounds = 5;
 constexpr int further_rounds = 18;
 /// Added before logarithms are taken, and to the chord of noise by which chords are divided.
 constexpr float least_feature = 0.004F;

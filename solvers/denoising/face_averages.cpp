@@ -42,11 +42,25 @@ double area_or_none(std::span<const Index> corners, const Points& positions)
     return size > least_height * longest ? size : 0.0;
 }
 
+IndexLists neighbours_of_vertices(const PolygonMesh& mesh, const Topology& topology)
+{
+    IndexLists lists;
+    lists.offsets.reserve(at(mesh.n_vertices()) + 1);
+    for (Index v = 0; v < mesh.n_vertices(); ++v) {
+        const std::vector<Index> list = neighbours_of(mesh, topology, v);
+        lists.values.insert(lists.values.end(), list.begin(), list.end());
+        lists.close();
+    }
+    return lists;
+}
+
 }  // namespace
 
 FaceAverages::FaceAverages(const PolygonMesh& mesh, const Topology& topology, const Executor& exec)
     : mesh_(&mesh)
+    , topology_(&topology)
     , neighbours_(make_face_neighbours(mesh, topology, exec))
+    , vertex_neighbours_(neighbours_of_vertices(mesh, topology))
     , signs_(face_signs(mesh, topology))
     , areas_(at(mesh.n_faces()))
     , near_(neighbours_.faces.size())
@@ -156,8 +170,41 @@ void FaceAverages::average(float sigma, const FaceVectors& vectors, FaceVectors&
     });
 }
 
+void FaceAverages::average_far(const AverageWeights& weights, const FaceVectors& vectors, FaceVectors& means,
+                               std::array<FaceVectors, 2>& scratch, const Executor& exec) const
+{
+    // Golub and Varga, Chebyshev semi-iterative methods (1961): x⁺ = x⁻ + ω (x - x⁻ + r / d), where the eigenvalues of
+    // the matrix lie between d - c and d + c.
+    constexpr float reach = 40.0F;
+    constexpr float least_eigenvalue_of_means = -0.5F;
+    constexpr int rounds = 16;
+    constexpr float last = 1.0F + reach * (1.0F - least_eigenvalue_of_means);
+    constexpr float d = 0.5F * (last + 1.0F);
+    constexpr float c = 0.5F * (last - 1.0F);
+    FaceVectors* now = scratch.data();
+    FaceVectors* before = &scratch[1];
+    *now = vectors;
+    *before = vectors;
+    means.resize(n_faces(), 4);
+    float omega = 1.0F;
+    for (int round = 0; round < rounds; ++round) {
+        if (round > 0)
+            omega = 1.0F / (1.0F - (round == 1 ? 0.5F : 0.25F * omega) * (c / d) * (c / d));
+        average(weights, *now, means, exec);
+        for_each(exec, n_faces(), [&](Index f) {
+            const FaceVector x = now->row(f);
+            const FaceVector residual = vectors.row(f) - x + reach * (means.row(f) - x);
+            before->row(f) += omega * (x - before->row(f) + residual / d);
+        });
+        std::swap(now, before);
+    }
+    means = *now;
+}
+
 void FaceAverages::average_best_patch(const FaceVectors& vectors, FaceVectors& means, const Executor& exec) const
 {
+    // Patches that agree nearly as well as the best count, too: rounding decides nothing.
+    constexpr float tie = 0.01F;
     means.resize(n_faces(), 4);
     FaceVectors of_patches(n_faces(), 4);
     std::vector<float> agreement(areas_.size());
@@ -172,11 +219,18 @@ void FaceAverages::average_best_patch(const FaceVectors& vectors, FaceVectors& m
         agreement[f] = of_patches.row(f).squaredNorm();
     });
     for_each(exec, n_faces(), [&](Index f) {
-        Index patch = f;
+        float best = agreement[f];
         for (const Index g : neighbours_[f])
-            if (agreement[g] > agreement[patch])
-                patch = g;
-        means.row(f) = of_patches.row(patch);
+            best = std::max(best, agreement[g]);
+        constexpr float inverse_tie = 1.0F / tie;
+        float sum = decay(inverse_tie * (best - agreement[f]));
+        FaceVector total = sum * of_patches.row(f);
+        for (const Index g : neighbours_[f]) {
+            const float weight = decay(inverse_tie * (best - agreement[g]));
+            total += weight * of_patches.row(g);
+            sum += weight;
+        }
+        means.row(f) = total / sum;
     });
 }
 
@@ -184,24 +238,40 @@ void FaceAverages::spread(Rows& near, Rows& around, int rounds, int further_roun
 {
     // A few columns at a time, so that they fill registers and take little memory.
     constexpr int width = 16;
+    using NarrowRow = Eigen::Matrix<float, 1, width>;
     using NarrowRows = Eigen::Matrix<float, Eigen::Dynamic, width, Eigen::RowMajor>;
-    NarrowRows now = NarrowRows::Zero(n_faces(), width);
-    NarrowRows before(n_faces(), width);
+    const Index n_vertices = vertex_neighbours_.size();
+    NarrowRows now(n_vertices, width);
+    NarrowRows before(n_vertices, width);
     for (Eigen::Index first = 0; first < near.cols(); first += width) {
         const Eigen::Index n = std::min<Eigen::Index>(width, near.cols() - first);
-        for_each(exec, n_faces(), [&](Index f) { now.row(f).head(n) = near.row(f).segment(first, n); });
+        const auto to_faces = [&](Rows& of_faces) {
+            for_each(exec, n_faces(), [&](Index f) {
+                NarrowRow total = NarrowRow::Zero();
+                for (const Index v : mesh_->face(f))
+                    total += now.row(v);
+                of_faces.row(f).segment(first, n) = (total / static_cast<float>(mesh_->face(f).size())).head(n);
+            });
+        };
+        for_each(exec, n_vertices, [&](Index v) {
+            NarrowRow total = NarrowRow::Zero();
+            const auto corners = topology_->corners_at(v);
+            for (const Index corner : corners)
+                total.head(n) += near.row(topology_->face_of[corner]).segment(first, n);
+            now.row(v) = total / static_cast<float>(std::max(corners.size(), std::size_t{1}));
+        });
         for (int round = 1; round <= rounds + further_rounds; ++round) {
             now.swap(before);
-            for_each(exec, n_faces(), [&](Index f) {
-                Eigen::Matrix<float, 1, width> total = before.row(f);
-                for (const Index g : neighbours_[f])
-                    total += before.row(g);
-                now.row(f) = total * (1.0F / static_cast<float>(1 + neighbours_[f].size()));
+            for_each(exec, n_vertices, [&](Index v) {
+                NarrowRow total = before.row(v);
+                for (const Index w : vertex_neighbours_[v])
+                    total += before.row(w);
+                now.row(v) = total / static_cast<float>(1 + vertex_neighbours_[v].size());
             });
             if (round == rounds)
-                for_each(exec, n_faces(), [&](Index f) { near.row(f).segment(first, n) = now.row(f).head(n); });
+                to_faces(near);
         }
-        for_each(exec, n_faces(), [&](Index f) { around.row(f).segment(first, n) = now.row(f).head(n); });
+        to_faces(around);
     }
 }
 

@@ -1,11 +1,13 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include "partition/executor.h"
+#include "partition/index_lists.h"
 #include "partition/topology.h"
 #include "solvers/normals/face_neighbours.h"
 
@@ -33,7 +35,8 @@ struct AverageWeights {
 class FaceAverages {
   public:
     /// Nothing is measured yet.
-    /// @param mesh must outlive the object; its vertices are not used. @param topology with twins; not needed later.
+    /// @param mesh its vertices are not used. @param topology with twins, which are not needed later. Both must outlive
+    /// the object.
     FaceAverages(const PolygonMesh& mesh, const Topology& topology, const Executor& exec = run_serially);
 
     /// Takes areas and centroids from these positions, #V by 3, from now on.
@@ -63,6 +66,12 @@ class FaceAverages {
     void average(float sigma, const FaceVectors& vectors, FaceVectors& means,
                  const Executor& exec = run_serially) const;
 
+    /// Means that reach further, with weights that fall with distance: X of (1 + t) X - t P X = N, where N are the
+    /// vectors and P X the means around each face. It takes some rounds of the Chebyshev iteration, the same for every
+    /// mesh.
+    void average_far(const AverageWeights& weights, const FaceVectors& vectors, FaceVectors& means,
+                     std::array<FaceVectors, 2>& scratch, const Executor& exec = run_serially) const;
+
     /// The mean of that patch, a face and its neighbours, around the face or around one of its neighbours, whose
     /// vectors agree best (Zhang et al., Guided mesh normal filtering, 2015).
     void average_best_patch(const FaceVectors& vectors, FaceVectors& means, const Executor& exec = run_serially) const;
@@ -70,17 +79,22 @@ class FaceAverages {
     /// Numbers of faces, one row each.
     using Rows = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-    /// Replaces each row of numbers by its mean over the face and its neighbours, all with the same weight, several
-    /// times.
-    /// @param near #F by any number; replaced by the means after some rounds.
+    /// Spreads numbers over the surface: vertices take the mean of their faces, then several times that of themselves
+    /// and their neighbours, and faces that of their vertices.
+    /// @param near #F by any number; replaced by the means after some rounds, unless there are none.
     /// @param around as large; replaced by those after further rounds.
     void spread(Rows& near, Rows& around, int rounds, int further_rounds, const Executor& exec = run_serially) const;
+
+    /// Per vertex: those at the other ends of its edges.
+    [[nodiscard]] const IndexLists& vertex_neighbours() const { return vertex_neighbours_; }
 
     [[nodiscard]] Index n_faces() const { return static_cast<Index>(areas_.size()); }
 
   private:
     const PolygonMesh* mesh_;
+    const Topology* topology_;
     FaceNeighbours neighbours_;
+    IndexLists vertex_neighbours_;
     std::vector<std::int8_t> signs_;
     /// #F: in mean face areas.
     std::vector<float> areas_;

@@ -14,12 +14,15 @@ namespace {
 // Lengths are in lengths of the edges at the vertex. Measured on surfaces that are known, without noise and with noise
 // of 0.03 to 0.5.
 
-/// The median of the motions is larger where there is noise.
-constexpr float least_median = 0.009F;
-/// The correlation of motions at neighbouring vertices is less: that of noise is about 0, -0.1 to 0.1 on most surfaces
-/// and up to 0.18 on scans; that of details that were taken for noise was 0.37 to 0.40. Around spikes it is large, too:
-/// so it may be that of faces whose vertices move by less than a few medians, which was 0.26 and more for details.
+/// The median of the motions is larger where there is noise, and the correlation of motions at neighbouring vertices is
+/// less: that of noise was -0.11 to 0.03, and up to 0.18 on scans whose noise is alike at neighbours; that of details
+/// that were taken for noise was 0.12 and more, with medians of 0.005 and less. So a small median needs a smaller
+/// correlation.
+constexpr float least_median = 0.004F;
+constexpr float clear_median = 0.009F;
+constexpr double most_correlation_of_little = 0.06;
 constexpr double most_correlation = 0.28;
+/// Around spikes it is large, too: so it may be that of faces whose vertices move by less than a few medians.
 constexpr double most_calm_correlation = 0.15;
 constexpr float most_medians = 10.0F;
 /// Noise that leaves no doubt, as the median over the faces: it may be alike at neighbours, too.
@@ -133,6 +136,8 @@ bool is_noisy(const Motion& motion, std::span<const Index> faces)
                                  [&](Index v) { return motion.lengths[v] > most_medians * median; }))
             of_calm += of_face;
     }
+    if (median <= clear_median)
+        return all[0] < most_correlation_of_little * all[1];
     return all[0] < most_correlation * all[1] || of_calm[0] < most_calm_correlation * of_calm[1];
 }
 

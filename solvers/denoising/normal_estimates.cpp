@@ -114,7 +114,7 @@ void add_bilateral_means(const FaceAverages& averages, FaceVectors& vectors, flo
 
 NormalEstimator::NormalEstimator(const PolygonMesh& mesh, const Topology& topology, const Executor& exec)
     : averages_(mesh, topology, exec)
-    , filters_(mesh, topology, exec)
+    , filters_(topology, averages_.vertex_neighbours())
     , vertex_normals_(mesh, topology)
 {
 }
@@ -130,7 +130,7 @@ void NormalEstimator::begin(const Points& positions, const Executor& exec)
     for (std::size_t i = 0; i < filtered.size(); ++i) {
         FaceVectors normals;
         averages_.measure_normals(filtered[i], normals, exec);
-        if (rounds_of_positions[i] == 3 || rounds_of_positions[i] == 8)
+        if (rounds_of_positions[i] == 3 || rounds_of_positions[i] == 8 || rounds_of_positions[i] == 16)
             of_positions_further_.push_back(normals);
         if (rounds_of_positions[i] != 3)
             of_positions_.push_back(std::move(normals));
@@ -190,7 +190,11 @@ void NormalEstimator::further(const FaceVectors& normals, NormalEstimates& found
             add_low_pass(round, 3, mean, low_pass, exec);
         });
         writer.copy(low_pass);
+        if (sigma == 0.1F)
+            averages_.average_far(weights_, noisy_, writer.next(), scratch_, exec);
     }
+    averages_.weigh(normals, 0.03F, weights_, exec);
+    averages_.average_far(weights_, noisy_, writer.next(), scratch_, exec);
     const auto copy_first_and_last = [&](int rounds) {
         means.take(normals, rounds, [&](int round, const FaceVectors& mean) {
             if (round == 1 || round == rounds)
@@ -203,7 +207,7 @@ void NormalEstimator::further(const FaceVectors& normals, NormalEstimates& found
     copy_first_and_last(3);
     averages_.average_best_patch(normals, writer.next(), exec);
     FaceVectors bilateral = normals;
-    add_bilateral_means(averages_, bilateral, 0.3F, {4, 12}, writer, scratch_[0], exec);
+    add_bilateral_means(averages_, bilateral, 0.3F, {4}, writer, scratch_[0], exec);
     found.anchors = {0, 1, writer.count() - 1};
     writer.copy(of_positions_further_);
     writer.copy(of_robust_positions_);

@@ -45,6 +45,10 @@ class NormalEstimator {
 
     [[nodiscard]] const FaceAverages& averages() const { return averages_; }
 
+    // Filters refer to averages.
+    NormalEstimator(const NormalEstimator&) = delete;
+    NormalEstimator& operator=(const NormalEstimator&) = delete;
+
   private:
     FaceAverages averages_;
     PositionFilters filters_;

@@ -95,6 +95,13 @@ Points along_normals(const PolygonMesh& mesh, const Topology& topology, const Po
             break;
         n_free = folded.size();
     }
+    return positions;
+}
+
+void keep_facing(const PolygonMesh& mesh, const Topology& topology, const Points& before, const Points& wanted,
+                 Points& positions, const Executor& exec)
+{
+    const FoldedFaces faces(mesh, topology, wanted, exec);
     const std::vector<double> of_before = faces.cosines(before);
     for (int round = 0; round <= halvings; ++round) {
         const std::vector<double> cosines = faces.cosines(positions);
@@ -105,7 +112,6 @@ Points along_normals(const PolygonMesh& mesh, const Topology& topology, const Po
         for (const Index v : turned)
             positions.row(v) = before.row(v) + (round < halvings ? 0.5 : 0.0) * (positions.row(v) - before.row(v));
     }
-    return positions;
 }
 
 }  // namespace seamflow

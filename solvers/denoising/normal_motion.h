@@ -8,13 +8,18 @@ namespace seamflow {
 
 /// Leaves of a motion what goes along the wanted normals of the faces at each vertex, so that vertices hardly slide and
 /// parameters stay: on smooth parts along the one normal, at edges and corners in all directions that change a face.
-/// Around faces that would fold by it, vertices go where the motion takes them. If a face would still point away from
-/// its wanted normal, to which it pointed before, its vertices go half of the way, and so on: no face turns over. Bits
-/// do not depend on how loops are run.
+/// Around faces that would fold by it, vertices go where the motion takes them. Bits do not depend on how loops are
+/// run.
 /// @param topology needs no twins.
 /// @param before, after #V by 3. @param wanted #F by 3: the normals that faces are to have; 0: none.
 /// @returns #V by 3.
 Points along_normals(const PolygonMesh& mesh, const Topology& topology, const Points& before, const Points& after,
                      const Points& wanted, const Executor& exec = run_serially);
+
+/// Takes back half of the motion, and so on, of the vertices of faces that point away from their wanted normals, to
+/// which they pointed before: no face turns over. Arguments as above.
+/// @param positions #V by 3; replaced.
+void keep_facing(const PolygonMesh& mesh, const Topology& topology, const Points& before, const Points& wanted,
+                 Points& positions, const Executor& exec = run_serially);
 
 }  // namespace seamflow

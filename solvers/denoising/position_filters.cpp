@@ -19,19 +19,12 @@ constexpr double half_weight = 0.25;
 
 }  // namespace
 
-PositionFilters::PositionFilters(const PolygonMesh& mesh, const Topology& topology, const Executor& exec)
-    : is_interior_(at(mesh.n_vertices()))
+PositionFilters::PositionFilters(const Topology& topology, const IndexLists& neighbours)
+    : neighbours_(&neighbours)
+    , is_interior_(at(neighbours.size()))
 {
-    const Index n = mesh.n_vertices();
-    std::vector<std::vector<Index>> of_vertex(at(n));
-    for_each(exec, n, [&](Index v) {
-        of_vertex[v] = neighbours_of(mesh, topology, v);
+    for (Index v = 0; v < neighbours.size(); ++v)
         is_interior_[v] = topology.kind[v] == VertexKind::Interior ? 1 : 0;
-    });
-    for (const std::vector<Index>& list : of_vertex) {
-        neighbours_.values.insert(neighbours_.values.end(), list.begin(), list.end());
-        neighbours_.close();
-    }
 }
 
 /// Half of each row and half of the mean of its neighbours' rows.
@@ -40,7 +33,7 @@ void PositionFilters::average(const Rows& from, Rows& to, const Executor& exec) 
 {
     for_each(exec, static_cast<Index>(from.rows()), [&](Index v) {
         to.row(v) = from.row(v);
-        const auto around = neighbours_[v];
+        const auto around = (*neighbours_)[v];
         if (around.empty())
             return;
         Eigen::Matrix<double, 1, Rows::ColsAtCompileTime> total = from.row(around[0]);
@@ -90,9 +83,9 @@ std::vector<Points> PositionFilters::robust_low_pass(const Points& positions, co
     for (int round = 0; round < rounds_of_spread; ++round) {
         const Numbers before = around;
         for_each(exec, n, [&](Index v) {
-            for (const Index w : neighbours_[v])
+            for (const Index w : (*neighbours_)[v])
                 around[v] += before[w];
-            around[v] /= static_cast<double>(1 + neighbours_[v].size());
+            around[v] /= static_cast<double>(1 + (*neighbours_)[v].size());
         });
     }
     Numbers weights(n);

@@ -13,8 +13,8 @@ namespace seamflow {
 /// vertices move. Bits do not depend on how loops are run.
 class PositionFilters {
   public:
-    /// @param topology needs no twins. Neither is needed later.
-    PositionFilters(const PolygonMesh& mesh, const Topology& topology, const Executor& exec = run_serially);
+    /// @param neighbours per vertex: those at the other ends of its edges. Must outlive the filters.
+    PositionFilters(const Topology& topology, const IndexLists& neighbours);
 
     /// One result, #V by 3, for each of several numbers of rounds of S.
     /// @param rounds ascending.
@@ -33,8 +33,7 @@ class PositionFilters {
     template <class Rows>
     void average(const Rows& from, Rows& to, const Executor& exec) const;
 
-    /// Per vertex: those at the other ends of its edges.
-    IndexLists neighbours_;
+    const IndexLists* neighbours_;
     std::vector<std::uint8_t> is_interior_;
 };
 

@@ -32,7 +32,7 @@ TEST_CASE("what a preset chooses is said as options that give the same bytes")
         const std::string mesh = name == "cad" ? "box.obj" : "sphere.obj";
         REQUIRE(w.smooth(mesh + " by_preset.obj --report report.json --preset " + name) == 0);
         CHECK(w.json("report.json")["preset"] == name);
-        CHECK(w.json("report.json").contains("noise") == (name == "scan" || name == "terrain"));
+        CHECK(w.json("report.json").contains("noise") == (name != "fair"));
         REQUIRE(w.smooth(mesh + " by_options.obj " + chosen(w)) == 0);
         CHECK(w.run("cmp by_preset.obj by_options.obj") == 0);
     }
@@ -72,7 +72,7 @@ TEST_CASE("the noise in a report is in mean edge lengths, be it measured or said
         CHECK(w.json("r.json")["noise"].get<double>() * w.json("r.json")["mean_edge"].get<double>() ==
               test::relative(0.005, 1e-12));
     }
-    CHECK(noise[1] == test::relative(noise[0], 1e-3));
+    CHECK(noise[1] == test::relative(noise[0], 5e-3));
 }
 
 TEST_CASE("clean parts come back as they were, and what folds or crosses is counted")

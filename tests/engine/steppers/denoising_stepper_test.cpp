@@ -13,6 +13,7 @@
 #include "partition/errors.h"
 #include "partition/metrics/vertex_distance.h"
 #include "samples/meshes/meshes.h"
+#include "samples/meshes/random_numbers.h"
 #include "solvers/laplacian/geometry.h"
 #include "tests/support/denoising.h"
 #include "tests/support/flows.h"
@@ -179,6 +180,55 @@ TEST_CASE("a few spikes do not keep the rest from being smoothed")
         noisy.vertices.row(v) *= 1.0 + 5.0 * mean_edge(truth);
     const PolygonMesh result = with(noisy, denoised(noisy).positions);
     CHECK(test::angle_to_truth(truth, result) < 0.4 * test::angle_to_truth(truth, noisy));
+}
+
+TEST_CASE("a vertex that stands for missing data stays, is named, and does not keep the others from being smoothed")
+{
+    const PolygonMesh truth = test::triangle_grid(45, 45);
+    PolygonMesh noisy = test::with_gaussian_noise(truth, 0.15, 1);
+    const double before = test::angle_to_truth(truth, noisy);
+    const Index spike = 1000;
+    const double height = noisy.vertices(spike, 2);
+    noisy.vertices(spike, 2) = -9999.0;
+    const Outcome outcome = denoised(noisy);
+    CHECK(outcome.positions(spike, 2) == -9999.0);
+    CHECK(std::ranges::any_of(outcome.report.remarks,
+                              [](const std::string& remark) { return remark.starts_with("Vertex 1000 is far"); }));
+    PolygonMesh result = with(noisy, outcome.positions);
+    result.vertices(spike, 2) = height;
+    CHECK(test::angle_to_truth(truth, result) < 0.3 * before);
+}
+
+TEST_CASE("terrains keep x and y, and walls; planes stay planes, and noise goes")
+{
+    PolygonMesh truth = make_triangles(2500);
+    RandomNumbers random(3);
+    const double edge = mean_edge(truth);
+    for (Index v = 0; v < truth.n_vertices(); ++v) {
+        const double x = truth.vertices(v, 0) + 0.2 * edge * random.symmetric();
+        const double y = truth.vertices(v, 1) + 0.2 * edge * random.symmetric();
+        truth.vertices.row(v) = Point(x, y, 0.4 * x - 0.2 * y + (x > 0.3 && x < 0.7 && y > 0.3 ? 6.0 * edge : 0.0));
+    }
+    const auto flow = [](PolygonMesh mesh) {
+        mean_curvature_flow(mesh, options_for(Preset::Terrain, mesh).options);
+        return mesh;
+    };
+    CHECK(flow(truth).vertices.cwiseEqual(truth.vertices).all());
+    PolygonMesh noisy = truth;
+    for (Index v = 0; v < noisy.n_vertices(); ++v)
+        noisy.vertices(v, 2) += 0.35 * edge * random.symmetric();
+    const PolygonMesh result = flow(noisy);
+    CHECK(result.vertices.leftCols<2>().cwiseEqual(noisy.vertices.leftCols<2>()).all());
+    CHECK((result.vertices - truth.vertices).norm() < 0.6 * (noisy.vertices - truth.vertices).norm());
+    CHECK(test::angle_to_truth(truth, result) < 0.4 * test::angle_to_truth(truth, noisy));
+}
+
+TEST_CASE("a call without options removes noise")
+{
+    const PolygonMesh noisy = test::with_gaussian_noise(bumpy_sphere(2000), 0.2, 5);
+    PolygonMesh mesh = noisy;
+    CHECK(mean_curvature_flow(mesh).noise->part > 0.9);
+    CHECK(mesh.vertices.cwiseEqual(denoised(noisy).positions).all());
 }
 
 TEST_CASE("where a part of a surface has no noise it stays")

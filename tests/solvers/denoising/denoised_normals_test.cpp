@@ -1,3 +1,4 @@
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "solvers/denoising/mixing_weights.h"
 #include "solvers/denoising/normal_motion.h"
 #include "solvers/denoising/position_filters.h"
+#include "solvers/denoising/rim_filter.h"
 #include "tests/support/denoising.h"
 #include "tests/support/relative.h"
 #include "tests/support/test_meshes.h"
@@ -66,10 +68,33 @@ TEST_CASE("averages leave what is constant, get shorter where vectors differ, an
         CHECK(means.row(f).norm() > shortest);
 }
 
+TEST_CASE("means that reach far keep planes and edges, and leave little noise")
+{
+    const PolygonMesh truth = make_mesh("box", 2000);
+    const PolygonMesh noisy = test::with_gaussian_noise(truth, 0.05, 2);
+    const Topology topology = make_topology(truth);
+    FaceAverages averages(truth, topology);
+    averages.measure(truth.vertices);
+    FaceVectors normals;
+    averages.measure_normals(truth.vertices, normals);
+    FaceVectors of_noisy;
+    averages.measure_normals(noisy.vertices, of_noisy);
+    AverageWeights weights;
+    averages.weigh(normals, 0.1F, weights);
+    std::array<FaceVectors, 2> scratch;
+    FaceVectors far;
+    averages.average_far(weights, normals, far, scratch);
+    CHECK((far - normals).cwiseAbs().maxCoeff() < 1e-5F);
+    averages.average_far(weights, of_noisy, far, scratch);
+    normalise(far);
+    CHECK((far - normals).norm() < 0.15F * (of_noisy - normals).norm());
+}
+
 TEST_CASE("numbers spread evenly: constants stay, and all columns do the same")
 {
     const PolygonMesh mesh = test::triangle_torus(20, 12);
-    FaceAverages averages(mesh, make_topology(mesh));
+    const Topology topology = make_topology(mesh);
+    FaceAverages averages(mesh, topology);
     averages.measure(mesh.vertices);
     constexpr int n = 19;
     FaceAverages::Rows near = FaceAverages::Rows::Zero(mesh.n_faces(), n);
@@ -91,7 +116,8 @@ TEST_CASE("low-pass filters keep planes, and the robust one ignores the few vert
 {
     PolygonMesh mesh = test::triangle_grid(30, 30);
     const Topology topology = make_topology(mesh);
-    const PositionFilters filters(mesh, topology);
+    const FaceAverages averages(mesh, topology);
+    const PositionFilters filters(topology, averages.vertex_neighbours());
     const auto middle = static_cast<Index>(mesh.n_vertices() / 2 + 8);
     REQUIRE(topology.kind[middle] == VertexKind::Interior);
     for (const Points& positions : filters.low_pass(mesh.vertices, {2, 5}))
@@ -183,7 +209,50 @@ TEST_CASE("of a motion only what changes faces is left, and no face turns over")
     Points tilted = up;
     for (const Index corner : topology.corners_at(middle))
         tilted.row(topology.face_of[corner]) = Point(1.0, 0.0, 1.0).normalized();
-    const Points kept = along_normals(mesh, topology, mesh.vertices, torn, tilted);
+    Points kept = along_normals(mesh, topology, mesh.vertices, torn, tilted);
+    keep_facing(mesh, topology, mesh.vertices, tilted, kept);
     for (Index f = 0; f < mesh.n_faces(); ++f)
         CHECK(vector_area(mesh.face(f), kept).dot(tilted.row(f)) > 0.0);
+}
+
+TEST_CASE("a rim loses its noise within the surface, keeps its corners, and stays where it has none")
+{
+    // A disc in a plane with a rectangle's corners at its rim: a grid.
+    const PolygonMesh truth = test::triangle_grid(60, 40);
+    const Topology topology = make_topology(truth);
+    const RimFilter filter(truth, topology);
+    Topology free = topology;
+    free_boundary(free);
+    const Points up = normals_of(truth);
+    const std::vector<double> all(at(truth.n_vertices()), 1.0);
+    Points positions = truth.vertices;
+    filter.apply(free, up, all, positions);
+    CHECK(positions.cwiseEqual(truth.vertices).all());
+
+    const PolygonMesh noisy = test::with_gaussian_noise(truth, 0.3, 4);
+    positions = noisy.vertices;
+    positions.col(2).setZero();
+    const Points before = positions;
+    const auto distance_from_rim = [&](const Points& where) {
+        double squares = 0.0;
+        for (Index v = 0; v < truth.n_vertices(); ++v)
+            if (topology.kind[v] == VertexKind::Boundary)
+                for (int x = 0; x < 2; ++x)
+                    if (const double at_rim = truth.vertices(v, x);
+                        at_rim == truth.vertices.col(x).minCoeff() || at_rim == truth.vertices.col(x).maxCoeff())
+                        squares += std::pow(where(v, x) - at_rim, 2);
+        return std::sqrt(squares);
+    };
+    filter.apply(free, up, all, positions);
+    // Long waves stay.
+    CHECK(distance_from_rim(positions) < 0.75 * distance_from_rim(before));
+    for (Index v = 0; v < truth.n_vertices(); ++v)
+        if (topology.kind[v] != VertexKind::Boundary)
+            CHECK(positions.row(v).cwiseEqual(before.row(v)).all());
+    // Held, and without noise on the surface, it stays.
+    positions = before;
+    filter.apply(topology, up, all, positions);
+    CHECK(positions.cwiseEqual(before).all());
+    filter.apply(free, up, std::vector<double>(all.size(), 0.0), positions);
+    CHECK(positions.cwiseEqual(before).all());
 }
