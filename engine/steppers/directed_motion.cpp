@@ -8,7 +8,7 @@ namespace {
 
 /// Where the cosine between a line and the normal of the surface is smaller, as at walls along the line, the moved
 /// surface is not followed all the way.
-constexpr double least_cosine = 0.1;
+constexpr double least_cosine = 0.7;
 
 /// The way along a line of direction d to the plane through the moved point with normal n.
 double way_to_surface(const Point& way, const Point& d, const Point& n)
