@@ -118,9 +118,8 @@ void DenoisingStepper::describe(FlowReport& report) const
     report.noise = noise_;
     if (!spikes_.empty())
         report.remarks.push_back(fmt::format(
-            "{} far from all neighbours, more than ten times the lengths of the edges there, and {}: remove {}, or "
-            "give "
-            "{} the right position.",
+            "{} far from all neighbours, more than ten times the lengths of the edges there, and {}: remove {}, "
+            "or give {} the right position.",
             spikes_.size() == 1 ? fmt::format("Vertex {} is", spikes_[0])
                                 : fmt::format("{} vertices, the first of which is {}, are", spikes_.size(), spikes_[0]),
             spikes_.size() == 1 ? "stays" : "stay", spikes_.size() == 1 ? "it" : "them",

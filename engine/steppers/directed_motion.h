@@ -19,8 +19,9 @@ class DirectedMotion {
     [[nodiscard]] bool is_parallel() const { return !follows_normals_; }
 
     /// V' = V + ((V̂ - V)·n) n, with n the normal of V̂ at each vertex, of length 1; or V' = V + s d, the point on a line
-    /// of direction d where it meets the plane through V̂ with the normal n. So a plane stays a plane. Coordinates to
-    /// which nothing is added stay bit for bit.
+    /// of direction d where it meets the plane through V̂ with the normal n. So a plane stays a plane, and other
+    /// surfaces are followed, as far as lines meet them at 45° or more; less of the way is gone elsewhere. Coordinates
+    /// to which nothing is added stay bit for bit.
     /// @param before #V by 3: V. @param after in: V̂; out: V'.
     void project(const Points& before, Points& after, const Executor& exec) const;
 
