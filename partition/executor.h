@@ -90,12 +90,6 @@ Sum sum(const Executor& exec, Index n, Value&& value, const Sum& zero = 0.0)
         [](Sum& total, const Sum& part) { total += part; });
 }
 
-/// The middle of the i-th of k equal parts of the numbers from 0 to n - 1: these k are spread evenly, for any n.
-inline Index middle_of_part(Index i, Index k, Index n)
-{
-    return static_cast<Index>((2 * std::int64_t{i} + 1) * n / (2 * std::int64_t{k}));
-}
-
 /// The indices begin to end - 1.
 struct IndexRange {
     Index begin = 0;

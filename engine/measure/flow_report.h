@@ -145,9 +145,9 @@ struct ConvergenceReport {
 
 /// The noise that was found where FlowOptions::denoise removes it.
 struct NoiseReport {
-    /// Along the normals, root mean square over the faces that have some, in lengths of the edges there.
+    /// Along the normals, root mean square over the vertices that have some, in lengths of the edges there.
     double deviation = 0.0;
-    /// The fraction of faces that have some.
+    /// The fraction of vertices that have some.
     double part = 0.0;
 };
 

@@ -9,11 +9,11 @@
 #include "engine/measure/surface_measures.h"
 #include "engine/setup/smoothed_radius.h"
 #include "partition/errors.h"
-#include "partition/metrics/noise.h"
 #include "partition/metrics/vertex_distance.h"
 #include "partition/topology.h"
 #include "partition/weld.h"
 #include "solvers/denoising/denoising_amount.h"
+#include "solvers/denoising/mesh_denoiser.h"
 
 namespace seamflow {
 
@@ -58,6 +58,8 @@ constexpr std::array table{
 
 /// The largest change in volume of each component of the mesh, as a fraction of it.
 constexpr double most_volume_change = 0.02;
+/// Of noise, over what is measured.
+constexpr double more_than_measured = 1.15;
 /// How far vertices move along the surface at most, in standard deviations of the noise, which also moved them there.
 constexpr double most_slide = 4.0;
 /// Steps given in mean edges reach no further than this fraction of the diagonal: the shape of coarse parts is not much
@@ -97,7 +99,7 @@ void choose_by_noise(const PolygonMesh& mesh, const std::optional<LengthOnMesh>&
     const Topology& joined = welded ? welded->topology : topology;
     const double mean_edge = mean_edge_length(mesh, mesh.vertices, exec);
     const double diagonal = extent_of(mesh.vertices);
-    choice.noise = known ? length_of(*known, diagonal) : estimate_noise(flowing, joined, exec);
+    choice.noise = known ? length_of(*known, diagonal) : measure_noise(flowing, joined, exec).deviation;
     if (*choice.noise == 0.0)
         return smooth_nothing(choice, mean_edge,
                               "No noise can be told from the shape of the mesh: nothing is smoothed. Use --radius to "
@@ -113,8 +115,8 @@ void choose_by_noise(const PolygonMesh& mesh, const std::optional<LengthOnMesh>&
     const double edges = time_step_for_radius(radius, std::max(choice.options.steps, 1), filter_of(choice.options)) /
                          (mean_edge * mean_edge);
     choice.options.time_step = require_step(rounded(edges) * mean_edge * mean_edge);
-    choice.options.motion.limits.move = *choice.noise;
-    choice.options.motion.limits.slide = most_slide * *choice.noise;
+    choice.options.motion.limits.move = (known ? 1.0 : more_than_measured) * *choice.noise;
+    choice.options.motion.limits.slide = most_slide * choice.options.motion.limits.move;
 }
 
 }  // namespace

@@ -9,14 +9,11 @@
 #include "engine/tasks/progress.h"
 #include "partition/polygon_mesh.h"
 #include "partition/topology.h"
-#include "solvers/denoising/denoised_normals.h"
-#include "solvers/denoising/noisy_places.h"
-#include "solvers/denoising/rim_filter.h"
+#include "solvers/denoising/mesh_denoiser.h"
 
 namespace seamflow {
 
-/// Takes steps that remove noise (FlowOptions::denoise): face normals are estimated, and the vertices move to fit them.
-/// The whole mesh at once, its faces and vertices shared among the threads; the bits do not depend on their number.
+/// Takes steps that remove noise (FlowOptions::denoise, see MeshDenoiser). The whole mesh at once, its faces and vertices shared among the threads; the bits do not depend on their number.
 class DenoisingStepper final : public Stepper {
   public:
     /// @param mesh, topology, progress must outlive the stepper; the twins of the topology are not needed later.
@@ -36,22 +33,14 @@ class DenoisingStepper final : public Stepper {
     void describe(FlowReport& report) const override;
 
   private:
-    /// @param before #V by 3, without spikes.
-    Points denoised(const Points& before, const Executor& exec);
-
     const PolygonMesh* mesh_;
-    const Topology* topology_;
     /// #V: the part of each displacement that vertices go; empty: 1.
     std::vector<double> strengths_;
-    NormalDenoiser denoiser_;
-    NoisyPlaces places_;
-    RimFilter rims_;
+    MeshDenoiser denoiser_;
     Points positions_;
     LoopCount loops_;
     /// Before the first step.
-    std::optional<NoiseReport> noise_;
-    /// They stay (see find_spikes).
-    std::vector<Index> spikes_;
+    std::optional<SurfaceNoise> noise_;
 };
 
 }  // namespace seamflow

@@ -31,7 +31,7 @@ struct DenoisingAmount {
 ///
 /// All t are found from one Chebyshev basis of L on a sample of the mesh (see take_filter_sample); nothing is
 /// factorised, and the result does not depend on how the loop is divided.
-/// @param noise σ: the standard deviation along the normals, in units of length, as estimate_noise gives it.
+/// @param noise σ: the standard deviation along the normals, in units of length, as measure_noise gives it.
 DenoisingAmount denoising_amount(const PolygonMesh& mesh, const Topology& topology, double noise,
                                  const Executor& exec = run_serially);
 

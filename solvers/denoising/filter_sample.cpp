@@ -1,7 +1,9 @@
 #include "solvers/denoising/filter_sample.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <utility>
 
 #include "partition/index_lists.h"
@@ -23,7 +25,10 @@ std::vector<std::int8_t> rings_around_middles(const PolygonMesh& mesh, const Top
     std::vector<std::int8_t> rings(at(n), outside_patches);
     std::vector<Index> front;
     for (Index i = 0; i < n_patches; ++i) {
-        const Index v = middle_of_part(i, n_patches, n);
+        // Evenly spread, and out of step with any grid.
+        double whole = 0.0;
+        const double place = std::modf((i + 1) * (std::numbers::phi - 1.0), &whole);
+        const auto v = static_cast<Index>(place * n);
         rings[v] = 0;
         front.push_back(v);
     }
@@ -67,6 +72,22 @@ FilterSample take_filter_sample(const PolygonMesh& mesh, const Topology& topolog
             sample.measured.push_back(i);
     }
     return sample;
+}
+
+PolygonMesh mesh_of(const FilterSample& sample, const PolygonMesh& mesh)
+{
+    PolygonMesh patches;
+    patches.vertices = mesh.vertices(sample.vertices, Eigen::all);
+    std::vector<Index> face;
+    for (Index f = 0; f < mesh.n_faces(); ++f) {
+        face.clear();
+        for (const Index v : mesh.face(f))
+            if (const Index place = position_in(sample.vertices, v); place >= 0)
+                face.push_back(place);
+        if (face.size() == mesh.face(f).size())
+            patches.add_face(face);
+    }
+    return patches;
 }
 
 }  // namespace seamflow

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 #include <span>
 
 #include "partition/vector_area.h"
@@ -27,14 +28,17 @@ constexpr double most_calm_correlation = 0.15;
 constexpr float most_medians = 10.0F;
 /// Noise that leaves no doubt, as the median over the faces: it may be alike at neighbours, too.
 constexpr float much_noise = 0.16F;
-/// With fewer faces nothing can be told.
-constexpr std::size_t fewest_faces = 100;
+constexpr std::size_t fewest_without_doubt = 1000;
+/// With fewer triangles nothing can be told.
+constexpr std::size_t fewest_faces = 200;
+/// Modelled surfaces of few triangles, such as cages of subdivision surfaces, bend like noise. Their motions had
+/// correlations of 0.1 to 0.2, or medians of less than this part of the noise that was estimated.
+constexpr std::size_t few_faces = 10'000;
+constexpr float least_part_of_noise = 0.2F;
 /// The mean motion around a vertex up to which it stays, and from which on it goes all the way.
 constexpr float calm = 0.002F;
 constexpr float restless = 0.005F;
 constexpr int rounds = 24;
-/// The standard deviation of a normal distribution over its mean absolute value.
-constexpr double deviation_by_mean = 1.2533;
 
 template <class Number>
 Number middle_of(std::vector<Number>& numbers)
@@ -107,6 +111,16 @@ struct Motion {
     }
 };
 
+Components all_together(const PolygonMesh& mesh)
+{
+    Components all;
+    all.component_of.assign(at(mesh.n_faces()), 0);
+    all.nodes.values.resize(at(mesh.n_faces()));
+    std::iota(all.nodes.values.begin(), all.nodes.values.end(), Index{0});
+    all.nodes.close();
+    return all;
+}
+
 /// @param faces of a component.
 bool is_noisy(const Motion& motion, std::span<const Index> faces)
 {
@@ -120,7 +134,8 @@ bool is_noisy(const Motion& motion, std::span<const Index> faces)
             if (motion.topology.moves(v))
                 of_vertices.push_back(motion.lengths[v]);
     }
-    if (middle_of(of_faces) > much_noise)
+    const float noise = middle_of(of_faces);
+    if (noise > much_noise && faces.size() >= fewest_without_doubt)
         return true;
     if (of_vertices.empty())
         return false;
@@ -136,21 +151,23 @@ bool is_noisy(const Motion& motion, std::span<const Index> faces)
                                  [&](Index v) { return motion.lengths[v] > most_medians * median; }))
             of_calm += of_face;
     }
-    if (median <= clear_median)
+    if (faces.size() < few_faces && median < least_part_of_noise * noise)
+        return false;
+    if (median <= clear_median || faces.size() < few_faces)
         return all[0] < most_correlation_of_little * all[1];
     return all[0] < most_correlation * all[1] || of_calm[0] < most_calm_correlation * of_calm[1];
 }
 
 }  // namespace
 
-NoisyPlaces::NoisyPlaces(const PolygonMesh& mesh, const Topology& topology, const FaceAverages& averages)
+NoisyPlaces::NoisyPlaces(const PolygonMesh& mesh, const Topology& topology, const FaceAverages& averages, bool as_one)
     : averages_(&averages)
-    , components_(face_components(mesh, topology))
+    , components_(as_one ? all_together(mesh) : face_components(mesh, topology))
 {
 }
 
-Noise NoisyPlaces::find(const PolygonMesh& mesh, const Topology& topology, const Points& before, const Points& after,
-                        const DenoisedNormals& found, const Executor& exec) const
+std::vector<double> NoisyPlaces::find(const PolygonMesh& mesh, const Topology& topology, const Points& before,
+                                      const Points& after, const DenoisedNormals& found, const Executor& exec) const
 {
     const Index n = mesh.n_vertices();
     const Motion motion(mesh, topology, before, after, found, exec);
@@ -164,21 +181,17 @@ Noise NoisyPlaces::find(const PolygonMesh& mesh, const Topology& topology, const
             near(f, 0) += motion.lengths[v] / static_cast<float>(mesh.face(f).size());
     });
     averages_->spread(near, around, 0, rounds, exec);
-    Noise noise{std::vector<double>(at(n), 0.0), std::vector<double>(at(mesh.n_faces()))};
-    for_each(exec, mesh.n_faces(), [&](Index f) {
-        noise.of_faces[f] =
-            std::max(static_cast<double>(found.noise[f]), deviation_by_mean * static_cast<double>(around(f, 0)));
-    });
+    std::vector<double> parts(at(n), 0.0);
     for_each(exec, n, [&](Index v) {
         const auto corners = topology.corners_at(v);
         const auto count = static_cast<double>(corners.size());
         for (const Index corner : corners) {
             const Index f = topology.face_of[corner];
             if (noisy[components_.component_of[f]] != 0)
-                noise.parts[v] += smooth_step((around(f, 0) - calm) / (restless - calm)) / count;
+                parts[v] += smooth_step((around(f, 0) - calm) / (restless - calm)) / count;
         }
     });
-    return noise;
+    return parts;
 }
 
 }  // namespace seamflow

@@ -11,15 +11,6 @@
 
 namespace seamflow {
 
-/// Where a surface has noise.
-struct Noise {
-    /// #V: how much of its motion each vertex should make, from 0 to 1.
-    std::vector<double> parts;
-    /// #F: the standard deviation along the normals around each face, in lengths of the edges there: that of
-    /// DenoisedNormals, or of the motions where these are larger.
-    std::vector<double> of_faces;
-};
-
 /// Tells noise from shape by what a denoiser would take away.
 ///
 /// Noise moves most vertices of a component, and neighbours hardly alike (its residual is white); a detail that the
@@ -30,12 +21,14 @@ struct Noise {
 class NoisyPlaces {
   public:
     /// @param topology with twins; not needed later. @param averages of the same mesh; must outlive the object.
-    NoisyPlaces(const PolygonMesh& mesh, const Topology& topology, const FaceAverages& averages);
+    /// @param as_one whether all components are judged as one.
+    NoisyPlaces(const PolygonMesh& mesh, const Topology& topology, const FaceAverages& averages, bool as_one = false);
 
     /// @param before, after #V by 3. @param found of the positions before.
-    [[nodiscard]] Noise find(const PolygonMesh& mesh, const Topology& topology, const Points& before,
-                             const Points& after, const DenoisedNormals& found,
-                             const Executor& exec = run_serially) const;
+    /// @returns #V: how much of its motion each vertex should make, from 0 to 1.
+    [[nodiscard]] std::vector<double> find(const PolygonMesh& mesh, const Topology& topology, const Points& before,
+                                           const Points& after, const DenoisedNormals& found,
+                                           const Executor& exec = run_serially) const;
 
   private:
     const FaceAverages* averages_;

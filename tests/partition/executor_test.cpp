@@ -81,18 +81,3 @@ TEST_CASE("weights are added up by value, however the loop is run")
     CHECK(sums_by_value(run_backwards, n, 9, value, weight) == expected);
     CHECK(sums_by_value(run_serially, 0, 2, value, weight) == std::vector<std::int64_t>{0, 0});
 }
-
-TEST_CASE("middles of parts are spread over all numbers, however many there are")
-{
-    constexpr Index most = std::numeric_limits<Index>::max();
-    for (const Index n : {1, 2, 7, 500, 501, 4'000'000, 1 << 30, most})
-        for (const Index k : {1, 2, 32, 500}) {
-            CAPTURE(n);
-            CAPTURE(k);
-            if (k > n)
-                continue;
-            const double width = static_cast<double>(n) / k;
-            for (Index i = 0; i < k; ++i)
-                CHECK(std::abs(middle_of_part(i, k, n) - (i + 0.5) * width) <= 1.0);
-        }
-}

@@ -1,0 +1,82 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "partition/executor.h"
+#include "partition/polygon_mesh.h"
+#include "partition/topology.h"
+#include "solvers/denoising/denoised_normals.h"
+#include "solvers/denoising/noisy_places.h"
+#include "solvers/denoising/rim_filter.h"
+
+namespace seamflow {
+
+/// The noise of a surface.
+struct SurfaceNoise {
+    /// The standard deviation of the vertices along the normals, where there is noise: in units of length.
+    double deviation = 0.0;
+    /// The root mean square length of edges there, in the result.
+    double edge = 0.0;
+    /// The fraction of vertices that have noise.
+    double part = 0.0;
+};
+
+/// Removes noise: face normals are estimated, and the vertices move to fit them, along the normals unless a face would
+/// fold; each as far as there is noise (see NormalDenoiser, NoisyPlaces, along_normals). Rims lose theirs within the
+/// surface. No face turns over. Polygons count as the triangles into which their diagonals cut them (see triangulate):
+/// estimates of normals are trained on triangles. Bits do not depend on how loops are run.
+class MeshDenoiser {
+  public:
+    /// @param mesh, topology must outlive the object; the twins of the topology are not needed later.
+    /// @param as_one whether all components have noise or none.
+    MeshDenoiser(const PolygonMesh& mesh, const Topology& topology, const Executor& exec = run_serially,
+                 bool as_one = false);
+
+    /// @param before #V by 3. @param strengths #V: the part of each displacement that vertices go; empty: 1.
+    /// @returns #V by 3.
+    Points denoise(const Points& before, std::span<const double> strengths = {},
+                   const Executor& exec = run_serially);
+
+    /// That was found by the last call of denoise.
+    [[nodiscard]] const SurfaceNoise& noise() const { return noise_; }
+
+    /// The vertices that stayed then as spikes, ascending (see find_spikes).
+    [[nodiscard]] const std::vector<Index>& spikes() const { return spikes_; }
+
+  private:
+    /// @param before without spikes.
+    Points without_noise(const Points& before, std::span<const double> strengths, const Executor& exec);
+
+    struct Triangles {
+        PolygonMesh mesh;
+        Topology topology;
+    };
+    /// @param motions #V by 3, to the positions after. @param parts #V: 0 where there is no noise.
+    /// @param normals #F by 3.
+    void measure_noise(const Points& motions, const std::vector<double>& parts, const Points& normals,
+                       const Points& after, const Executor& exec);
+
+    /// Null if the mesh itself has no other faces.
+    static std::unique_ptr<const Triangles> cut_polygons(const PolygonMesh& mesh, const Topology& topology,
+                                                         const Executor& exec);
+
+    std::unique_ptr<const Triangles> triangles_;
+    const PolygonMesh* polygons_;
+    const Topology* polygon_topology_;
+    /// Of triangles.
+    const PolygonMesh* mesh_;
+    const Topology* topology_;
+    NormalDenoiser denoiser_;
+    NoisyPlaces places_;
+    RimFilter rims_;
+    SurfaceNoise noise_;
+    std::vector<Index> spikes_;
+};
+
+/// The noise of a mesh, or of patches spread all over it if it is large (see take_filter_sample).
+/// @param topology with twins.
+SurfaceNoise measure_noise(const PolygonMesh& mesh, const Topology& topology, const Executor& exec = run_serially);
+
+}  // namespace seamflow
