@@ -10,6 +10,7 @@
 #include "engine/mean_curvature_flow.h"
 #include "engine/ranks/rank_group.h"
 #include "engine/ranks/thread_transport.h"
+#include "engine/state/flow_state.h"
 #include "tests/support/flows.h"
 
 /// Flows whose steps ranks share, beside those of one process.

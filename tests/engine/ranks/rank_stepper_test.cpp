@@ -1,6 +1,6 @@
-#include <array>
+#include <cstring>
+#include <limits>
 #include <memory>
-#include <stdexcept>
 #include <stop_token>
 #include <string>
 #include <vector>
@@ -74,7 +74,8 @@ TEST_CASE("ranks find the bits of one process: what steps may have")
     check("held, along a line", [&](FlowOptions& o) {
         for (Index v = 0; v < mesh.n_vertices(); v += 13)
             o.motion.fixed_vertices.push_back(v);
-        o.motion.direction = {MotionDirection::Kind::Vector, Point(0.0, 1.0, 2.0)};
+        o.motion.direction.kind = MotionDirection::Kind::Vector;
+        o.motion.direction.vector = Point(0.0, 1.0, 2.0);
     });
     check("along normals", [](FlowOptions& o) { o.motion.direction.kind = MotionDirection::Kind::Normal; });
     check("rescaled", [](FlowOptions& o) { o.motion.rescale = Rescale::Area; });
@@ -154,7 +155,8 @@ TEST_CASE("flows that ranks do not share are those of one process, and rank 0 ta
         });
         check([](FlowOptions& o) {
             o.laplacian = Laplacian::PtackovaVelho;
-            o.accuracy = {.tolerance = 1e-6, .approach = Approach::Converged};
+            o.accuracy.tolerance = 1e-6;
+            o.accuracy.approach = Approach::Converged;
         });
     });
 }
@@ -190,10 +192,16 @@ TEST_CASE("ranks share fields that diffuse")
     Eigen::MatrixXd fields = Eigen::MatrixXd::Random(mesh.n_vertices(), 5);
     fields(17, 2) = std::numeric_limits<double>::quiet_NaN();
     FlowOptions options = by_sweeps(Laplacian::Fujiwara, 1e-2);
-    options.accuracy = {.tolerance = 1e-8, .approach = Approach::Converged};
+    options.accuracy.tolerance = 1e-8;
+    options.accuracy.approach = Approach::Converged;
     options.cut.subdomains = 7;
-    for (FieldOptions of_fields : {FieldOptions{}, FieldOptions{.fwhm = 0.1}, FieldOptions{.keep_edges = 0.1}}) {
-        of_fields.fill = !of_fields.keep_edges.has_value();
+    for (const int kind : {0, 1, 2}) {
+        FieldOptions of_fields;
+        if (kind == 1)
+            of_fields.fwhm = 0.1;
+        if (kind == 2)
+            of_fields.keep_edges = 0.1;
+        of_fields.fill = kind != 2;
         FlowOptions own = options;
         if (of_fields.fwhm)
             own.time_step = 0.0;
