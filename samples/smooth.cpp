@@ -1,4 +1,4 @@
-// Smooths a mesh: reads it, cuts it into sub-meshes, runs the flow and writes the result (see runs/smooth_program.cpp).
+// Smooths a mesh: reads it, cuts it into sub-meshes, runs the flow and writes the result (see smooth_program.cpp).
 //
 // What runs in each step, for every sub-mesh at once (one task graph, no barrier in between):
 //
@@ -9,7 +9,7 @@
 //        that it takes values from
 
 #include "samples/process/launched_processes.h"
-#include "samples/runs/smooth_program.h"
+#include "samples/smooth_program.h"
 
 using namespace seamflow;
 

@@ -10,7 +10,7 @@
 #include "engine/ranks/mpi_transport.h"
 #include "engine/ranks/rank_group.h"
 #include "samples/process/cpu_quota.h"
-#include "samples/runs/smooth_program.h"
+#include "samples/smooth_program.h"
 
 using namespace seamflow;
 

@@ -1,4 +1,4 @@
-#include "samples/runs/smooth_program.h"
+#include "samples/smooth_program.h"
 
 #include <algorithm>
 #include <filesystem>
