@@ -121,9 +121,11 @@ WorkOutcome unpacked_outcome(const Bytes& bytes)
 
 Communicator::Communicator(Transport& transport)
     : transport_(&transport)
-    , collective_(transport.size())
-    , ended_(transport.size())
 {
+    retry([&] {
+        collective_.resize(transport.size());
+        ended_.resize(transport.size());
+    });
 }
 
 void Communicator::send(int to, int tag, Bytes bytes)

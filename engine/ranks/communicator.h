@@ -6,6 +6,7 @@
 #include <deque>
 #include <exception>
 #include <functional>
+#include <list>
 #include <new>
 #include <optional>
 #include <span>
@@ -129,7 +130,8 @@ class Communicator {
     Transport* transport_;
     /// Per rank, what has arrived for collective functions, in order.
     std::vector<std::deque<Bytes>> collective_;
-    std::deque<Message> arrivals_;
+    /// A list takes no memory while it is empty: others would wait for a rank that has none to begin with.
+    std::list<Message> arrivals_;
     /// Per rank; empty: still at work.
     std::vector<std::optional<WorkOutcome>> ended_;
     std::atomic<std::uint64_t> n_messages_ = 0;

@@ -206,7 +206,13 @@ void RankExchange::run(StepGraph& graph, std::size_t sweep, const std::function<
     begin();
     std::vector<Arrival> arrivals = arrivals_[sweep];
     const std::jthread receiver([&] { receive_all(graph, arrivals); });
-    graph.run(sweep, 0.0, join);
+    try {
+        graph.run(sweep, 0.0, join);
+    } catch (...) {
+        // The receiver would wait for what others do not send.
+        graph.fail(std::current_exception());
+        throw;
+    }
 }
 
 void RankExchange::run_for(Index s, const std::function<void()>& body) const

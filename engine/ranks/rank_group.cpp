@@ -14,16 +14,18 @@
 #include "engine/ranks/rank_part.h"
 #include "engine/tasks/progress.h"
 #include "engine/tasks/workers.h"
+#include "partition/errors.h"
 
 namespace seamflow {
 
 namespace {
 
 /// All ranks call this together.
-int count_on_this_machine(Communicator& comm, const std::string& host)
+int count_on_this_machine(Communicator& comm, const Transport& transport)
 {
     int n = 0;
     comm.run([&] {
+        const std::string host = transport.host();
         for (const Bytes& bytes : comm.allgather(packed(std::vector<char>(host.begin(), host.end())))) {
             const auto other = unpacked<char>(bytes);
             n += std::ranges::equal(other, host) ? 1 : 0;
@@ -107,6 +109,7 @@ class RankServer {
         } catch (const std::exception&) {
             // Rank 0 has got it, too, and reports it. The flow cannot go on.
             flows_.erase(header.flow);
+            status.reset();
         }
         return status;
     }
@@ -130,7 +133,7 @@ class RankServer {
 
 RankGroup::RankGroup(Transport& transport)
     : comm_(transport)
-    , n_on_this_machine_(count_on_this_machine(comm_, transport.host()))
+    , n_on_this_machine_(count_on_this_machine(comm_, transport))
 {
 }
 
@@ -147,16 +150,25 @@ RankGroup::~RankGroup()
 void RankGroup::dismiss(int status)
 {
     has_dismissed_ = true;
-    comm_.run([&] {
-        for (int rank = 1; rank < size(); ++rank)
-            comm_.give(rank, rank_message({.task = RankTask::Dismiss, .value = status}).take());
-    });
+    // They serve on until all of them have understood it.
+    constexpr int most_attempts = 100;
+    for (int attempt = 1;; ++attempt) {
+        try {
+            return comm_.run([&] {
+                for (int rank = 1; rank < size(); ++rank)
+                    comm_.give(rank, rank_message({.task = RankTask::Dismiss, .value = status}).take());
+            });
+        } catch (const ComputationError&) {
+            if (attempt == most_attempts)
+                throw;
+        }
+    }
 }
 
 int serve_flows(Transport& transport, int threads)
 {
     Communicator comm(transport);
-    const int n_here = count_on_this_machine(comm, transport.host());
+    const int n_here = count_on_this_machine(comm, transport);
     RankServer server(comm, std::max(1, threads / n_here));
     for (;;)
         if (const std::optional<int> status = server.serve())

@@ -80,6 +80,7 @@ std::vector<FactorWindow> sufficient_windows(const std::vector<std::vector<Index
 RankPart::RankPart(Communicator& comm, DealtMesh dealt, Progress& progress)
     : comm_(comm)
     , dealt_(std::move(dealt))
+    , n_threads_(n_threads_of_arena())
 {
     for (Index v = 0; v < dealt_.mesh.n_vertices(); ++v)
         if (dealt_.is_told[v] != 0)
@@ -227,11 +228,11 @@ void RankPart::describe(Packer& answer) const
                                .messages = n_messages_,
                                .bytes = n_bytes_,
                                .peak_memory_bytes = peak_memory_bytes(),
-                               .threads = n_threads_of_arena()},
+                               .threads = n_threads_},
                     .resources = report.resources,
                     .seconds = report.seconds,
                     .n_interface_vertices = n_interface_vertices_};
-    share.resources.threads = n_threads_of_arena();
+    share.resources.threads = n_threads_;
     answer.put(share);
     answer.put_all(std::span<const SubMeshReport>(report.cut.sub_meshes));
     answer.put_all(std::span<const Index>(swept.n_nearly_singular));

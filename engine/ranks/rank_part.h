@@ -37,6 +37,8 @@ class RankPart {
 
     Communicator& comm_;
     DealtMesh dealt_;
+    /// Before steps: an arena of one thread counts another one as soon as messages have started tasks.
+    int n_threads_;
     /// What was sent in steps.
     std::uint64_t n_messages_ = 0;
     std::uint64_t n_bytes_ = 0;

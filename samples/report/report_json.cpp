@@ -114,19 +114,6 @@ Json surface_json(const RunRecord& run)
     return json;
 }
 
-Json ranks_json(const std::vector<RankRecord>& ranks)
-{
-    Json list = Json::array();
-    for (const RankRecord& rank : ranks)
-        list.push_back({{"vertices", rank.vertices},
-                        {"foreign_vertices", rank.foreign_vertices},
-                        {"messages", rank.messages},
-                        {"bytes", rank.bytes},
-                        {"threads", rank.threads},
-                        {"peak_memory_bytes", rank.peak_memory_bytes}});
-    return list;
-}
-
 /// Empty if missing or not a number.
 std::string text_of_cell(const Json& value)
 {
@@ -195,8 +182,7 @@ std::string smooth_report_json(const RunRecord& run, const FlowReport& report)
     json["choices"] = report.choices;
     json["remarks"] = report.remarks;
     json["peak_memory_bytes"] = peak_memory_of(run);
-    if (!run.ranks.empty())
-        json["ranks"] = ranks_json(run.ranks);
+    add_ranks(json, run.ranks);
     return text_of(json);
 }
 

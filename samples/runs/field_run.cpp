@@ -12,6 +12,7 @@
 
 #include "engine/fields/diffuse.h"
 #include "engine/fields/geodesic_distance.h"
+#include "engine/ranks/rank_group.h"
 #include "engine/tasks/stopwatch.h"
 #include "engine/tasks/workers.h"
 #include "partition/errors.h"
@@ -244,6 +245,8 @@ ExitStatus run_fields(SmoothCommand& command, RunRecord& run, RankGroup* ranks)
         write_text(command.report, report);
     if (!command.html.empty())
         workers.execute([&] { write_page(command, file.mesh, std::move(colours), before.values, fields, report); });
+    if (ranks != nullptr)
+        print_ranks(out, run, ranks->size());
     print_fields(out, run, summary);
     command.options.accuracy.tolerance = summary.report.flow.convergence.tolerance;
     return require_converged(command, summary.report.flow.convergence);

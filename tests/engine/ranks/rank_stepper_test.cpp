@@ -78,12 +78,14 @@ TEST_CASE("ranks find the bits of one process: what steps may have")
         o.motion.direction.vector = Point(0.0, 1.0, 2.0);
     });
     check("along normals", [](FlowOptions& o) { o.motion.direction.kind = MotionDirection::Kind::Normal; });
-    check("rescaled", [](FlowOptions& o) { o.motion.rescale = Rescale::Area; });
-    check("conformalized, rescaled", [](FlowOptions& o) {
-        o.flow = FlowEquation::Conformalized;
-        o.motion.rescale = Rescale::Area;
-    });
     check("beside the undecomposed flow", [](FlowOptions& o) { o.report.reference = true; });
+
+    for (const FlowEquation flow : {FlowEquation::MeanCurvature, FlowEquation::Conformalized})
+        for (FlowOptions options : {by_sweeps(Laplacian::Fujiwara, 2e-3), converged(Laplacian::Fujiwara, 2e-3)}) {
+            options.flow = flow;
+            options.motion.rescale = Rescale::Volume;
+            check_bits("rescaled", make_noisy_sphere(800), options, 8, {2, 5});
+        }
 
     FlowOptions options = by_sweeps(Laplacian::Fujiwara, 2e-3);
     options.interface.transmission = Transmission::Derivative;
