@@ -79,6 +79,10 @@ Dealer::Dealer(const PolygonMesh& mesh, const Topology& topology, std::span<cons
     , is_told_(at(mesh.n_vertices()), 0)
     , knows_face_(at(mesh.n_faces()), -1)
     , knows_vertex_(at(mesh.n_vertices()), -1)
+    , meets_vertex_(at(mesh.n_vertices()), -1)
+    , place_(at(mesh.n_vertices()), 0)
+    , known_vertices_(static_cast<std::size_t>(n_ranks))
+    , told_vertices_(known_vertices_.size())
 {
     // A sub-mesh goes where its middle face is in a mesh that is divided equally.
     double before = 0.0;
@@ -121,19 +125,24 @@ void Dealer::deal(int rank, Packer& message)
     std::vector<Index> sub_meshes;
     std::vector<Index> own_vertices;
     for (const Index f : faces) {
-        const auto corners = mesh_->face(f);
-        vertices.insert(vertices.end(), corners.begin(), corners.end());
-        sub_meshes.push_back(labels_[f]);
-        if (holders_[labels_[f]] == rank)
-            own_vertices.insert(own_vertices.end(), corners.begin(), corners.end());
+        const Index s = labels_[f];
+        if (sub_meshes.empty() || sub_meshes.back() != s)
+            sub_meshes.push_back(s);
+        for (const Index v : mesh_->face(f)) {
+            if (std::exchange(meets_vertex_[v], rank) != rank)
+                vertices.push_back(v);
+            if (holders_[s] == rank && std::exchange(is_told_[v], std::uint8_t{1}) == 0)
+                own_vertices.push_back(v);
+        }
     }
-    sort_unique(vertices);
+    std::ranges::sort(vertices);
     sort_unique(sub_meshes);
-    sort_unique(own_vertices);
-    std::erase_if(own_vertices, [&](Index v) { return std::exchange(is_told_[v], std::uint8_t{1}) != 0; });
+    std::ranges::sort(own_vertices);
+    for (std::size_t i = 0; i < vertices.size(); ++i)
+        place_[vertices[i]] = static_cast<Index>(i);
     std::vector<std::uint8_t> is_told(vertices.size(), 0);
     for (const Index v : own_vertices)
-        is_told[position_in(vertices, v)] = 1;
+        is_told[place_[v]] = 1;
 
     for_each_dealt(*options_, [&](const auto& option) { message.put(option); });
     message.put_all(std::span<const Index>(holders_));
@@ -148,7 +157,7 @@ void Dealer::deal(int rank, Packer& message)
     std::vector<Index> labels;
     for (const Index f : faces) {
         for (const Index v : mesh_->face(f))
-            part.face_vertices.push_back(position_in(vertices, v));
+            part.face_vertices.push_back(place_[v]);
         part.face_offsets.push_back(part.n_corners());
         labels.push_back(position_in(sub_meshes, labels_[f]));
     }
@@ -163,8 +172,8 @@ void Dealer::deal(int rank, Packer& message)
     put_rows_of(curvature_, vertices, message);
     put_rows_of(options_->motion.strength, vertices, message);
     put_rows_of(options_->motion.attachment_weights, vertices, message);
-    known_vertices_.push_back(std::move(vertices));
-    told_vertices_.push_back(std::move(own_vertices));
+    known_vertices_[rank] = std::move(vertices);
+    told_vertices_[rank] = std::move(own_vertices);
 }
 
 }  // namespace seamflow

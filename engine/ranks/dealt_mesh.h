@@ -45,7 +45,7 @@ class Dealer {
     Dealer(const PolygonMesh& mesh, const Topology& topology, std::span<const Index> labels, Index n_parts,
            const FlowOptions& options, std::vector<double> curvature, int n_ranks);
 
-    /// Puts what a rank gets into its message; once for each rank, in ascending order.
+    /// Puts what a rank gets into its message; once for each rank, in any order.
     void deal(int rank, Packer& message);
 
     /// The rank of each sub-mesh.
@@ -69,9 +69,12 @@ class Dealer {
     std::vector<Index> holders_;
     /// #V: whether a rank tells of the vertex already.
     std::vector<std::uint8_t> is_told_;
-    /// #F and #V: the last rank that knows it.
+    /// #F and #V: the last rank that knows the face, has looked around the vertex, and has got it.
     std::vector<std::int32_t> knows_face_;
     std::vector<std::int32_t> knows_vertex_;
+    std::vector<std::int32_t> meets_vertex_;
+    /// #V: the place of the vertex among those of the last rank that has it.
+    std::vector<Index> place_;
     std::vector<std::vector<Index>> known_vertices_;
     std::vector<std::vector<Index>> told_vertices_;
 };

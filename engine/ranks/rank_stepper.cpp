@@ -63,15 +63,16 @@ void RankStepper::deal(const PolygonMesh& mesh, const Topology& topology, const 
     std::vector<std::vector<SavedRow>> saved(static_cast<std::size_t>(comm.size()));
     Dealer dealer(mesh, topology, cut.labels, cut.n_parts, options, std::move(curvature), comm.size());
     comm.run([&] {
-        Packer of_first;
-        dealer.deal(0, of_first);
-        for (int rank = 1; rank < comm.size(); ++rank) {
+        // The others begin while rank 0 makes its own part.
+        for (int rank = comm.size() - 1; rank > 0; --rank) {
             Packer message =
                 rank_message({.task = RankTask::Deal, .flow = flow_, .value = ranks_->threads_of_others()});
             dealer.deal(rank, message);
             comm.give(rank, message.take());
             comm.take(rank);
         }
+        Packer of_first;
+        dealer.deal(0, of_first);
         Bytes message = of_first.take();
         Unpacker unpacker(message);
         DealtMesh dealt = dealt_mesh(unpacker);
