@@ -222,13 +222,20 @@ ExitStatus run(SmoothCommand& command, RunRecord& run, RankGroup* ranks)
     return require_converged(command, report.convergence);
 }
 
+/// Whether the command line asks for what rank 0 does alone.
+bool is_for_one_rank(const SmoothCommand& command)
+{
+    const FlowOptions& options = command.options;
+    return options.scheme == Scheme::ExplicitEuler || smooths_normals(options) ||
+           takes_whole_mesh(options.accuracy.approach) || options.report.record_schedule ||
+           !command.fields.from.empty() || command.fields.options.keep_edges;
+}
+
 /// The threads of one machine are for all its ranks, unless rank 0 does everything alone.
 void share_threads(SmoothCommand& command, RankGroup& ranks)
 {
-    const FlowOptions& options = command.options;
     int& threads = command.options.resources.threads;
-    if (options.scheme == Scheme::ExplicitEuler || smooths_normals(options) ||
-        takes_whole_mesh(options.accuracy.approach))
+    if (is_for_one_rank(command))
         return;
     if (command.chooses_threads)
         threads = std::max(1, threads / ranks.n_on_this_machine());

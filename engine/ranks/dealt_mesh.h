@@ -40,8 +40,8 @@ DealtMesh dealt_mesh(Unpacker& message);
 /// Deals the sub-meshes of a mesh to ranks: each gets consecutive ones, with about equally many faces.
 class Dealer {
   public:
-    /// @param mesh, topology, labels, options must outlive this. @param labels #F, each in 0 to n_parts - 1.
-    /// @param curvature #V, or empty.
+    /// @param mesh, topology, options must outlive this. @param labels #F, each in 0 to n_parts - 1; must outlive this,
+    /// too. @param curvature #V, or empty.
     Dealer(const PolygonMesh& mesh, const Topology& topology, std::span<const Index> labels, Index n_parts,
            const FlowOptions& options, std::vector<double> curvature, int n_ranks);
 
