@@ -3,24 +3,6 @@
 # #include <seamflow/engine/mean_curvature_flow.h>, with an installed library or one that is built along. The test
 # consumer.headers checks that none is missing.
 set(SEAMFLOW_HEADERS
-    engine/distributed/cut/distributed_cut.h
-    engine/distributed/cut/joined_seams.h
-    engine/distributed/cut/repeated_faces.h
-    engine/distributed/distributed_fields.h
-    engine/distributed/distributed_flow.h
-    engine/distributed/files/open_together.h
-    engine/distributed/files/shared_mesh_file.h
-    engine/distributed/parts/deal.h
-    engine/distributed/parts/mesh_part.h
-    engine/distributed/parts/slice_measures.h
-    engine/distributed/parts/still_faces.h
-    engine/distributed/parts/whole_mesh.h
-    engine/distributed/rank_report.h
-    engine/distributed/ranks/transport.h
-    engine/distributed/ranks/communicator.h
-    engine/distributed/ranks/mpi_transport.h
-    engine/distributed/ranks/packing.h
-    engine/distributed/ranks/thread_transport.h
     engine/eigen.h
     engine/fields/diffuse.h
     engine/fields/field_columns.h
@@ -34,6 +16,12 @@ set(SEAMFLOW_HEADERS
     engine/options/flow_control.h
     engine/options/flow_options.h
     engine/measure/flow_report.h
+    engine/ranks/communicator.h
+    engine/ranks/mpi_transport.h
+    engine/ranks/packing.h
+    engine/ranks/rank_group.h
+    engine/ranks/thread_transport.h
+    engine/ranks/transport.h
     engine/tasks/schedule.h
     engine/options/valid_options.h
     engine/setup/presets.h

@@ -10,6 +10,7 @@
 
 #include "engine/measure/remarks.h"
 #include "engine/measure/surface_measures.h"
+#include "engine/ranks/rank_stepper.h"
 #include "engine/step_tools.h"
 #include "engine/steppers/make_stepper.h"
 #include "engine/steppers/switching_stepper.h"
@@ -115,7 +116,7 @@ class FlowRun::StepFractions {
 };
 
 FlowRun::FlowRun(FlowingMesh& mesh, std::unique_ptr<PreparedFlow> prepared, Progress& progress, double setup,
-                 FlowReport& report, const FlowState* resume)
+                 FlowReport& report, const FlowControl& control)
     : mesh_(mesh)
     , prepared_(std::move(prepared))
     , progress_(progress)
@@ -123,13 +124,14 @@ FlowRun::FlowRun(FlowingMesh& mesh, std::unique_ptr<PreparedFlow> prepared, Prog
     , setup_(setup)
     , curvature_before_(largest_curvature(prepared_->curvature))
     , extent_before_(extent_of(mesh.mesh().vertices))
-    , resume_(resume)
+    , resume_(control.resume.get())
+    , ranks_(control.ranks)
 {
     make_steppers();
     tools_ = std::make_unique<StepTools>(mesh.mesh(), prepared_->topology, options());
     free_topology();
-    if (resume != nullptr)
-        restore(*resume);
+    if (resume_ != nullptr)
+        restore(*resume_);
     const auto n_taken = static_cast<int>(report.steps.size());
     if (n_taken > 0)
         curvature_before_ = report.steps.back().max_mean_curvature_after;
@@ -172,6 +174,9 @@ void FlowRun::make_steppers()
         filter_of(options()).is_plain())
         stepper_ =
             std::make_unique<SwitchingStepper>(mesh, prepared_->topology, options(), *prepared_->costs, progress_);
+    else if (ranks_ != nullptr && can_share(*ranks_, prepared_->cut, options()))
+        stepper_ = std::make_unique<RankStepper>(*ranks_, mesh, prepared_->topology, prepared_->cut, options(),
+                                                 std::move(prepared_->curvature), progress_);
     else
         stepper_ = make_stepper(mesh, prepared_->topology, prepared_->cut, options(), std::move(prepared_->curvature),
                                 progress_);

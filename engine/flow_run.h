@@ -24,10 +24,10 @@ class FlowRun {
     /// Makes the stepper, and that of the undecomposed flow if it is asked for.
     /// @param mesh, progress, report must outlive the run; the mesh moves with each step.
     /// @param setup the fraction of the whole flow that setup takes.
-    /// @param resume the state to resume from, which must outlive the run; nullptr: from the beginning.
+    /// @param control with the state to resume from, and ranks that share the steps; must outlive the run.
     /// @throws as make_stepper; InputError for a state that does not fit.
     FlowRun(FlowingMesh& mesh, std::unique_ptr<PreparedFlow> prepared, Progress& progress, double setup,
-            FlowReport& report, const FlowState* resume);
+            FlowReport& report, const FlowControl& control);
     FlowRun(const FlowRun&) = delete;
     FlowRun& operator=(const FlowRun&) = delete;
     ~FlowRun();
@@ -81,6 +81,8 @@ class FlowRun {
     /// Before the first step (see extent_of).
     double extent_before_;
     const FlowState* resume_;
+    /// Null where one process takes all steps.
+    RankGroup* ranks_;
     /// Between steps, so that the options no longer describe the flow.
     bool was_changed_ = false;
     /// #V: those held between steps.

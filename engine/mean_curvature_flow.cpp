@@ -52,7 +52,7 @@ class Flow::Session {
         , workers_(options.resources.threads)
         , progress_(control)
     {
-        workers_.execute([&] { set_up(mesh, options, control.resume.get(), is_observed, report); });
+        workers_.execute([&] { set_up(mesh, options, control, is_observed, report); });
     }
     Session(const Session&) = delete;
     Session& operator=(const Session&) = delete;
@@ -116,19 +116,19 @@ class Flow::Session {
                 "an earlier step has failed, which leaves nothing to continue from: begin a new flow");
     }
 
-    void set_up(PolygonMesh& mesh, const FlowOptions& options, const FlowState* resume, bool is_observed,
+    void set_up(PolygonMesh& mesh, const FlowOptions& options, const FlowControl& control, bool is_observed,
                 FlowReport& report)
     {
         Stopwatch watch;
         progress_.set_steps(options.steps);
-        const double setup = fraction_of_setup(options, resume);
+        const double setup = fraction_of_setup(options, control.resume.get());
         progress_.enter(FlowPhase::Cut, 0, 0.0, 0.6 * setup);
         progress_.expect(8.0);
         flowing_.emplace(mesh);
-        auto prepared = prepare(*flowing_, options, is_observed, resume, progress_);
+        auto prepared = prepare(*flowing_, options, is_observed, control, progress_);
         report.resources.threads = workers_.threads();
         report.seconds.cut = watch.lap();
-        run_.emplace(*flowing_, std::move(prepared), progress_, setup, report, resume);
+        run_.emplace(*flowing_, std::move(prepared), progress_, setup, report, control);
     }
 
     int n_expected_;

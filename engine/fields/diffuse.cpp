@@ -199,6 +199,10 @@ FieldReport diffuse(const PolygonMesh& mesh, Eigen::MatrixXd& fields, const Flow
     FlowOptions of_flow = flow_for_fields(options, field_options);
     of_flow.time_step = time_step_of(of_flow, mesh);
     of_flow.radius.reset();
+    // Where edges are kept, K changes between steps.
+    FlowControl own_control = control;
+    if (field_options.keep_edges)
+        own_control.ranks = nullptr;
     std::vector<FieldGroup> groups = group_columns(fields);
     std::vector<std::vector<std::string>> remarks;
     // #V: whether a column lacks data there, or has got some.
@@ -210,7 +214,7 @@ FieldReport diffuse(const PolygonMesh& mesh, Eigen::MatrixXd& fields, const Flow
         std::ranges::transform(lacking, group.lacks, lacking.begin(), std::bit_or<>());
         const bool measures = field_options.fwhm && !report.fwhm && options.steps > 0;
         own.steps = options.steps * (n_blocks(std::ssize(group.columns)) + (measures ? 1 : 0));
-        Flow flow(surface, own, {}, control);
+        Flow flow(surface, own, {}, own_control);
         ScaledFields scaled(fields, group, ranges_of(fields, group), own.time_step);
         if (field_options.keep_edges)
             for (int step = 0; step < options.steps; ++step) {

@@ -2,7 +2,7 @@
 
 #include <atomic>
 #include <cmath>
-#include <utility>
+#include <vector>
 
 #include "engine/tasks/parallel_executor.h"
 
@@ -19,17 +19,13 @@ constexpr double accuracy = 1e-4;
 
 }  // namespace
 
-DisplacementBound::DisplacementBound(const PolygonMesh& mesh, const Topology& topology, double bound,
-                                     KnownElsewhere elsewhere)
+DisplacementBound::DisplacementBound(const PolygonMesh& mesh, const Topology& topology, double bound)
     : bound_(bound)
-    , elsewhere_(std::move(elsewhere))
     , first_(mesh.vertices)
 {
     for (Index v = 0; v < mesh.n_vertices(); ++v) {
-        if (is_own(v)) {
-            const std::vector<Index> around = neighbours_of(mesh, topology, v);
-            neighbours_.values.insert(neighbours_.values.end(), around.begin(), around.end());
-        }
+        const std::vector<Index> around = neighbours_of(mesh, topology, v);
+        neighbours_.values.insert(neighbours_.values.end(), around.begin(), around.end());
         neighbours_.close();
     }
 }
@@ -44,13 +40,13 @@ void DisplacementBound::apply(Points& positions) const
 {
     const auto n = static_cast<Index>(first_.rows());
     const Points displacements = positions - first_;
-    const auto moves = [&](Index v) { return is_own(v) && !displacements.row(v).isZero(0.0); };
+    const auto moves = [&](Index v) { return !displacements.row(v).isZero(0.0); };
     std::atomic<bool> is_beyond = false;
     for_each(run_in_parallel, n, [&](Index v) {
         if (moves(v) && displacements.row(v).stableNorm() > bound_)
             is_beyond = true;
     });
-    if (!(elsewhere_.any ? elsewhere_.any(is_beyond) : is_beyond.load()))
+    if (!is_beyond)
         return;
 
     const double root = std::sqrt(largest_eigenvalue);
@@ -76,8 +72,6 @@ void DisplacementBound::apply(Points& positions) const
             const Point displacement = displacements.row(v);
             correction.row(v) = bounded(displacement + here - gradient / largest_eigenvalue) - displacement;
         });
-        if (elsewhere_.fetch)
-            elsewhere_.fetch(correction);
     }
     for_each(run_in_parallel, n, [&](Index v) {
         if (moves(v))

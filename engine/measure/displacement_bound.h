@@ -1,25 +1,11 @@
 #pragma once
 
-#include <cstdint>
-#include <functional>
-#include <vector>
-
 #include "partition/index_lists.h"
 #include "partition/polygon_mesh.h"
 #include "partition/topology.h"
 #include "partition/vector_area.h"
 
 namespace seamflow {
-
-/// Access to the rest of a mesh known in part. All who know a part call both functions together.
-struct KnownElsewhere {
-    /// #V: whether a vertex and all its neighbours are known.
-    std::vector<std::uint8_t> is_own = {};
-    /// Sets the rows of those neighbours of own vertices that are not own.
-    std::function<void(Points& rows)> fetch = {};
-    /// Whether it holds for any of them.
-    std::function<bool(bool holds)> any = {};
-};
 
 /// Keeps every vertex within a distance r of where it was: the surface is replaced by the nearest one that satisfies
 /// this, so that vertices are held on the boundaries of their spheres and all others follow smoothly.
@@ -32,18 +18,16 @@ struct KnownElsewhere {
 class DisplacementBound {
   public:
     /// Takes the positions of the mesh as those to stay near.
-    /// @param bound r, above 0, in units of length. @param elsewhere empty where the mesh is known as a whole.
-    DisplacementBound(const PolygonMesh& mesh, const Topology& topology, double bound, KnownElsewhere elsewhere = {});
+    /// @param bound r, above 0, in units of length.
+    DisplacementBound(const PolygonMesh& mesh, const Topology& topology, double bound);
 
     /// @param positions #V by 3, as a flow has them; receives those within the bound.
     void apply(Points& positions) const;
 
   private:
-    [[nodiscard]] bool is_own(Index v) const { return elsewhere_.is_own.empty() || elsewhere_.is_own[v] != 0; }
     [[nodiscard]] Point bounded(const Point& displacement) const;
 
     double bound_;
-    KnownElsewhere elsewhere_;
     /// #V by 3.
     Points first_;
     IndexLists neighbours_;

@@ -63,9 +63,6 @@ struct StepReport {
     double max_mean_curvature_after = 0.0;
     /// How far the vertices moved in this step, in units of length (see split_displacement).
     DisplacementStatistics displacement;
-    /// Where ranks share the mesh, instead of the curvature and the parts of displacements: how far the vertices of
-    /// faces moved in this step, in units of length.
-    std::optional<LengthStatistics> moved;
     /// With the classical conditions, how far apart the copies of Γ are after this step: over the vertices of Γ, the
     /// largest distance between two copies, in units of length.
     std::optional<LengthStatistics> gap;
@@ -162,6 +159,18 @@ struct ResourceReport {
     Index single_factors = 0;
 };
 
+/// What one of several ranks that shared the steps did.
+struct RankRecord {
+    /// Vertices whose positions it found, and others of the faces around its sub-meshes.
+    std::int64_t vertices = 0;
+    std::int64_t foreign_vertices = 0;
+    /// What it sent in all steps together.
+    std::uint64_t messages = 0;
+    std::uint64_t bytes = 0;
+    std::int64_t peak_memory_bytes = 0;
+    std::int64_t threads = 0;
+};
+
 /// What a flow did.
 struct FlowReport {
     MeshReport mesh;
@@ -172,9 +181,11 @@ struct FlowReport {
     double time_step = 0.0;
     ConvergenceReport convergence;
     ResourceReport resources;
+    /// Empty where one process took all steps (see FlowControl::ranks).
+    std::vector<RankRecord> ranks;
     PhaseSeconds seconds;
     std::vector<StepReport> steps;
-    /// With ReportOptions::measures; empty where ranks share the mesh.
+    /// With ReportOptions::measures.
     std::optional<TotalDisplacement> displacement;
     /// The sub-meshes at the end, none sharing a vertex with another, with ReportOptions::keep_gaps: the faces in the
     /// order of the mesh; its vertices first, then the further copies.

@@ -55,13 +55,6 @@ UpdateLimit::UpdateLimit(const PolygonMesh& mesh, double diagonals)
     largest_ = diagonals * diagonal_;
 }
 
-UpdateLimit::UpdateLimit(const PolygonMesh& mesh, double diagonal, double diagonals)
-    : mesh_(mesh)
-    , diagonal_(diagonal)
-    , largest_(diagonals * diagonal)
-{
-}
-
 std::optional<UpdateLimit::Excess> UpdateLimit::find(const Points& before, const Points& after) const
 {
     if (after.rows() == 0)
@@ -88,12 +81,9 @@ void UpdateLimit::require(const Points& before, const Points& after, std::span<c
     while (face < mesh_.n_faces() && std::ranges::find(mesh_.face(face), excess->vertex) == mesh_.face(face).end())
         ++face;
     const std::string where = face < mesh_.n_faces() ? fmt::format("sub-mesh {}, ", labels[face]) : "";
-    throw ComputationError(too_far(fmt::format("{}vertex {}", where, excess->vertex), excess->what));
-}
-
-std::string too_far(const std::string& where, const std::string& what)
-{
-    return fmt::format("{} {}: use a smaller time step or another Laplacian, or repair the mesh there", where, what);
+    throw ComputationError(
+        fmt::format("{}vertex {} {}: use a smaller time step or another Laplacian, or repair the mesh there", where,
+                    excess->vertex, excess->what));
 }
 
 }  // namespace seamflow

@@ -17,9 +17,13 @@ class UpdateLimit {
     ///        faces have now (see AccuracyOptions::largest_update).
     UpdateLimit(const PolygonMesh& mesh, double diagonals);
 
-    /// @param mesh a part of the mesh. @param diagonal of the whole mesh's bounding box, in units of length.
-    UpdateLimit(const PolygonMesh& mesh, double diagonal, double diagonals);
+    /// Checks one step.
+    /// @param before, after #V by 3.
+    /// @param labels #F, the sub-mesh of every face, for the message.
+    /// @throws ComputationError naming sub-mesh and vertex (both numbered from 0) and what to do.
+    void require(const Points& before, const Points& after, std::span<const Index> labels) const;
 
+  private:
     /// A vertex that goes too far, and what it would do, in words.
     struct Excess {
         Index vertex = 0;
@@ -29,21 +33,10 @@ class UpdateLimit {
     /// The vertex that goes furthest, if that is too far.
     [[nodiscard]] std::optional<Excess> find(const Points& before, const Points& after) const;
 
-    /// Checks one step.
-    /// @param before, after #V by 3.
-    /// @param labels #F, the sub-mesh of every face, for the message.
-    /// @throws ComputationError naming sub-mesh and vertex (both numbered from 0) and what to do.
-    void require(const Points& before, const Points& after, std::span<const Index> labels) const;
-
-  private:
     const PolygonMesh& mesh_;
     double diagonal_ = 0.0;
     /// Units of length.
     double largest_ = 0.0;
 };
-
-/// The words for what is too far.
-/// @param where the vertex and its sub-mesh, in words.
-std::string too_far(const std::string& where, const std::string& what);
 
 }  // namespace seamflow

@@ -6,6 +6,7 @@
 
 namespace seamflow {
 
+class RankGroup;
 struct FlowState;
 
 /// What a flow is doing.
@@ -44,6 +45,11 @@ struct FlowControl {
     /// The state to resume from instead of the beginning, made by StepState::capture in an observer of the same flow:
     /// of the same mesh and options, except for the number of steps and for options that do not change results.
     std::shared_ptr<const FlowState> resume = nullptr;
+    /// Ranks that share the steps; must outlive the flow. Where the approach is left open, it is then one that they can
+    /// share: sweeps, or converged steps. Rank 0, which runs the flow, does everything else alone, and those steps,
+    /// too, that they cannot share. Nothing but the approach depends on them. A flow that they share changes nothing
+    /// between its steps but positions (see Flow).
+    RankGroup* ranks = nullptr;
 };
 
 }  // namespace seamflow

@@ -8,7 +8,7 @@
 #include "engine/options/flow_options.h"
 
 /// The table of all options of a flow. What is said of options elsewhere comes from here: the limits of numbers, which
-/// options exclude others, what determines the result of a flow, what distributed flows lack, and the options of
+/// options exclude others, what determines the result of a flow, and the options of
 /// command lines. A further field of FlowOptions has one line here; the compiler asks for it.
 namespace seamflow {
 
@@ -27,12 +27,8 @@ constexpr unsigned converged_steps = 32U;
 constexpr unsigned solution = 64U;
 /// All these: the equations of a step, which steps that keep edges do not have.
 constexpr unsigned equations = (solution << 1U) - 1U;
-/// It needs the whole mesh in one process: distributed flows lack it.
-constexpr unsigned one_process = 128U;
-/// Each rank of a distributed flow has its share of it with its part of the mesh.
-constexpr unsigned part = 256U;
 /// The result of a step does not depend on it.
-constexpr unsigned no_result = 512U;
+constexpr unsigned no_result = 128U;
 }  // namespace concern
 
 /// The limits of a number.
@@ -104,21 +100,20 @@ auto option_table(Options& options)
             not_negative("at least 0 and finite (a length; 0: the mean edge length of the mesh)")),
         row("steps", "--steps", no_result, steps,
             Limits{0.0, FlowOptions::most_steps, false, false, "at least 0 and at most 1000000000"}),
-        row("subdomains", "--subdomains", sub_meshes | part, subdomains, at_least(0, "at least 0 (0: chosen)")),
-        row("labels", "--labels", sub_meshes | part, labels),
-        row("scheme", "--scheme", method | one_process, scheme),
+        row("subdomains", "--subdomains", sub_meshes, subdomains, at_least(0, "at least 0 (0: chosen)")),
+        row("labels", "--labels", sub_meshes, labels),
+        row("scheme", "--scheme", method, scheme),
         row("conditions", "--conditions", sweeps | implies_sweeps | method, conditions),
         row("transmission", "--transmission", sweeps | implies_sweeps | method, transmission),
         row("p", "--p", sweeps | method, p, positive("positive and finite (1/length)")),
         row("p_rule", "--p-rule", sweeps | implies_sweeps | method, p_rule),
         row("p_edge", "--p-edge", sweeps | implies_sweeps | method, p_edge),
         row("q", "--q", sweeps | method, q, not_negative("at least 0 and finite")),
-        row("overlap", "--overlap", sweeps | method | one_process, overlap,
-            at_least(1, "at least 1 (layers of faces)")),
+        row("overlap", "--overlap", sweeps | method, overlap, at_least(1, "at least 1 (layers of faces)")),
         row("correction", "--no-correction", sweeps | method, correction),
         row("sweep", "--sweep", sweeps, sweep),
         row("colouring", "--coloring", sweeps | implies_sweeps, colouring),
-        row("keep_gaps", "--keep-gaps", sweeps | method | one_process | no_result, keep_gaps),
+        row("keep_gaps", "--keep-gaps", sweeps | method | no_result, keep_gaps),
         row("tolerance", "--converge", solution, tolerance,
             Limits{0.0, 1.0, true, true, "positive and below 1 (residual against that at the beginning of a step)"}),
         row("converge_iterations", "--converge-iterations", converged_steps, converge_iterations,
@@ -127,34 +122,34 @@ auto option_table(Options& options)
         row("memory_limit", "--memory-limit", factors | no_result, memory_limit, at_least(1, "at least 1 (byte)")),
         row("factorisation", "--factorisation", factors, factorisation),
         row("precision", "--precision", factors | converged_steps, precision),
-        row("tune_for", "--tune-for", solution | one_process, tune_for,
+        row("tune_for", "--tune-for", solution, tune_for,
             Limits{1.0, ResourceOptions::most_threads, false, false, "at least 1 and at most 1024 (cores)"}),
-        row("reference", "--reference", solution | one_process, reference),
-        row("keep_edges", "--keep-edges", one_process, keep_edges,
+        row("reference", "--reference", solution, reference),
+        row("keep_edges", "--keep-edges", 0, keep_edges,
             Limits{0.0, 180.0, true, true, "above 0 and below 180 (degrees)"}),
-        row("denoise", "", one_process, denoise),
-        row("feature_edges", "--edges", one_process, feature_edges),
+        row("denoise", "", 0, denoise),
+        row("feature_edges", "--edges", 0, feature_edges),
         row("boundary", "--boundary", 0, boundary),
         row("junctions", "--junctions", 0, junctions),
-        row("fixed_vertices", "--fix", part, fixed_vertices),
+        row("fixed_vertices", "--fix", 0, fixed_vertices),
         row("attachment", "--attach", 0, attachment, not_negative("at least 0 and finite (1/length²)")),
-        row("attachment_weights", "--attach-weights", part, attachment_weights),
-        row("strength", "--region", part, strength),
+        row("attachment_weights", "--attach-weights", 0, attachment_weights),
+        row("strength", "--region", 0, strength),
         row("direction", "--direction", 0, direction),
         row("weld", "--weld", 0, weld, not_negative("at least 0 and finite (a length; empty: never)")),
-        row("strict", "--strict", one_process | no_result, strict),
-        row("rescale", "--rescale", one_process, rescale),
+        row("strict", "--strict", no_result, strict),
+        row("rescale", "--rescale", 0, rescale),
         row("within", "--within", 0, within, positive("above 0 and finite (a length; empty: no bound)")),
-        row("limit_of_volume", "", one_process, volume),
-        row("limit_of_move", "", one_process, move),
-        row("limit_of_slide", "", one_process, slide),
+        row("limit_of_volume", "", 0, volume),
+        row("limit_of_move", "", 0, move),
+        row("limit_of_slide", "", 0, slide),
         row("largest_update", "", no_result, largest_update,
             Limits{0.0, infinite, true, false, "positive (diagonals of the mesh's bounding box; infinite: no limit)"}),
         row("threads", "--threads", no_result, threads,
             Limits{0.0, ResourceOptions::most_threads, false, false,
                    "at least 0 and at most 1024 (0: as many as the calling TBB arena has)"}),
         row("measures", "", 0, measures),
-        row("record_schedule", "", one_process | no_result, record_schedule),
+        row("record_schedule", "", no_result, record_schedule),
     };
 }
 

@@ -163,12 +163,16 @@ std::string_view need_of_junctions(const FlowOptions& options)
 
 namespace {
 
-ApproachChoice in_sub_meshes(const ToleranceChoice& choice)
+/// @param otherwise why, if the choice has no reason.
+ApproachChoice in_sub_meshes(const ToleranceChoice& choice, std::string_view otherwise = {})
 {
-    return {.approach = choice.tolerance ? Approach::Converged : Approach::Sweep,
-            .tolerance = choice.tolerance,
-            .reason =
-                choice.reason.empty() ? "" : fmt::format("Sub-meshes are solved until they agree: {}.", choice.reason)};
+    const std::string_view why = choice.reason.empty() ? otherwise : choice.reason;
+    ApproachChoice taken{.approach = choice.tolerance ? Approach::Converged : Approach::Sweep,
+                         .tolerance = choice.tolerance};
+    if (!why.empty())
+        taken.reason = fmt::format("Sub-meshes are solved {}: {}.",
+                                   choice.tolerance ? "until they agree" : "in single sweeps", why);
+    return taken;
 }
 
 std::string reason_for(const PredictedCost& cost)
@@ -188,7 +192,7 @@ std::string reason_for(const PredictedCost& cost)
 }  // namespace
 
 ApproachChoice choose_approach(const PolygonMesh& mesh, const Topology& topology, const MeshSize& size,
-                               const FlowOptions& options, std::optional<Approach> earlier)
+                               const FlowOptions& options, std::optional<Approach> earlier, Sharing sharing)
 {
     const ToleranceChoice tolerance = choose_tolerance(mesh, size, options, !moving_rim(mesh, topology).empty());
     const Approach asked = options.accuracy.approach;
@@ -197,6 +201,8 @@ ApproachChoice choose_approach(const PolygonMesh& mesh, const Topology& topology
     if (asked != Approach::Automatic || speaks_of_sub_meshes(options) || !is_symmetric(options.laplacian) ||
         options.scheme == Scheme::ExplicitEuler || smooths_normals(options) || mesh.n_faces() == 0)
         return in_sub_meshes(tolerance);
+    if (sharing == Sharing::Ranks && !(earlier && takes_whole_mesh(*earlier)))
+        return in_sub_meshes(tolerance, "ranks can share such steps");
     const FlowSize flow{.vertices = size.vertices,
                         .rows = average_rows(mesh, topology, laplacian_of(options)),
                         .time_step = options.time_step,
@@ -213,7 +219,7 @@ ApproachChoice choose_approach(const PolygonMesh& mesh, const Topology& topology
         safety_of_prediction * predicted_iterations(flow, to_reach) <= options.accuracy.converge_iterations)
         choice.costs.push_back(predict_cost(Approach::ConjugateGradients, flow, to_reach));
     const SubdomainNeeds& needs = needs_of(options.laplacian, decomposed.tolerance.has_value());
-    if (choose_subdomains(size, options.time_step, needs).count > 1)
+    if (choose_subdomains(size, options.time_step, needs).count > 1 || earlier == decomposed.approach)
         choice.costs.push_back(predict_cost(decomposed.approach, flow, decomposed.tolerance));
     std::ranges::stable_sort(choice.costs, {}, [&](const PredictedCost& cost) { return cost.of(options.steps); });
     const auto stays = std::ranges::find(choice.costs, earlier, &PredictedCost::approach);

@@ -79,11 +79,16 @@ struct ApproachChoice {
     FlowSize size = {};
 };
 
+/// Whether ranks share the steps (see FlowControl::ranks).
+enum class Sharing { None, Ranks };
+
 /// The approach of the options. With Approach::Automatic, unless they concern sub-meshes or sweeps, the cheapest way
 /// (see predict_cost) of those that come as near to the undecomposed flow as automatically chosen sub-meshes would.
 /// @param topology with the vertices that move.
 /// @param earlier the choice for the steps that the flow continues from, maybe for fewer of them: it is kept.
+/// @param sharing with ranks, Approach::Automatic takes steps in sub-meshes.
 ApproachChoice choose_approach(const PolygonMesh& mesh, const Topology& topology, const MeshSize& size,
-                               const FlowOptions& options, std::optional<Approach> earlier = {});
+                               const FlowOptions& options, std::optional<Approach> earlier = {},
+                               Sharing sharing = Sharing::None);
 
 }  // namespace seamflow

@@ -118,8 +118,9 @@ void cut_and_measure(PreparedFlow& prepared, const PolygonMesh& mesh, Progress& 
 }  // namespace
 
 std::unique_ptr<PreparedFlow> prepare(FlowingMesh& mesh, const FlowOptions& options, bool is_observed,
-                                      const FlowState* resume, Progress& progress)
+                                      const FlowControl& control, Progress& progress)
 {
+    const FlowState* const resume = control.resume.get();
     auto prepared = std::make_unique<PreparedFlow>();
     prepared->options = options;
     prepared->need_of_junctions = need_of_junctions(options);
@@ -131,7 +132,8 @@ std::unique_ptr<PreparedFlow> prepare(FlowingMesh& mesh, const FlowOptions& opti
     const Topology& topology = prepared->topology;
     AccuracyOptions& accuracy = prepared->options.accuracy;
     const ApproachChoice choice = choose_approach(mesh.mesh(), topology, prepared->size, prepared->options,
-                                                  resume != nullptr ? std::optional(resume->approach) : std::nullopt);
+                                                  resume != nullptr ? std::optional(resume->approach) : std::nullopt,
+                                                  control.ranks != nullptr ? Sharing::Ranks : Sharing::None);
     accuracy.approach = choice.approach;
     accuracy.tolerance = choice.tolerance;
     if (!choice.costs.empty())

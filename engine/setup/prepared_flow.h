@@ -8,6 +8,7 @@
 
 #include "engine/measure/displacement_meter.h"
 #include "engine/measure/surface_measures.h"
+#include "engine/options/flow_control.h"
 #include "engine/options/flow_options.h"
 #include "engine/setup/cost_model.h"
 #include "engine/setup/flowing_mesh.h"
@@ -48,11 +49,11 @@ struct PreparedFlow {
 /// sub-meshes there are.
 /// @param mesh must outlive the result; vertices along seams are joined, faces that repeat others are left out.
 /// @param is_observed whether an observer may ask for the flow's state.
-/// @param resume the state that the flow is to resume from; nullptr: it begins.
+/// @param control with the state that the flow is to resume from, and whether ranks share its steps.
 /// @throws InputError for a mesh, labels or a state that cannot be used; OptionError; ComputationError for a failure of
 ///         METIS; Cancelled.
 std::unique_ptr<PreparedFlow> prepare(FlowingMesh& mesh, const FlowOptions& options, bool is_observed,
-                                      const FlowState* resume, Progress& progress);
+                                      const FlowControl& control, Progress& progress);
 
 /// Adds this to the report.
 void describe(const PreparedFlow& prepared, const FlowingMesh& mesh, FlowReport& report);

@@ -38,9 +38,8 @@ auto fields(Is<VertexDistance> auto& of)
 
 auto fields(Is<StepReport> auto& of)
 {
-    // `moved` is of ranks alone, whose states have no reports.
-    auto& [seconds, curvature_before, curvature_after, displacement, moved, gap, iterations, residual, estimated,
-           distance, surface_distance, reference_seconds] = of;
+    auto& [seconds, curvature_before, curvature_after, displacement, gap, iterations, residual, estimated, distance,
+           surface_distance, reference_seconds] = of;
     return std::tie(seconds, curvature_before, curvature_after, displacement, gap, iterations, residual, estimated,
                     distance, surface_distance, reference_seconds);
 }

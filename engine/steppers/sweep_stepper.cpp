@@ -427,23 +427,28 @@ void SweepStepper::describe(StepReport& report) const
 
 void SweepStepper::describe(FlowReport& report) const
 {
+    const SweptSubMeshes swept = describe_sub_meshes(report);
+    remark_on_factorisation(factorisation_, swept.factorisations, report);
+    remark_on_near_singularity(swept.n_nearly_singular, report);
+}
+
+SweptSubMeshes SweepStepper::describe_sub_meshes(FlowReport& report) const
+{
     const std::vector<Index>& stage = plans_.front().stage;
     report.cut.interface_vertices = decomposition_.n_interface_vertices;
     report.resources.live_factors = windows_.front().size;
     report.resources.factor_memory_bytes = factors_->bytes();
-    std::vector<Index> n_nearly_singular;
-    std::vector<Factorisation> factorisations;
+    SweptSubMeshes swept;
     for (std::size_t s = 0; s < states_.size(); ++s) {
         if (!states_[s].system)
             continue;
         describe_sub_mesh(*states_[s].sub_mesh, stage[s], states_[s].p, report);
-        n_nearly_singular.push_back(states_[s].system->n_nearly_singular());
-        factorisations.push_back(states_[s].system->factorisation());
+        swept.n_nearly_singular.push_back(states_[s].system->n_nearly_singular());
+        swept.factorisations.push_back(states_[s].system->factorisation());
     }
-    remark_on_factorisation(factorisation_, factorisations, report);
-    remark_on_near_singularity(n_nearly_singular, report);
     add_seconds(report.seconds);
     report.schedule = graph_.schedule();
+    return swept;
 }
 
 }  // namespace seamflow

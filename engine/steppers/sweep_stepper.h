@@ -43,6 +43,12 @@ struct RankSubMeshes {
     std::unique_ptr<InterfacePeers> peers;
 };
 
+/// What the factorisations of each sub-mesh were.
+struct SweptSubMeshes {
+    std::vector<Index> n_nearly_singular;
+    std::vector<Factorisation> factorisations;
+};
+
 /// Takes a step in one sweep over the colours of the sub-meshes (see add_sweep), with InterfaceOptions::conditions on
 /// Γ. The result is near the undecomposed step, but not the same.
 class SweepStepper final : public Stepper {
@@ -71,6 +77,9 @@ class SweepStepper final : public Stepper {
     void add_seconds(PhaseSeconds& seconds) const override;
     void describe(StepReport& report) const override;
     void describe(FlowReport& report) const override;
+
+    /// The same without remarks, which are about the sub-meshes of all ranks.
+    SweptSubMeshes describe_sub_meshes(FlowReport& report) const;
 
   private:
     void make_states(const PolygonMesh& mesh, const FlowOptions& options, Progress& progress);

@@ -53,6 +53,13 @@ Point spread_point(std::size_t i, std::size_t n)
     return 0.5 * Point(radius * std::cos(angle), radius * std::sin(angle), height);
 }
 
+/// Whether the steps of a vertex are so weak that something of the shape of a small component may be left.
+/// @param strength #V, or empty: 1 everywhere.
+bool is_weak(std::span<const double> strength, Index v)
+{
+    return !strength.empty() && strength[v] < 0.01;
+}
+
 /// Components of the vertices of faces, none of which is fixed or hardly moves.
 IndexLists free_components(const PolygonMesh& mesh, const Topology& topology, std::span<const double> strength)
 {
@@ -79,8 +86,7 @@ IndexLists free_components(const PolygonMesh& mesh, const Topology& topology, st
     return free;
 }
 
-}  // namespace
-
+/// Whether any face is small enough for a component of less than `extent`.
 bool has_small_face(const PolygonMesh& mesh, const Points& positions, double extent)
 {
     std::atomic<bool> found = false;
@@ -94,6 +100,7 @@ bool has_small_face(const PolygonMesh& mesh, const Points& positions, double ext
     return found;
 }
 
+/// Whether the bounding box of some vertices has a diagonal of less than `extent`.
 bool is_smaller(const Points& positions, std::span<const Index> vertices, double extent)
 {
     Box box;
@@ -104,6 +111,8 @@ bool is_smaller(const Points& positions, std::span<const Index> vertices, double
     }
     return true;
 }
+
+}  // namespace
 
 FindSmallComponents find_small_components(const PolygonMesh& mesh, const Topology& topology,
                                           std::span<const double> strength)

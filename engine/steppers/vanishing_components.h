@@ -14,34 +14,20 @@
 
 namespace seamflow {
 
-/// Small components of a mesh, connected by shared vertices, that nothing holds; all who know a part of the mesh have
-/// the same ones, in the same order.
+/// Small components of a mesh, connected by shared vertices, that nothing holds.
 struct SmallComponents {
     /// Per component, its rows in the table of their vertices: ascending by vertex.
     IndexLists rows;
-    /// Per row, the vertex; -1 where it is not known here.
+    /// Per row, the vertex.
     std::vector<Index> vertices;
-    /// Makes the table of vertex data, given as #V by 3: #rows by 3. All who know a part call it together.
+    /// Makes the table of vertex data, given as #V by 3: #rows by 3.
     std::function<Points(const Points& of_vertices)> table;
 };
 
-/// Finds those whose bounding boxes have diagonals of less than `extent`. All who know a part call it together.
+/// Finds those whose bounding boxes have diagonals of less than `extent`.
 using FindSmallComponents = std::function<SmallComponents(const Points& positions, double extent)>;
 
-/// Whether any face is small enough for a component of less than `extent`.
-bool has_small_face(const PolygonMesh& mesh, const Points& positions, double extent);
-
-/// Whether the bounding box of some vertices has a diagonal of less than `extent`.
-bool is_smaller(const Points& positions, std::span<const Index> vertices, double extent);
-
-/// Whether the steps of a vertex are so weak that something of the shape of a small component may be left.
-/// @param strength #V, or empty: 1 everywhere.
-[[nodiscard]] inline bool is_weak(std::span<const double> strength, Index v)
-{
-    return !strength.empty() && strength[v] < 0.01;
-}
-
-/// Finds them where the mesh is known as a whole.
+/// Makes such a function.
 /// @param mesh, topology, strength must outlive it; the last is MotionOptions::strength.
 FindSmallComponents find_small_components(const PolygonMesh& mesh, const Topology& topology,
                                           std::span<const double> strength = {});

@@ -3,6 +3,7 @@
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/parallel_invoke.h>
+#include <oneapi/tbb/task_arena.h>
 
 #include "solvers/platform/thread_sanitizer.h"
 
@@ -17,6 +18,11 @@ void run_in_parallel(Index n, const RangeBody& body)
         const SharedWork::Part part(work);
         body(range.begin(), range.end());
     });
+}
+
+int n_threads_of_arena()
+{
+    return tbb::this_task_arena::max_concurrency();
 }
 
 void run_both(const std::function<void()>& one, const std::function<void()>& other)

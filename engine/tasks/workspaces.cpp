@@ -4,12 +4,14 @@
 
 #include <oneapi/tbb/task_arena.h>
 
+#include "engine/tasks/parallel_executor.h"
+
 namespace seamflow {
 
 namespace arena = oneapi::tbb::this_task_arena;
 
 Workspaces::Workspaces()
-    : n_threads_(static_cast<Index>(arena::max_concurrency()))
+    : n_threads_(n_threads_of_arena())
     // An arena of one thread gets a second one for tasks enqueued from outside (see TaskGraph::signal).
     , workspaces_(std::max(at(n_threads_), std::size_t{2}))
 {

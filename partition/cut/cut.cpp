@@ -47,13 +47,16 @@ void require_labels(const PolygonMesh& mesh, std::span<const Index> labels)
                                      negative - labels.begin(), *negative));
 }
 
-}  // namespace
+/// Parts are not made smaller on average than this many faces: a part should have vertices that no other one has.
+constexpr Index min_faces_per_part = 12;
 
+/// The largest sensible number of parts of a mesh of n_faces faces, at most k.
 Index sensible_parts(std::int64_t n_faces, Index k)
 {
     return static_cast<Index>(std::clamp<std::int64_t>(n_faces / min_faces_per_part, 1, k));
 }
 
+/// Why a mesh was not cut into k parts. @returns a sentence; empty if it was.
 std::string remark_on_number(std::int64_t n_faces, Index k, Index n_parts, Index n_components)
 {
     if (n_parts == k)
@@ -67,6 +70,24 @@ std::string remark_on_number(std::int64_t n_faces, Index k, Index n_parts, Index
                              number_of(n_faces, "face"), min_faces_per_part);
     return fmt::format("The mesh was cut into {} instead of {}, because {}.", number_of(n_parts, "part"), k, reason);
 }
+
+/// Remarks on labels that were given, one sentence each.
+/// @param n_given different labels, the largest being `largest`.
+std::vector<std::string> remarks_on_labels(Index n_given, Index largest, std::int64_t repaired_faces, Index n_parts)
+{
+    std::vector<std::string> remarks;
+    if (n_given > 0 && largest >= n_given)
+        remarks.push_back(
+            fmt::format("The labels had gaps and were renumbered from 0 to {} in the same order.", n_given - 1));
+    if (repaired_faces > 0)
+        remarks.push_back(number_of(repaired_faces, "face") +
+                          " had to change parts so that every part is connected and a manifold with boundary.");
+    if (n_parts != n_given)
+        remarks.push_back(fmt::format("The labels name {}; now there are {}.", number_of(n_given, "part"), n_parts));
+    return remarks;
+}
+
+}  // namespace
 
 Cut cut_into(const PolygonMesh& mesh, const Topology& topology, Index k, const Executor& exec,
              const Alongside& alongside)
@@ -104,20 +125,6 @@ Cut cut_into(const PolygonMesh& mesh, const Topology& topology, Index k, const E
     if (std::string remark = remark_on_number(mesh.n_faces(), k, cut.n_parts, components.count()); !remark.empty())
         cut.remarks.push_back(std::move(remark));
     return cut;
-}
-
-std::vector<std::string> remarks_on_labels(Index n_given, Index largest, std::int64_t repaired_faces, Index n_parts)
-{
-    std::vector<std::string> remarks;
-    if (n_given > 0 && largest >= n_given)
-        remarks.push_back(
-            fmt::format("The labels had gaps and were renumbered from 0 to {} in the same order.", n_given - 1));
-    if (repaired_faces > 0)
-        remarks.push_back(number_of(repaired_faces, "face") +
-                          " had to change parts so that every part is connected and a manifold with boundary.");
-    if (n_parts != n_given)
-        remarks.push_back(fmt::format("The labels name {}; now there are {}.", number_of(n_given, "part"), n_parts));
-    return remarks;
 }
 
 Cut cut_by_labels(const PolygonMesh& mesh, const Topology& topology, std::span<const Index> labels,

@@ -25,21 +25,6 @@ struct Cut {
     std::vector<std::string> remarks;
 };
 
-/// Parts are not made smaller on average than this many faces: a part should have vertices that no other one has.
-inline constexpr Index min_faces_per_part = 12;
-
-/// The largest sensible number of parts of a mesh of n_faces faces, at most k.
-/// @param k at least 1.
-Index sensible_parts(std::int64_t n_faces, Index k);
-
-/// Why a mesh was not cut into k parts.
-/// @param n_components of its faces. @returns a sentence; empty if it was.
-std::string remark_on_number(std::int64_t n_faces, Index k, Index n_parts, Index n_components);
-
-/// Remarks on labels that were given, one sentence each.
-/// @param n_given different labels, the largest being `largest`. @param repaired_faces, n_parts see Cut.
-std::vector<std::string> remarks_on_labels(Index n_given, Index largest, std::int64_t repaired_faces, Index n_parts);
-
 /// Runs the serial part of a cut. A caller with further threads and work that does not need the cut can do both at
 /// once.
 using Alongside = std::function<void(const std::function<void()>& serial)>;

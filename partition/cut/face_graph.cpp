@@ -179,34 +179,6 @@ FaceGraph make_face_graph(const PolygonMesh& mesh, const Topology& topology, con
     return graph;
 }
 
-FaceGraph make_face_graph(std::span<const std::int64_t> weights, std::span<const ClusterContact> contacts)
-{
-    std::vector<std::vector<Arc>> arcs(weights.size());
-    for (const auto& [low, high, n_edges] : contacts) {
-        arcs[low].push_back({high, static_cast<double>(n_edges)});
-        arcs[high].push_back({low, static_cast<double>(n_edges)});
-    }
-    FaceGraph graph;
-    std::vector<double> lengths;
-    for (std::vector<Arc>& of_node : arcs) {
-        add_up(0, of_node);
-        for (const Arc& arc : of_node) {
-            graph.targets.push_back(arc.target);
-            lengths.push_back(arc.length);
-        }
-        graph.offsets.push_back(static_cast<Index>(graph.targets.size()));
-        of_node = {};
-    }
-    graph.arc_weights = arc_weights(lengths);
-    double total = 0.0;
-    for (const std::int64_t weight : weights)
-        total += static_cast<double>(weight);
-    const auto unit = std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(2 * total / max_weight_sum)));
-    for (const std::int64_t weight : weights)
-        graph.node_weights.push_back(static_cast<Index>(std::max<std::int64_t>(1, weight / unit)));
-    return graph;
-}
-
 Components graph_components(const FaceGraph& graph)
 {
     return connected_components(graph.n_nodes(), [&](Index node, auto&& visit) {

@@ -51,18 +51,6 @@ enum class ArcMeasure {
 FaceGraph make_face_graph(const PolygonMesh& mesh, const Topology& topology, const FaceClusters& clusters,
                           ArcMeasure measure, const Executor& exec = run_serially);
 
-/// How many edges two clusters share.
-struct ClusterContact {
-    Index low;
-    Index high;
-    Index n_edges;
-};
-
-/// The graph of clusters given by weights and contacts only.
-/// @param weights one entry per cluster, at least 1 (see face_weight). @param contacts in any order; those of the same
-/// clusters are added up.
-FaceGraph make_face_graph(std::span<const std::int64_t> weights, std::span<const ClusterContact> contacts);
-
 /// The connected components of a graph.
 Components graph_components(const FaceGraph& graph);
 

@@ -19,19 +19,16 @@ constexpr int max_shortening_rounds = 8;
 
 class BoundaryShortener {
   public:
-    BoundaryShortener(const PolygonMesh& mesh, const Topology& topology, const BoundarySurroundings& whole,
+    BoundaryShortener(const PolygonMesh& mesh, const Topology& topology, const std::vector<std::int64_t>& weights,
                       std::vector<Index>& labels)
         : mesh_(mesh)
         , topology_(topology)
         , labels_(labels)
-        , held_(whole.held)
-        , weight_(whole.weights)
-        , shared_(whole.weights.size(), 0)
-        , may_be_divided_(whole.weights.size(), false)
+        , weight_(weights)
+        , shared_(weights.size(), 0)
+        , may_be_divided_(weights.size(), false)
     {
     }
-
-    [[nodiscard]] bool is_held(Index f) const { return !held_.empty() && held_[f] != 0; }
 
     [[nodiscard]] bool is_beside_boundary(Index f) const
     {
@@ -104,8 +101,6 @@ class BoundaryShortener {
     const PolygonMesh& mesh_;
     const Topology& topology_;
     std::vector<Index>& labels_;
-    /// #F, or empty.
-    const std::vector<std::uint8_t>& held_;
     PartWeights weight_;
     /// One entry per label, 0 between faces: the number of edges that the current face shares with the part.
     std::vector<Index> shared_;
@@ -121,27 +116,17 @@ SuspectedDefects shorten_boundaries(const PolygonMesh& mesh, const Topology& top
     const auto weights = sums_by_value(
         exec, mesh.n_faces(), n_labels, [&](Index f) { return labels[f]; },
         [&](Index f) { return face_weight(mesh, f); });
-    return shorten_boundaries(mesh, topology, BoundarySurroundings{.weights = weights, .held = {}}, labels, exec);
-}
-
-SuspectedDefects shorten_boundaries(const PolygonMesh& piece, const Topology& topology,
-                                    const BoundarySurroundings& whole, std::vector<Index>& labels, const Executor& exec)
-{
-    if (whole.weights.size() < 2)
-        return {.parts = std::vector<bool>(whole.weights.size(), false), .faces = {}};
-    BoundaryShortener shortener(piece, topology, whole, labels);
-    auto faces = select(exec, piece.n_faces(),
-                        [&](Index f) { return !shortener.is_held(f) && shortener.is_beside_boundary(f); });
+    if (weights.size() < 2)
+        return {.parts = std::vector<bool>(weights.size(), false), .faces = {}};
+    BoundaryShortener shortener(mesh, topology, weights, labels);
+    auto faces = select(exec, mesh.n_faces(), [&](Index f) { return shortener.is_beside_boundary(f); });
     std::vector<Index> suspected = faces;
     for (int round = 0; round < max_shortening_rounds && !faces.empty(); ++round) {
         // Other faces may follow only around faces that have moved.
         std::vector<Index> next;
         for (const Index f : faces)
             if (shortener.improve(f))
-                for_each_neighbour(piece, topology, f, [&](Index, Index g) {
-                    if (!shortener.is_held(g))
-                        next.push_back(g);
-                });
+                for_each_neighbour(mesh, topology, f, [&](Index, Index g) { next.push_back(g); });
         sort_unique(next);
         faces = std::move(next);
         suspected.insert(suspected.end(), faces.begin(), faces.end());

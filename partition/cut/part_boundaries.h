@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
 #include "partition/executor.h"
@@ -19,18 +18,5 @@ namespace seamflow {
 /// @returns where defects may be now if all parts were connected before.
 SuspectedDefects shorten_boundaries(const PolygonMesh& mesh, const Topology& topology, Index n_labels,
                                     std::vector<Index>& labels, const Executor& exec = run_serially);
-
-/// Data of the whole mesh that a piece of it needs.
-struct BoundarySurroundings {
-    /// One entry per label: the weight of the part in the whole mesh.
-    std::vector<std::int64_t> weights;
-    /// #F of the piece: 1 where a face keeps its label, as faces with neighbours outside do.
-    std::vector<std::uint8_t> held;
-};
-
-/// The same within a piece of a mesh.
-SuspectedDefects shorten_boundaries(const PolygonMesh& piece, const Topology& topology,
-                                    const BoundarySurroundings& whole, std::vector<Index>& labels,
-                                    const Executor& exec = run_serially);
 
 }  // namespace seamflow

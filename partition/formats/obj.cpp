@@ -4,7 +4,6 @@
 #include <array>
 #include <cstdint>
 #include <limits>
-#include <memory>
 #include <span>
 #include <string>
 #include <utility>
@@ -13,7 +12,6 @@
 #include <fmt/format.h>
 
 #include "partition/errors.h"
-#include "partition/formats/splicing.h"
 #include "partition/formats/text_slices.h"
 #include "partition/io/mesh_builder.h"
 
@@ -210,60 +208,6 @@ PolygonMesh read_slices(const TextScanner& whole, const TextSlices& slices, cons
     return mesh;
 }
 
-class SlicedObj final : public SlicedText {
-  public:
-    SlicedObj(const std::filesystem::path& path, const TextScanner& whole)
-        : SlicedText(whole)
-        , path_(path)
-    {
-    }
-
-    [[nodiscard]] std::vector<TextCounts> count(std::span<const std::string_view> slices,
-                                                const Executor& exec) const override
-    {
-        return count_obj(after_header(), slices, exec);
-    }
-
-    [[nodiscard]] std::int64_t n_vertices_before(const TextCounts& counts) const override { return counts.n_vertices; }
-    [[nodiscard]] std::int64_t n_vertices(const TextCounts& all) const override { return all.n_vertices; }
-
-    [[nodiscard]] PolygonMesh read(const TextSlices& slices, const Executor& exec) const override
-    {
-        return read_slices(after_header(), slices, exec);
-    }
-
-    void check(const TextScanner& scanner, const TextSlices& slices, CheckedSlice& found) const override
-    {
-        const Index first = first_vertex(slices);
-        found.mesh.vertices = uninitialised_points(static_cast<Index>(slices.counts.back().n_vertices) - first);
-        ObjReader reader(scanner, {found.mesh.vertices, first, found.mesh, first}, &found.faults);
-        reader.read();
-        try {
-            reader.require_no_open_reference(static_cast<Index>(slices.all.n_vertices));
-        } catch (const InputError& error) {
-            found.of_reference = error.what();
-        }
-    }
-
-    std::vector<std::string> rewrite_header(ByteWriter& file, std::string_view header, const std::array<bool, 3>&,
-                                            const TextCounts& all) const override
-    {
-        file.text(header);
-        if (all.n_normals == 0)
-            return {};
-        const auto n = static_cast<std::uint64_t>(all.n_normals);
-        return {kept_normals_remark(path_, counted(n, "normal", "normals") + " (vn)")};
-    }
-
-    void rewrite(ByteWriter& file, const TextSlices& slices, Index slice, const Points& positions) const override
-    {
-        rewrite_obj_slice(file, after_header(), slices, slice, positions);
-    }
-
-  private:
-    std::filesystem::path path_;
-};
-
 std::string_view extra_of_statement(std::string_view keyword)
 {
     using Entry = std::pair<std::string_view, std::string_view>;
@@ -320,11 +264,6 @@ std::vector<TextCounts> count_obj(const TextScanner& whole, std::span<const std:
         counts[i + 1].n_normals = sum_of_counts(counts[i].n_normals, counts[i + 1].n_normals);
     }
     return counts;
-}
-
-std::unique_ptr<SlicedText> slice_obj_text(const std::filesystem::path& path, std::string_view text)
-{
-    return std::make_unique<SlicedObj>(path, TextScanner(path, text, obj_syntax));
 }
 
 PolygonMesh read_obj(const std::filesystem::path& path, std::string_view text, const Slicing& slicing, FaultLog* faults)

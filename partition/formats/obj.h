@@ -55,11 +55,6 @@ std::vector<std::string> rewrite_obj(OutputFile& file, const std::filesystem::pa
                                      const PolygonMesh& mesh, const Slicing& slicing, const FileFields& fields = {},
                                      double seam_distance = 0.0);
 
-/// Rewrites one of some slices of a file as rewrite_obj does, but keeps all normals.
-/// @param positions of the vertices of all of the slices.
-void rewrite_obj_slice(ByteWriter& file, const TextScanner& whole, const TextSlices& slices, Index slice,
-                       const Points& positions);
-
 /// For each normal (`vn`) of a file read by `read_obj`, the corners that name it, numbered as in
 /// PolygonMesh::face_vertices, in ascending order. Numbers of missing normals do not count.
 /// @param path for messages only.

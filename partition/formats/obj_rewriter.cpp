@@ -220,12 +220,4 @@ std::vector<std::string> rewrite_obj(OutputFile& file, const std::filesystem::pa
     return remarks;
 }
 
-void rewrite_obj_slice(ByteWriter& file, const TextScanner& whole, const TextSlices& slices, Index slice,
-                       const Points& positions)
-{
-    const std::string_view bytes = slices.bytes[slice];
-    rewrite_slice(TextScanner(whole, bytes), Splicer(file, bytes), slices.counts[slice], slices.counts[slice + 1],
-                  {positions, slices.counts.front().n_vertices});
-}
-
 }  // namespace seamflow

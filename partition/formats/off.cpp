@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -169,64 +168,6 @@ void rewrite_slice(Splicer splicer, TextScanner scanner, Index v, Index end, con
     splicer.finish();
 }
 
-class SlicedOff final : public SlicedText {
-  public:
-    SlicedOff(const std::filesystem::path& path, const TextScanner& after_header, const OffHeader& header)
-        : SlicedText(after_header)
-        , path_(path)
-        , header_(header)
-    {
-    }
-
-    [[nodiscard]] std::vector<TextCounts> count(std::span<const std::string_view> slices,
-                                                const Executor& exec) const override
-    {
-        return count_slices(after_header(), slices, exec);
-    }
-
-    [[nodiscard]] std::int64_t n_vertices_before(const TextCounts& counts) const override
-    {
-        return vertices_before(counts, header_);
-    }
-
-    [[nodiscard]] std::int64_t n_vertices(const TextCounts&) const override { return header_.n_vertices; }
-
-    [[nodiscard]] PolygonMesh read(const TextSlices& slices, const Executor& exec) const override
-    {
-        return read_slices(after_header(), header_, slices, exec);
-    }
-
-    void check(const TextScanner& scanner, const TextSlices& slices, CheckedSlice& found) const override
-    {
-        const std::int64_t begin = std::min(slices.counts.front().n_lines, header_.n_lines());
-        const std::int64_t end = slices.counts.back().n_lines;
-        const Index first = first_vertex(slices);
-        found.mesh.vertices = uninitialised_points(vertices_before({.n_lines = end}, header_) - first);
-        OffReader reader(scanner, header_, {found.mesh.vertices, first, found.mesh, first}, &found.faults);
-        reader.read(begin, is_last(slices.bytes.front()) ? header_.n_lines() : std::min(end, header_.n_lines()));
-        reader.require_end();
-    }
-
-    std::vector<std::string> rewrite_header(ByteWriter& file, std::string_view header, const std::array<bool, 3>&,
-                                            const TextCounts&) const override
-    {
-        file.text(header);
-        return header_.has_normals() ? std::vector{kept_normals_remark(path_, "normals")} : std::vector<std::string>{};
-    }
-
-    void rewrite(ByteWriter& file, const TextSlices& slices, Index slice, const Points& positions) const override
-    {
-        const std::string_view bytes = slices.bytes[slice];
-        rewrite_slice(Splicer(file, bytes), TextScanner(after_header(), bytes),
-                      vertices_before(slices.counts[slice], header_),
-                      vertices_before(slices.counts[slice + 1], header_), {positions, first_vertex(slices)}, header_);
-    }
-
-  private:
-    std::filesystem::path path_;
-    OffHeader header_;
-};
-
 /// The kinds of the numbers after the coordinates, by the keyword of the file.
 void add_extras_of_keyword(std::vector<std::string>& extras, const OffHeader& header)
 {
@@ -327,13 +268,6 @@ PolygonMesh read_off(const std::filesystem::path& path, std::string_view text, c
             *faults = std::move(own);
         throw;
     }
-}
-
-std::unique_ptr<SlicedText> slice_off_text(const std::filesystem::path& path, std::string_view text)
-{
-    TextScanner scanner(path, text);
-    const OffHeader header = read_off_header(scanner);
-    return std::make_unique<SlicedOff>(path, scanner, header);
 }
 
 void write_off(OutputFile& file, const PolygonMesh& mesh, const Slicing& slicing)

@@ -10,7 +10,6 @@
 #include "partition/errors.h"
 #include "partition/formats/ply.h"
 #include "partition/formats/ply_header.h"
-#include "partition/formats/ply_ranges.h"
 #include "partition/formats/ply_source.h"
 #include "partition/formats/ply_vertices.h"
 
@@ -113,21 +112,6 @@ FileFields read_ply_fields(const std::filesystem::path& path, std::string_view c
                                                 [&] {
                                                     return read({run_serially, content.size()});
                                                 });
-    return fields;
-}
-
-FileFields read_ply_fields(const PlyRanges& ply, std::span<const std::string> names, Index begin, Index end)
-{
-    TextScanner scanner(ply.path(), ply.content(), ply_syntax);
-    const PlyElement& vertices = ply.vertex_element();
-    static_cast<void>(read_ply_header(scanner));
-    FileFields fields = find_fields(scanner, ply.path(), ply.header(), names);
-    const std::vector<ReadProperty> properties = properties_to_read(vertices, fields);
-    fields.values.resize(end - begin, static_cast<Index>(fields.names.size()));
-    const auto offset = static_cast<std::size_t>(ply.bytes_of_vertices(begin, end).data() - ply.content().data());
-    PlyBinarySource source(ply.path(), ply.content(), offset, ply.header().encoding);
-    for (Index v = begin; v < end; ++v)
-        read_row(source, vertices, v, properties, fields.values.row(v - begin));
     return fields;
 }
 

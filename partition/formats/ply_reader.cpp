@@ -15,7 +15,6 @@
 #include "partition/formats/ply_plain.h"
 #include "partition/formats/ply_slices.h"
 #include "partition/formats/ply_source.h"
-#include "partition/formats/text_slices.h"
 #include "partition/io/text_scanner.h"
 
 namespace seamflow {
@@ -125,12 +124,27 @@ PolygonMesh read_binary_slices(const std::filesystem::path& path, std::string_vi
 }
 
 /// @throws InputError if there is any fault, not necessarily naming it.
-PolygonMesh read_text_slices(const std::filesystem::path& path, std::string_view file, const Slicing& slicing)
+PolygonMesh read_text_slices(const TextScanner& after_header, const PlyHeader& header, const Slicing& slicing)
 {
-    const auto text = slice_ply_text(path, file);
-    const std::vector<std::string_view> slices = text->after_header().slices(slicing.bytes);
-    const std::vector<TextCounts> counts = text->count(slices, slicing.exec);
-    return text->read({slices, counts, counts.back()}, slicing.exec);
+    const std::vector<std::string_view> slices = after_header.slices(slicing.bytes);
+    const std::vector<std::int64_t> lines = count_lines(after_header, slices, slicing.exec);
+    if (static_cast<std::uint64_t>(lines.back()) != header.n_elements())
+        throw InputError("the file ends too early, or goes on");
+    const Index n_vertices = sum_of_counts(0, static_cast<std::int64_t>(header.element("vertex")->count));
+    PolygonMesh mesh;
+    mesh.vertices = uninitialised_points(n_vertices);
+    if (const PlyElement* const faces = header.element("face"))
+        mesh.face_offsets.reserve(faces->count + 1);
+    append_faces(mesh, static_cast<Index>(slices.size()), slicing.exec, [&](Index i, PolygonMesh& faces) {
+        const PlySlice slice{static_cast<std::uint64_t>(lines[i]), static_cast<std::uint64_t>(lines[i + 1]), slices[i]};
+        PlyTextSource source(TextScanner(after_header, slice.bytes));
+        const auto first = static_cast<Index>(count_before(slice.begin, header, "vertex"));
+        ElementReader<PlyTextSource> reader(source, n_vertices, MeshSlice{mesh.vertices, first, faces});
+        for_each_kind(header.elements, slice, [&](const PlyElement& element, std::uint64_t begin, std::uint64_t end) {
+            reader.read(element, begin, end);
+        });
+    });
+    return mesh;
 }
 
 }  // namespace
@@ -173,7 +187,7 @@ MeshFile read_ply(const std::filesystem::path& path, std::string_view file, cons
     };
     if (scanner.rest().size() <= slicing.bytes)
         return {in_one_go(), kind};
-    return {read_in_slices_if_faultless([&] { return read_text_slices(path, file, slicing); }, in_one_go), kind};
+    return {read_in_slices_if_faultless([&] { return read_text_slices(scanner, header, slicing); }, in_one_go), kind};
 }
 
 }  // namespace seamflow

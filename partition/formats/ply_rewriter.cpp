@@ -15,7 +15,6 @@
 #include "partition/formats/ply.h"
 #include "partition/formats/ply_header.h"
 #include "partition/formats/ply_numbers.h"
-#include "partition/formats/ply_ranges.h"
 #include "partition/formats/ply_slices.h"
 #include "partition/formats/ply_source.h"
 #include "partition/formats/ply_vertices.h"
@@ -29,7 +28,14 @@ namespace {
 constexpr std::array<std::string_view, 6> columns = {"x", "y", "z", "nx", "ny", "nz"};
 constexpr auto first_field = static_cast<Index>(columns.size());
 
-using Change = PlyChange;
+/// How one property of the vertices changes when a file is rewritten. Changes beyond the last property are properties
+/// that are added.
+struct Change {
+    /// Of `columns`; from 6 on: a column of FileFields; -1: it stays.
+    Index column = -1;
+    /// The type of the number in the file that is written.
+    PlyType type = PlyType::Float64;
+};
 
 /// The kind of the vertex properties nx, ny and nz.
 enum class Normals {
@@ -256,23 +262,6 @@ bool rewrite_slice(Source& source, Splicer splicer, const PlyHeader& header, con
     return rewriter.rounded();
 }
 
-/// Writes the vertices of a binary file from `begin` on.
-/// @param now of these vertices. @returns whether positions were rounded.
-bool rewrite_range(ByteWriter& file, const PlyRanges& ply, Index begin, const std::vector<Change>& changes,
-                   const NewVertices<MovedNormals>& now)
-{
-    const auto n = static_cast<Index>(now.positions.rows());
-    const std::string_view bytes = ply.bytes_of_vertices(begin, begin + n);
-    const auto offset = static_cast<std::size_t>(bytes.data() - ply.content().data());
-    PlyBinarySource source(ply.path(), ply.content(), offset, ply.header().encoding);
-    Splicer splicer(file, bytes);
-    VertexRewriter<PlyBinarySource> rewriter(source, splicer, ply.header().encoding);
-    for (Index v = 0; v < n; ++v)
-        rewriter.rewrite(ply.vertex_element(), changes, v, now);
-    splicer.finish();
-    return rewriter.rounded();
-}
-
 /// Writes all that follows the header.
 /// @returns whether positions were rounded.
 bool rewrite_elements(OutputFile& file, const PlyVertexSlices& slices, const PlyHeader& header,
@@ -288,8 +277,7 @@ bool rewrite_elements(OutputFile& file, const PlyVertexSlices& slices, const Ply
     return std::ranges::find(rounded, 1) != rounded.end();
 }
 
-}  // namespace
-
+/// Whether the properties x, y and z can hold the coordinates, floats after rounding.
 std::array<bool, 3> coordinates_fit(const PlyElement& vertices, const Points& positions)
 {
     std::array<bool, 3> fits = {true, true, true};
@@ -302,53 +290,7 @@ std::array<bool, 3> coordinates_fit(const PlyElement& vertices, const Points& po
     return fits;
 }
 
-std::vector<PlyChange> changes_of_positions(const PlyElement& vertices, const std::array<bool, 3>& fits)
-{
-    return changes_of(vertices, fits, false);
-}
-
-std::vector<std::string> rewrite_ply_header(ByteWriter& file, const std::filesystem::path& path,
-                                            std::string_view header, const PlyElement& vertices,
-                                            const std::vector<PlyChange>& changes)
-{
-    std::vector<std::string> remarks = rewrite_header(file, path, header, vertices, changes, {});
-    const bool moves =
-        std::ranges::any_of(changes, [](const PlyChange& one) { return one.column >= 0 && one.column < 3; });
-    if (moves && normals_of(vertices) != Normals::None)
-        remarks.push_back(kept_normals_remark(path, "normals"));
-    return remarks;
-}
-
-std::vector<PlyChange> changes_of_fields(const PlyElement& vertices, const FileFields& fields,
-                                         const std::filesystem::path& target, std::vector<std::string>& remarks)
-{
-    std::vector<PlyChange> changes(vertices.properties.size());
-    remarks = add_fields(changes, vertices, fields, target);
-    return changes;
-}
-
-bool rewrite_ply_vertices(ByteWriter& file, const PlyRanges& ply, Index begin, const Points& positions,
-                          const std::vector<PlyChange>& changes)
-{
-    return rewrite_range(file, ply, begin, changes, {positions});
-}
-
-void rewrite_ply_fields(ByteWriter& file, const PlyRanges& ply, Index begin, const Eigen::MatrixXd& fields,
-                        const std::vector<PlyChange>& changes)
-{
-    const Points unused = Points::Zero(fields.rows(), 3);
-    rewrite_range(file, ply, begin, changes, {unused, 0, nullptr, &fields});
-}
-
-void rewrite_ply_text(ByteWriter& file, const TextScanner& after_header, const PlyHeader& header, const PlySlice& slice,
-                      const Points& positions, Index first)
-{
-    FaultLog known_faults{.of_faces_alone = true};
-    PlyTextSource source(TextScanner(after_header, slice.bytes));
-    source.note_faults_in(&known_faults);
-    const std::vector<Change> changes = changes_of_positions(*header.element("vertex"), {true, true, true});
-    rewrite_slice(source, Splicer(file, slice.bytes), header, slice, changes, {positions, first});
-}
+}  // namespace
 
 std::vector<std::string> rewrite_ply(OutputFile& file, const std::filesystem::path& path, std::string_view content,
                                      const PolygonMesh& mesh, const Slicing& slicing, const FileFields& fields,

@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include "partition/formats/ply.h"
-#include "partition/formats/ply_ranges.h"
 #include "partition/formats/ply_source.h"
 
 namespace seamflow {
@@ -25,6 +24,13 @@ const char* name_of(Encoding encoding)
     }
     return "";
 }
+
+/// Element counts of a file.
+struct PlyCounts {
+    Index vertices = 0;
+    Index faces = 0;
+    bool has_long_face = false;
+};
 
 std::string header_of(const PlyCounts& counts, Encoding encoding, const PlyExtras& extras)
 {
@@ -140,8 +146,7 @@ void PlyWriter::write_face(Index f)
     end_element();
 }
 
-}  // namespace
-
+/// Whether a face has more than 255 sides: then all corner lists store their lengths in four bytes, else in one.
 bool has_long_face(const PolygonMesh& mesh)
 {
     for (Index f = 0; f < mesh.n_faces(); ++f)
@@ -150,29 +155,7 @@ bool has_long_face(const PolygonMesh& mesh)
     return false;
 }
 
-std::string labelled_ply_header(const PlyCounts& counts)
-{
-    constexpr std::array<Index, 1> any{};
-    return header_of(counts, Encoding::BinaryLittleEndian,
-                     {.face_labels = std::span(any).first(counts.faces > 0 ? 1 : 0)});
-}
-
-void write_ply_vertices(ByteWriter& file, const PolygonMesh& mesh, Index begin, Index end)
-{
-    const PlyExtras none;
-    PlyWriter writer(file, {mesh, Encoding::BinaryLittleEndian, none, false});
-    for (Index v = begin; v < end; ++v)
-        writer.write_vertex(v);
-}
-
-void write_labelled_ply_faces(ByteWriter& file, const PolygonMesh& mesh, std::span<const Index> labels,
-                              bool has_long_face, Index begin, Index end)
-{
-    const PlyExtras extras{.face_labels = labels};
-    PlyWriter writer(file, {mesh, Encoding::BinaryLittleEndian, extras, has_long_face});
-    for (Index f = begin; f < end; ++f)
-        writer.write_face(f);
-}
+}  // namespace
 
 void write_ply(OutputFile& file, const PolygonMesh& mesh, Encoding encoding, const Slicing& slicing,
                const PlyExtras& extras)

@@ -109,12 +109,6 @@ std::string changed_since_read(const std::filesystem::path& source)
                              "copied; leave it alone until the result is written";
 }
 
-std::string kept_normals_remark(const std::filesystem::path& source, const std::string& normals)
-{
-    return "the " + normals + " of " + source.string() +
-           " stay as they were: ranks that each have a slice of the file do not recompute them";
-}
-
 std::string clamping_remark(std::string_view name, std::string_view range)
 {
     return "some values of " + in_quotes(name) + " are beyond the range " + std::string(range) +

@@ -113,9 +113,6 @@ struct NewVertices {
 /// The message for a file changed since it was read.
 std::string changed_since_read(const std::filesystem::path& source);
 
-/// A sentence for the user of a file in slices. @param normals which, in a few words.
-std::string kept_normals_remark(const std::filesystem::path& source, const std::string& normals);
-
 /// A sentence for the user of whole numbers that are too small or too large.
 /// @param name of the field. @param range in which they must be, or the type that has it.
 std::string clamping_remark(std::string_view name, std::string_view range);

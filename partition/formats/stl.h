@@ -30,85 +30,17 @@ namespace seamflow {
 MeshFile read_stl(const std::filesystem::path& path, std::string_view file, const Slicing& slicing,
                   FaultLog* faults = nullptr);
 
-/// A binary STL file of which a reader takes only some of the facets.
-class StlRanges {
-  public:
-    /// @param content the whole file, of which only the parts asked for are read. Must outlive this object.
-    /// @throws InputError as read_stl.
-    StlRanges(std::filesystem::path path, std::string_view content);
-    StlRanges(const StlRanges&) = delete;
-    StlRanges& operator=(const StlRanges&) = delete;
-    ~StlRanges() = default;
-
-    [[nodiscard]] Index n_facets() const { return n_facets_; }
-
-    /// The bytes of all facets.
-    [[nodiscard]] std::string_view all() const { return bytes(0, n_facets_); }
-
-    /// The facets from `begin` to `end` - 1.
-    [[nodiscard]] std::string_view bytes(Index begin, Index end) const;
-
-    /// Appends the facets from `begin` to `end` - 1.
-    /// @param faces without vertices; corners are numbers of the points that are returned, #V by 3.
-    /// @param faults collects the facets left out, numbered from 0 for `begin`.
-    /// @throws InputError naming facet and byte.
-    Points facets(Index begin, Index end, PolygonMesh& faces, FaultLog& faults) const;
-
-    /// Checks what follows the last facet.
-    /// @throws InputError naming the byte.
-    void require_end() const;
-
-    /// Reports a file without vertices.
-    /// @throws InputError naming the byte.
-    [[noreturn]] void refuse_empty() const;
-
-  private:
-    std::filesystem::path path_;
-    std::string_view content_;
-    Index n_facets_ = 0;
-};
-
-/// A text STL file of which a reader takes only some of the facets.
-class StlText {
-  public:
-    /// @param path for messages only. @param content the whole file; must outlive this.
-    StlText(const std::filesystem::path& path, std::string_view content);
-
-    /// All of it, except for a byte order mark.
-    [[nodiscard]] std::string_view all() const { return whole_.rest(); }
-
-    /// At most n shares of it that begin at facets, except for the first.
-    [[nodiscard]] std::vector<std::string_view> shares(std::size_t n) const;
-
-    /// Appends the facets of a share.
-    /// @param faces without vertices; corners are numbers of the points that are returned, #V by 3.
-    /// @throws InputError if there is any fault, not necessarily naming it (see `check`).
-    Points facets(std::string_view share, PolygonMesh& faces, const Slicing& slicing) const;
-
-    /// The same as in reading the whole file while noting which facets are left out.
-    /// @param lines_before number of lines before the share. @param in_solid whether the share begins within a solid;
-    /// receives the same for what follows. @param faults see StlRanges::facets.
-    /// @throws InputError naming the line.
-    Points check(std::string_view share, std::size_t lines_before, bool& in_solid, PolygonMesh& faces,
-                 FaultLog& faults) const;
-
-    [[nodiscard]] std::size_t lines_of(std::string_view share) const;
-
-    /// "path:line" of any line.
-    [[nodiscard]] std::string position_of(std::size_t line) const { return whole_.position_of(line); }
-
-    /// Reads all in one go. @param faults see read_stl. @throws InputError naming the line.
-    [[nodiscard]] PolygonMesh read_all(FaultLog* faults) const;
-
-  private:
-    [[nodiscard]] bool is_last(std::string_view share) const;
-
-    TextScanner whole_;
-};
+/// Reads text, as above.
+/// @param text begins with `solid`.
+PolygonMesh read_text_stl(const std::filesystem::path& path, std::string_view text, const Slicing& slicing,
+                          FaultLog* faults);
 
 /// A binary file begins with a title and the number of facets, each with a normal, three corners and an attribute.
 constexpr std::size_t stl_header_bytes = 84;
 constexpr std::size_t stl_facet_bytes = 50;
+
+/// The bytes of the facets of a binary file, which has all of them.
+std::string_view stl_facets(std::string_view file);
 
 /// Slices of a text that begin at facets, except for the first.
 std::vector<std::string_view> stl_slices_at_facets(const TextScanner& whole, std::size_t bytes);

@@ -126,18 +126,6 @@ Points join_facets(Index n_slices, const Executor& exec,
     return std::move(all.points);
 }
 
-/// #V by 3.
-template <class Real>
-Points points_of(const std::vector<std::array<Real, 3>>& places)
-{
-    using Places = Eigen::Matrix<Real, Eigen::Dynamic, 3, Eigen::RowMajor>;
-    const auto n = static_cast<Index>(places.size());
-    Points points = uninitialised_points(n);
-    if (n > 0)
-        points = Eigen::Map<const Places>(places.data()->data(), n, 3).template cast<double>();
-    return points;
-}
-
 /// Sets the mesh's vertices.
 /// @throws InputError with no useful message if there are none.
 void set_vertices(PolygonMesh& mesh, Points points);

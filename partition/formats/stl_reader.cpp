@@ -156,43 +156,9 @@ bool is_text_stl(std::string_view file)
     return solid && file.substr(0, 1024).find('\0') == std::string_view::npos;
 }
 
-StlRanges::StlRanges(std::filesystem::path path, std::string_view content)
-    : path_(std::move(path))
-    , content_(content)
+std::string_view stl_facets(std::string_view file)
 {
-    ByteScanner scanner(path_, content, std::min(title_bytes, content.size()), std::endian::little);
-    require_room_for_facets(scanner, content);
-    if (declared_facets(content) > std::uint64_t{std::numeric_limits<Index>::max()})
-        throw InputError(
-            fmt::format("{}: the file has {} facets, more than 2147483647; divide the mesh into several files",
-                        path_.string(), declared_facets(content)));
-    n_facets_ = static_cast<Index>(declared_facets(content));
-}
-
-std::string_view StlRanges::bytes(Index begin, Index end) const
-{
-    return content_.substr(header_bytes + facet_bytes * at(begin), facet_bytes * at(end - begin));
-}
-
-Points StlRanges::facets(Index begin, Index end, PolygonMesh& faces, FaultLog& faults) const
-{
-    ByteScanner scanner(path_, content_, header_bytes + facet_bytes * at(begin), std::endian::little);
-    scanner.note_faults_in(&faults);
-    Points none(0, 3);
-    BinaryFacets collector(scanner, {none, 0, faces});
-    read_facets(scanner, at(begin), at(end), collector);
-    return points_of(collector.take_points());
-}
-
-void StlRanges::require_end() const
-{
-    ByteScanner(path_, content_, header_bytes + facet_bytes * at(n_facets_), std::endian::little).require_end();
-}
-
-void StlRanges::refuse_empty() const
-{
-    ByteScanner(path_, content_, header_bytes + facet_bytes * at(n_facets_), std::endian::little)
-        .fail("the file has no vertices; export the mesh again");
+    return file.substr(header_bytes, facet_bytes * declared_facets(file));
 }
 
 bool is_stl(std::string_view file)
@@ -202,23 +168,14 @@ bool is_stl(std::string_view file)
 
 MeshFile read_stl(const std::filesystem::path& path, std::string_view file, const Slicing& slicing, FaultLog* faults)
 {
-    const bool is_small = file.size() <= slicing.bytes;
     if (!is_text_stl(file)) {
         const auto in_one_go = [&] { return read_binary(path, file, faults); };
-        return {is_small
+        return {file.size() <= slicing.bytes
                     ? in_one_go()
                     : read_in_slices_if_faultless([&] { return read_binary_slices(path, file, slicing); }, in_one_go),
                 {FileFormat::Stl, Encoding::BinaryLittleEndian}};
     }
-    const StlText text(path, file);
-    const auto in_one_go = [&] { return text.read_all(faults); };
-    const auto in_slices = [&] {
-        PolygonMesh mesh;
-        set_vertices(mesh, text.facets(text.all(), mesh, slicing));
-        return mesh;
-    };
-    return {is_small ? in_one_go() : read_in_slices_if_faultless(in_slices, in_one_go),
-            {FileFormat::Stl, Encoding::Ascii}};
+    return {read_text_stl(path, file, slicing, faults), {FileFormat::Stl, Encoding::Ascii}};
 }
 
 }  // namespace seamflow

@@ -96,7 +96,7 @@ std::string_view StlForm::begin() const
 
 std::string_view StlForm::facets() const
 {
-    return is_text_ ? whole_.rest() : StlRanges({}, content_).all();
+    return is_text_ ? whole_.rest() : stl_facets(content_);
 }
 
 std::string_view StlForm::end() const

@@ -28,11 +28,10 @@ class TextReader {
         scanner_.note_faults_in(faults);
     }
 
-    TextReader(const TextScanner& scanner, const MeshSlice& slice, FaultLog* faults = nullptr)
+    TextReader(const TextScanner& scanner, const MeshSlice& slice)
         : scanner_(scanner)
         , collector_(scanner_, slice)
     {
-        scanner_.note_faults_in(faults);
     }
 
     /// @param in_solid whether the first line is within a solid. @param end where the last line to be read begins, at
@@ -170,59 +169,33 @@ std::vector<std::string_view> stl_slices_at_facets(const TextScanner& whole, std
     return slices;
 }
 
-StlText::StlText(const std::filesystem::path& path, std::string_view content)
-    : whole_(path, content, {.comment = '\0'})
+PolygonMesh read_text_stl(const std::filesystem::path& path, std::string_view text, const Slicing& slicing,
+                          FaultLog* faults)
 {
-}
-
-std::vector<std::string_view> StlText::shares(std::size_t n) const
-{
-    return stl_slices_at_facets(whole_, (whole_.rest().size() + n - 1) / n);
-}
-
-Points StlText::facets(std::string_view share, PolygonMesh& faces, const Slicing& slicing) const
-{
-    const std::vector<std::string_view> slices = stl_slices_at_facets(TextScanner(whole_, share), slicing.bytes);
-    const auto read = [&](Index i, const MeshSlice& place) {
-        TextReader reader(TextScanner(whole_, slices[i]), place);
-        const bool begins_in_solid = slices[i].data() != whole_.rest().data();
-        if (reader.read(begins_in_solid, end_of(slices[i])) == is_last(slices[i]))
-            throw InputError("a solid ends too early, or does not end");
-        return reader.collector().take_points();
+    const TextScanner whole(path, text, {.comment = '\0'});
+    const char* const begin = whole.rest().data();
+    const char* const end = end_of(whole.rest());
+    const auto in_one_go = [&] {
+        TextReader reader(whole, faults);
+        reader.require_end(reader.read(false, end));
+        return reader.collector().finish();
     };
-    return join_facets<double>(static_cast<Index>(slices.size()), slicing.exec, read, faces);
-}
-
-Points StlText::check(std::string_view share, std::size_t lines_before, bool& in_solid, PolygonMesh& faces,
-                      FaultLog& faults) const
-{
-    const std::string_view rest(share.data(), static_cast<std::size_t>(end_of(whole_.rest()) - share.data()));
-    Points none(0, 3);
-    TextReader reader(TextScanner(whole_, rest, lines_before), {none, 0, faces}, &faults);
-    in_solid = reader.read(in_solid, end_of(share));
-    if (is_last(share))
-        reader.require_end(in_solid);
-    return points_of(reader.collector().take_points());
-}
-
-std::size_t StlText::lines_of(std::string_view share) const
-{
-    TextScanner scanner(whole_, share);
-    while (scanner.next_line()) {
-    }
-    return scanner.line();
-}
-
-PolygonMesh StlText::read_all(FaultLog* faults) const
-{
-    TextReader reader(whole_, faults);
-    reader.require_end(reader.read(false, end_of(whole_.rest())));
-    return reader.collector().finish();
-}
-
-bool StlText::is_last(std::string_view share) const
-{
-    return end_of(share) == end_of(whole_.rest());
+    if (text.size() <= slicing.bytes)
+        return in_one_go();
+    const auto in_slices = [&] {
+        const std::vector<std::string_view> slices = stl_slices_at_facets(whole, slicing.bytes);
+        const auto read = [&](Index i, const MeshSlice& place) {
+            TextReader reader(TextScanner(whole, slices[i]), place);
+            const bool is_last = end_of(slices[i]) == end;
+            if (reader.read(slices[i].data() != begin, end_of(slices[i])) == is_last)
+                throw InputError("a solid ends too early, or does not end");
+            return reader.collector().take_points();
+        };
+        PolygonMesh mesh;
+        set_vertices(mesh, join_facets<double>(static_cast<Index>(slices.size()), slicing.exec, read, mesh));
+        return mesh;
+    };
+    return read_in_slices_if_faultless(in_slices, in_one_go);
 }
 
 }  // namespace seamflow

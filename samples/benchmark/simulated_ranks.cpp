@@ -7,61 +7,51 @@
 
 #include <fmt/format.h>
 
-#include "engine/distributed/cut/distributed_cut.h"
-#include "engine/distributed/distributed_flow.h"
-#include "engine/distributed/parts/deal.h"
-#include "engine/distributed/parts/whole_mesh.h"
-#include "engine/distributed/ranks/thread_transport.h"
+#include "engine/mean_curvature_flow.h"
+#include "engine/ranks/rank_group.h"
+#include "engine/ranks/thread_transport.h"
 
 namespace seamflow {
 
 namespace {
 
 struct RunOnRanks {
-    Points positions;
-    std::vector<RankReport> reports;
+    PolygonMesh mesh;
+    FlowReport report;
 };
 
 RunOnRanks run_on_ranks(const PolygonMesh& mesh, FlowOptions flow, int n)
 {
-    RunOnRanks run;
-    run.reports.resize(n);
+    RunOnRanks run{mesh, {}};
     flow.resources.threads = 1;
     run_on_threads(n, [&](Transport& transport) {
-        RankSlice slice;
-        MeshPart part;
-        run_together(transport, [&](Communicator& comm) {
-            slice = hand_out(comm, mesh, 1);
-            cut_together(comm, slice, flow);
-            part = deal(comm, slice);
-        });
-        FlowOptions options = flow;
-        options.cut = {};
-        RankReport report = distributed_mean_curvature_flow(transport, part, options);
-        run_together(transport, [&](Communicator& comm) {
-            collect_positions(comm, part.vertex_numbers, part.mesh.vertices, slice);
-            Points positions = gather_positions(comm, slice.vertices);
-            if (comm.rank() == 0)
-                run.positions = std::move(positions);
-        });
-        run.reports[transport.rank()] = std::move(report);
+        if (transport.rank() > 0) {
+            serve_flows(transport, n);
+            return;
+        }
+        RankGroup ranks(transport);
+        FlowControl control;
+        control.ranks = &ranks;
+        run.report = mean_curvature_flow(run.mesh, flow, {}, control);
     });
     return run;
 }
 
-RankCounts counts_of(const RunOnRanks& run, const Points& expected)
+/// @param steps of the flow, all of which send as much.
+RankCounts counts_of(const RunOnRanks& run, int n_ranks, int steps, const Points& expected)
 {
     RankCounts counts;
-    counts.ranks = static_cast<int>(run.reports.size());
-    counts.sub_meshes = run.reports.front().flow.cut.n_sub_meshes();
-    for (const RankReport& rank : run.reports) {
-        counts.most_vertices = std::max(counts.most_vertices, rank.vertices);
-        counts.mean_vertices += static_cast<double>(rank.vertices) / counts.ranks;
-        counts.messages = std::max(counts.messages, rank.traffic.back().messages);
-        counts.bytes = std::max(counts.bytes, rank.traffic.back().bytes);
-        counts.iterations = rank.flow.steps.back().iterations;
+    counts.ranks = n_ranks;
+    counts.sub_meshes = run.report.cut.n_sub_meshes();
+    counts.most_vertices = n_ranks == 1 ? run.mesh.n_vertices() : 0;
+    counts.mean_vertices = static_cast<double>(run.mesh.n_vertices()) / n_ranks;
+    for (const RankRecord& rank : run.report.ranks) {
+        counts.most_vertices = std::max(counts.most_vertices, static_cast<Index>(rank.vertices));
+        counts.messages = std::max(counts.messages, rank.messages / static_cast<std::uint64_t>(steps));
+        counts.bytes = std::max(counts.bytes, rank.bytes / static_cast<std::uint64_t>(steps));
     }
-    counts.same_bits = (run.positions.array() == expected.array()).all();
+    counts.iterations = run.report.steps.back().iterations;
+    counts.same_bits = (run.mesh.vertices.array() == expected.array()).all();
     return counts;
 }
 
@@ -106,13 +96,13 @@ SimulatedRanks simulate_ranks(const PolygonMesh& mesh, const FlowOptions& flow, 
     SimulatedRanks simulated;
     const RunOnRanks alone = run_on_ranks(mesh, flow, 1);
     std::vector<double> seconds;
-    for (const StepReport& step : alone.reports.front().flow.steps)
+    for (const StepReport& step : alone.report.steps)
         seconds.push_back(step.seconds);
     std::ranges::sort(seconds);
     simulated.seconds_per_vertex = seconds[seconds.size() / 2] / mesh.n_vertices();
     for (const int n : ranks)
-        simulated.counts.push_back(n == 1 ? counts_of(alone, alone.positions)
-                                          : counts_of(run_on_ranks(mesh, flow, n), alone.positions));
+        simulated.counts.push_back(
+            counts_of(n == 1 ? alone : run_on_ranks(mesh, flow, n), n, flow.steps, alone.mesh.vertices));
     return simulated;
 }
 

@@ -12,14 +12,14 @@
 
 namespace seamflow {
 
-/// Counts of the work and messages of ranks that share a mesh: with more ranks than cores nothing can be timed.
+/// Counts of the work and messages of ranks that share steps: with more ranks than cores nothing can be timed.
 struct RankCounts {
     int ranks = 0;
     Index sub_meshes = 0;
     /// Vertices of the rank that has most, and the mean over all ranks.
     Index most_vertices = 0;
     double mean_vertices = 0.0;
-    /// Of one step (the last), of the rank that sends most.
+    /// Of one step on average, of the rank that sends most.
     std::uint64_t messages = 0;
     std::uint64_t bytes = 0;
     /// Of a converged step.
@@ -36,8 +36,8 @@ struct SimulatedRanks {
 };
 
 /// Runs the flow once for each number of ranks, which are threads of this process, and before that with one.
-/// @param flow with steps, a time step, and conditions that a distributed flow supports.
-/// @throws what a distributed flow throws.
+/// @param flow with steps, a time step, and conditions that ranks can share.
+/// @throws as mean_curvature_flow.
 SimulatedRanks simulate_ranks(const PolygonMesh& mesh, const FlowOptions& flow, const std::vector<int>& ranks);
 
 /// Prints the counts, and a prediction from them for large meshes, by a model: a step takes the time of its vertices,

@@ -87,20 +87,6 @@ void require_usable_files(const SmoothCommand& command)
         require_writable(path);
 }
 
-/// Omits from --help the options that a program lacks.
-void hide(CLI::App& app, const SmoothProgram& program)
-{
-    for (const SmoothProgram::Lack& lack : program.lacks)
-        app.get_option(lack.option)->group("");
-}
-
-void require_known(const CLI::App& app, const SmoothProgram& program)
-{
-    for (const SmoothProgram::Lack& lack : program.lacks)
-        if (app.count(lack.option) > 0)
-            throw OptionError(fmt::format("{} has no {}: {}", program.name, lack.option, lack.reason));
-}
-
 }  // namespace
 
 std::optional<ExitStatus> parse_smooth_command(int argc, char** argv, SmoothCommand& command,
@@ -114,12 +100,11 @@ std::optional<ExitStatus> parse_smooth_command(int argc, char** argv, SmoothComm
     if (names_tiles({argv, static_cast<std::size_t>(argc)}))
         take_tiles(app, command);
     app.footer(program.examples.empty() ? smooth_examples() : program.examples);
-    if (program.add_own)
-        program.add_own(app);
-    hide(app, program);
+    if (!program.approaches.empty())
+        app.get_option("--approach")->description(program.approaches);
     if (const auto end = parse_command_line(app, argc, argv))
         return end;
-    require_known(app, program);
+    command.program = program.name;
     command.arguments.assign(argv + 1, argv + argc);
     if (command.fields.exists())
         require_fields(app, command);
@@ -138,8 +123,7 @@ std::optional<ExitStatus> parse_smooth_command(int argc, char** argv, SmoothComm
     if (!every_step.empty())
         command.every_step.emplace(every_step);
     require_usable_results(command);
-    if (program.checks_files)
-        require_usable_files(command);
+    require_usable_files(command);
     return std::nullopt;
 }
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,28 +8,16 @@
 #include "samples/command/smooth_command.h"
 #include "samples/process/exit_status.h"
 
-namespace CLI {  // NOLINT(readability-identifier-naming)
-class App;
-}
-
 namespace seamflow {
 
-/// A program with the command line of `smooth`, or with most of it.
+/// A program with the command line of `smooth`.
 struct SmoothProgram {
     const char* name = "smooth";
     const char* description = "Smooths a mesh by mean curvature flow, cut into sub-meshes that are solved in parallel.";
-    /// An option that it lacks, and why.
-    struct Lack {
-        std::string option;
-        const char* reason;
-    };
-    std::vector<Lack> lacks = {};
     /// Command lines that --help shows (see command_help.h); empty: those of `smooth`.
     std::string examples = {};
-    /// Adds the options that only it has.
-    std::function<void(CLI::App&)> add_own = {};
-    /// Whether it checks the folders of the results: of several processes only one does.
-    bool checks_files = true;
+    /// What --help says of --approach; empty: as of `smooth`.
+    std::string approaches = {};
 };
 
 /// Parses the command line and checks that the results can be written to the given paths.

@@ -29,8 +29,10 @@ struct FieldRequest {
     [[nodiscard]] bool exists() const { return !names.empty() || !from.empty(); }
 };
 
-/// The command line of `smooth`.
+/// The command line of `smooth` or `smooth-distributed`.
 struct SmoothCommand {
+    /// The name of the program.
+    std::string program = "smooth";
     std::filesystem::path input;
     std::filesystem::path output;
     /// Inputs whose borders coincide, in the order of their names, and the folder for their results, in place of

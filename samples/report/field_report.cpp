@@ -167,6 +167,7 @@ std::string field_report_json(const RunRecord& run, const FlowOptions& options, 
                        {"total", run.seconds}};
     json["choices"] = report.flow.choices;
     json["remarks"] = report.remarks;
+    add_ranks(json, run.ranks);
     return text_of(json);
 }
 

@@ -43,6 +43,17 @@ void add_convergence(ReportJson& json, const ConvergenceReport& convergence)
     json["steps_stagnated"] = convergence.steps_stagnated;
 }
 
+void add_ranks(ReportJson& json, const std::vector<RankRecord>& ranks)
+{
+    for (const RankRecord& rank : ranks)
+        json["ranks"].push_back({{"vertices", rank.vertices},
+                                 {"foreign_vertices", rank.foreign_vertices},
+                                 {"messages", rank.messages},
+                                 {"bytes", rank.bytes},
+                                 {"threads", rank.threads},
+                                 {"peak_memory_bytes", rank.peak_memory_bytes}});
+}
+
 ReportJson look_json(const SurfaceLook& look)
 {
     ReportJson json{

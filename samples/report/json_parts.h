@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -28,6 +29,9 @@ void add_statistics(ReportJson& json, const std::string& name, const LengthStati
 
 /// With a tolerance: it, and how many steps have missed it.
 void add_convergence(ReportJson& json, const ConvergenceReport& convergence);
+
+/// What each rank has had of the flow, if ranks have shared it.
+void add_ranks(ReportJson& json, const std::vector<RankRecord>& ranks);
 
 /// Area, volume, volumes of cells, if there are any, roughness and, where they were counted, crossing faces.
 ReportJson look_json(const SurfaceLook& look);

@@ -79,13 +79,9 @@ Json steps_json(const std::vector<StepReport>& steps, double mean_edge)
     Json list = Json::array();
     for (const StepReport& step : steps) {
         Json json{{"seconds", json_number(step.seconds)}};
-        if (step.moved) {
-            add_statistics(json, "moved", *step.moved, mean_edge);
-        } else {
-            json["max_mean_curvature_before"] = json_number(step.max_mean_curvature_before);
-            json["max_mean_curvature_after"] = json_number(step.max_mean_curvature_after);
-            add_displacement(json, step.displacement, mean_edge);
-        }
+        json["max_mean_curvature_before"] = json_number(step.max_mean_curvature_before);
+        json["max_mean_curvature_after"] = json_number(step.max_mean_curvature_after);
+        add_displacement(json, step.displacement, mean_edge);
         if (step.iterations)
             json["iterations"] = *step.iterations;
         if (step.residual)
@@ -118,19 +114,6 @@ Json surface_json(const RunRecord& run)
     return json;
 }
 
-Json ranks_json(const std::vector<RankRecord>& ranks)
-{
-    Json list = Json::array();
-    for (const RankRecord& rank : ranks)
-        list.push_back({{"vertices", rank.vertices},
-                        {"foreign_vertices", rank.foreign_vertices},
-                        {"messages", rank.messages},
-                        {"bytes", rank.bytes},
-                        {"threads", rank.threads},
-                        {"peak_memory_bytes", rank.peak_memory_bytes}});
-    return list;
-}
-
 /// Empty if missing or not a number.
 std::string text_of_cell(const Json& value)
 {
@@ -157,8 +140,7 @@ std::string smooth_report_json(const RunRecord& run, const FlowReport& report)
     json["junction_vertices"] = report.mesh.junction_vertices;
     if (run.has_region)
         json["region"] = true;
-    if (run.ranks.empty())
-        json["fixed_vertices"] = report.mesh.fixed_vertices;
+    json["fixed_vertices"] = report.mesh.fixed_vertices;
     json["laplacian"] = run.laplacian;
     json["flow"] = option_name(run.flow);
     json["filter"] = option_name(run.filter.kind);
@@ -200,8 +182,7 @@ std::string smooth_report_json(const RunRecord& run, const FlowReport& report)
     json["choices"] = report.choices;
     json["remarks"] = report.remarks;
     json["peak_memory_bytes"] = peak_memory_of(run);
-    if (!run.ranks.empty())
-        json["ranks"] = ranks_json(run.ranks);
+    add_ranks(json, run.ranks);
     return text_of(json);
 }
 

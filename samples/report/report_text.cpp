@@ -161,11 +161,8 @@ void print_step(std::ostream& out, const StepReport& report, int step, int steps
 {
     const double edge = mean_edge > 0.0 ? mean_edge : 1.0;
     out << fmt::format("step {} of {}  {:.3f} s  moved ", step, steps, report.seconds);
-    if (report.moved)
-        out << fmt::format("{:.3g}", report.moved->mean / edge);
-    else
-        out << fmt::format("{:.3g} normally, {:.3g} tangentially", report.displacement.normal.mean / edge,
-                           report.displacement.tangential.mean / edge);
+    out << fmt::format("{:.3g} normally, {:.3g} tangentially", report.displacement.normal.mean / edge,
+                       report.displacement.tangential.mean / edge);
     if (report.iterations)
         out << fmt::format("  iterations {}, residual {:.2g}", *report.iterations, report.residual.value_or(0.0));
     if (report.gap)
@@ -210,8 +207,10 @@ void print_details(std::ostream& out, const RunRecord& run, const FlowReport& re
         print_total(out, *report.displacement, run.scale.mean_edge);
 }
 
-void print_ranks(std::ostream& out, const RunRecord& run)
+void print_ranks(std::ostream& out, const RunRecord& run, int n_ranks)
 {
+    if (run.ranks.empty() && n_ranks > 1)
+        out << "ranks      rank 0 of " << n_ranks << " has done all of it: others share no such steps\n";
     if (run.ranks.empty())
         return;
     const auto [least, most] = std::ranges::minmax(run.ranks, {}, &RankRecord::vertices);

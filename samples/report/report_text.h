@@ -32,8 +32,9 @@ void print_step(std::ostream& out, const StepReport& report, int step, int steps
 /// Prints how steps were taken: the cut, factors, the time per task and displacements.
 void print_details(std::ostream& out, const RunRecord& run, const FlowReport& report);
 
-/// Prints how many vertices each rank had, if there were ranks.
-void print_ranks(std::ostream& out, const RunRecord& run);
+/// Prints how many vertices each rank had, or that there was nothing for others to do.
+/// @param n_ranks that were started.
+void print_ranks(std::ostream& out, const RunRecord& run, int n_ranks);
 
 /// Prints choices with reasons, remarks, time and memory, where the result is, and how it differs from the input.
 void print_result(std::ostream& out, const RunRecord& run, const FlowReport& report);

@@ -2,15 +2,16 @@
 
 #include <algorithm>
 
-#include "samples/process/peak_memory.h"
+#include "engine/ranks/peak_memory.h"
 
 namespace seamflow {
 
 std::int64_t peak_memory_of(const RunRecord& run)
 {
-    if (run.ranks.empty())
-        return peak_memory_bytes();
-    return std::ranges::max(run.ranks, {}, &RankRecord::peak_memory_bytes).peak_memory_bytes;
+    std::int64_t most = peak_memory_bytes();
+    for (const RankRecord& rank : run.ranks)
+        most = std::max(most, rank.peak_memory_bytes);
+    return most;
 }
 
 }  // namespace seamflow

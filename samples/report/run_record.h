@@ -5,22 +5,12 @@
 #include <string>
 #include <vector>
 
+#include "engine/measure/flow_report.h"
 #include "engine/options/flow_options.h"
 #include "samples/report/smoothing_request.h"
 #include "samples/report/surface_change.h"
 
 namespace seamflow {
-
-/// What one rank of `smooth-distributed` did.
-struct RankRecord {
-    std::int64_t vertices = 0;
-    std::int64_t foreign_vertices = 0;
-    /// In all steps together.
-    std::uint64_t messages = 0;
-    std::uint64_t bytes = 0;
-    std::int64_t peak_memory_bytes = 0;
-    std::int64_t threads = 0;
-};
 
 /// The data of a run of `smooth` or `smooth-distributed` beyond the FlowReport.
 struct RunRecord {
@@ -57,7 +47,7 @@ struct RunRecord {
     double seconds = 0.0;
     /// The change from the input to the result.
     SurfaceChange surface = {};
-    /// Of `smooth-distributed`.
+    /// See FlowReport::ranks.
     std::vector<RankRecord> ranks = {};
 };
 

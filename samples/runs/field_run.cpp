@@ -12,6 +12,7 @@
 
 #include "engine/fields/diffuse.h"
 #include "engine/fields/geodesic_distance.h"
+#include "engine/ranks/rank_group.h"
 #include "engine/tasks/stopwatch.h"
 #include "engine/tasks/workers.h"
 #include "partition/errors.h"
@@ -27,7 +28,6 @@
 #include "samples/page/page_html.h"
 #include "samples/page/read_file_colours.h"
 #include "samples/process/interruption.h"
-#include "samples/process/peak_memory.h"
 #include "samples/report/field_report.h"
 #include "samples/report/report_text.h"
 #include "samples/runs/run_output.h"
@@ -37,7 +37,7 @@ namespace seamflow {
 
 namespace {
 
-constexpr const char* distance = "distance";
+constexpr const char* name_of_distance = "distance";
 
 /// Completes options that the command line leaves to the mesh.
 void complete_options(SmoothCommand& command, const MeshFile& file, const FaultLog& left_out, const Executor& exec,
@@ -73,7 +73,7 @@ FileFields distances(const SmoothCommand& command, const MeshFile& file, const s
                      const FlowControl& control, FieldSummary& summary)
 {
     const Stopwatch watch;
-    FileFields fields{.names = {distance},
+    FileFields fields{.names = {name_of_distance},
                       .values = geodesic_distance(file.mesh, from, command.options.resources, control)};
     summary.report.flow.seconds.step = watch.seconds();
     for (double& one : fields.values.reshaped())
@@ -98,7 +98,7 @@ Decimals decimals_of_distances(const MeshFile& file, const std::filesystem::path
     const InputFile read{OpenFile(input)};
     TextScanner scanner(input, read.content(), ply_syntax);
     const PlyHeader header = read_ply_header(scanner);
-    const PlyProperty* const property = header.element("vertex")->property(distance);
+    const PlyProperty* const property = header.element("vertex")->property(name_of_distance);
     if (property == nullptr)
         return Decimals::Double;
     if (property->length_type || is_integer(property->type))
@@ -172,12 +172,7 @@ void require_place(const SmoothCommand& command, const MeshFile& file)
 void resolve_field_amount(SmoothCommand& command, const PolygonMesh& mesh, const Executor& exec, RunRecord& run)
 {
     run.scale = measure_scale(mesh, exec);
-    resolve_field_amount(command, run);
     command.options.uniform_edge = uniform_edge_of(command.options, mesh);
-}
-
-void resolve_field_amount(SmoothCommand& command, RunRecord& run)
-{
     resolve_lengths(command, run);
     FieldOptions& options = command.fields.options;
     if (command.fields.fwhm) {
@@ -192,9 +187,9 @@ void resolve_field_amount(SmoothCommand& command, RunRecord& run)
     }
 }
 
-ExitStatus run_fields(SmoothCommand& command, RunRecord& run)
+ExitStatus run_fields(SmoothCommand& command, RunRecord& run, RankGroup* ranks)
 {
-    Interruption interruption("smooth");
+    Interruption interruption(command.program);
     std::ostream& out = message_stream(command);
     const Stopwatch whole;
     Workers workers(command.options.resources.threads);
@@ -224,13 +219,13 @@ ExitStatus run_fields(SmoothCommand& command, RunRecord& run)
     const Decimals of_distances = from.empty() ? Decimals::Double : decimals_of_distances(file, command.input);
     try {
         interruption.begin_work();
-        const FlowControl control{.stop = interruption.token()};
+        const FlowControl control{.stop = interruption.token(), .ranks = ranks};
         fields = about_file(command.input, [&] {
             return command.fields.names.empty() ? distances(command, file, from, control, summary)
                                                 : diffused(command, file, before, control, summary);
         });
     } catch (const Cancelled&) {
-        std::cerr << "smooth: interrupted; no mesh was written\n";
+        std::cerr << command.program << ": interrupted; no mesh was written\n";
         return interruption.status();
     }
     if (!from.empty())
@@ -243,12 +238,15 @@ ExitStatus run_fields(SmoothCommand& command, RunRecord& run)
     if (left_out.count > 0)
         summary.report.remarks.push_back(remark_on_faces(left_out, command.output, true, file.kind));
     run.write_seconds = writing.seconds();
+    run.ranks = summary.report.flow.ranks;
     run.seconds = whole.seconds();
     const std::string report = field_report_json(run, command.options, summary);
     if (!command.report.empty())
         write_text(command.report, report);
     if (!command.html.empty())
         workers.execute([&] { write_page(command, file.mesh, std::move(colours), before.values, fields, report); });
+    if (ranks != nullptr)
+        print_ranks(out, run, ranks->size());
     print_fields(out, run, summary);
     command.options.accuracy.tolerance = summary.report.flow.convergence.tolerance;
     return require_converged(command, summary.report.flow.convergence);

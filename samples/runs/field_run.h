@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 
+#include "engine/ranks/rank_group.h"
 #include "partition/executor.h"
 #include "partition/formats/file_fields.h"
 #include "partition/formats/mesh_io.h"
@@ -17,9 +18,6 @@ namespace seamflow {
 /// @throws InputError as resolve_amount.
 void resolve_field_amount(SmoothCommand& command, const PolygonMesh& mesh, const Executor& exec, RunRecord& run);
 
-/// The same where the size of the mesh is already in `run`, except for FlowOptions::uniform_edge.
-void resolve_field_amount(SmoothCommand& command, RunRecord& run);
-
 /// Columns nx, ny and nz are normals: as long as they were, unless nothing is left of them.
 /// @param before #V by n: the fields before.
 void renormalise(FileFields& fields, const Eigen::MatrixXd& before);
@@ -31,8 +29,8 @@ void require_place(const SmoothCommand& command, const MeshFile& file);
 
 /// Runs `smooth` for fields on the surface of INPUT: reads them, lets them diffuse or measures distances, writes OUTPUT
 /// with them, and prints what was done.
-/// @param run holds the command line.
+/// @param run holds the command line. @param ranks that share the steps, or nullptr.
 /// @throws as the functions of files, and as diffuse and geodesic_distance.
-ExitStatus run_fields(SmoothCommand& command, RunRecord& run);
+ExitStatus run_fields(SmoothCommand& command, RunRecord& run, RankGroup* ranks = nullptr);
 
 }  // namespace seamflow

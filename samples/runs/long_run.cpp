@@ -92,7 +92,7 @@ ExitStatus LongRun::end_early()
                                                 : 0;
     if (kept > 0)
         message += fmt::format("; the same command continues after step {}", kept);
-    std::cerr << "smooth: " << message << '\n';
+    std::cerr << command_->program << ": " << message << '\n';
     return interruption_->status();
 }
 
@@ -103,7 +103,7 @@ void LongRun::keep_last_step()
         return;
     try {
         const auto path = write_last_step();
-        std::cerr << "smooth: " << path.string() << " has the mesh after step " << step_ << " of "
+        std::cerr << command_->program << ": " << path.string() << " has the mesh after step " << step_ << " of "
                   << command_->options.steps << '\n';
     } catch (const std::exception&) {
         // The user needs to know why the flow failed: that is reported.

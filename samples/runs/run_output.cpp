@@ -15,13 +15,12 @@ std::ostream& message_stream(const SmoothCommand& command)
     return command.quiet ? silence : is_taken ? std::cerr : std::cout;
 }
 
-ExitStatus require_converged(const SmoothCommand& command, const ConvergenceReport& report, std::string_view program)
+ExitStatus require_converged(const SmoothCommand& command, const ConvergenceReport& report)
 {
     const std::string missed = missed_tolerance(command, report);
     if (missed.empty())
         return ExitStatus::Success;
-    if (!program.empty())
-        std::cerr << program << ": " << missed << "; " << command.output.string() << " has the last state\n";
+    std::cerr << command.program << ": " << missed << "; " << command.output.string() << " has the last state\n";
     return ExitStatus::ComputationFailed;
 }
 

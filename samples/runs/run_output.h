@@ -1,7 +1,6 @@
 #pragma once
 
 #include <ostream>
-#include <string_view>
 
 #include "engine/measure/flow_report.h"
 #include "samples/command/smooth_command.h"
@@ -15,8 +14,6 @@ std::ostream& message_stream(const SmoothCommand& command);
 
 /// The status of a complete run. If steps have missed their tolerance, the results are not what was asked for: prints
 /// that to standard error.
-/// @param program its name; empty: nothing is printed.
-ExitStatus require_converged(const SmoothCommand& command, const ConvergenceReport& report,
-                             std::string_view program = "smooth");
+ExitStatus require_converged(const SmoothCommand& command, const ConvergenceReport& report);
 
 }  // namespace seamflow

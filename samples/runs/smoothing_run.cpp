@@ -133,8 +133,7 @@ void remark_on_lost_cells(const std::vector<double>& before, const std::vector<d
 
 }  // namespace
 
-void remark_on_loss(const FlowOptions& options, const SurfaceChange& change, std::vector<std::string>& remarks,
-                    bool can_rescale)
+void remark_on_loss(const FlowOptions& options, const SurfaceChange& change, std::vector<std::string>& remarks)
 {
     constexpr double much = 0.2;
     constexpr double most = 0.5;  // of the area: noise alone may have much of it
@@ -150,10 +149,10 @@ void remark_on_loss(const FlowOptions& options, const SurfaceChange& change, std
     }
     const double lost = 1.0 - *change.after.volume / *change.before.volume;
     if (lost > much)
-        remarks.push_back(
-            fmt::format("The surface has lost {:.0f}% of its volume: less smoothing is gentler{}{}.", 100.0 * lost,
-                        options.filter == Filter::LowPass ? "" : ", --filter low-pass loses less",
-                        can_rescale && change.before.cell_volumes.empty() ? ", --rescale volume scales it back" : ""));
+        remarks.push_back(fmt::format("The surface has lost {:.0f}% of its volume: less smoothing is gentler{}{}.",
+                                      100.0 * lost,
+                                      options.filter == Filter::LowPass ? "" : ", --filter low-pass loses less",
+                                      change.before.cell_volumes.empty() ? ", --rescale volume scales it back" : ""));
 }
 
 void remark_on_folds(const FlowOptions& options, const SurfaceChange& change, std::vector<std::string>& remarks)

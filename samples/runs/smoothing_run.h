@@ -39,9 +39,7 @@ void resolve_amount(SmoothCommand& command, const PolygonMesh& mesh, const Execu
 
 /// A surface that flows by mean curvature shrinks, which surprises those who only wanted it smooth: adds a remark if it
 /// has lost much of its volume, or most of its area if it encloses none; where sheets meet, if cells have lost much.
-/// @param can_rescale whether the user can request rescaling.
-void remark_on_loss(const FlowOptions& options, const SurfaceChange& change, std::vector<std::string>& remarks,
-                    bool can_rescale = true);
+void remark_on_loss(const FlowOptions& options, const SurfaceChange& change, std::vector<std::string>& remarks);
 
 /// Adds a remark, with a remedy, if the surface has folded over, or crosses itself where it did not before, or if
 /// sheets lie on each other so that cells are not known.

@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "engine/ranks/peak_memory.h"
 #include "partition/io/input_position.h"
-#include "samples/process/peak_memory.h"
 #include "samples/report/report_text.h"
 #include "samples/runs/smoothing_run.h"
 

@@ -70,9 +70,9 @@ if(EXISTS "${seamflow_DIR}/seamflow-distributed-targets.cmake")
     find_package(seamflow REQUIRED COMPONENTS distributed)
     file(WRITE "${CMAKE_CURRENT_BINARY_DIR}/ranks.cpp" [[
 #include <atomic>
-#include <seamflow/engine/distributed/ranks/mpi_transport.h>
-#include <seamflow/engine/distributed/files/shared_mesh_file.h>
-#include <seamflow/engine/distributed/ranks/thread_transport.h>
+#include <seamflow/engine/ranks/mpi_transport.h>
+#include <seamflow/engine/ranks/rank_group.h>
+#include <seamflow/engine/ranks/thread_transport.h>
 int main(int argc, char**)
 {
     std::atomic<int> n = 0;

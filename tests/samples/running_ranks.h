@@ -1,13 +1,7 @@
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-#include <cstring>
-#include <filesystem>
 #include <fstream>
-#include <sstream>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "tests/samples/workshop.h"
@@ -47,56 +41,6 @@ inline int on_ranks_of_which_one_is_killed(const Workshop& w, const std::string&
                                               "kill -9 $(cat pid.1)\n"
                                               "wait $!\n";
     return w.run("sh kill.sh");
-}
-
-/// Writes an OBJ file in which every face has vertices of its own.
-inline void write_soup(const std::filesystem::path& from, const std::filesystem::path& to)
-{
-    std::ifstream file(from);
-    std::ofstream soup(to);
-    std::vector<std::string> vertices;
-    std::size_t n = 0;
-    for (std::string line; std::getline(file, line);) {
-        if (line.starts_with("v "))
-            vertices.push_back(line);
-        if (!line.starts_with("f "))
-            continue;
-        std::istringstream corners(line.substr(2));
-        std::string face = "f";
-        for (std::size_t v = 0; corners >> v;) {
-            soup << vertices.at(v - 1) << '\n';
-            face.append(" ").append(std::to_string(++n));
-        }
-        soup << face << '\n';
-    }
-}
-
-template <class Value>
-Value number_at(std::string_view bytes, std::size_t offset)
-{
-    Value value;
-    std::memcpy(&value, bytes.data() + offset, sizeof value);
-    return value;
-}
-
-/// The count of an element in the header of a PLY file.
-inline std::size_t count_in(const std::string& content, const std::string& element)
-{
-    return std::stoul(content.substr(content.find("element " + element) + element.size() + 9));
-}
-
-/// Writes the labels of a file of --parts.
-inline void write_labels_of(const std::filesystem::path& parts, const std::filesystem::path& labels)
-{
-    const std::string content = content_of(parts);
-    const std::string end = "end_header\n";
-    std::size_t offset = content.find(end) + end.size() + 24 * count_in(content, "vertex");
-    std::ofstream file(labels);
-    for (std::size_t left = count_in(content, "face"); left > 0; --left) {
-        offset += 1 + 4 * std::size_t{number_at<std::uint8_t>(content, offset)} + 3;
-        file << number_at<std::int32_t>(content, offset) << '\n';
-        offset += 4;
-    }
 }
 
 }  // namespace seamflow::test

@@ -1,0 +1,179 @@
+#include "engine/ranks/dealt_mesh.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "engine/tasks/parallel_executor.h"
+#include "partition/decomposition/decomposition.h"
+#include "partition/index_lists.h"
+
+namespace seamflow {
+
+namespace {
+
+/// Calls visit(option) for everything that steps in sub-meshes read, but for what each vertex has of its own.
+template <class Options, class Visit>
+void for_each_dealt(Options& options, Visit&& visit)
+{
+    visit(options.laplacian);
+    visit(options.flow);
+    visit(options.filter);
+    visit(options.order);
+    visit(options.time_step);
+    visit(options.uniform_edge);
+    visit(options.steps);
+    visit(options.interface);
+    visit(options.accuracy);
+    visit(options.motion.boundary);
+    visit(options.motion.attachment);
+    visit(options.resources);
+}
+
+template <class Value>
+void put_rows_of(const std::vector<Value>& all, std::span<const Index> rows, Packer& message)
+{
+    std::vector<Value> own;
+    if (!all.empty())
+        for (const Index row : rows)
+            own.push_back(all[row]);
+    message.put_all(std::span<const Value>(own));
+}
+
+}  // namespace
+
+DealtMesh dealt_mesh(Unpacker& message)
+{
+    DealtMesh dealt;
+    for_each_dealt(dealt.options, [&](auto& option) { option = message.get<std::decay_t<decltype(option)>>(); });
+    dealt.holders = message.get_all<Index>();
+    dealt.known = message.get_all<Index>();
+    dealt.first_faces = message.get_all<Index>();
+    dealt.vertex_numbers = message.get_all<Index>();
+    dealt.mesh.vertices = message.get_points();
+    dealt.mesh.face_offsets = message.get_all<Index>();
+    dealt.mesh.face_vertices = message.get_all<Index>();
+    dealt.labels = message.get_all<Index>();
+    const bool has_junctions = message.get<bool>();
+    const bool is_oriented = message.get<bool>();
+    dealt.topology = make_topology(dealt.mesh, run_in_parallel);
+    if (has_junctions)
+        free_junctions(dealt.mesh, dealt.topology, run_in_parallel);
+    dealt.topology.oriented = is_oriented;
+    dealt.topology.kind = message.get_all<VertexKind>();
+    dealt.topology.fixed = message.get_all<std::uint8_t>();
+    dealt.is_told = message.get_all<std::uint8_t>();
+    dealt.curvature = message.get_all<double>();
+    dealt.options.motion.strength = message.get_all<double>();
+    dealt.options.motion.attachment_weights = message.get_all<double>();
+    return dealt;
+}
+
+Dealer::Dealer(const PolygonMesh& mesh, const Topology& topology, std::span<const Index> labels, Index n_parts,
+               const FlowOptions& options, std::vector<double> curvature, int n_ranks)
+    : mesh_(&mesh)
+    , topology_(&topology)
+    , labels_(labels)
+    , options_(&options)
+    , curvature_(std::move(curvature))
+    , faces_(faces_by_label(labels, n_parts, run_in_parallel))
+    , is_told_(at(mesh.n_vertices()), 0)
+    , knows_face_(at(mesh.n_faces()), -1)
+    , knows_vertex_(at(mesh.n_vertices()), -1)
+    , meets_vertex_(at(mesh.n_vertices()), -1)
+    , place_(at(mesh.n_vertices()), 0)
+    , known_vertices_(static_cast<std::size_t>(n_ranks))
+    , told_vertices_(known_vertices_.size())
+{
+    // A sub-mesh goes where its middle face is in a mesh that is divided equally.
+    double before = 0.0;
+    for (const std::vector<Index>& faces : faces_) {
+        const double middle = before + 0.5 * static_cast<double>(faces.size());
+        holders_.push_back(static_cast<Index>(n_ranks * middle / mesh.n_faces()));
+        before += static_cast<double>(faces.size());
+    }
+}
+
+/// With two layers around its own ones, all that have the vertices around those of its sub-meshes are known.
+std::vector<Index> Dealer::known_faces(int rank)
+{
+    constexpr int layers = 2;
+    std::vector<Index> known;
+    const auto reach = [&](Index f) {
+        if (std::exchange(knows_face_[f], rank) != rank)
+            known.push_back(f);
+    };
+    for (std::size_t s = 0; s < faces_.size(); ++s)
+        if (holders_[s] == rank)
+            std::ranges::for_each(faces_[s], reach);
+    std::size_t begin = 0;
+    for (int layer = 0; layer < layers; ++layer) {
+        const std::size_t end = known.size();
+        for (; begin < end; ++begin)
+            for (const Index v : mesh_->face(known[begin]))
+                if (std::exchange(knows_vertex_[v], rank) != rank)
+                    for (const Index corner : topology_->corners_at(v))
+                        reach(topology_->face_of[at(corner)]);
+    }
+    std::ranges::sort(known);
+    return known;
+}
+
+void Dealer::deal(int rank, Packer& message)
+{
+    const std::vector<Index> faces = known_faces(rank);
+    std::vector<Index> vertices;
+    std::vector<Index> sub_meshes;
+    std::vector<Index> own_vertices;
+    for (const Index f : faces) {
+        const Index s = labels_[f];
+        if (sub_meshes.empty() || sub_meshes.back() != s)
+            sub_meshes.push_back(s);
+        for (const Index v : mesh_->face(f)) {
+            if (std::exchange(meets_vertex_[v], rank) != rank)
+                vertices.push_back(v);
+            if (holders_[s] == rank && std::exchange(is_told_[v], std::uint8_t{1}) == 0)
+                own_vertices.push_back(v);
+        }
+    }
+    std::ranges::sort(vertices);
+    sort_unique(sub_meshes);
+    std::ranges::sort(own_vertices);
+    for (std::size_t i = 0; i < vertices.size(); ++i)
+        place_[vertices[i]] = static_cast<Index>(i);
+    std::vector<std::uint8_t> is_told(vertices.size(), 0);
+    for (const Index v : own_vertices)
+        is_told[place_[v]] = 1;
+
+    for_each_dealt(*options_, [&](const auto& option) { message.put(option); });
+    message.put_all(std::span<const Index>(holders_));
+    message.put_all(std::span<const Index>(sub_meshes));
+    std::vector<Index> first_faces;
+    for (const Index s : sub_meshes)
+        first_faces.push_back(faces_[s].front());
+    message.put_all(std::span<const Index>(first_faces));
+    message.put_all(std::span<const Index>(vertices));
+    message.put_rows(mesh_->vertices, vertices);
+    PolygonMesh part;
+    std::vector<Index> labels;
+    for (const Index f : faces) {
+        for (const Index v : mesh_->face(f))
+            part.face_vertices.push_back(place_[v]);
+        part.face_offsets.push_back(part.n_corners());
+        labels.push_back(position_in(sub_meshes, labels_[f]));
+    }
+    message.put_all(std::span<const Index>(part.face_offsets));
+    message.put_all(std::span<const Index>(part.face_vertices));
+    message.put_all(std::span<const Index>(labels));
+    message.put(!topology_->junctions.empty());
+    message.put(topology_->oriented);
+    put_rows_of(topology_->kind, vertices, message);
+    put_rows_of(topology_->fixed, vertices, message);
+    message.put_all(std::span<const std::uint8_t>(is_told));
+    put_rows_of(curvature_, vertices, message);
+    put_rows_of(options_->motion.strength, vertices, message);
+    put_rows_of(options_->motion.attachment_weights, vertices, message);
+    known_vertices_[rank] = std::move(vertices);
+    told_vertices_[rank] = std::move(own_vertices);
+}
+
+}  // namespace seamflow

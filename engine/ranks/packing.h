@@ -1,0 +1,163 @@
+#pragma once
+
+#include <cstring>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "engine/ranks/transport.h"
+#include "partition/polygon_mesh.h"
+#include "partition/vector_area.h"
+
+/// Converts values to bytes and back. All ranks have the same byte order: one run uses one kind of machine.
+namespace seamflow {
+
+/// Appends values.
+class Packer {
+  public:
+    template <class Value>
+    requires std::is_trivially_copyable_v<Value>
+    void put(const Value& value) { put_bytes(&value, sizeof(Value)); }
+
+    /// Their number, then the values.
+    template <class Value>
+    requires std::is_trivially_copyable_v<Value>
+    void put_all(std::span<const Value> values)
+    {
+        put(values.size());
+        put_bytes(values.data(), values.size_bytes());
+    }
+
+    /// Three coordinates.
+    void put_row(const double* coordinates) { put_bytes(coordinates, 3 * sizeof(double)); }
+
+    /// Their number, then the rows, of these or of all.
+    void put_rows(const Points& points, std::span<const Index> rows)
+    {
+        put(3 * rows.size());
+        reserve_further(3 * rows.size() * sizeof(double));
+        for (const Index row : rows)
+            put_row(points.row(row).data());
+    }
+    void put_points(const Points& points)
+    {
+        put_all(std::span<const double>(points.data(), static_cast<std::size_t>(points.size())));
+    }
+
+    /// Moves out what was put.
+    [[nodiscard]] Bytes take() { return std::move(bytes_); }
+
+    void reserve(std::size_t n_bytes) { bytes_.reserve(n_bytes); }
+
+  private:
+    void reserve_further(std::size_t n_bytes) { bytes_.reserve(bytes_.size() + n_bytes); }
+
+    void put_bytes(const void* values, std::size_t size)
+    {
+        const auto* const begin = static_cast<const std::byte*>(values);
+        bytes_.insert(bytes_.end(), begin, begin + size);
+    }
+
+    Bytes bytes_;
+};
+
+/// Takes values in the order in which they were put.
+class Unpacker {
+  public:
+    /// @param bytes must outlive this.
+    explicit Unpacker(const Bytes& bytes)
+        : left_(bytes)
+    {
+    }
+
+    template <class Value>
+    [[nodiscard]] Value get()
+    {
+        Value value;
+        get_bytes(&value, sizeof(Value));
+        return value;
+    }
+
+    template <class Value>
+    [[nodiscard]] std::vector<Value> get_all()
+    {
+        std::vector<Value> values;
+        append_all(values);
+        return values;
+    }
+
+    template <class Value>
+    void append_all(std::vector<Value>& values)
+    {
+        const std::size_t n = next_size(sizeof(Value));
+        values.resize(values.size() + n);
+        get_bytes(values.data() + (values.size() - n), n * sizeof(Value));
+    }
+
+    /// What put_rows or put_points has put.
+    [[nodiscard]] Points get_points()
+    {
+        Points points(static_cast<Eigen::Index>(next_size(sizeof(double)) / 3), 3);
+        get_bytes(points.data(), static_cast<std::size_t>(points.size()) * sizeof(double));
+        return points;
+    }
+
+    /// The same into these rows, of which there are as many.
+    void get_rows(Points& points, std::span<const Index> rows)
+    {
+        if (next_size(sizeof(double)) != 3 * rows.size())
+            throw std::logic_error("a message has other rows than it should");
+        for (const Index row : rows)
+            get_bytes(points.row(row).data(), sizeof(Point));
+    }
+
+    [[nodiscard]] bool is_at_end() const { return left_.empty(); }
+
+  private:
+    /// How many values of this many bytes follow.
+    std::size_t next_size(std::size_t bytes_each)
+    {
+        const auto n = get<std::size_t>();
+        if (n > left_.size() / bytes_each)
+            throw std::logic_error("a message is shorter than it says");
+        return n;
+    }
+
+    void get_bytes(void* values, std::size_t size)
+    {
+        if (size > left_.size())
+            throw std::logic_error("a message is shorter than it should be");
+        if (size > 0)
+            std::memcpy(values, left_.data(), size);
+        left_ = left_.subspan(size);
+    }
+
+    std::span<const std::byte> left_;
+};
+
+/// Bytes of one list of values.
+template <class Value>
+Bytes packed(std::span<const Value> values)
+{
+    Packer packer;
+    packer.reserve(sizeof(std::size_t) + values.size_bytes());
+    packer.put_all(values);
+    return packer.take();
+}
+
+template <class Value>
+Bytes packed(const std::vector<Value>& values)
+{
+    return packed(std::span<const Value>(values));
+}
+
+/// The list of values that packed() was given.
+template <class Value>
+std::vector<Value> unpacked(const Bytes& bytes)
+{
+    return Unpacker(bytes).get_all<Value>();
+}
+
+}  // namespace seamflow

@@ -1,0 +1,223 @@
+#include "engine/ranks/rank_exchange.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cstring>
+#include <exception>
+#include <stdexcept>
+#include <thread>
+#include <utility>
+
+#include "engine/tasks/run_for_sub_mesh.h"
+#include "partition/index_lists.h"
+#include "partition/vector_area.h"
+
+namespace seamflow {
+
+namespace {
+
+/// How soon a receiver notices that its run has failed.
+constexpr std::chrono::milliseconds patience_of_receiver{20};
+
+/// The header before the rows of a message.
+struct Header {
+    std::uint64_t run;
+    Index sub_mesh;
+    News news;
+};
+
+Header header_of(const Message& message)
+{
+    return Unpacker(message.bytes).get<Header>();
+}
+
+}  // namespace
+
+std::vector<KnownSubMesh> known_sub_meshes(const DealtMesh& dealt, const Decomposition& decomposition)
+{
+    std::vector<KnownSubMesh> known;
+    for (std::size_t s = 0; s < dealt.known.size(); ++s)
+        known.push_back({.number = dealt.known[s],
+                         .rank = dealt.holders[dealt.known[s]],
+                         .n_vertices = decomposition.sub_meshes[s].n_vertices,
+                         .faces = {dealt.first_faces[s]}});
+    return known;
+}
+
+RankExchange::RankExchange(Communicator& comm, const std::vector<Index>& vertex_numbers,
+                           std::vector<KnownSubMesh> known)
+    : comm_(&comm)
+    , vertex_numbers_(&vertex_numbers)
+    , known_(std::move(known))
+    , own_interest_(known_.size())
+    , listeners_(known_.size())
+{
+    for (auto& mail : mail_)
+        mail.resize(known_.size());
+}
+
+Index RankExchange::known_index(Index number) const
+{
+    return static_cast<Index>(std::ranges::lower_bound(known_, number, {}, &KnownSubMesh::number) - known_.begin());
+}
+
+/// Rows that the transfers to this rank's sub-meshes read of foreign ones, and further rows.
+void RankExchange::find_own_interest(const Decomposition& decomposition, std::span<const SweepPlan> sweeps,
+                                     std::span<const std::vector<Index>> further)
+{
+    const auto note = [&](const std::vector<Transfer>& transfers, std::initializer_list<News> kinds) {
+        for (const Transfer& transfer : transfers)
+            for (const News news : kinds)
+                if (is_foreign(transfer.from)) {
+                    auto& rows = own_interest_[transfer.from].rows[kind(news)];
+                    rows.insert(rows.end(), transfer.source.begin(), transfer.source.end());
+                }
+    };
+    for (Interest& interest : own_interest_)
+        interest.predicts.assign(sweeps.size(), 0);
+    for (const auto& halo : decomposition.halo)
+        note(halo, {News::Position, News::Solution});
+    for (std::size_t s = 0; s < further.size(); ++s)
+        note({{.from = static_cast<Index>(s), .to = -1, .source = further[s], .target = {}}},
+             {News::Position, News::Solution});
+    for (std::size_t sweep = 0; sweep < sweeps.size(); ++sweep)
+        for (std::size_t s = 0; s < known_.size(); ++s) {
+            note(sweeps[sweep].traces[s], {News::Solution});
+            note(sweeps[sweep].predictions[s], {News::Prediction});
+            for (const Transfer& prediction : sweeps[sweep].predictions[s])
+                own_interest_[prediction.from].predicts[sweep] = 1;
+        }
+    for (Interest& interest : own_interest_)
+        for (auto& rows : interest.rows)
+            sort_unique(rows);
+}
+
+void RankExchange::connect(const Decomposition& decomposition, std::span<const SweepPlan> sweeps,
+                           std::span<const std::vector<Index>> further)
+{
+    find_own_interest(decomposition, sweeps, further);
+    arrivals_.resize(sweeps.size());
+    std::vector<Packer> to_each(comm_->size());
+    for (std::size_t s = 0; s < known_.size(); ++s) {
+        if (!is_foreign(static_cast<Index>(s)))
+            continue;
+        Packer& packer = to_each[known_[s].rank];
+        packer.put(known_[s].number);
+        for (const auto& rows : own_interest_[s].rows) {
+            std::vector<Index> numbers;
+            for (const Index row : rows)
+                numbers.push_back((*vertex_numbers_)[decomposition.sub_meshes[s].local_to_global[row]]);
+            packer.put_all(std::span<const Index>(numbers));
+        }
+        packer.put_all(std::span<const std::uint8_t>(own_interest_[s].predicts));
+    }
+    std::vector<Bytes> bytes;
+    for (Packer& packer : to_each)
+        bytes.push_back(packer.take());
+    const std::vector<Bytes> from_each = comm_->exchange(std::move(bytes));
+    for (int rank = 0; rank < comm_->size(); ++rank)
+        for (Unpacker unpacker(from_each[rank]); !unpacker.is_at_end();) {
+            const Index s = known_index(unpacker.get<Index>());
+            Interest& interest = listeners_[s].emplace_back();
+            interest.rank = rank;
+            for (auto& rows : interest.rows)
+                for (const Index number : unpacker.get_all<Index>())
+                    rows.push_back(local_index(decomposition.sub_meshes[s], position_in(*vertex_numbers_, number)));
+            interest.predicts = unpacker.get_all<std::uint8_t>();
+        }
+}
+
+bool RankExchange::awaits(News news, std::size_t sweep, Index s) const
+{
+    return own_interest_[s].includes(news, sweep);
+}
+
+void RankExchange::set_event(News news, std::size_t sweep, Index s, StepGraph::Node event)
+{
+    arrivals_[sweep].push_back({news, s, event, false});
+}
+
+void RankExchange::receive(News news, Index s, Points& rows)
+{
+    Bytes& bytes = mail_[kind(news)][s];
+    const std::byte* from = bytes.data() + sizeof(Header);
+    for (const Index row : own_interest_[s].rows[kind(news)]) {
+        std::memcpy(rows.row(row).data(), from, sizeof(Point));
+        from += sizeof(Point);
+    }
+    bytes = Bytes();
+}
+
+void RankExchange::send(News news, std::size_t sweep, Index s, const Points& rows)
+{
+    for (const Interest& interest : listeners_[s]) {
+        if (!interest.includes(news, sweep))
+            continue;
+        Packer packer;
+        packer.reserve(sizeof(Header) + interest.rows[kind(news)].size() * sizeof(Point));
+        packer.put(Header{run_, known_[s].number, news});
+        for (const Index row : interest.rows[kind(news)])
+            packer.put_row(rows.row(row).data());
+        comm_->send(interest.rank, packer.take());
+    }
+}
+
+/// Keeps a message for a later run; else starts the task that waits for it.
+void RankExchange::deliver(Message message, StepGraph& graph, std::vector<Arrival>& arrivals)
+{
+    const Header header = header_of(message);
+    if (header.run > run_) {
+        early_.push_back(std::move(message));
+        return;
+    }
+    const Index s = known_index(header.sub_mesh);
+    const auto arrival = std::ranges::find_if(
+        arrivals, [&](const Arrival& a) { return a.news == header.news && a.sub_mesh == s && !a.has_come; });
+    if (header.run < run_ || arrival == arrivals.end() ||
+        message.bytes.size() != sizeof(Header) + own_interest_[s].rows[kind(header.news)].size() * sizeof(Point))
+        throw std::logic_error("a message came that nobody waits for");
+    mail_[kind(header.news)][s] = std::move(message.bytes);
+    graph.signal(arrival->event);
+    arrival->has_come = true;
+}
+
+/// If the run fails, here or at another rank, waiting tasks are started, too: they are then skipped.
+void RankExchange::receive_all(StepGraph& graph, std::vector<Arrival>& arrivals)
+{
+    try {
+        for (Message& message : std::exchange(early_, {}))
+            deliver(std::move(message), graph, arrivals);
+        const auto all_have_come = [&] { return std::ranges::all_of(arrivals, &Arrival::has_come); };
+        while (!all_have_come() && !graph.is_ending())
+            if (std::optional<Message> message = comm_->next_arrival(patience_of_receiver))
+                deliver(std::move(*message), graph, arrivals);
+    } catch (...) {
+        graph.fail(std::current_exception());
+    }
+    for (Arrival& arrival : arrivals)
+        if (!arrival.has_come)
+            retry([&] { graph.signal(arrival.event); });
+}
+
+void RankExchange::run(StepGraph& graph, std::size_t sweep, const std::function<void()>& begin,
+                       const std::function<void()>& join)
+{
+    ++run_;
+    begin();
+    std::vector<Arrival> arrivals = arrivals_[sweep];
+    const std::jthread receiver([&] { receive_all(graph, arrivals); });
+    try {
+        graph.run(sweep, 0.0, join);
+    } catch (...) {
+        // The receiver would wait for what others do not send.
+        graph.fail(std::current_exception());
+        throw;
+    }
+}
+
+void RankExchange::run_for(Index s, const std::function<void()>& body) const
+{
+    run_for_sub_mesh(known_[s], known_[s].number, body);
+}
+
+}  // namespace seamflow

@@ -1,0 +1,242 @@
+#include "engine/ranks/rank_part.h"
+
+#include <algorithm>
+#include <functional>
+#include <utility>
+
+#include "engine/ranks/peak_memory.h"
+#include "engine/ranks/rank_peers.h"
+#include "engine/steppers/schur_stepper.h"
+#include "engine/steppers/sweep_order.h"
+#include "engine/tasks/parallel_executor.h"
+#include "engine/tasks/run_for_sub_mesh.h"
+#include "partition/decomposition/part_of_mesh.h"
+#include "partition/decomposition/reverse_cuthill_mckee.h"
+#include "partition/index_lists.h"
+#include "partition/labels.h"
+
+namespace seamflow {
+
+namespace {
+
+/// For each sub-mesh of all ranks, those with which it shares a vertex of Γ.
+std::vector<std::vector<Index>> gather_adjacency(Communicator& comm, const DealtMesh& dealt,
+                                                 const Decomposition& decomposition)
+{
+    struct Pair {
+        Index from;
+        Index to;
+    };
+    std::vector<Pair> own;
+    for (std::size_t s = 0; s < dealt.known.size(); ++s)
+        if (dealt.holders[dealt.known[s]] == comm.rank())
+            for (const Index neighbour : decomposition.adjacency[s])
+                own.push_back({dealt.known[s], dealt.known[neighbour]});
+    std::vector<std::vector<Index>> adjacency(dealt.holders.size());
+    for (const auto& [from, to] : comm.gather_all(own))
+        adjacency[from].push_back(to);
+    return adjacency;
+}
+
+/// Σ‖ΔV⁰‖ of each sub-mesh of all ranks.
+std::vector<double> gather_curvatures(Communicator& comm, const DealtMesh& dealt, const Decomposition& decomposition)
+{
+    struct Total {
+        Index number;
+        double curvature;
+    };
+    const std::vector<double> totals = total_curvatures(decomposition, dealt.curvature);
+    std::vector<Total> own;
+    for (std::size_t s = 0; s < dealt.known.size(); ++s)
+        if (dealt.holders[dealt.known[s]] == comm.rank())
+            own.push_back({dealt.known[s], totals[s]});
+    std::vector<double> of_all(dealt.holders.size(), 0.0);
+    for (const auto& [number, curvature] : comm.gather_all(own))
+        of_all[number] = curvature;
+    return of_all;
+}
+
+/// Windows that are large enough forward and backward, whatever crosses Γ: as if every sub-mesh needed the results of
+/// all around it. Ranks that each have their part of both orders, and windows of at least this size, do not wait for
+/// each other in a circle: a solution waits for factorisations at lower places than those that wait for it.
+std::vector<FactorWindow> sufficient_windows(const std::vector<std::vector<Index>>& adjacency,
+                                             const std::vector<Index>& stage)
+{
+    const std::vector<Index> order = reverse_cuthill_mckee(adjacency);
+    std::vector<FactorWindow> windows;
+    for (const auto& direction : {stage, reversed(stage)}) {
+        SweepPlan plan = empty_plan(direction);
+        for (std::size_t s = 0; s < adjacency.size(); ++s)
+            for (const Index neighbour : adjacency[s])
+                (direction[neighbour] < direction[s] ? plan.traces : plan.predictions)[s].push_back(
+                    {.from = neighbour, .to = static_cast<Index>(s), .source = {}, .target = {}});
+        windows.push_back(least_window(plan, order_by_need(plan, order)));
+    }
+    return windows;
+}
+
+}  // namespace
+
+RankPart::RankPart(Communicator& comm, DealtMesh dealt, Progress& progress)
+    : comm_(comm)
+    , dealt_(std::move(dealt))
+    , n_threads_(n_threads_of_arena())
+{
+    for (Index v = 0; v < dealt_.mesh.n_vertices(); ++v)
+        if (dealt_.is_told[v] != 0)
+            told_.push_back(v);
+    std::vector<std::uint8_t> is_own;
+    for (const Index number : dealt_.known)
+        is_own.push_back(dealt_.holders[number] == comm.rank() ? 1 : 0);
+    Decomposition decomposition = decompose_part(dealt_.mesh, dealt_.topology, dealt_.labels, is_own, run_in_parallel);
+    n_interface_vertices_ = decomposition.n_interface_vertices;
+    if (dealt_.options.accuracy.tolerance) {
+        std::vector<KnownSubMesh> known = known_sub_meshes(dealt_, decomposition);
+        PeerSubMeshes own{std::move(decomposition), std::make_unique<RankPeers>(comm, dealt_.holders, dealt_.known),
+                          [known = std::move(known)](Index s, const std::function<void()>& body) {
+                              run_for_sub_mesh(known[s], known[s].number, body);
+                          }};
+        stepper_ = std::make_unique<SchurStepper>(dealt_.mesh, std::move(own), dealt_.options, progress);
+    } else {
+        take_sweeps(std::move(decomposition), progress);
+    }
+    std::vector<Index> around;
+    for (const Index v : stepper_->saved_vertices()) {
+        labels_around(dealt_.topology, dealt_.labels, v, around);
+        saved_.push_back({dealt_.known[around.front()], dealt_.vertex_numbers[v]});
+    }
+    if (sweeps_ != nullptr)
+        return;
+    // Converged steps keep what they need of them.
+    dealt_.mesh = {};
+    dealt_.topology = {};
+    dealt_.labels = std::vector<Index>();
+}
+
+void RankPart::take_sweeps(Decomposition decomposition, Progress& progress)
+{
+    RankSubMeshes own;
+    exchange_.emplace(comm_, dealt_.vertex_numbers, known_sub_meshes(dealt_, decomposition));
+    own.n_of_all_ranks = dealt_.holders.size();
+    own.foreign = &*exchange_;
+    own.topology = &dealt_.topology;
+    own.peers = std::make_unique<RankPeers>(comm_, dealt_.holders, dealt_.known);
+    const auto adjacency = gather_adjacency(comm_, dealt_, decomposition);
+    const auto curvatures = gather_curvatures(comm_, dealt_, decomposition);
+    const std::vector<Index> stage_of_all = assign_stages(adjacency, dealt_.options.interface.colouring, curvatures);
+    for (const Index number : dealt_.known)
+        own.stage.push_back(stage_of_all[number]);
+    // The own ones of all sub-meshes, by their numbers here.
+    const auto own_of = [&](const std::vector<Index>& all) {
+        std::vector<Index> here;
+        for (const Index number : all)
+            if (dealt_.holders[number] == comm_.rank())
+                here.push_back(position_in(dealt_.known, number));
+        return here;
+    };
+    for (const FactorWindow& window : sufficient_windows(adjacency, stage_of_all))
+        own.windows.push_back({own_of(window.order), own_of(window.freed), window.size});
+    own.decomposition = std::move(decomposition);
+    auto sweeps = std::make_unique<SweepStepper>(dealt_.mesh, std::move(own), dealt_.options, progress);
+    sweeps_ = sweeps.get();
+    stepper_ = std::move(sweeps);
+}
+
+std::vector<SavedRow> RankPart::saved_rows() const
+{
+    return saved_;
+}
+
+/// Counts what it sends.
+void RankPart::step()
+{
+    const std::uint64_t messages = comm_.n_messages();
+    const std::uint64_t bytes = comm_.n_bytes();
+    before_ = stepper_->positions();
+    stepper_->step(before_);
+    n_messages_ += comm_.n_messages() - messages;
+    n_bytes_ += comm_.n_bytes() - bytes;
+}
+
+Bytes RankPart::act(RankTask task, Unpacker& message)
+{
+    Packer answer;
+    switch (task) {
+    case RankTask::Step:
+        step();
+        break;
+    case RankTask::Positions:
+        answer.put_rows(stepper_->positions(), told_);
+        break;
+    case RankTask::Continue:
+        stepper_->continue_from(message.get_points(), {});
+        break;
+    case RankTask::Begin: {
+        const auto steps = message.get<DataSteps>();
+        stepper_->begin(message.get_points(), steps);
+        break;
+    }
+    case RankTask::Move: {
+        std::vector<Index> vertices = message.get_all<Index>();
+        for (Index& v : vertices)
+            v = position_in(dealt_.vertex_numbers, v);
+        stepper_->move(vertices, message.get_points());
+        break;
+    }
+    case RankTask::Save: {
+        StepMemory memory;
+        stepper_->save(memory);
+        answer.put_all(std::span<const double>(memory.numbers));
+        answer.put(memory.arrays.size());
+        for (const Points& array : memory.arrays)
+            answer.put_points(array);
+        break;
+    }
+    case RankTask::Restore: {
+        StepMemory memory;
+        memory.positions = message.get_points();
+        memory.numbers = message.get_all<double>();
+        memory.arrays.resize(message.get<std::size_t>());
+        for (Points& array : memory.arrays)
+            array = message.get_points();
+        stepper_->restore(memory);
+        break;
+    }
+    case RankTask::Describe:
+        describe(answer);
+        break;
+    case RankTask::Deal:
+    case RankTask::Drop:
+    case RankTask::Dismiss:
+        break;
+    }
+    return answer.take();
+}
+
+void RankPart::describe(Packer& answer) const
+{
+    FlowReport report;
+    SweptSubMeshes swept;
+    if (sweeps_ != nullptr)
+        swept = sweeps_->describe_sub_meshes(report);
+    else
+        stepper_->describe(report);
+    const auto n_known = static_cast<std::int64_t>(dealt_.vertex_numbers.size());
+    const auto n_told = static_cast<std::int64_t>(told_.size());
+    RankShare share{.record = {.vertices = n_told,
+                               .foreign_vertices = n_known - n_told,
+                               .messages = n_messages_,
+                               .bytes = n_bytes_,
+                               .peak_memory_bytes = peak_memory_bytes(),
+                               .threads = n_threads_},
+                    .resources = report.resources,
+                    .seconds = report.seconds,
+                    .n_interface_vertices = n_interface_vertices_};
+    share.resources.threads = n_threads_;
+    answer.put(share);
+    answer.put_all(std::span<const SubMeshReport>(report.cut.sub_meshes));
+    answer.put_all(std::span<const Index>(swept.n_nearly_singular));
+    answer.put_all(std::span<const Factorisation>(swept.factorisations));
+}
+
+}  // namespace seamflow

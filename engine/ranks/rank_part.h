@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "engine/measure/flow_report.h"
+#include "engine/ranks/communicator.h"
+#include "engine/ranks/dealt_mesh.h"
+#include "engine/ranks/rank_exchange.h"
+#include "engine/ranks/rank_message.h"
+#include "engine/steppers/stepper.h"
+#include "engine/steppers/sweep_stepper.h"
+#include "engine/tasks/progress.h"
+
+namespace seamflow {
+
+/// The sub-meshes of one rank, and the stepper for them.
+class RankPart {
+  public:
+    /// All ranks construct theirs together. @param comm, progress must outlive this.
+    RankPart(Communicator& comm, DealtMesh dealt, Progress& progress);
+
+    /// Does what rank 0 asks for, as all ranks do together. @returns the answer.
+    Bytes act(RankTask task, Unpacker& message);
+
+    [[nodiscard]] const Stepper& stepper() const { return *stepper_; }
+
+    /// One for each row of the arrays that the stepper saves.
+    [[nodiscard]] std::vector<SavedRow> saved_rows() const;
+
+  private:
+    void step();
+    void take_sweeps(Decomposition decomposition, Progress& progress);
+    void describe(Packer& answer) const;
+
+    Communicator& comm_;
+    DealtMesh dealt_;
+    /// Before steps: an arena of one thread counts another one as soon as messages have started tasks.
+    int n_threads_;
+    /// What was sent in steps.
+    std::uint64_t n_messages_ = 0;
+    std::uint64_t n_bytes_ = 0;
+    std::int64_t n_interface_vertices_ = 0;
+    std::vector<Index> told_;
+    std::vector<SavedRow> saved_;
+    std::optional<RankExchange> exchange_;
+    std::unique_ptr<Stepper> stepper_;
+    /// The stepper, if it takes sweeps.
+    const SweepStepper* sweeps_ = nullptr;
+    /// #V by 3: Vᵏ, during a step.
+    Points before_ = Points(0, 3);
+};
+
+}  // namespace seamflow

@@ -1,0 +1,34 @@
+#include "engine/ranks/rank_peers.h"
+
+#include <utility>
+
+#include "engine/ranks/packing.h"
+
+namespace seamflow {
+
+RankPeers::RankPeers(Communicator& comm, std::vector<Index> holders, std::vector<Index> places)
+    : InterfacePeers(comm.rank(), std::move(holders), std::move(places))
+    , comm_(&comm)
+{
+}
+
+InterfacePeers::Numbers RankPeers::gather(const std::vector<double>& own)
+{
+    Numbers all;
+    for (const Bytes& bytes : comm_->allgather(packed(own)))
+        all.push_back(unpacked<double>(bytes));
+    return all;
+}
+
+InterfacePeers::Numbers RankPeers::exchange(std::span<const Index> others, const Numbers& to_each)
+{
+    std::vector<Bytes> bytes;
+    for (const std::vector<double>& numbers : to_each)
+        bytes.push_back(packed(numbers));
+    Numbers from_each;
+    for (const Bytes& received : comm_->exchange_with(others, std::move(bytes)))
+        from_each.push_back(unpacked<double>(received));
+    return from_each;
+}
+
+}  // namespace seamflow

@@ -1,0 +1,288 @@
+#include "engine/ranks/rank_stepper.h"
+
+#include <algorithm>
+#include <exception>
+#include <span>
+#include <utility>
+
+#include "engine/measure/remarks.h"
+#include "partition/index_lists.h"
+
+namespace seamflow {
+
+namespace {
+
+/// What each rank and each of its sub-meshes has to report.
+struct PartDescription {
+    RankShare share;
+    std::vector<SubMeshReport> sub_meshes;
+    std::vector<Index> n_nearly_singular;
+    std::vector<Factorisation> factorisations;
+};
+
+PartDescription part_description(const Bytes& answer)
+{
+    Unpacker unpacker(answer);
+    PartDescription part;
+    part.share = unpacker.get<RankShare>();
+    part.sub_meshes = unpacker.get_all<SubMeshReport>();
+    part.n_nearly_singular = unpacker.get_all<Index>();
+    part.factorisations = unpacker.get_all<Factorisation>();
+    return part;
+}
+
+}  // namespace
+
+bool can_share(const RankGroup& ranks, const Cut& cut, const FlowOptions& options)
+{
+    const Conditions conditions = options.interface.conditions;
+    const bool is_adapted = conditions == Conditions::AdaptedRobin || conditions == Conditions::AdaptedVentcell;
+    const bool is_in_sub_meshes = options.scheme == Scheme::BackwardEuler && !smooths_normals(options) &&
+                                  !takes_whole_mesh(options.accuracy.approach);
+    const bool is_known = options.accuracy.tolerance ? is_symmetric(options.laplacian)
+                                                     : options.flow != FlowEquation::Linear && is_adapted;
+    return ranks.size() > 1 && cut.n_parts > 1 && is_in_sub_meshes && is_known && !options.report.record_schedule;
+}
+
+RankStepper::RankStepper(RankGroup& ranks, const PolygonMesh& mesh, const Topology& topology, const Cut& cut,
+                         const FlowOptions& options, std::vector<double> curvature, Progress& progress)
+    : ranks_(&ranks)
+    , flow_(ranks.add_flow())
+    , factorisation_(options.resources.factorisation)
+    , n_sub_meshes_(cut.n_parts)
+    , sub_meshes_(static_cast<std::size_t>(ranks.size()))
+    , positions_(mesh.vertices)
+{
+    deal(mesh, topology, cut, options, std::move(curvature), progress);
+}
+
+void RankStepper::deal(const PolygonMesh& mesh, const Topology& topology, const Cut& cut, const FlowOptions& options,
+                       std::vector<double> curvature, Progress& progress)
+{
+    Communicator& comm = ranks_->comm();
+    std::vector<std::vector<SavedRow>> saved(static_cast<std::size_t>(comm.size()));
+    Dealer dealer(mesh, topology, cut.labels, cut.n_parts, options, std::move(curvature), comm.size());
+    comm.run([&] {
+        // The others begin while rank 0 makes its own part.
+        for (int rank = comm.size() - 1; rank > 0; --rank) {
+            Packer message =
+                rank_message({.task = RankTask::Deal, .flow = flow_, .value = ranks_->threads_of_others()});
+            dealer.deal(rank, message);
+            comm.give(rank, message.take());
+            comm.take(rank);
+        }
+        Packer of_first;
+        dealer.deal(0, of_first);
+        Bytes message = of_first.take();
+        Unpacker unpacker(message);
+        DealtMesh dealt = dealt_mesh(unpacker);
+        message = Bytes();
+        own_ = std::make_unique<RankPart>(comm, std::move(dealt), progress);
+        saved[0] = own_->saved_rows();
+        for (int rank = 1; rank < comm.size(); ++rank)
+            saved[static_cast<std::size_t>(rank)] = unpacked<SavedRow>(comm.take(rank));
+    });
+    known_vertices_ = std::move(dealer.known_vertices());
+    told_vertices_ = std::move(dealer.told_vertices());
+    for (Index s = 0; s < n_sub_meshes_; ++s)
+        sub_meshes_[dealer.holders()[s]].push_back(s);
+    number_saved_rows(saved, dealer.holders());
+}
+
+/// Several ranks have some of them.
+void RankStepper::number_saved_rows(const std::vector<std::vector<SavedRow>>& of_ranks,
+                                    const std::vector<Index>& holders)
+{
+    std::vector<SavedRow> all;
+    for (const std::vector<SavedRow>& rows : of_ranks)
+        all.insert(all.end(), rows.begin(), rows.end());
+    sort_unique(all);
+    n_saved_ = static_cast<Index>(all.size());
+    for (std::size_t rank = 0; rank < of_ranks.size(); ++rank) {
+        std::vector<Index>& places = saved_places_.emplace_back();
+        std::vector<std::uint8_t>& counts = counts_.emplace_back();
+        for (const SavedRow& row : of_ranks[rank]) {
+            places.push_back(static_cast<Index>(std::ranges::lower_bound(all, row) - all.begin()));
+            counts.push_back(holders[row.lowest] == static_cast<Index>(rank) ? 1 : 0);
+        }
+    }
+}
+
+RankStepper::~RankStepper()
+{
+    try {
+        Communicator& comm = ranks_->comm();
+        comm.run([&] {
+            for (int rank = 1; rank < comm.size(); ++rank)
+                comm.give(rank, rank_message({.task = RankTask::Drop, .flow = flow_}).take());
+        });
+    } catch (const std::exception&) {
+        // They end without that, too.
+    }
+}
+
+/// @returns the answers of all ranks.
+std::vector<Bytes> RankStepper::ask(RankTask task, const Put& put) const
+{
+    Communicator& comm = ranks_->comm();
+    std::vector<Bytes> answers(static_cast<std::size_t>(comm.size()));
+    comm.run([&] {
+        for (int rank = 1; rank < comm.size(); ++rank) {
+            Packer message = rank_message({.task = task, .flow = flow_});
+            if (put)
+                put(rank, message);
+            comm.give(rank, message.take());
+        }
+        Packer to_self;
+        if (put)
+            put(0, to_self);
+        const Bytes message = to_self.take();
+        Unpacker unpacker(message);
+        answers[0] = own_->act(task, unpacker);
+        for (int rank = 1; rank < comm.size(); ++rank)
+            answers[static_cast<std::size_t>(rank)] = comm.take(rank);
+    });
+    return answers;
+}
+
+void RankStepper::step(const Points&)
+{
+    are_current_ = false;
+    ask(RankTask::Step);
+}
+
+const Points& RankStepper::positions() const
+{
+    if (are_current_)
+        return positions_;
+    const std::vector<Bytes> answers = ask(RankTask::Positions);
+    for (std::size_t rank = 0; rank < answers.size(); ++rank) {
+        Unpacker unpacker(answers[rank]);
+        unpacker.get_rows(positions_, told_vertices_[rank]);
+    }
+    are_current_ = true;
+    return positions_;
+}
+
+void RankStepper::continue_from(const Points& image, const Similarity&)
+{
+    positions_ = image;
+    are_current_ = true;
+    ask(RankTask::Continue, [&](int rank, Packer& message) { message.put_rows(image, known_vertices_[rank]); });
+}
+
+void RankStepper::begin(const Points& data, DataSteps steps)
+{
+    positions_ = data;
+    are_current_ = true;
+    ask(RankTask::Begin, [&](int rank, Packer& message) {
+        message.put(steps);
+        message.put_rows(data, known_vertices_[rank]);
+    });
+}
+
+void RankStepper::move(std::span<const Index> vertices, const Points& to)
+{
+    if (are_current_)
+        move_rows(vertices, to, positions_);
+    ask(RankTask::Move, [&](int, Packer& message) {
+        message.put_all(vertices);
+        message.put_points(to);
+    });
+}
+
+void RankStepper::save(StepMemory& memory) const
+{
+    memory.positions = positions();
+    const std::vector<Bytes> answers = ask(RankTask::Save);
+    for (std::size_t rank = 0; rank < answers.size(); ++rank) {
+        Unpacker unpacker(answers[rank]);
+        // They are the same on all ranks.
+        memory.numbers = unpacker.get_all<double>();
+        memory.arrays.resize(unpacker.get<std::size_t>(), Points::Zero(n_saved_, 3));
+        for (Points& array : memory.arrays) {
+            const Points rows = unpacker.get_points();
+            for (std::size_t i = 0; i < saved_places_[rank].size(); ++i)
+                if (counts_[rank][i] != 0)
+                    array.row(saved_places_[rank][i]) = rows.row(static_cast<Index>(i));
+        }
+    }
+}
+
+void RankStepper::restore(const StepMemory& memory)
+{
+    StepMemoryReader reader(memory);
+    for (std::size_t i = 0; i < memory.arrays.size(); ++i)
+        reader.array_of_any(n_saved_);
+    positions_ = memory.positions;
+    are_current_ = true;
+    ask(RankTask::Restore, [&](int rank, Packer& message) {
+        message.put_rows(memory.positions, known_vertices_[rank]);
+        message.put_all(std::span<const double>(memory.numbers));
+        message.put(memory.arrays.size());
+        for (const Points& array : memory.arrays)
+            message.put_rows(array, saved_places_[rank]);
+    });
+}
+
+void RankStepper::add_seconds(PhaseSeconds& seconds) const
+{
+    FlowReport report;
+    describe(report);
+    seconds.add_tasks(report.seconds);
+}
+
+/// All ranks know the same of it.
+void RankStepper::describe(StepReport& report) const
+{
+    own_->stepper().describe(report);
+}
+
+void RankStepper::describe(FlowReport& report) const
+{
+    FlowReport of_own;
+    own_->stepper().describe(of_own);
+    std::vector<SubMeshReport> sub_meshes(at(n_sub_meshes_));
+    std::vector<Index> n_nearly_singular(sub_meshes.size());
+    std::vector<Factorisation> factorisations(sub_meshes.size());
+    bool are_sweeps = false;
+    report.resources = {};
+    double interface = 0.0;
+    const std::vector<Bytes> answers = ask(RankTask::Describe);
+    for (std::size_t rank = 0; rank < answers.size(); ++rank) {
+        const PartDescription part = part_description(answers[rank]);
+        const ResourceReport& resources = part.share.resources;
+        report.ranks.push_back(part.share.record);
+        report.resources.threads += resources.threads;
+        report.resources.live_factors += resources.live_factors;
+        report.resources.factor_memory_bytes += resources.factor_memory_bytes;
+        report.resources.single_factors += resources.single_factors;
+        report.cut.interface_vertices += part.share.n_interface_vertices;
+        // They wait for each other there.
+        PhaseSeconds seconds = part.share.seconds;
+        interface = std::max(interface, std::exchange(seconds.interface, 0.0));
+        report.seconds.add_tasks(seconds);
+        are_sweeps |= !part.factorisations.empty();
+        for (std::size_t i = 0; i < part.sub_meshes.size(); ++i) {
+            const Index s = sub_meshes_[rank][i];
+            sub_meshes[s] = part.sub_meshes[i];
+            if (!part.factorisations.empty()) {
+                n_nearly_singular[s] = part.n_nearly_singular[i];
+                factorisations[s] = part.factorisations[i];
+            }
+        }
+    }
+    report.seconds.interface += interface;
+    report.cut.sub_meshes.insert(report.cut.sub_meshes.end(), sub_meshes.begin(), sub_meshes.end());
+    report.convergence.steps_short_of_tolerance = of_own.convergence.steps_short_of_tolerance;
+    report.convergence.steps_stagnated = of_own.convergence.steps_stagnated;
+    if (are_sweeps) {
+        remark_on_factorisation(factorisation_, factorisations, report);
+        remark_on_near_singularity(n_nearly_singular, report);
+    } else {
+        // They are about steps as a whole.
+        report.remarks.insert(report.remarks.end(), of_own.remarks.begin(), of_own.remarks.end());
+    }
+}
+
+}  // namespace seamflow

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "engine/options/flow_options.h"
+#include "engine/ranks/rank_group.h"
+#include "engine/ranks/rank_part.h"
+#include "engine/steppers/stepper.h"
+#include "engine/tasks/progress.h"
+#include "partition/cut/cut.h"
+#include "partition/topology.h"
+
+namespace seamflow {
+
+/// Whether several ranks can take the steps of a flow together: sweeps with the adapted conditions, and converged steps
+/// of symmetric Laplacians. Everything else rank 0 does alone.
+/// @param options with what was chosen.
+bool can_share(const RankGroup& ranks, const Cut& cut, const FlowOptions& options);
+
+/// The steps of sub-meshes that are dealt to ranks. Each rank, rank 0 included, has a stepper for its own; they
+/// exchange what crosses Γ. The bits are those of a single process, on any number of ranks. Positions come to rank 0
+/// when they are asked for.
+class RankStepper final : public Stepper {
+  public:
+    /// Deals the sub-meshes.
+    /// @param ranks, progress must outlive the stepper; can_share holds.
+    /// @param curvature #V: ‖ΔV⁰‖; empty: as if it were 0.
+    /// @throws as make_stepper, on the lowest rank that fails.
+    RankStepper(RankGroup& ranks, const PolygonMesh& mesh, const Topology& topology, const Cut& cut,
+                const FlowOptions& options, std::vector<double> curvature, Progress& progress);
+    ~RankStepper() override;
+
+    /// @param before is what positions() are.
+    void step(const Points& before) override;
+    [[nodiscard]] const Points& positions() const override;
+    void continue_from(const Points& image, const Similarity& similarity) override;
+    void begin(const Points& data, DataSteps steps) override;
+    void move(std::span<const Index> vertices, const Points& to) override;
+    void save(StepMemory& memory) const override;
+    void restore(const StepMemory& memory) override;
+    void add_seconds(PhaseSeconds& seconds) const override;
+    void describe(StepReport& report) const override;
+    void describe(FlowReport& report) const override;
+
+  private:
+    /// Appends to the message for a rank.
+    using Put = std::function<void(int rank, Packer& message)>;
+
+    void deal(const PolygonMesh& mesh, const Topology& topology, const Cut& cut, const FlowOptions& options,
+              std::vector<double> curvature, Progress& progress);
+    void number_saved_rows(const std::vector<std::vector<SavedRow>>& of_ranks, const std::vector<Index>& holders);
+    std::vector<Bytes> ask(RankTask task, const Put& put = {}) const;
+
+    RankGroup* ranks_;
+    int flow_;
+    Factorisation factorisation_;
+    Index n_sub_meshes_;
+    std::unique_ptr<RankPart> own_;
+    /// Per rank.
+    std::vector<std::vector<Index>> known_vertices_;
+    std::vector<std::vector<Index>> told_vertices_;
+    std::vector<std::vector<Index>> sub_meshes_;
+    /// Per rank, for each row that its stepper saves, its place among those of all, and whether it counts.
+    std::vector<std::vector<Index>> saved_places_;
+    std::vector<std::vector<std::uint8_t>> counts_;
+    Index n_saved_ = 0;
+    /// #V by 3; and whether these are the ones that the ranks have.
+    mutable Points positions_;
+    mutable bool are_current_ = true;
+};
+
+}  // namespace seamflow

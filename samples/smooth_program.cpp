@@ -1,0 +1,271 @@
+#include "samples/smooth_program.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <new>
+#include <optional>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "engine/mean_curvature_flow.h"
+#include "engine/tasks/stopwatch.h"
+#include "engine/tasks/workers.h"
+#include "partition/errors.h"
+#include "partition/formats/edge_files.h"
+#include "partition/formats/index_files.h"
+#include "partition/formats/mesh_io.h"
+#include "partition/io/input_file.h"
+#include "samples/command/smooth_command.h"
+#include "samples/files/about_file.h"
+#include "samples/files/mesh_results.h"
+#include "samples/files/output_files.h"
+#include "samples/page/page_html.h"
+#include "samples/page/read_file_colours.h"
+#include "samples/process/freed_memory.h"
+#include "samples/process/interruption.h"
+#include "samples/report/report_json.h"
+#include "samples/report/report_text.h"
+#include "samples/report/schedule_files.h"
+#include "samples/runs/field_run.h"
+#include "samples/runs/long_run.h"
+#include "samples/runs/run_output.h"
+#include "samples/runs/smoothing_run.h"
+#include "samples/tiles/tiled_run.h"
+
+namespace seamflow {
+
+namespace {
+
+/// Completes options that the command line leaves to the input.
+/// @param left_out ascending: the faces of the file that are not in the mesh.
+void complete_options(SmoothCommand& command, const PolygonMesh& mesh, const std::vector<Index>& left_out,
+                      const Executor& exec, RunRecord& run)
+{
+    if (!command.labels.empty())
+        command.options.cut.labels = labels_of_faces(command.labels, mesh.n_faces(), left_out);
+    MotionOptions& motion = command.options.motion;
+    if (!command.fix.empty())
+        motion.fixed_vertices = read_vertex_set(command.fix, mesh.n_vertices(), command.fix_property);
+    if (!command.edges.empty() || command.edges_from_file)
+        motion.feature_edges = read_edges(command.edges_from_file ? command.input : command.edges, mesh.n_vertices());
+    if (!command.attach_weights.empty())
+        motion.attachment_weights =
+            read_vertex_weights(command.attach_weights, mesh.n_vertices(), command.attach_property);
+    motion.strength = read_region(command, mesh.n_vertices());
+    about_file(command.input, [&] { resolve_amount(command, mesh, exec, run); });
+}
+
+/// The page of --html, so far the input; empty without --html.
+/// @param left_out ascending: the faces of the file that are not in the mesh.
+std::optional<PageFlow> make_page(const SmoothCommand& command, const PolygonMesh& mesh,
+                                  const std::vector<Index>& left_out)
+{
+    std::optional<PageFlow> page;
+    if (command.html.empty())
+        return page;
+    require_showable(mesh, command.html);
+    Workers(command.options.resources.threads).execute([&] {
+        page.emplace(std::make_shared<const PageMesh>(mesh, read_file_colours(command.input, mesh, left_out)),
+                     command.output.filename().string(), command.options.laplacian, command.options.steps,
+                     command.options.report.reference);
+    });
+    return page;
+}
+
+/// Prints every step, writes it where --every-step asks for that, and hands it to the page.
+StepObserver make_observer(const SmoothCommand& command, const MeshFile& input, double mean_edge, double& write_seconds,
+                           std::optional<PageFlow>& page, std::ostream& out, const Executor& exec)
+{
+    PolygonMesh snapshot = command.every_step ? input.mesh : PolygonMesh{};
+    return [&command, &input, &write_seconds, &page, &out, &exec, mean_edge, snapshot](const StepState& state) mutable {
+        if (command.verbose)
+            print_step(out, state.report, state.step, command.options.steps, mean_edge);
+        if (page)
+            page->add_step(state.step, state.positions, state.reference_positions);
+        if (!command.every_step)
+            return;
+        const Stopwatch watch;
+        if (state.separated == nullptr)
+            snapshot.vertices = state.positions;
+        write_state(command.every_step->path(state.step), snapshot, state.separated, input, exec,
+                    seam_distance_of(command));
+        write_seconds += watch.seconds();
+    };
+}
+
+/// @returns remarks for the user.
+std::vector<std::string> write_results(const SmoothCommand& command, const MeshFile& file, const FlowReport& report,
+                                       const Executor& exec)
+{
+    auto remarks = write_state(command.output, file.mesh, report.separated ? &*report.separated : nullptr, file, exec,
+                               seam_distance_of(command));
+    if (!command.parts.empty())
+        write_labelled_ply(command.parts, file.mesh, report.cut.labels, exec);
+    return remarks;
+}
+
+/// Writes the reports on the run: report, trace and page.
+void write_reports(const SmoothCommand& command, const RunRecord& run, FlowReport& report,
+                   std::optional<PageFlow>& page)
+{
+    if (page && !page->remark().empty())
+        report.remarks.push_back(page->remark());
+    if (!command.report.empty())
+        write_text(command.report, smooth_report_json(run, report));
+    if (!command.csv.empty())
+        write_text(command.csv, steps_csv(smooth_report_json(run, report)));
+    if (!command.trace.empty())
+        write_schedule_trace(command.trace, report);
+    if (!command.task_graph.empty())
+        write_task_graph(command.task_graph, report);
+    if (page) {
+        page->finish(report, smooth_report_json(run, report));
+        write_text(command.html, page_html(command.input.filename().string(), {&*page, 1}));
+    }
+}
+
+/// Runs the flow; errors in the mesh are reported with the name of its file.
+FlowReport run_flow(const SmoothCommand& command, PolygonMesh& mesh, const StepObserver& on_step,
+                    const FlowControl& control)
+{
+    return about_file(command.input, [&] { return mean_curvature_flow(mesh, command.options, on_step, control); });
+}
+
+/// Reads, flows and writes.
+/// @param run holds the command line.
+ExitStatus run(SmoothCommand& command, RunRecord& run, RankGroup* ranks)
+{
+    Interruption interruption(command.program);
+    std::ostream& out = message_stream(command);
+    const Stopwatch whole;
+    Workers workers(command.options.resources.threads);
+    const Executor exec = workers.exec();
+    FaultLog left_out{.of_faces_alone = true};
+    MeshFile file = command.options.motion.strict ? read_mesh(command.input, exec)
+                                                  : read_faulty_mesh(command.input, left_out, exec);
+    require_faces(command.input, file.mesh.n_faces(), left_out);
+    complete_options(command, file.mesh, left_out.faces_left_out, exec, run);
+    run.read_seconds = whole.seconds();
+    print_input(out, run, file.mesh.n_vertices(), file.mesh.n_faces());
+    print_preset(out, run, command.chosen);
+    print_amount(out, run.scale, command.options);
+    require_storable(file.mesh, command.output, kind_for_writing(command.output, file.kind));
+    if (command.every_step)
+        require_storable(file.mesh, command.every_step->path(1),
+                         kind_for_writing(command.every_step->path(1), file.kind));
+
+    std::vector<std::string> losses = remarks_on_losses(command.output, !command.options.report.keep_gaps, file, exec);
+    if (left_out.count > 0) {
+        losses.push_back(remark_on_faces(left_out, command.output, !command.options.report.keep_gaps, file.kind));
+    }
+    std::error_code ignored;
+    if (std::filesystem::equivalent(command.input, command.output, ignored))
+        losses.push_back("The result has replaced the input, in one go when it was complete.");
+    std::optional<PageFlow> page = make_page(command, file.mesh, left_out.faces_left_out);
+    std::optional<SurfaceChangeMeter> change;
+    if (!command.quiet || !command.report.empty() || !command.html.empty())
+        change.emplace(file.mesh, exec);
+    LongRun long_run(command, file, interruption, out);
+    const StepObserver on_step =
+        long_run.observing(make_observer(command, file, run.scale.mean_edge, run.write_seconds, page, out, exec));
+    FlowReport report;
+    try {
+        FlowControl control = long_run.control();
+        control.ranks = ranks;
+        report = run_flow(command, file.mesh, on_step, control);
+        if (control.resume != nullptr && command.every_step)
+            report.remarks.push_back("--every-step wrote no files for the steps up to " +
+                                     std::to_string(control.resume->n_steps()) + ", which an earlier run took.");
+    } catch (const Cancelled&) {
+        return long_run.end_early();
+    } catch (const ComputationError&) {
+        long_run.keep_last_step();
+        throw;
+    } catch (const std::bad_alloc&) {
+        long_run.keep_last_step();
+        throw;
+    }
+    long_run.end();
+    return_freed_memory();
+    report.remarks.insert(report.remarks.begin(), run.remarks.begin(), run.remarks.end());
+    // Without steps, the choices do not matter.
+    if (command.options.steps == 0)
+        report.choices.clear();
+    // A run that continues from its last step has nothing to observe.
+    if (page && !page->has_undecomposed() && page->states().back().step < command.options.steps)
+        page->add_step(command.options.steps, file.mesh.vertices, nullptr);
+
+    // Before the result is there: memory may not suffice.
+    if (change)
+        run.surface = change->measure(file.mesh, report.mesh, command.self_intersections, exec);
+    const Stopwatch writing;
+    for (const auto& remarks : {losses, write_results(command, file, report, exec)})
+        report.remarks.insert(report.remarks.end(), remarks.begin(), remarks.end());
+    run.write_seconds += writing.seconds();
+    if (change) {
+        remark_on_loss(command.options, run.surface, report.remarks);
+        remark_on_folds(command.options, run.surface, report.remarks);
+    }
+    run.ranks = report.ranks;
+    run.seconds = whole.seconds();
+    write_reports(command, run, report, page);
+    if (command.verbose)
+        print_details(out, run, report);
+    if (ranks != nullptr)
+        print_ranks(out, run, ranks->size());
+    print_result(out, run, report);
+    return require_converged(command, report.convergence);
+}
+
+/// Whether the command line asks for what rank 0 does alone.
+bool is_for_one_rank(const SmoothCommand& command)
+{
+    const FlowOptions& options = command.options;
+    return options.scheme == Scheme::ExplicitEuler || smooths_normals(options) ||
+           takes_whole_mesh(options.accuracy.approach) || options.report.record_schedule ||
+           !command.fields.from.empty() || command.fields.options.keep_edges;
+}
+
+/// The threads of one machine are for all its ranks, unless rank 0 does everything alone.
+void share_threads(SmoothCommand& command, RankGroup& ranks)
+{
+    int& threads = command.options.resources.threads;
+    if (is_for_one_rank(command))
+        return;
+    if (command.chooses_threads)
+        threads = std::max(1, threads / ranks.n_on_this_machine());
+    else
+        ranks.set_threads_of_others(threads);
+}
+
+}  // namespace
+
+ExitStatus run_smooth_program(int argc, char** argv, const SmoothProgram& program, RankGroup* ranks)
+{
+    SmoothCommand command;
+    if (const auto end = parse_smooth_command(argc, argv, command, program))
+        return *end;
+    if (!command.out_dir.empty())
+        return smooth_tiles(command);
+    if (ranks != nullptr)
+        share_threads(command, *ranks);
+    RunRecord record = begin_record(command);
+    try {
+        return command.fields.exists() ? run_fields(command, record, ranks) : run(command, record, ranks);
+    } catch (...) {
+        // The report has the message of standard error, if it can be written.
+        try {
+            if (!command.report.empty())
+                write_text(command.report, smooth_failure_json(record, current_failure()));
+        } catch (const OutputError&) {
+        }
+        throw;
+    }
+}
+
+}  // namespace seamflow
