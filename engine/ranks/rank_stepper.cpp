@@ -39,8 +39,7 @@ bool can_share(const RankGroup& ranks, const Cut& cut, const FlowOptions& option
     const bool is_adapted = conditions == Conditions::AdaptedRobin || conditions == Conditions::AdaptedVentcell;
     const bool is_in_sub_meshes = options.scheme == Scheme::BackwardEuler && !smooths_normals(options) &&
                                   !takes_whole_mesh(options.accuracy.approach);
-    const bool is_known = options.accuracy.tolerance ? is_symmetric(options.laplacian)
-                                                     : options.flow != FlowEquation::Linear && is_adapted;
+    const bool is_known = options.accuracy.tolerance || (options.flow != FlowEquation::Linear && is_adapted);
     return ranks.size() > 1 && cut.n_parts > 1 && is_in_sub_meshes && is_known && !options.report.record_schedule;
 }
 

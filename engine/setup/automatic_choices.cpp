@@ -13,9 +13,9 @@ namespace seamflow {
 
 const SubdomainNeeds& needs_of(Laplacian laplacian, bool converged)
 {
-    if (is_symmetric(laplacian))
-        return converged ? needs_of_converged_steps : needs_of_sweeps;
-    return converged ? needs_of_krylov_steps : needs_of_unsymmetric_sweeps;
+    if (!is_symmetric(laplacian))
+        return needs_of_unsymmetric_sweeps;
+    return converged ? needs_of_converged_steps : needs_of_sweeps;
 }
 
 SubdomainChoice choose_subdomains(const MeshSize& size, double time_step, const SubdomainNeeds& needs)
@@ -198,6 +198,11 @@ ApproachChoice choose_approach(const PolygonMesh& mesh, const Topology& topology
     const Approach asked = options.accuracy.approach;
     if (takes_whole_mesh(asked))
         return {.approach = asked, .tolerance = tolerance.tolerance};
+    if (tolerance.tolerance && !is_symmetric(options.laplacian) && mesh.n_faces() > 0)
+        return {.approach = Approach::Undecomposed,
+                .reason = "The whole mesh is solved at once by one factorisation" +
+                          (tolerance.reason.empty() ? std::string() : ": " + tolerance.reason) +
+                          ". Steps of Laplacians without symmetry converge in no other way."};
     if (asked != Approach::Automatic || speaks_of_sub_meshes(options) || !is_symmetric(options.laplacian) ||
         options.scheme == Scheme::ExplicitEuler || smooths_normals(options) || mesh.n_faces() == 0)
         return in_sub_meshes(tolerance);

@@ -28,8 +28,6 @@ inline constexpr SubdomainNeeds needs_of_sweeps{2'500, 10.0};
 /// For unsymmetric Laplacians, whose factors grow faster with sub-mesh size.
 inline constexpr SubdomainNeeds needs_of_unsymmetric_sweeps{1'000, 10.0};
 inline constexpr SubdomainNeeds needs_of_converged_steps{2'000, 2.0};
-/// For converged steps of unsymmetric Laplacians, whose sub-meshes overlap.
-inline constexpr SubdomainNeeds needs_of_krylov_steps{1'000, 2.0};
 
 /// Sub-mesh requirements of a flow.
 /// @param converged whether steps are converged.

@@ -42,17 +42,7 @@ class ConvergedStepper : public Stepper {
     virtual void restore_further(StepMemoryReader&) {}
 
     /// Fills in what all such steps report.
-    /// @param parts all sub-meshes.
     /// @param advice what to do where steps missed the tolerance for lack of iterations; may be empty.
-    template <class Parts>
-    void describe_parts(const Parts& parts, const std::string& advice, FlowReport& report) const
-    {
-        for (const auto& part : parts)
-            describe_sub_mesh(part.sub_mesh, 0, 0.0, report);
-        describe_steps(advice, report);
-    }
-
-    /// The same without the parts.
     void describe_steps(const std::string& advice, FlowReport& report) const;
 
     Workspaces workspaces_;

@@ -7,9 +7,7 @@
 #include "engine/steppers/edge_keeping_stepper.h"
 #include "engine/steppers/explicit_stepper.h"
 #include "engine/steppers/schur_stepper.h"
-#include "engine/steppers/schwarz_gmres_stepper.h"
 #include "engine/steppers/sweep_stepper.h"
-#include "solvers/laplacian/laplacian.h"
 
 namespace seamflow {
 
@@ -36,10 +34,8 @@ std::unique_ptr<Stepper> make_stepper(const PolygonMesh& mesh, const Topology& t
         return std::make_unique<ExplicitStepper>(mesh, topology, options, progress);
     if (options.accuracy.approach == Approach::ConjugateGradients)
         return std::make_unique<ConjugateGradientStepper>(mesh, topology, options, progress);
-    if (options.accuracy.tolerance && is_symmetric(options.laplacian))
-        return std::make_unique<SchurStepper>(mesh, topology, cut, options, progress);
     if (options.accuracy.tolerance)
-        return std::make_unique<SchwarzGmresStepper>(mesh, topology, cut, options, progress);
+        return std::make_unique<SchurStepper>(mesh, topology, cut, options, progress);
     if (options.flow == FlowEquation::Linear)
         return make_factor_once(mesh, topology, cut, options, progress);
     return std::make_unique<SweepStepper>(mesh, topology, cut, options, std::move(curvature), progress);

@@ -12,8 +12,7 @@
 namespace seamflow {
 
 /// The way of taking steps that the options ask for: steps that keep edges, explicit Euler steps, backward Euler steps
-/// of the whole mesh by conjugate gradients, converged ones by the Schur complement or, for unsymmetric Laplacians, by
-/// GMRES, or sweeps.
+/// of the whole mesh by conjugate gradients, converged ones by the Schur complement, or sweeps.
 /// @param mesh, topology, progress must outlive the stepper.
 /// @param options with the tolerance that was chosen, if any.
 /// @param curvature #V: ‖ΔV⁰‖; empty: as if it were 0.

@@ -152,23 +152,4 @@ Decomposition connect_overlapping(std::vector<SubMesh> sub_meshes, const Topolog
     return decomposition;
 }
 
-GrownPart make_grown_part(const PolygonMesh& mesh, const Topology& topology, const Overlap& overlap, int reach, Index s,
-                          std::vector<Index> faces)
-{
-    GrownPart part;
-    std::vector<Index> grown = grow(mesh, topology, overlap, s, std::move(faces));
-    part.unknowns = vertices_of(mesh, grown, [&](Index v) { return topology.moves(v); });
-    const Overlap beyond{overlap.labels, overlap.stage, reach};
-    SubMeshDraft draft = copy_faces(mesh, topology, grow(mesh, topology, beyond, s, std::move(grown)));
-    part.sub_mesh = std::move(draft.sub_mesh);
-    part.sub_mesh.owned.assign(part.sub_mesh.n_vertices, 0);
-    std::vector<Index> labels;
-    for (Index& v : part.unknowns) {
-        labels_around(topology, overlap.labels, v, labels);
-        v = draft.vertices[v];
-        part.sub_mesh.owned[v] = labels.front() == s ? 1 : 0;
-    }
-    return part;
-}
-
 }  // namespace seamflow

@@ -38,22 +38,4 @@ SubMesh make_overlapping_sub_mesh(const PolygonMesh& mesh, const Topology& topol
 /// halo transfers fill all vertices outside the own part, and all parts they join are adjacent.
 Decomposition connect_overlapping(std::vector<SubMesh> sub_meshes, const Topology& topology, const Overlap& overlap);
 
-/// A grown part of a cut, whose equations at its vertices are those of the whole mesh.
-struct GrownPart {
-    /// The part grown by its own layers and then by those that the equations reach into. Its lists `interface` and
-    /// `corrected` are empty, and it has no halo; it owns only vertices of the part itself.
-    SubMesh sub_mesh;
-    /// The vertices (local, ascending) that may move, of the part grown by its own layers.
-    std::vector<Index> unknowns;
-};
-
-/// Cuts out part s. May be called for several parts at once.
-/// @param overlap `layers` by which its equations overlap those of other parts. Parts of an earlier stage are not
-/// entered.
-/// @param reach further layers of faces that these equations depend on. With 2 they have all faces around each of their
-///        vertices, and the faces across the edges of these.
-/// @param faces those of the part itself, in ascending order.
-GrownPart make_grown_part(const PolygonMesh& mesh, const Topology& topology, const Overlap& overlap, int reach, Index s,
-                          std::vector<Index> faces);
-
 }  // namespace seamflow

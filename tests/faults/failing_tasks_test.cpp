@@ -3,7 +3,6 @@
 #include <doctest/doctest.h>
 
 #include "engine/steppers/schur_stepper.h"
-#include "engine/steppers/schwarz_gmres_stepper.h"
 #include "engine/steppers/sweep_stepper.h"
 #include "engine/tasks/workers.h"
 #include "solvers/laplacian/mean_curvature.h"
@@ -153,14 +152,6 @@ TEST_CASE("a graph one of whose tasks has thrown runs again, and gives the same 
         parts.options.resources.memory_limit = test::least_memory_limit(parts.mesh, parts.options).value();
         every_graph_runs_again<SchurStepper>([&](Progress& progress) {
             return SchurStepper(parts.mesh, parts.topology, parts.cut, parts.options, progress);
-        });
-    }
-    SUBCASE("Krylov")
-    {
-        parts.options.accuracy.tolerance = 1e-3;
-        parts.options.laplacian = Laplacian::PtackovaVelho;
-        every_graph_runs_again<SchwarzGmresStepper>([&](Progress& progress) {
-            return SchwarzGmresStepper(parts.mesh, parts.topology, parts.cut, parts.options, progress);
         });
     }
 }
