@@ -13,6 +13,8 @@
 #include <fmt/format.h>
 
 #include "engine/mean_curvature_flow.h"
+#include "engine/ranks/rank_group.h"
+#include "engine/tasks/parallel_executor.h"
 #include "engine/tasks/stopwatch.h"
 #include "engine/tasks/workers.h"
 #include "partition/errors.h"
@@ -222,25 +224,19 @@ ExitStatus run(SmoothCommand& command, RunRecord& run, RankGroup* ranks)
     return require_converged(command, report.convergence);
 }
 
-/// Whether the command line asks for what rank 0 does alone.
-bool is_for_one_rank(const SmoothCommand& command)
-{
-    const FlowOptions& options = command.options;
-    return options.scheme == Scheme::ExplicitEuler || smooths_normals(options) ||
-           takes_whole_mesh(options.accuracy.approach) || options.report.record_schedule ||
-           !command.fields.from.empty() || command.fields.options.keep_edges;
-}
-
-/// The threads of one machine are for all its ranks, unless rank 0 does everything alone.
+/// Each rank has its part of the threads of its machine, or as many as the command line says. Rank 0 works alone with
+/// those of all ranks on its machine.
 void share_threads(SmoothCommand& command, RankGroup& ranks)
 {
     int& threads = command.options.resources.threads;
-    if (is_for_one_rank(command))
-        return;
-    if (command.chooses_threads)
-        threads = std::max(1, threads / ranks.n_on_this_machine());
-    else
-        ranks.set_threads_of_others(threads);
+    const int n_here = ranks.n_on_this_machine();
+    if (command.chooses_threads) {
+        const int of_machine = threads > 0 ? threads : n_threads_of_arena();
+        ranks.set_threads_of_each(std::max(1, of_machine / n_here));
+    } else {
+        ranks.set_threads_of_each(threads);
+        threads = std::min(threads * n_here, ResourceOptions::most_threads);
+    }
 }
 
 }  // namespace

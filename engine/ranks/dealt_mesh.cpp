@@ -39,6 +39,19 @@ void put_rows_of(const std::vector<Value>& all, std::span<const Index> rows, Pac
     message.put_all(std::span<const Value>(own));
 }
 
+/// Where a vertex has faces of several ranks.
+constexpr std::int32_t of_several = -2;
+
+/// Ascending: the places of a value.
+std::vector<Index> all_of(const std::vector<std::int32_t>& values, int value)
+{
+    std::vector<Index> places;
+    for (std::size_t i = 0; i < values.size(); ++i)
+        if (values[i] == value)
+            places.push_back(static_cast<Index>(i));
+    return places;
+}
+
 }  // namespace
 
 DealtMesh dealt_mesh(Unpacker& message)
@@ -76,7 +89,8 @@ Dealer::Dealer(const PolygonMesh& mesh, const Topology& topology, std::span<cons
     , options_(&options)
     , curvature_(std::move(curvature))
     , faces_(faces_by_label(labels, n_parts, run_in_parallel))
-    , is_told_(at(mesh.n_vertices()), 0)
+    , holder_at_(at(mesh.n_vertices()), -1)
+    , teller_(holder_at_)
     , knows_face_(at(mesh.n_faces()), -1)
     , knows_vertex_(at(mesh.n_vertices()), -1)
     , meets_vertex_(at(mesh.n_vertices()), -1)
@@ -91,58 +105,68 @@ Dealer::Dealer(const PolygonMesh& mesh, const Topology& topology, std::span<cons
         holders_.push_back(static_cast<Index>(n_ranks * middle / mesh.n_faces()));
         before += static_cast<double>(faces.size());
     }
+    for (Index f = 0; f < mesh.n_faces(); ++f)
+        for (const Index v : mesh.face(f)) {
+            const Index holder = holders_[labels[f]];
+            holder_at_[v] = holder_at_[v] == -1 || holder_at_[v] == holder ? holder : of_several;
+        }
 }
 
 /// With two layers around its own ones, all that have the vertices around those of its sub-meshes are known.
 std::vector<Index> Dealer::known_faces(int rank)
 {
     constexpr int layers = 2;
-    std::vector<Index> known;
-    const auto reach = [&](Index f) {
-        if (std::exchange(knows_face_[f], rank) != rank)
-            known.push_back(f);
+    std::vector<Index> further;
+    const auto look_around = [&](Index v) {
+        if (std::exchange(knows_vertex_[v], rank) == rank)
+            return;
+        for (const Index corner : topology_->corners_at(v)) {
+            const Index f = topology_->face_of[at(corner)];
+            if (std::exchange(knows_face_[f], rank) != rank)
+                further.push_back(f);
+        }
     };
     for (std::size_t s = 0; s < faces_.size(); ++s)
         if (holders_[s] == rank)
-            std::ranges::for_each(faces_[s], reach);
+            for (const Index f : faces_[s])
+                knows_face_[f] = rank;
+    for (std::size_t s = 0; s < faces_.size(); ++s)
+        if (holders_[s] == rank)
+            for (const Index f : faces_[s])
+                for (const Index v : mesh_->face(f))
+                    if (holder_at_[v] == of_several)
+                        look_around(v);
     std::size_t begin = 0;
-    for (int layer = 0; layer < layers; ++layer) {
-        const std::size_t end = known.size();
-        for (; begin < end; ++begin)
-            for (const Index v : mesh_->face(known[begin]))
-                if (std::exchange(knows_vertex_[v], rank) != rank)
-                    for (const Index corner : topology_->corners_at(v))
-                        reach(topology_->face_of[at(corner)]);
-    }
-    std::ranges::sort(known);
-    return known;
+    for (int layer = 1; layer < layers; ++layer)
+        for (const std::size_t end = further.size(); begin < end; ++begin)
+            for (const Index v : mesh_->face(further[begin]))
+                look_around(v);
+    return all_of(knows_face_, rank);
 }
 
 void Dealer::deal(int rank, Packer& message)
 {
     const std::vector<Index> faces = known_faces(rank);
-    std::vector<Index> vertices;
     std::vector<Index> sub_meshes;
-    std::vector<Index> own_vertices;
     for (const Index f : faces) {
-        const Index s = labels_[f];
-        if (sub_meshes.empty() || sub_meshes.back() != s)
-            sub_meshes.push_back(s);
+        if (sub_meshes.empty() || sub_meshes.back() != labels_[f])
+            sub_meshes.push_back(labels_[f]);
         for (const Index v : mesh_->face(f)) {
-            if (std::exchange(meets_vertex_[v], rank) != rank)
-                vertices.push_back(v);
-            if (holders_[s] == rank && std::exchange(is_told_[v], std::uint8_t{1}) == 0)
-                own_vertices.push_back(v);
+            meets_vertex_[v] = rank;
+            if (holders_[labels_[f]] == rank && teller_[v] < 0)
+                teller_[v] = rank;
         }
     }
-    std::ranges::sort(vertices);
     sort_unique(sub_meshes);
-    std::ranges::sort(own_vertices);
-    for (std::size_t i = 0; i < vertices.size(); ++i)
-        place_[vertices[i]] = static_cast<Index>(i);
-    std::vector<std::uint8_t> is_told(vertices.size(), 0);
-    for (const Index v : own_vertices)
-        is_told[place_[v]] = 1;
+    std::vector<Index> vertices = all_of(meets_vertex_, rank);
+    std::vector<Index> own_vertices;
+    std::vector<std::uint8_t> is_told;
+    for (const Index v : vertices) {
+        place_[v] = static_cast<Index>(is_told.size());
+        is_told.push_back(teller_[v] == rank ? 1 : 0);
+        if (is_told.back() != 0)
+            own_vertices.push_back(v);
+    }
 
     for_each_dealt(*options_, [&](const auto& option) { message.put(option); });
     message.put_all(std::span<const Index>(holders_));

@@ -67,8 +67,10 @@ class Dealer {
     /// The faces of each sub-mesh.
     std::vector<std::vector<Index>> faces_;
     std::vector<Index> holders_;
-    /// #V: whether a rank tells of the vertex already.
-    std::vector<std::uint8_t> is_told_;
+    /// #V: the rank that has all faces of the vertex; below 0 if there is none.
+    std::vector<std::int32_t> holder_at_;
+    /// #V: the rank that tells of the vertex; -1: none yet.
+    std::vector<std::int32_t> teller_;
     /// #F and #V: the last rank that knows the face, has looked around the vertex, and has got it.
     std::vector<std::int32_t> knows_face_;
     std::vector<std::int32_t> knows_vertex_;

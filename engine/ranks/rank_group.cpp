@@ -12,6 +12,7 @@
 #include "engine/options/flow_control.h"
 #include "engine/ranks/rank_message.h"
 #include "engine/ranks/rank_part.h"
+#include "engine/tasks/parallel_executor.h"
 #include "engine/tasks/progress.h"
 #include "engine/tasks/workers.h"
 #include "partition/errors.h"
@@ -169,7 +170,8 @@ int serve_flows(Transport& transport, int threads)
 {
     Communicator comm(transport);
     const int n_here = count_on_this_machine(comm, transport);
-    RankServer server(comm, std::max(1, threads / n_here));
+    const int of_machine = threads > 0 ? threads : n_threads_of_arena();
+    RankServer server(comm, std::max(1, of_machine / n_here));
     for (;;)
         if (const std::optional<int> status = server.serve())
             return *status;

@@ -25,9 +25,10 @@ class RankGroup {
     /// How many of the ranks, this one included, are on its machine.
     [[nodiscard]] int n_on_this_machine() const { return n_on_this_machine_; }
 
-    /// The threads of each other rank; 0, as at first: its part of those of its machine.
-    void set_threads_of_others(int threads) { threads_of_others_ = threads; }
-    [[nodiscard]] int threads_of_others() const { return threads_of_others_; }
+    /// The threads of each rank in what they share; 0, as at first: rank 0 has those of its flow, and each other one
+    /// its part of those of its machine. The flow of rank 0 may have more: others wait while it works alone.
+    void set_threads_of_each(int threads) { threads_of_each_ = threads; }
+    [[nodiscard]] int threads_of_each() const { return threads_of_each_; }
 
     /// A number for a further flow.
     int add_flow() { return n_flows_++; }
@@ -38,14 +39,15 @@ class RankGroup {
   private:
     Communicator comm_;
     int n_on_this_machine_;
-    int threads_of_others_ = 0;
+    int threads_of_each_ = 0;
     int n_flows_ = 0;
     bool has_dismissed_ = false;
 };
 
 /// Does what rank 0 asks for, on every other rank, and waits for it in between, which takes hardly any time of a
 /// processor. What fails here is thrown there.
-/// @param threads of the machine, which the ranks on it share if rank 0 does not say how many each has.
+/// @param threads of the machine, which the ranks on it share if rank 0 does not say how many each has; 0: of all
+/// cores.
 /// @returns what rank 0 ends with.
 int serve_flows(Transport& transport, int threads);
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "engine/measure/remarks.h"
+#include "engine/tasks/parallel_executor.h"
 #include "partition/index_lists.h"
 
 namespace seamflow {
@@ -52,6 +53,8 @@ RankStepper::RankStepper(RankGroup& ranks, const PolygonMesh& mesh, const Topolo
     , sub_meshes_(static_cast<std::size_t>(ranks.size()))
     , positions_(mesh.vertices)
 {
+    if (const int threads = ranks.threads_of_each(); threads > 0 && threads < n_threads_of_arena())
+        threads_ = std::make_unique<Workers>(threads);
     deal(mesh, topology, cut, options, std::move(curvature), progress);
 }
 
@@ -64,8 +67,7 @@ void RankStepper::deal(const PolygonMesh& mesh, const Topology& topology, const 
     comm.run([&] {
         // The others begin while rank 0 makes its own part.
         for (int rank = comm.size() - 1; rank > 0; --rank) {
-            Packer message =
-                rank_message({.task = RankTask::Deal, .flow = flow_, .value = ranks_->threads_of_others()});
+            Packer message = rank_message({.task = RankTask::Deal, .flow = flow_, .value = ranks_->threads_of_each()});
             dealer.deal(rank, message);
             comm.give(rank, message.take());
             comm.take(rank);
@@ -76,7 +78,7 @@ void RankStepper::deal(const PolygonMesh& mesh, const Topology& topology, const 
         Unpacker unpacker(message);
         DealtMesh dealt = dealt_mesh(unpacker);
         message = Bytes();
-        own_ = std::make_unique<RankPart>(comm, std::move(dealt), progress);
+        in_own_threads([&] { own_ = std::make_unique<RankPart>(comm, std::move(dealt), progress); });
         saved[0] = own_->saved_rows();
         for (int rank = 1; rank < comm.size(); ++rank)
             saved[static_cast<std::size_t>(rank)] = unpacked<SavedRow>(comm.take(rank));
@@ -107,8 +109,16 @@ void RankStepper::number_saved_rows(const std::vector<std::vector<SavedRow>>& of
     }
 }
 
+/// In as many threads as each rank has.
+void RankStepper::in_own_threads(const std::function<void()>& work) const
+{
+    threads_ ? threads_->execute(work) : work();
+}
+
 RankStepper::~RankStepper()
 {
+    // Where it was made, since each thread has memory of its own.
+    in_own_threads([&] { own_.reset(); });
     try {
         Communicator& comm = ranks_->comm();
         comm.run([&] {
@@ -137,7 +147,7 @@ std::vector<Bytes> RankStepper::ask(RankTask task, const Put& put) const
             put(0, to_self);
         const Bytes message = to_self.take();
         Unpacker unpacker(message);
-        answers[0] = own_->act(task, unpacker);
+        in_own_threads([&] { answers[0] = own_->act(task, unpacker); });
         for (int rank = 1; rank < comm.size(); ++rank)
             answers[static_cast<std::size_t>(rank)] = comm.take(rank);
     });

@@ -10,6 +10,7 @@
 #include "engine/ranks/rank_part.h"
 #include "engine/steppers/stepper.h"
 #include "engine/tasks/progress.h"
+#include "engine/tasks/workers.h"
 #include "partition/cut/cut.h"
 #include "partition/topology.h"
 
@@ -52,12 +53,15 @@ class RankStepper final : public Stepper {
     void deal(const PolygonMesh& mesh, const Topology& topology, const Cut& cut, const FlowOptions& options,
               std::vector<double> curvature, Progress& progress);
     void number_saved_rows(const std::vector<std::vector<SavedRow>>& of_ranks, const std::vector<Index>& holders);
+    void in_own_threads(const std::function<void()>& work) const;
     std::vector<Bytes> ask(RankTask task, const Put& put = {}) const;
 
     RankGroup* ranks_;
     int flow_;
     Factorisation factorisation_;
     Index n_sub_meshes_;
+    /// Those of rank 0 in what ranks share; null: all of the flow.
+    std::unique_ptr<Workers> threads_;
     std::unique_ptr<RankPart> own_;
     /// Per rank.
     std::vector<std::vector<Index>> known_vertices_;

@@ -34,7 +34,7 @@ struct SharedFlow {
     {
         mesh = before;
         test::on_ranks(2, [&](RankGroup& ranks) {
-            ranks.set_threads_of_others(1);
+            ranks.set_threads_of_each(1);
             FlowControl control;
             control.ranks = &ranks;
             StepObserver capture;

@@ -66,7 +66,7 @@ void on_ranks(int n, Work&& work)
 inline Flowed flowed_on(RankGroup& ranks, const PolygonMesh& mesh, const FlowOptions& options, FlowControl control = {})
 {
     control.ranks = &ranks;
-    ranks.set_threads_of_others(options.resources.threads);
+    ranks.set_threads_of_each(options.resources.threads);
     return flowed_with(mesh, options, control);
 }
 
