@@ -40,14 +40,13 @@ class Surface {
     }
 
     /// From now on, looks have the cells that the sheets enclose at these positions, unless sheets overlap.
-    /// @returns at how many edges they do.
-    std::size_t find_cells(const Points& positions)
+    void find_cells(const Points& positions, SurfaceChange& change)
     {
         EnclosedCells cells = seamflow::find_cells(mesh_, positions, exec_);
-        const std::size_t n_overlaps = at(cells.n_overlaps);
-        if (n_overlaps == 0)
+        change.overlaps = at(cells.n_overlaps);
+        change.surfaces = at(cells.n_surfaces);
+        if (change.overlaps == 0)
             cells_ = std::move(cells);
-        return n_overlaps;
     }
 
     [[nodiscard]] SurfaceLook look(const Points& positions) const
@@ -123,11 +122,12 @@ SurfaceChange SurfaceChangeMeter::measure(const PolygonMesh& mesh, const MeshRep
     const PolygonMesh& faces = welded ? *welded : mesh;
     Surface surface(faces, exec);
     const bool has_sheets = report.junction_vertices + report.non_manifold_vertices > 0;
-    const std::size_t overlaps = has_sheets ? surface.find_cells(positions_) : 0;
-    SurfaceChange change{.before = surface.look(positions_),
-                         .after = surface.look(mesh.vertices),
-                         .moved = moved.statistics(),
-                         .overlaps = overlaps};
+    SurfaceChange change;
+    if (has_sheets)
+        surface.find_cells(positions_, change);
+    change.before = surface.look(positions_);
+    change.after = surface.look(mesh.vertices);
+    change.moved = moved.statistics();
     const std::vector<Index> flipped = flipped_faces(faces, positions_, mesh.vertices, exec);
     change.flipped_faces = flipped.size();
     change.folded_faces = flipped.empty() ? 0 : folded_faces(faces, positions_, mesh.vertices, flipped).size();

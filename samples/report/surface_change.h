@@ -40,6 +40,8 @@ struct SurfaceChange {
     /// At how many edges sheets lay on each other with different faces before, so that the volumes of cells are unknown
     /// and left out (see EnclosedCells::n_overlaps).
     std::size_t overlaps = 0;
+    /// The number of surfaces around cells (see EnclosedCells::n_surfaces).
+    std::size_t surfaces = 0;
     /// The number of pairs of faces that cross each other but did not before, if requested.
     std::optional<std::size_t> new_self_intersections = std::nullopt;
 };

@@ -162,6 +162,10 @@ void remark_on_folds(const FlowOptions& options, const SurfaceChange& change, st
             fmt::format("Sheets lie on each other with different faces, at {}: the volumes of cells are not "
                         "known. They would be if such sheets had the same faces.",
                         counted(change.overlaps, "edge", "edges")));
+    if (change.surfaces > 1 && !change.before.cell_volumes.empty())
+        remarks.push_back(fmt::format("{} surfaces with cells do not touch: where one lies in a cell of another, it "
+                                      "counts in the volume of that cell.",
+                                      change.surfaces));
     std::string what;
     if (const std::size_t n = change.folded_faces.value_or(0); n > 0)
         what = fmt::format("{} turned over against neighbouring faces",
