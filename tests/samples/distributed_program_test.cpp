@@ -4,7 +4,6 @@
 #include <fstream>
 #include <sstream>
 #include <string>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -263,26 +262,31 @@ TEST_CASE("left to themselves ranks take steps that they can share, which they n
 {
     const BallWorkshop w;
     REQUIRE(w.run(GENERATE " noisy-sphere large.ply --vertices 9000") == 0);
-    for (const auto& [flow, approach, steps] :
-         {std::tuple{"large.ply n.ply --radius 1% --steps 3", "sweep", Steps::Shared},
-          {"large.ply n.ply --radius 20%", "converged", Steps::Shared},
-          {"large.ply n.ply --radius 1% --flow conformalized --converge 1e-5", "converged", Steps::Shared},
-          {"large.ply n.ply --preset scan", "converged", Steps::Shared},
-          // Too small to be cut.
-          {"ball.ply n.ply --radius 3% --region region", "undecomposed", Steps::OfRank0}}) {
-        CAPTURE(flow);
-        REQUIRE(on_ranks(w, 2, std::string(flow) + " --report r.json") == 0);
+    struct Choice {
+        std::string input;
+        std::string options;
+        std::string approach;
+        Steps steps = Steps::Shared;
+    };
+    for (const Choice& choice :
+         std::vector<Choice>{{"large.ply", "--radius 1% --steps 3", "sweep"},
+                             {"large.ply", "--radius 20%", "converged"},
+                             {"large.ply", "--radius 1% --flow conformalized --converge 1e-5", "converged"},
+                             {"large.ply", "--preset scan", "converged"},
+                             // Too small to be cut.
+                             {"ball.ply", "--radius 3% --region region", "undecomposed", Steps::OfRank0}}) {
+        CAPTURE(choice.options);
+        REQUIRE(on_ranks(w, 2, choice.input + " n.ply " + choice.options + " --report r.json") == 0);
         const test::Json report = w.json("r.json");
-        CHECK(report["approach"] == approach);
-        CHECK(w.said().find("ranks can share such steps") !=
-              (report["choices"].dump().find("ranks can share such steps") == std::string::npos));
-        const std::string line = flow;
-        const std::string input = line.substr(0, line.find(' '));
+        CHECK(report["approach"] == choice.approach);
+        const std::string reason = "ranks can share such steps";
+        CHECK((w.said().find(reason) == std::string::npos) ==
+              (report["choices"].dump().find(reason) == std::string::npos));
         check_bytes(w,
-                    {.input = input,
-                     .options = line.substr(input.size() + 7),
-                     .steps = steps,
-                     .chosen = "--approach " + report["approach"].get<std::string>()},
+                    {.input = choice.input,
+                     .options = choice.options,
+                     .steps = choice.steps,
+                     .chosen = "--approach " + choice.approach},
                     {1, 2, 3, 5});
     }
     REQUIRE(on_ranks(w, 2, "ball.ply n.ply --radius 1% --approach cg") == 0);
