@@ -62,7 +62,7 @@ void DenoisingStepper::describe(FlowReport& report) const
             "{} far from all neighbours, more than ten times the lengths of the edges there, and {}: remove {}, "
             "or give {} the right position.",
             spikes.size() == 1 ? fmt::format("Vertex {} is", spikes[0])
-                                : fmt::format("{} vertices, the first of which is {}, are", spikes.size(), spikes[0]),
+                               : fmt::format("{} vertices, the first of which is {}, are", spikes.size(), spikes[0]),
             spikes.size() == 1 ? "stays" : "stay", spikes.size() == 1 ? "it" : "them",
             spikes.size() == 1 ? "it" : "them"));
     if (noise_->part == 0.0) {

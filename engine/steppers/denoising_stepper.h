@@ -13,7 +13,8 @@
 
 namespace seamflow {
 
-/// Takes steps that remove noise (FlowOptions::denoise, see MeshDenoiser). The whole mesh at once, its faces and vertices shared among the threads; the bits do not depend on their number.
+/// Takes steps that remove noise (FlowOptions::denoise, see MeshDenoiser). The whole mesh at once, its faces and
+/// vertices shared among the threads; the bits do not depend on their number.
 class DenoisingStepper final : public Stepper {
   public:
     /// @param mesh, topology, progress must outlive the stepper; the twins of the topology are not needed later.

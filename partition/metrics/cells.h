@@ -10,8 +10,8 @@ namespace seamflow {
 
 /// The cells that the faces of a mesh enclose: the bounded regions of space between sheets that meet, such as the
 /// bubbles of a foam, however faces are oriented (see Regions). A region with a hole in its sheets is one with what is
-/// behind the hole, and no cell if that is the outside. What lies within a cell, touching its sheets at no edge, is a cell
-/// of its own, and counts in the volume of the one around it, too.
+/// behind the hole, and no cell if that is the outside. What lies within a cell, touching its sheets at no edge, is a
+/// cell of its own, and counts in the volume of the one around it, too.
 struct EnclosedCells {
     /// One list for each cell, the largest cell first: the sides of faces around it, 2 f for the side of face f that
     /// its normal points to, and 2 f + 1 for the other. Faces with both sides in one cell are left out.

@@ -69,9 +69,8 @@ MeshDenoiser::MeshDenoiser(const PolygonMesh& mesh, const Topology& topology, co
 {
 }
 
-std::unique_ptr<const MeshDenoiser::Triangles> MeshDenoiser::cut_polygons(const PolygonMesh& mesh,
-                                                                          const Topology& topology,
-                                                                          const Executor& exec)
+std::unique_ptr<const MeshDenoiser::Triangles>
+MeshDenoiser::cut_polygons(const PolygonMesh& mesh, const Topology& topology, const Executor& exec)
 {
     constexpr Index corners = 3;
     if (mesh.n_corners() == corners * mesh.n_faces())
@@ -134,8 +133,8 @@ void MeshDenoiser::measure_noise(const Points& motions, const std::vector<double
             return Sums(motion * motion, mean_squared_edge(*polygons_, *polygon_topology_, v, after), 1.0, 1.0);
         },
         Sums(Sums::Zero()));
-    noise_ = sums[2] > 0.0 ? SurfaceNoise{noise_by_motion * std::sqrt(sums[0] / sums[2]),
-                                          std::sqrt(sums[1] / sums[2]), sums[2] / sums[3]}
+    noise_ = sums[2] > 0.0 ? SurfaceNoise{noise_by_motion * std::sqrt(sums[0] / sums[2]), std::sqrt(sums[1] / sums[2]),
+                                          sums[2] / sums[3]}
                            : SurfaceNoise{};
 }
 

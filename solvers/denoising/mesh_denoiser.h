@@ -36,8 +36,7 @@ class MeshDenoiser {
 
     /// @param before #V by 3. @param strengths #V: the part of each displacement that vertices go; empty: 1.
     /// @returns #V by 3.
-    Points denoise(const Points& before, std::span<const double> strengths = {},
-                   const Executor& exec = run_serially);
+    Points denoise(const Points& before, std::span<const double> strengths = {}, const Executor& exec = run_serially);
 
     /// That was found by the last call of denoise.
     [[nodiscard]] const SurfaceNoise& noise() const { return noise_; }
