@@ -7,6 +7,7 @@
 #include <utility>
 
 #include <mpi.h>
+#include <sched.h>
 
 #include "partition/errors.h"
 
@@ -16,6 +17,24 @@ namespace {
 
 /// Tags of pieces with successors lie above the tags of messages.
 constexpr int more_follows = 256;
+
+/// Gives this thread, and those that it starts, the cores of all ranks on its machine. mpirun binds each rank to a core
+/// of its own, but rank 0 works alone with as many threads as there are ranks, and a rank looks for messages beside its
+/// work.
+void share_cores(MPI_Comm world)
+{
+    MPI_Comm of_machine = MPI_COMM_NULL;
+    ::MPI_Comm_split_type(world, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &of_machine);
+    cpu_set_t cores;
+    CPU_ZERO(&cores);
+    if (::sched_getaffinity(0, sizeof(cores), &cores) != 0)
+        CPU_ZERO(&cores);
+    ::MPI_Allreduce(MPI_IN_PLACE, &cores, sizeof(cores), MPI_BYTE, MPI_BOR, of_machine);
+    // Where that is refused, ranks stay where they are.
+    if (CPU_COUNT(&cores) > 0)
+        ::sched_setaffinity(0, sizeof(cores), &cores);
+    ::MPI_Comm_free(&of_machine);
+}
 
 class MpiTransport final : public Transport {
   public:
@@ -42,6 +61,8 @@ class MpiTransport final : public Transport {
         ::MPI_Comm_rank(world_, &rank_);
         ::MPI_Comm_size(world_, &size_);
         incomplete_.resize(size_);
+        if (owns_)
+            share_cores(world_);
     }
 
     ~MpiTransport() override
