@@ -34,7 +34,7 @@ struct SurfaceChange {
     /// Of the distances of vertices from their earlier positions, in units of length.
     LengthStatistics moved;
     /// The number of faces that have turned by more than 90° (see flipped_faces), and how many of these the surface has
-    /// folded over (see folded_faces). Empty where ranks share the mesh.
+    /// folded over (see folded_faces). Empty where they are not counted.
     std::optional<std::size_t> flipped_faces = std::nullopt;
     std::optional<std::size_t> folded_faces = std::nullopt;
     /// At how many edges sheets lay on each other with different faces before, so that the volumes of cells are unknown

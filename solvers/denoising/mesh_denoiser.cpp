@@ -33,19 +33,6 @@ double mean_chord(const PolygonMesh& mesh, const Points& positions, const Points
     return total / std::max(mesh.n_faces(), Index{1});
 }
 
-/// The motion of a vertex along the normal, without sign.
-/// @param normals #F by 3.
-double motion_along_normal(const Topology& topology, const Points& normals, Index v, const Point& motion)
-{
-    Point normal = Point::Zero();
-    for (const Index corner : topology.corners_at(v)) {
-        const Point of_face = normals.row(topology.face_of[corner]);
-        normal += of_face.dot(normal) < 0.0 ? Point(-of_face) : of_face;
-    }
-    const double length = normal.norm();
-    return length > 0.0 ? std::abs(motion.dot(normal)) / length : 0.0;
-}
-
 double mean_squared_edge(const PolygonMesh& mesh, const Topology& topology, Index v, const Points& positions)
 {
     const auto corners = topology.corners_at(v);

@@ -45,13 +45,13 @@ class MeshDenoiser {
     [[nodiscard]] const std::vector<Index>& spikes() const { return spikes_; }
 
   private:
-    /// @param before without spikes.
-    Points without_noise(const Points& before, std::span<const double> strengths, const Executor& exec);
-
     struct Triangles {
         PolygonMesh mesh;
         Topology topology;
     };
+
+    /// @param before without spikes.
+    Points without_noise(const Points& before, std::span<const double> strengths, const Executor& exec);
     /// @param motions #V by 3, to the positions after. @param parts #V: 0 where there is no noise.
     /// @param normals #F by 3.
     void measure_noise(const Points& motions, const std::vector<double>& parts, const Points& normals,

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "partition/vector_area.h"
+#include "solvers/denoising/normal_motion.h"
 
 namespace seamflow {
 
@@ -78,19 +79,16 @@ struct Motion {
         , edges(at(of_mesh.n_vertices()), 0.0)
     {
         for_each(exec, mesh.n_vertices(), [&](Index v) {
-            Point normal = Point::Zero();
             double total = 0.0;
             const auto corners = topology.corners_at(v);
             for (const Index corner : corners) {
-                const Point of_face = found.normals.row(topology.face_of[corner]);
-                normal += of_face.dot(normal) < 0.0 ? Point(-of_face) : of_face;
                 const Index next = mesh.face_vertices[topology.next(mesh, corner)];
                 total += (before.row(next) - before.row(v)).norm();
             }
             edges[v] = total / static_cast<double>(std::max(corners.size(), std::size_t{1}));
-            const double length = normal.norm() * edges[v];
-            if (length > 0.0)
-                lengths[v] = static_cast<float>(std::abs((after.row(v) - before.row(v)).dot(normal)) / length);
+            if (edges[v] > 0.0)
+                lengths[v] = static_cast<float>(
+                    motion_along_normal(topology, found.normals, v, after.row(v) - before.row(v)) / edges[v]);
         });
     }
 

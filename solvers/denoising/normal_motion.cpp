@@ -1,5 +1,6 @@
 #include "solvers/denoising/normal_motion.h"
 
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -64,6 +65,17 @@ class FoldedFaces {
 };
 
 }  // namespace
+
+double motion_along_normal(const Topology& topology, const Points& normals, Index v, const Point& motion)
+{
+    Point normal = Point::Zero();
+    for (const Index corner : topology.corners_at(v)) {
+        const Point of_face = normals.row(topology.face_of[corner]);
+        normal += of_face.dot(normal) < 0.0 ? Point(-of_face) : of_face;
+    }
+    const double length = normal.norm();
+    return length > 0.0 ? std::abs(motion.dot(normal)) / length : 0.0;
+}
 
 Points along_normals(const PolygonMesh& mesh, const Topology& topology, const Points& before, const Points& after,
                      const Points& wanted, const Executor& exec)

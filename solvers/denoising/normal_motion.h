@@ -6,6 +6,10 @@
 
 namespace seamflow {
 
+/// The length of the motion of vertex v along the mean normal of its faces, without sign; 0 where there is no normal.
+/// @param topology needs no twins. @param normals #F by 3: of length 1 or 0, to either side.
+double motion_along_normal(const Topology& topology, const Points& normals, Index v, const Point& motion);
+
 /// Leaves of a motion what goes along the wanted normals of the faces at each vertex, so that vertices hardly slide and
 /// parameters stay: on smooth parts along the one normal, at edges and corners in all directions that change a face.
 /// Around faces that would fold by it, vertices go where the motion takes them. Bits do not depend on how loops are
