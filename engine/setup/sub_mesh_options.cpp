@@ -17,7 +17,7 @@ FlowTerms terms_of(const FlowOptions& options, const Points& first)
             .keeps_mass = options.flow == FlowEquation::Linear,
             .weights = options.motion.attachment_weights,
             .uniform_weight = options.motion.attachment,
-            .strengths = options.motion.strength};
+            .step_scales = options.motion.strength};
 }
 
 std::unique_ptr<SubMeshSystem> make_equations(const SubMesh& sub_mesh, std::vector<Index> twin, bool is_only,

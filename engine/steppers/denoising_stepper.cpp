@@ -18,7 +18,7 @@ constexpr double small_part = 0.05;
 DenoisingStepper::DenoisingStepper(const PolygonMesh& mesh, const Topology& topology, const FlowOptions& options,
                                    Progress& progress)
     : mesh_(&mesh)
-    , strengths_(options.motion.strength)
+    , step_scales_(options.motion.strength)
     , denoiser_(mesh, topology, progress.exec())
     , positions_(mesh.vertices)
     , loops_(1.0, progress)
@@ -29,7 +29,7 @@ void DenoisingStepper::step(const Points& before)
 {
     assert(&before != &positions_);
     const Executor exec = loops_.begin();
-    positions_ = denoiser_.denoise(before, strengths_, exec);
+    positions_ = denoiser_.denoise(before, step_scales_, exec);
     if (!noise_)
         noise_ = denoiser_.noise();
     loops_.end();

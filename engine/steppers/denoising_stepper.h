@@ -36,7 +36,7 @@ class DenoisingStepper final : public Stepper {
   private:
     const PolygonMesh* mesh_;
     /// #V: the part of each displacement that vertices go; empty: 1.
-    std::vector<double> strengths_;
+    std::vector<double> step_scales_;
     MeshDenoiser denoiser_;
     Points positions_;
     LoopCount loops_;

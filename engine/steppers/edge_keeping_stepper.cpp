@@ -36,7 +36,7 @@ EdgeKeepingStepper::EdgeKeepingStepper(const PolygonMesh& mesh, const Topology& 
     , topology_(&topology)
     , time_step_(options.time_step)
     , angle_(options.keep_edges.value())
-    , strengths_(options.motion.strength)
+    , step_scales_(options.motion.strength)
     , lines_(mesh, topology, options.motion.feature_edges)
     , diffusion_(diffusion_between(mesh, topology, lines_, progress.exec()))
     , positions_(mesh.vertices)
@@ -59,8 +59,8 @@ void EdgeKeepingStepper::step(const Points& before)
         double size = 0.0;
         for (const Index corner : corners)
             size += area(mesh_->face(topology_->face_of[corner]), before) / static_cast<double>(corners.size());
-        const double strength = strengths_.empty() ? 1.0 : strengths_[v];
-        const double part = strength * time_step_ / (time_step_ + short_step * size);
+        const double step_scale = step_scales_.empty() ? 1.0 : step_scales_[v];
+        const double part = step_scale * time_step_ / (time_step_ + short_step * size);
         positions_.row(v) =
             part < 1.0 ? lines_.on_line(v, before.row(v) + part * (from.row(v) - before.row(v))) : Point(from.row(v));
     });

@@ -41,7 +41,7 @@ class EdgeKeepingStepper final : public Stepper {
     double time_step_;
     double angle_;
     /// #V: the part of each displacement that vertices go; empty: 1.
-    std::vector<double> strengths_;
+    std::vector<double> step_scales_;
     FeatureLines lines_;
     NormalDiffusion diffusion_;
     Points positions_;

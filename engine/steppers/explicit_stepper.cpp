@@ -62,7 +62,7 @@ ExplicitStepper::ExplicitStepper(const PolygonMesh& mesh, const Topology& topolo
     , progress_(&progress)
     , laplacian_(laplacian_of(options))
     , time_step_(options.time_step)
-    , strengths_(options.motion.strength)
+    , step_scales_(options.motion.strength)
     , positions_(mesh.vertices)
     , first_limit_(infinity)
     , smallest_limit_(infinity)
@@ -90,7 +90,7 @@ void ExplicitStepper::step(const Points& before)
     // Vⁿ⁺¹ = Vⁿ - s dt Δ(Vⁿ) Vⁿ
     for_each(progress_->counted_loop(), mesh_->n_vertices(), [&](Index v) {
         if (topology_->moves(v))
-            positions_.row(v) = before.row(v) - (strengths_.empty() ? 1.0 : strengths_[v]) * time_step_ *
+            positions_.row(v) = before.row(v) - (step_scales_.empty() ? 1.0 : step_scales_[v]) * time_step_ *
                                                     mean_curvature_vector(*mesh_, *topology_, before, laplacian_, v);
     });
     if (!positions_.allFinite())

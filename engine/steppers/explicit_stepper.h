@@ -44,7 +44,7 @@ class ExplicitStepper final : public Stepper {
     ScaledLaplacian laplacian_;
     double time_step_;
     /// #V: s, which scales dt; empty: 1.
-    std::vector<double> strengths_;
+    std::vector<double> step_scales_;
     Points positions_;
     /// largest_explicit_step of the first step, and the smallest so far.
     double first_limit_;

@@ -21,10 +21,10 @@ struct FlowTerms {
     double uniform_weight = 0.0;
     /// s of each vertex (#V), from 0 to 1: M / s takes the place of M, and w s that of w, so that dt is s dt there. A
     /// vertex with s = 0 is held. Empty: 1 everywhere.
-    std::span<const double> strengths = {};
+    std::span<const double> step_scales = {};
 
     [[nodiscard]] bool attaches() const { return !weights.empty() || uniform_weight > 0.0; }
-    [[nodiscard]] double strength(Index v) const { return strengths.empty() ? 1.0 : strengths[v]; }
+    [[nodiscard]] double step_scale(Index v) const { return step_scales.empty() ? 1.0 : step_scales[v]; }
     [[nodiscard]] double weight(Index v) const { return weights.empty() ? uniform_weight : weights[v]; }
 };
 

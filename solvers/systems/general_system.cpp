@@ -65,8 +65,8 @@ SubMeshSystem::Assembled GeneralSystem::assemble(const Points& positions, const 
     roles_.assign(roles.begin(), roles.end());
     // (I + dt Δ + dt w) Vᵏ⁺¹ = Vᵏ + dt w V⁰, except on Γ and where vertices are fixed
     const Assembled equations{matrix_->fill(positions, time_step)};
-    if (!screening_.strengths.empty())
-        matrix_->scale_rows(screening_.strengths);
+    if (!screening_.step_scales.empty())
+        matrix_->scale_rows(screening_.step_scales);
     for (Index v = 0; v < sub_mesh_->n_vertices; ++v) {
         if (row_of_[v] != Row::Interface)
             matrix_->diagonal(v) += 1.0;

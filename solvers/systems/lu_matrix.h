@@ -32,9 +32,9 @@ class LuMatrix {
     /// @returns the entries and the further values.
     std::span<double> fill(const Points& positions, double time_step);
 
-    /// Multiplies the rows of dt Δ, and the further values, by the strengths of their unknowns.
-    /// @param strengths one per unknown. @param further the unknowns of the further values.
-    void scale_rows(std::span<const double> strengths, std::span<const Index> further = {});
+    /// Multiplies the rows of dt Δ, and the further values, by the step_scales of their unknowns.
+    /// @param step_scales one per unknown. @param further the unknowns of the further values.
+    void scale_rows(std::span<const double> step_scales, std::span<const Index> further = {});
 
     [[nodiscard]] double& at_slot(Index slot) { return values_[slot]; }
     [[nodiscard]] double& diagonal(Index unknown) { return values_[diagonal_slots_[unknown]]; }

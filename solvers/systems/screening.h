@@ -7,27 +7,27 @@
 
 namespace seamflow {
 
-/// Attachment of a sub-mesh to V⁰: adds dt M w to the diagonal of M + dt K, and dt M w V⁰ to the right-hand side. Where
-/// steps have a strength s, M is M / s, and w is w s.
+/// Attachment of a sub-mesh to V⁰: adds dt M w to the diagonal of M + dt K, and dt M w V⁰ to the right-hand side. A
+/// vertex with step scale s takes a step of s dt: M is divided by s, w multiplied.
 struct Screening {
     /// Per own vertex: w, in 1/length². Empty without attachment.
     std::vector<double> weights;
     /// #own by 3: V⁰.
     Points first = Points(0, 3);
     /// Per own vertex: s. Empty: 1.
-    std::vector<double> strengths = {};
+    std::vector<double> step_scales = {};
 
     [[nodiscard]] bool exists() const { return !weights.empty(); }
-    [[nodiscard]] double strength(Index v) const { return strengths.empty() ? 1.0 : strengths[v]; }
-    [[nodiscard]] double weight(Index v) const { return exists() ? weights[v] * strength(v) : 0.0; }
+    [[nodiscard]] double step_scale(Index v) const { return step_scales.empty() ? 1.0 : step_scales[v]; }
+    [[nodiscard]] double weight(Index v) const { return exists() ? weights[v] * step_scale(v) : 0.0; }
 };
 
 /// @param own the vertices of the sub-mesh, as numbers in the mesh.
 inline Screening make_screening(const FlowTerms& terms, std::span<const Index> own)
 {
     Screening screening;
-    for (const Index v : terms.strengths.empty() ? std::span<const Index>() : own)
-        screening.strengths.push_back(terms.strength(v));
+    for (const Index v : terms.step_scales.empty() ? std::span<const Index>() : own)
+        screening.step_scales.push_back(terms.step_scale(v));
     if (!terms.attaches())
         return screening;
     screening.first = rows_of(*terms.first, own);

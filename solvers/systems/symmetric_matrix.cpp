@@ -105,7 +105,7 @@ std::span<double> SymmetricMatrix::fill(const Points& positions, double time_ste
     laplacian->assemble(positions, time_step, slots, workspace.values, workspace.diagonal, workspace.mass, product);
     for (Index u = 0; u < n(); ++u) {
         const Index v = vertex_of[u];
-        workspace.mass[v] /= screening.strength(v);
+        workspace.mass[v] /= screening.step_scale(v);
         workspace.values[diagonal_slot(u)] =
             workspace.mass[v] * (1.0 + time_step * screening.weight(v)) + workspace.diagonal[v];
     }

@@ -45,7 +45,7 @@ struct UpperPattern {
 UpperPattern upper_pattern(const PairsOfUnknowns& pairs, const std::vector<Index>& order);
 
 /// The symmetric matrix M + dt K + dt M w of a sub-mesh at its unknowns, refilled in each step. M is that of the
-/// Laplacian over the strength (see Screening).
+/// Laplacian over the step scale (see Screening).
 struct SymmetricMatrix {
     std::unique_ptr<SymmetricLaplacian> laplacian;
     /// Of the sub-mesh, its halo included.

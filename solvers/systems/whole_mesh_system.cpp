@@ -97,16 +97,17 @@ WholeMeshSystem::WholeMeshSystem(const PolygonMesh& mesh, const Topology& topolo
         kept_of_rows_.resize(matrix_.n_rows(), 3);
         for_each(exec, matrix_.n_rows(), [&](Index i) { kept_of_rows_.row(i) = kept_.row(rows_.vertices.values[i]); });
     }
-    if (!terms.strengths.empty()) {
-        strengths_.resize(moves_.size());
-        for_each(exec, matrix_.n_rows(), [&](Index i) { strengths_[i] = terms.strength(rows_.vertices.values[i]); });
+    if (!terms.step_scales.empty()) {
+        step_scales_.resize(moves_.size());
+        for_each(exec, matrix_.n_rows(),
+                 [&](Index i) { step_scales_[i] = terms.step_scale(rows_.vertices.values[i]); });
     }
     if (!terms.attaches())
         return;
     screenings_.resize(moves_.size());
     first_.resize(matrix_.n_rows(), 3);
     for_each(exec, matrix_.n_rows(), [&](Index i) {
-        screenings_[i] = terms.weight(rows_.vertices.values[i]) * strength(i);
+        screenings_[i] = terms.weight(rows_.vertices.values[i]) * step_scale(i);
         first_.row(i) = terms.first->row(rows_.vertices.values[i]);
     });
 }
@@ -138,7 +139,7 @@ WholeMeshSystem::Sizes WholeMeshSystem::assemble(const Points& of_rows, const Ex
                 residual -= share;
                 size.head<3>() += share.array().abs().transpose();
             });
-            const double mass = whole_mass / strength(i);
+            const double mass = whole_mass / step_scale(i);
             if (!masses_.empty())
                 masses_[i] = units_.mass * mass;
             diagonal += units_.mass * mass * (1.0 + screening(i));
@@ -181,7 +182,7 @@ double WholeMeshSystem::measure(const Points& of_rows, const Points& data, bool 
             const auto add_product = [&](auto&&, Index j, double k) {
                 residual -= units_.stiffness * k * (after_.row(j) - there);
             };
-            const double mass = visit(place, add_product) / strength(i);
+            const double mass = visit(place, add_product) / step_scale(i);
             residual -= units_.mass * mass * (there - data.row(i));
             if (screening(i) > 0.0)
                 residual +=

@@ -98,7 +98,7 @@ class WholeMeshSystem {
     double measure(const Points& of_rows, const Points& data, bool is_pulled, const Executor& exec);
     Result step_with_kept_matrix(const Points& before, const IterationStop& stop, Points& after, const Executor& exec);
     Result solve(const Beginning& beginning, const IterationStop& stop, Points& after, const Executor& exec);
-    [[nodiscard]] double strength(Index i) const { return strengths_.empty() ? 1.0 : strengths_[i]; }
+    [[nodiscard]] double step_scale(Index i) const { return step_scales_.empty() ? 1.0 : step_scales_[i]; }
     /// dt w s of a row.
     [[nodiscard]] double screening(Index i) const { return screenings_.empty() ? 0.0 : time_step_ * screenings_[i]; }
     PassStart start_pass(double squared, const Executor& exec);
@@ -118,8 +118,8 @@ class WholeMeshSystem {
     /// By rows: whether they move, and where they are after the step so far if the residual is renewed.
     std::vector<std::uint8_t> moves_;
     Points after_ = Points(0, 3);
-    /// By rows: the strength s, by which M is divided; empty: 1. With an attachment, w s, and V⁰.
-    std::vector<double> strengths_;
+    /// By rows: the step scale s, by which M is divided; empty: 1. With an attachment, w s, and V⁰.
+    std::vector<double> step_scales_;
     std::vector<double> screenings_;
     Points first_ = Points(0, 3);
     /// For `apply`: by rows, M in the unit of the matrix. For that and for a kept matrix: by rows, D, which is then Vᵏ.
