@@ -46,13 +46,12 @@ void require_ahead(const FlowOptions& options, const FlowState& state)
 /// What a flow works with, on its threads.
 class Flow::Session {
   public:
-    Session(PolygonMesh& mesh, const FlowOptions& options, const FlowControl& control, bool is_observed,
-            FlowReport& report)
+    Session(PolygonMesh& mesh, FlowOptions options, const FlowControl& control, bool is_observed, FlowReport& report)
         : n_expected_(options.steps)
         , workers_(options.resources.threads)
         , progress_(control)
     {
-        workers_.execute([&] { set_up(mesh, options, control, is_observed, report); });
+        workers_.execute([&] { set_up(mesh, std::move(options), control, is_observed, report); });
     }
     Session(const Session&) = delete;
     Session& operator=(const Session&) = delete;
@@ -116,7 +115,7 @@ class Flow::Session {
                 "an earlier step has failed, which leaves nothing to continue from: begin a new flow");
     }
 
-    void set_up(PolygonMesh& mesh, const FlowOptions& options, const FlowControl& control, bool is_observed,
+    void set_up(PolygonMesh& mesh, FlowOptions options, const FlowControl& control, bool is_observed,
                 FlowReport& report)
     {
         Stopwatch watch;
@@ -125,7 +124,7 @@ class Flow::Session {
         progress_.enter(FlowPhase::Cut, 0, 0.0, 0.6 * setup);
         progress_.expect(8.0);
         flowing_.emplace(mesh);
-        auto prepared = prepare(*flowing_, options, is_observed, control, progress_);
+        auto prepared = prepare(*flowing_, std::move(options), is_observed, control, progress_);
         report.resources.threads = workers_.threads();
         report.seconds.cut = watch.lap();
         run_.emplace(*flowing_, std::move(prepared), progress_, setup, report, control);
@@ -151,7 +150,7 @@ Flow::Flow(PolygonMesh& mesh, const FlowOptions& options, StepObserver on_step, 
     own.uniform_edge = uniform_edge_of(options, mesh);
     if (control_.resume != nullptr)
         require_ahead(own, *control_.resume);
-    session_ = std::make_unique<Session>(mesh, own, control_, static_cast<bool>(on_step_), report_);
+    session_ = std::make_unique<Session>(mesh, std::move(own), control_, static_cast<bool>(on_step_), report_);
 }
 
 Flow::~Flow() = default;

@@ -8,7 +8,6 @@
 #include <thread>
 #include <utility>
 
-#include "engine/tasks/run_for_sub_mesh.h"
 #include "partition/index_lists.h"
 #include "partition/vector_area.h"
 
@@ -23,7 +22,7 @@ constexpr std::chrono::milliseconds patience_of_receiver{20};
 struct Header {
     std::uint64_t run;
     Index sub_mesh;
-    News news;
+    MessageKind kind;
 };
 
 Header header_of(const Message& message)
@@ -33,57 +32,44 @@ Header header_of(const Message& message)
 
 }  // namespace
 
-std::vector<KnownSubMesh> known_sub_meshes(const DealtMesh& dealt, const Decomposition& decomposition)
-{
-    std::vector<KnownSubMesh> known;
-    for (std::size_t s = 0; s < dealt.known.size(); ++s)
-        known.push_back({.number = dealt.known[s],
-                         .rank = dealt.holders[dealt.known[s]],
-                         .n_vertices = decomposition.sub_meshes[s].n_vertices,
-                         .faces = {dealt.first_faces[s]}});
-    return known;
-}
-
-RankExchange::RankExchange(Communicator& comm, const std::vector<Index>& vertex_numbers,
-                           std::vector<KnownSubMesh> known)
+RankExchange::RankExchange(Communicator& comm, const DealtMesh& dealt)
     : comm_(&comm)
-    , vertex_numbers_(&vertex_numbers)
-    , known_(std::move(known))
-    , own_interest_(known_.size())
-    , listeners_(known_.size())
+    , dealt_(&dealt)
+    , own_interest_(dealt.known.size())
+    , listeners_(dealt.known.size())
 {
     for (auto& mail : mail_)
-        mail.resize(known_.size());
+        mail.resize(dealt.known.size());
 }
 
 Index RankExchange::known_index(Index number) const
 {
-    return static_cast<Index>(std::ranges::lower_bound(known_, number, {}, &KnownSubMesh::number) - known_.begin());
+    return static_cast<Index>(std::ranges::lower_bound(dealt_->known, number) - dealt_->known.begin());
 }
 
 /// Rows that the transfers to this rank's sub-meshes read of foreign ones, and further rows.
 void RankExchange::find_own_interest(const Decomposition& decomposition, std::span<const SweepPlan> sweeps,
                                      std::span<const std::vector<Index>> further)
 {
-    const auto note = [&](const std::vector<Transfer>& transfers, std::initializer_list<News> kinds) {
+    const auto note = [&](const std::vector<Transfer>& transfers, std::initializer_list<MessageKind> kinds) {
         for (const Transfer& transfer : transfers)
-            for (const News news : kinds)
+            for (const MessageKind kind : kinds)
                 if (is_foreign(transfer.from)) {
-                    auto& rows = own_interest_[transfer.from].rows[kind(news)];
+                    auto& rows = own_interest_[transfer.from].rows[index_of(kind)];
                     rows.insert(rows.end(), transfer.source.begin(), transfer.source.end());
                 }
     };
     for (Interest& interest : own_interest_)
         interest.predicts.assign(sweeps.size(), 0);
     for (const auto& halo : decomposition.halo)
-        note(halo, {News::Position, News::Solution});
+        note(halo, {MessageKind::Position, MessageKind::Solution});
     for (std::size_t s = 0; s < further.size(); ++s)
         note({{.from = static_cast<Index>(s), .to = -1, .source = further[s], .target = {}}},
-             {News::Position, News::Solution});
+             {MessageKind::Position, MessageKind::Solution});
     for (std::size_t sweep = 0; sweep < sweeps.size(); ++sweep)
-        for (std::size_t s = 0; s < known_.size(); ++s) {
-            note(sweeps[sweep].traces[s], {News::Solution});
-            note(sweeps[sweep].predictions[s], {News::Prediction});
+        for (std::size_t s = 0; s < dealt_->known.size(); ++s) {
+            note(sweeps[sweep].traces[s], {MessageKind::Solution});
+            note(sweeps[sweep].predictions[s], {MessageKind::Prediction});
             for (const Transfer& prediction : sweeps[sweep].predictions[s])
                 own_interest_[prediction.from].predicts[sweep] = 1;
         }
@@ -96,17 +82,17 @@ void RankExchange::connect(const Decomposition& decomposition, std::span<const S
                            std::span<const std::vector<Index>> further)
 {
     find_own_interest(decomposition, sweeps, further);
-    arrivals_.resize(sweeps.size());
+    pending_.resize(sweeps.size());
     std::vector<Packer> to_each(comm_->size());
-    for (std::size_t s = 0; s < known_.size(); ++s) {
+    for (std::size_t s = 0; s < dealt_->known.size(); ++s) {
         if (!is_foreign(static_cast<Index>(s)))
             continue;
-        Packer& packer = to_each[known_[s].rank];
-        packer.put(known_[s].number);
+        Packer& packer = to_each[holder(static_cast<Index>(s))];
+        packer.put(dealt_->known[s]);
         for (const auto& rows : own_interest_[s].rows) {
             std::vector<Index> numbers;
             for (const Index row : rows)
-                numbers.push_back((*vertex_numbers_)[decomposition.sub_meshes[s].local_to_global[row]]);
+                numbers.push_back(dealt_->vertex_numbers[decomposition.sub_meshes[s].local_to_global[row]]);
             packer.put_all(std::span<const Index>(numbers));
         }
         packer.put_all(std::span<const std::uint8_t>(own_interest_[s].predicts));
@@ -122,48 +108,49 @@ void RankExchange::connect(const Decomposition& decomposition, std::span<const S
             interest.rank = rank;
             for (auto& rows : interest.rows)
                 for (const Index number : unpacker.get_all<Index>())
-                    rows.push_back(local_index(decomposition.sub_meshes[s], position_in(*vertex_numbers_, number)));
+                    rows.push_back(
+                        local_index(decomposition.sub_meshes[s], position_in(dealt_->vertex_numbers, number)));
             interest.predicts = unpacker.get_all<std::uint8_t>();
         }
 }
 
-bool RankExchange::awaits(News news, std::size_t sweep, Index s) const
+bool RankExchange::awaits(MessageKind kind, std::size_t sweep, Index s) const
 {
-    return own_interest_[s].includes(news, sweep);
+    return own_interest_[s].includes(kind, sweep);
 }
 
-void RankExchange::set_event(News news, std::size_t sweep, Index s, StepGraph::Node event)
+void RankExchange::set_event(MessageKind kind, std::size_t sweep, Index s, StepGraph::Node event)
 {
-    arrivals_[sweep].push_back({news, s, event, false});
+    pending_[sweep].push_back({kind, s, event, false});
 }
 
-void RankExchange::receive(News news, Index s, Points& rows)
+void RankExchange::receive(MessageKind kind, Index s, Points& rows)
 {
-    Bytes& bytes = mail_[kind(news)][s];
+    Bytes& bytes = mail_[index_of(kind)][s];
     const std::byte* from = bytes.data() + sizeof(Header);
-    for (const Index row : own_interest_[s].rows[kind(news)]) {
+    for (const Index row : own_interest_[s].rows[index_of(kind)]) {
         std::memcpy(rows.row(row).data(), from, sizeof(Point));
         from += sizeof(Point);
     }
     bytes = Bytes();
 }
 
-void RankExchange::send(News news, std::size_t sweep, Index s, const Points& rows)
+void RankExchange::send(MessageKind kind, std::size_t sweep, Index s, const Points& rows)
 {
     for (const Interest& interest : listeners_[s]) {
-        if (!interest.includes(news, sweep))
+        if (!interest.includes(kind, sweep))
             continue;
         Packer packer;
-        packer.reserve(sizeof(Header) + interest.rows[kind(news)].size() * sizeof(Point));
-        packer.put(Header{run_, known_[s].number, news});
-        for (const Index row : interest.rows[kind(news)])
+        packer.reserve(sizeof(Header) + interest.rows[index_of(kind)].size() * sizeof(Point));
+        packer.put(Header{run_, dealt_->known[s], kind});
+        for (const Index row : interest.rows[index_of(kind)])
             packer.put_row(rows.row(row).data());
         comm_->send(interest.rank, packer.take());
     }
 }
 
 /// Keeps a message for a later run; else starts the task that waits for it.
-void RankExchange::deliver(Message message, StepGraph& graph, std::vector<Arrival>& arrivals)
+void RankExchange::deliver(Message message, StepGraph& graph, std::vector<PendingMessage>& pending)
 {
     const Header header = header_of(message);
     if (header.run > run_) {
@@ -172,29 +159,29 @@ void RankExchange::deliver(Message message, StepGraph& graph, std::vector<Arriva
     }
     const Index s = known_index(header.sub_mesh);
     const auto arrival = std::ranges::find_if(
-        arrivals, [&](const Arrival& a) { return a.news == header.news && a.sub_mesh == s && !a.has_come; });
-    if (header.run < run_ || arrival == arrivals.end() ||
-        message.bytes.size() != sizeof(Header) + own_interest_[s].rows[kind(header.news)].size() * sizeof(Point))
+        pending, [&](const PendingMessage& a) { return a.kind == header.kind && a.sub_mesh == s && !a.has_come; });
+    if (header.run < run_ || arrival == pending.end() ||
+        message.bytes.size() != sizeof(Header) + own_interest_[s].rows[index_of(header.kind)].size() * sizeof(Point))
         throw std::logic_error("a message came that nobody waits for");
-    mail_[kind(header.news)][s] = std::move(message.bytes);
+    mail_[index_of(header.kind)][s] = std::move(message.bytes);
     graph.signal(arrival->event);
     arrival->has_come = true;
 }
 
 /// If the run fails, here or at another rank, waiting tasks are started, too: they are then skipped.
-void RankExchange::receive_all(StepGraph& graph, std::vector<Arrival>& arrivals)
+void RankExchange::receive_all(StepGraph& graph, std::vector<PendingMessage>& pending)
 {
     try {
         for (Message& message : std::exchange(early_, {}))
-            deliver(std::move(message), graph, arrivals);
-        const auto all_have_come = [&] { return std::ranges::all_of(arrivals, &Arrival::has_come); };
+            deliver(std::move(message), graph, pending);
+        const auto all_have_come = [&] { return std::ranges::all_of(pending, &PendingMessage::has_come); };
         while (!all_have_come() && !graph.is_ending())
             if (std::optional<Message> message = comm_->next_arrival(patience_of_receiver))
-                deliver(std::move(*message), graph, arrivals);
+                deliver(std::move(*message), graph, pending);
     } catch (...) {
         graph.fail(std::current_exception());
     }
-    for (Arrival& arrival : arrivals)
+    for (PendingMessage& arrival : pending)
         if (!arrival.has_come)
             retry([&] { graph.signal(arrival.event); });
 }
@@ -204,8 +191,8 @@ void RankExchange::run(StepGraph& graph, std::size_t sweep, const std::function<
 {
     ++run_;
     begin();
-    std::vector<Arrival> arrivals = arrivals_[sweep];
-    const std::jthread receiver([&] { receive_all(graph, arrivals); });
+    std::vector<PendingMessage> pending = pending_[sweep];
+    const std::jthread receiver([&] { receive_all(graph, pending); });
     try {
         graph.run(sweep, 0.0, join);
     } catch (...) {
@@ -213,11 +200,6 @@ void RankExchange::run(StepGraph& graph, std::size_t sweep, const std::function<
         graph.fail(std::current_exception());
         throw;
     }
-}
-
-void RankExchange::run_for(Index s, const std::function<void()>& body) const
-{
-    run_for_sub_mesh(known_[s], known_[s].number, body);
 }
 
 }  // namespace seamflow

@@ -1,7 +1,6 @@
 #include "engine/ranks/rank_part.h"
 
 #include <algorithm>
-#include <functional>
 #include <utility>
 
 #include "engine/ranks/peak_memory.h"
@@ -56,6 +55,14 @@ std::vector<double> gather_curvatures(Communicator& comm, const DealtMesh& dealt
     return of_all;
 }
 
+std::vector<SubMeshName> names_of(const DealtMesh& dealt, const Decomposition& decomposition)
+{
+    std::vector<SubMeshName> names;
+    for (std::size_t s = 0; s < dealt.known.size(); ++s)
+        names.push_back({dealt.known[s], decomposition.sub_meshes[s].n_vertices, dealt.first_faces[s]});
+    return names;
+}
+
 /// Windows that are large enough forward and backward, whatever crosses Γ: as if every sub-mesh needed the results of
 /// all around it. Ranks that each have their part of both orders, and windows of at least this size, do not wait for
 /// each other in a circle: a solution waits for factorisations at lower places than those that wait for it.
@@ -91,11 +98,9 @@ RankPart::RankPart(Communicator& comm, DealtMesh dealt, Progress& progress)
     Decomposition decomposition = decompose_part(dealt_.mesh, dealt_.topology, dealt_.labels, is_own, run_in_parallel);
     n_interface_vertices_ = decomposition.n_interface_vertices;
     if (dealt_.options.accuracy.tolerance) {
-        std::vector<KnownSubMesh> known = known_sub_meshes(dealt_, decomposition);
+        std::vector<SubMeshName> names = names_of(dealt_, decomposition);
         PeerSubMeshes own{std::move(decomposition), std::make_unique<RankPeers>(comm, dealt_.holders, dealt_.known),
-                          [known = std::move(known)](Index s, const std::function<void()>& body) {
-                              run_for_sub_mesh(known[s], known[s].number, body);
-                          }};
+                          std::move(names)};
         stepper_ = std::make_unique<SchurStepper>(dealt_.mesh, std::move(own), dealt_.options, progress);
     } else {
         take_sweeps(std::move(decomposition), progress);
@@ -116,7 +121,8 @@ RankPart::RankPart(Communicator& comm, DealtMesh dealt, Progress& progress)
 void RankPart::take_sweeps(Decomposition decomposition, Progress& progress)
 {
     RankSubMeshes own;
-    exchange_.emplace(comm_, dealt_.vertex_numbers, known_sub_meshes(dealt_, decomposition));
+    exchange_.emplace(comm_, dealt_);
+    own.names = names_of(dealt_, decomposition);
     own.n_of_all_ranks = dealt_.holders.size();
     own.foreign = &*exchange_;
     own.topology = &dealt_.topology;

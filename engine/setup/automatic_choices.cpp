@@ -62,6 +62,11 @@ bool is_long(const FlowOptions& options, const MeshSize& size)
     return options.time_step > longest_step_of_sweeps * size.mean_edge * size.mean_edge;
 }
 
+double tolerance_by_gradients(const FlowOptions& options, const MeshSize& size)
+{
+    return is_long(options, size) ? tolerance_of_gradients_if_long : tolerance_of_gradients;
+}
+
 /// Whether an option is set that means nothing without sub-meshes.
 bool speaks_of_sub_meshes(const FlowOptions& options)
 {
@@ -114,7 +119,7 @@ ToleranceChoice choose_tolerance(const PolygonMesh& mesh, const MeshSize& size, 
     if (options.flow == FlowEquation::Linear && options.accuracy.approach != Approach::Undecomposed)
         return {tolerance_of_linear_flow, "its matrix is factorised once"};
     if (options.accuracy.approach == Approach::ConjugateGradients)
-        return {is_long(options, size) ? tolerance_of_gradients_if_long : tolerance_of_gradients, ""};
+        return {tolerance_by_gradients(options, size), ""};
     if (options.accuracy.approach == Approach::Converged)
         return {loose_tolerance, ""};
     if (options.accuracy.approach == Approach::Undecomposed)
@@ -214,12 +219,10 @@ ApproachChoice choose_approach(const PolygonMesh& mesh, const Topology& topology
                         .steps = options.steps,
                         .solutions = n_solutions(filter_of(options)),
                         .cores = options.resources.tune_for};
-    FlowOptions by_conjugate_gradients = options;
-    by_conjugate_gradients.accuracy.approach = Approach::ConjugateGradients;
     const ApproachChoice decomposed = in_sub_meshes(tolerance);
     ApproachChoice choice{.size = flow};
     choice.costs = {predict_cost(Approach::Undecomposed, flow, options.accuracy.tolerance)};
-    const double to_reach = choose_tolerance(mesh, size, by_conjugate_gradients).tolerance.value();
+    const double to_reach = options.accuracy.tolerance.value_or(tolerance_by_gradients(options, size));
     if (options.flow == FlowEquation::MeanCurvature && !attaches(options.motion) &&
         safety_of_prediction * predicted_iterations(flow, to_reach) <= options.accuracy.converge_iterations)
         choice.costs.push_back(predict_cost(Approach::ConjugateGradients, flow, to_reach));

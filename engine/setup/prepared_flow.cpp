@@ -117,16 +117,17 @@ void cut_and_measure(PreparedFlow& prepared, const PolygonMesh& mesh, Progress& 
 
 }  // namespace
 
-std::unique_ptr<PreparedFlow> prepare(FlowingMesh& mesh, const FlowOptions& options, bool is_observed,
+std::unique_ptr<PreparedFlow> prepare(FlowingMesh& mesh, FlowOptions given, bool is_observed,
                                       const FlowControl& control, Progress& progress)
 {
     const FlowState* const resume = control.resume.get();
     auto prepared = std::make_unique<PreparedFlow>();
-    prepared->options = options;
+    prepared->options = std::move(given);
+    const FlowOptions& options = prepared->options;
+    prepared->identity = require_sound(mesh.mesh(), options, is_observed, resume, progress);
     prepared->need_of_junctions = need_of_junctions(options);
     if (!prepared->need_of_junctions.empty())
         prepared->options.motion.junctions = Junctions::Hold;
-    prepared->identity = require_sound(mesh.mesh(), options, is_observed, resume, progress);
     examine(*prepared, mesh, progress);
     progress.count();
     const Topology& topology = prepared->topology;

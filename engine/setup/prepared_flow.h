@@ -52,7 +52,7 @@ struct PreparedFlow {
 /// @param control with the state that the flow is to resume from, and whether ranks share its steps.
 /// @throws InputError for a mesh, labels or a state that cannot be used; OptionError; ComputationError for a failure of
 ///         METIS; Cancelled.
-std::unique_ptr<PreparedFlow> prepare(FlowingMesh& mesh, const FlowOptions& options, bool is_observed,
+std::unique_ptr<PreparedFlow> prepare(FlowingMesh& mesh, FlowOptions options, bool is_observed,
                                       const FlowControl& control, Progress& progress);
 
 /// Adds this to the report.

@@ -11,16 +11,24 @@
 
 namespace seamflow {
 
+namespace {
+
+/// Of a mesh that is not cut: a step is exact, whatever its tolerance.
+constexpr double tolerance_without_interface = 1e-10;
+
+}  // namespace
+
 ConvergedStepper::ConvergedStepper(const PolygonMesh& mesh, Index n_sub_meshes, const FlowOptions& options,
                                    double parts_of_equation, Progress& progress)
     : time_step_(options.time_step)
     , filter_(filter_of(options))
     , positions_(mesh.vertices)
     , seconds_(at(n_sub_meshes) + 1)
-    , graph_(options.report.record_schedule, progress)
+    , graph_([this](const ScheduledTask& task) { task.kind == TaskKind::SolveInterface ? solve() : perform(task); },
+             options.report.record_schedule, progress)
     , root_(graph_.add_root())
-    , equation_solved_(graph_.add_task({TaskKind::SolveInterface, -1, TaskPriority::Normal}, [this] { solve(); }))
-    , stop_{options.accuracy.tolerance.value(), options.accuracy.converge_iterations}
+    , equation_solved_(graph_.add_task({TaskKind::SolveInterface, -1}))
+    , stop_{options.accuracy.tolerance.value_or(tolerance_without_interface), options.accuracy.converge_iterations}
     , loops_(parts_of_equation, progress)
 {
     graph_.add_dependency(root_, equation_solved_);

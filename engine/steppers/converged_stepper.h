@@ -35,7 +35,10 @@ class ConvergedStepper : public Stepper {
     ConvergedStepper(const PolygonMesh& mesh, Index n_sub_meshes, const FlowOptions& options, double parts_of_equation,
                      Progress& progress);
 
-    /// Solves it.
+    /// Does a task of a sub-mesh.
+    virtual void perform(const ScheduledTask&) {}
+
+    /// Solves the equation.
     virtual InterfaceResult solve_equation(const IterationStop& stop, const Executor& exec) = 0;
 
     /// Restores what `save` has added.

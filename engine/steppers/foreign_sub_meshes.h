@@ -13,8 +13,8 @@
 
 namespace seamflow {
 
-/// Data of a sub-mesh that ranks exchange in a sweep, each once.
-enum class News : std::uint8_t {
+/// What a sub-mesh sends to other ranks in a sweep, each once.
+enum class MessageKind : std::uint8_t {
     /// Vᵏ.
     Position,
     /// The sub-mesh's result with Γ held.
@@ -22,6 +22,19 @@ enum class News : std::uint8_t {
     /// Vᵏ⁺¹ as solved.
     Solution,
 };
+
+/// The message that takes the place of a foreign sub-mesh's task, and that an own one sends after it.
+constexpr MessageKind message_of(TaskKind kind)
+{
+    switch (kind) {
+    case TaskKind::Predict:
+        return MessageKind::Prediction;
+    case TaskKind::Solve:
+        return MessageKind::Solution;
+    default:
+        return MessageKind::Position;
+    }
+}
 
 /// The sub-meshes around a sweep's own that belong to other ranks. Their tasks are events here: their results arrive
 /// while the sweep runs. For this they have their own states, with those of their vertices that this rank knows.
@@ -42,25 +55,22 @@ class ForeignSubMeshes {
 
     /// Whether data of this kind will arrive from a foreign sub-mesh.
     /// @param sweep the number of the plan: 0 forward, 1 backward.
-    [[nodiscard]] virtual bool awaits(News news, std::size_t sweep, Index s) const = 0;
+    [[nodiscard]] virtual bool awaits(MessageKind kind, std::size_t sweep, Index s) const = 0;
 
     /// Sets the event that waits for the arrival.
-    virtual void set_event(News news, std::size_t sweep, Index s, StepGraph::Node event) = 0;
+    virtual void set_event(MessageKind kind, std::size_t sweep, Index s, StepGraph::Node event) = 0;
 
     /// Copies what has arrived; called by the event.
     /// @param rows #local by 3, of the foreign sub-mesh.
-    virtual void receive(News news, Index s, Points& rows) = 0;
+    virtual void receive(MessageKind kind, Index s, Points& rows) = 0;
 
     /// Sends the rows of an own sub-mesh that other ranks need. Any thread may call it, during a run.
-    virtual void send(News news, std::size_t sweep, Index s, const Points& rows) = 0;
+    virtual void send(MessageKind kind, std::size_t sweep, Index s, const Points& rows) = 0;
 
     /// Runs one sweep.
     /// @param begin called first, when messages of this run may be sent.
     virtual void run(StepGraph& graph, std::size_t sweep, const std::function<void()>& begin,
                      const std::function<void()>& join) = 0;
-
-    /// Runs work for an own sub-mesh; failures name it as in the whole mesh.
-    virtual void run_for(Index s, const std::function<void()>& body) const = 0;
 };
 
 }  // namespace seamflow

@@ -11,18 +11,6 @@
 
 namespace seamflow {
 
-namespace {
-
-/// For a mesh that is not cut: without Γ, a converged step is exact, whatever its tolerance.
-std::unique_ptr<Stepper> make_factor_once(const PolygonMesh& mesh, const Topology& topology, const Cut& cut,
-                                          FlowOptions options, Progress& progress)
-{
-    options.accuracy.tolerance = 1e-10;
-    return std::make_unique<SchurStepper>(mesh, topology, cut, options, progress);
-}
-
-}  // namespace
-
 std::unique_ptr<Stepper> make_stepper(const PolygonMesh& mesh, const Topology& topology, const Cut& cut,
                                       const FlowOptions& options, std::vector<double> curvature, Progress& progress)
 {
@@ -34,23 +22,23 @@ std::unique_ptr<Stepper> make_stepper(const PolygonMesh& mesh, const Topology& t
         return std::make_unique<ExplicitStepper>(mesh, topology, options, progress);
     if (options.accuracy.approach == Approach::ConjugateGradients)
         return std::make_unique<ConjugateGradientStepper>(mesh, topology, options, progress);
-    if (options.accuracy.tolerance)
+    if (options.accuracy.tolerance || options.flow == FlowEquation::Linear)
         return std::make_unique<SchurStepper>(mesh, topology, cut, options, progress);
-    if (options.flow == FlowEquation::Linear)
-        return make_factor_once(mesh, topology, cut, options, progress);
     return std::make_unique<SweepStepper>(mesh, topology, cut, options, std::move(curvature), progress);
 }
 
 std::unique_ptr<Stepper> make_undecomposed_stepper(const PolygonMesh& mesh, const Topology& topology,
                                                    const FlowOptions& options, Progress& progress)
 {
-    // The whole mesh is one factor, which no limit for sub-meshes suits.
     FlowOptions undecomposed = options;
+    undecomposed.accuracy.approach = Approach::Undecomposed;
+    undecomposed.accuracy.tolerance.reset();
+    // The whole mesh is one factor, which no limit for sub-meshes suits.
     undecomposed.resources.memory_limit.reset();
+    const Cut whole = cut_into(mesh, topology, 1);
     if (options.flow == FlowEquation::Linear)
-        return make_factor_once(mesh, topology, cut_into(mesh, topology, 1), undecomposed, progress);
-    return std::make_unique<SweepStepper>(mesh, topology, cut_into(mesh, topology, 1), undecomposed,
-                                          std::vector<double>(), progress);
+        return std::make_unique<SchurStepper>(mesh, topology, whole, undecomposed, progress);
+    return std::make_unique<SweepStepper>(mesh, topology, whole, undecomposed, std::vector<double>(), progress);
 }
 
 }  // namespace seamflow

@@ -7,7 +7,6 @@
 #include "engine/setup/automatic_choices.h"
 #include "engine/setup/sub_mesh_options.h"
 #include "engine/tasks/parallel_executor.h"
-#include "engine/tasks/run_for_sub_mesh.h"
 #include "engine/tasks/stopwatch.h"
 #include "solvers/direct/columns.h"
 #include "solvers/laplacian/geometry.h"
@@ -47,7 +46,8 @@ Balancing balancing_for(const Decomposition& decomposition, const PolygonMesh& m
 PeerSubMeshes alone(Decomposition decomposition)
 {
     auto peers = std::make_unique<OnePeer>(static_cast<Index>(decomposition.sub_meshes.size()));
-    return {std::move(decomposition), std::move(peers), {}};
+    std::vector<SubMeshName> names = names_of(decomposition);
+    return {std::move(decomposition), std::move(peers), std::move(names)};
 }
 
 }  // namespace
@@ -63,7 +63,7 @@ SchurStepper::SchurStepper(const PolygonMesh& mesh, PeerSubMeshes sub_meshes, co
     : ConvergedStepper(mesh, static_cast<Index>(sub_meshes.decomposition.sub_meshes.size()), options,
                        static_cast<double>(sub_meshes.decomposition.sub_meshes.size()), progress)
     , peers_(std::move(sub_meshes.peers))
-    , run_for_(std::move(sub_meshes.run_for))
+    , names_(std::move(sub_meshes.names))
     , sub_meshes_(sub_meshes.decomposition.sub_meshes.size())
     , equation_(sub_meshes.decomposition, balancing_for(sub_meshes.decomposition, mesh, *peers_, options.time_step),
                 *peers_)
@@ -82,14 +82,6 @@ SchurStepper::SchurStepper(const PolygonMesh& mesh, PeerSubMeshes sub_meshes, co
     make_graph();
 }
 
-void SchurStepper::run_for(Index s, const std::function<void()>& body) const
-{
-    if (run_for_)
-        run_for_(s, body);
-    else
-        run_for_sub_mesh(sub_meshes_[s]->vertices(), s, body);
-}
-
 /// Data of sub-meshes that is needed later is moved there; the rest is freed when all are analysed.
 void SchurStepper::make_sub_meshes(Decomposition& decomposition, const PolygonMesh& mesh, const FlowOptions& options,
                                    Progress& progress)
@@ -105,14 +97,10 @@ void SchurStepper::make_sub_meshes(Decomposition& decomposition, const PolygonMe
         SubMesh sub_mesh = std::move(decomposition.sub_meshes[s]);
         CondensedSubMesh::Vertices own{.faces = std::move(sub_mesh.faces), .n_vertices = sub_mesh.n_vertices};
         std::unique_ptr<NeumannSystem> system;
-        const auto analyse = [&] {
+        run_for_sub_mesh(names_[s], [&] {
             IndexLists faces = std::move(sub_mesh.face_vertices);
             system = std::make_unique<NeumannSystem>(sub_mesh, std::move(faces), laplacian_of(options), terms);
-        };
-        if (run_for_)
-            run_for_(s, analyse);
-        else
-            run_for_sub_mesh(own, s, analyse);
+        });
         own.local_to_global = std::move(sub_mesh.local_to_global);
         own.owned = std::move(sub_mesh.owned);
         const auto on_interface = std::span(copies.vertex).subspan(at(copies.first[s]), at(copies.n_in(s)));
@@ -144,17 +132,13 @@ void SchurStepper::limit_factors(const FlowOptions& options)
 
 void SchurStepper::make_graph()
 {
-    const auto add_task = [&](TaskKind phase, Index s, void (SchurStepper::*task)(Index)) {
-        return graph_.add_task({phase, s, TaskPriority::Normal},
-                               [this, s, task] { run_for(s, [&] { (this->*task)(s); }); });
-    };
     std::vector<StepGraph::Node> passing_condensed;
     std::vector<StepGraph::Node> passing_substituted;
     for (Index s = 0; s < static_cast<Index>(sub_meshes_.size()); ++s) {
         if (!is_own(s))
             continue;
-        const auto condensed = add_task(TaskKind::Condense, s, &SchurStepper::condense);
-        const auto substituted = add_task(TaskKind::BackSubstitute, s, &SchurStepper::back_substitute);
+        const auto condensed = graph_.add_task({TaskKind::Condense, s});
+        const auto substituted = graph_.add_task({TaskKind::BackSubstitute, s});
         graph_.add_dependency(root_, condensed);
         graph_.add_dependency(condensed, equation_solved_);
         graph_.add_dependency(equation_solved_, substituted);
@@ -178,7 +162,7 @@ void SchurStepper::take_turns(const std::vector<StepGraph::Node>& tasks)
 template <class Action>
 void SchurStepper::for_each_sub_mesh(const Executor& exec, Action&& action)
 {
-    const auto act = [&](Index s) { run_for(s, [&] { action(s); }); };
+    const auto act = [&](Index s) { run_for_sub_mesh(names_[s], [&] { action(s); }); };
     std::vector<Index> passing;
     for (Index s = 0; s < static_cast<Index>(sub_meshes_.size()); ++s)
         if (!is_kept(s))
@@ -193,6 +177,13 @@ void SchurStepper::for_each_sub_mesh(const Executor& exec, Action&& action)
     });
 }
 
+void SchurStepper::perform(const ScheduledTask& task)
+{
+    run_for_sub_mesh(names_[task.sub_mesh], [&] {
+        task.kind == TaskKind::Condense ? condense(task.sub_mesh) : back_substitute(task.sub_mesh);
+    });
+}
+
 CondensedStep SchurStepper::shared_step()
 {
     return {.before = *before_,
@@ -203,6 +194,8 @@ CondensedStep SchurStepper::shared_step()
             .condensed = interface_.condensed};
 }
 
+/// S = A_ΓΓ - A_ΓI A_II⁻¹ A_IΓ and g = b_Γ - A_ΓI A_II⁻¹ b_I, with A = M + dt K of the sub-mesh's faces and the
+/// residual b of Vᵏ.
 void SchurStepper::condense(Index s)
 {
     if (has_matrix_of(s))
@@ -339,6 +332,7 @@ void SchurStepper::begin(const Points& data, DataSteps steps)
     interface_.has_update = false;
 }
 
+/// x_I = A_II⁻¹ (b_I - A_IΓ x_Γ)
 void SchurStepper::back_substitute(Index s)
 {
     sub_meshes_[s]->back_substitute(shared_step(), interface_.update, keeps_matrix_ || !filter_.is_plain(),

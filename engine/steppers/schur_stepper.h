@@ -12,6 +12,7 @@
 #include "engine/steppers/converged_stepper.h"
 #include "engine/steppers/kept_factors.h"
 #include "engine/steppers/shared_factor_pool.h"
+#include "engine/tasks/run_for_sub_mesh.h"
 #include "partition/cut/cut.h"
 #include "partition/index_lists.h"
 #include "partition/topology.h"
@@ -25,8 +26,8 @@ struct PeerSubMeshes {
     /// Its own sub-meshes in full, and the known part of those around them (see decompose_part).
     Decomposition decomposition;
     std::unique_ptr<InterfacePeers> peers;
-    /// Runs work for a sub-mesh; failures name it as in the whole mesh. Empty: by its number here.
-    std::function<void(Index s, const std::function<void()>& body)> run_for;
+    /// #sub-meshes.
+    std::vector<SubMeshName> names;
 };
 
 /// Takes the undecomposed backward Euler step itself, sub-mesh by sub-mesh, for symmetric Laplacians: every sub-mesh
@@ -92,7 +93,7 @@ class SchurStepper final : public ConvergedStepper {
         Points reached;
     };
 
-    void run_for(Index s, const std::function<void()>& body) const;
+    void perform(const ScheduledTask& task) override;
     [[nodiscard]] bool is_own(Index s) const { return peers_->is_own(s); }
     [[nodiscard]] bool is_kept(Index s) const { return factors_.plan.whole[s] != 0; }
     void make_sub_meshes(Decomposition& decomposition, const PolygonMesh& mesh, const FlowOptions& options,
@@ -123,7 +124,7 @@ class SchurStepper final : public ConvergedStepper {
     void restore_further(StepMemoryReader& memory) override;
 
     std::unique_ptr<InterfacePeers> peers_;
-    std::function<void(Index, const std::function<void()>&)> run_for_;
+    std::vector<SubMeshName> names_;
     /// Whether all steps have the same matrix.
     bool keeps_matrix_ = false;
     FactorStore factors_;

@@ -19,8 +19,8 @@ namespace seamflow {
 /// that are taken again count once.
 enum class DataSteps { Further, Again };
 
-/// Takes the steps of a flow, one after the other: each from Vᵏ to Vᵏ⁺¹. How it does so is up to the subclass (see
-/// make_stepper below for the ways). Belongs to the arena in which it is constructed.
+/// Takes the steps of a flow, one after the other: each from Vᵏ to Vᵏ⁺¹ with (M + dt K) Vᵏ⁺¹ = M Vᵏ. How it does so is
+/// up to the subclass (see make_stepper below for the ways). Belongs to the arena in which it is constructed.
 class Stepper {
   public:
     Stepper() = default;

@@ -67,7 +67,8 @@ void solve_and_free(SubMeshState& state, SolverWorkspace& workspace)
 
 }  // namespace
 
-SubMeshState::SubMeshState(const SubMesh& mesh, std::unique_ptr<SubMeshSystem> equations, const Points& positions)
+SubMeshState::SubMeshState(const SubMesh& mesh, std::unique_ptr<SubMeshSystem> equations, const Points& positions,
+                           bool predicts)
     : sub_mesh(&mesh)
     , system(std::move(equations))
     , position(mesh.n_vertices + mesh.n_halo, 3)
@@ -76,6 +77,8 @@ SubMeshState::SubMeshState(const SubMesh& mesh, std::unique_ptr<SubMeshSystem> e
     for (std::size_t i = 0; i < mesh.local_to_global.size(); ++i)
         position.row(static_cast<Eigen::Index>(i)) = positions.row(mesh.local_to_global[i]);
     solved = position;
+    if (predicts)
+        predicted.resize(position.rows(), 3);
 }
 
 Point mean_of_copies(const std::vector<SubMeshState>& states, const SubMeshInterface& interface, Index i,
@@ -112,7 +115,7 @@ void predict(std::vector<SubMeshState>& states, Index s, SolverWorkspace& worksp
 {
     SubMeshState& state = states[s];
     Stopwatch watch;
-    state.system->predict(*state.factor, state.given(), state.solved, workspace);
+    state.system->predict(*state.factor, state.given(), state.predicted, workspace);
     state.seconds.solve += watch.lap();
 }
 
@@ -122,7 +125,7 @@ void use_predictions(std::vector<SubMeshState>& states, Index s, const std::vect
     SubMeshState& state = states[s];
     Stopwatch watch;
     copy(state.given(), workspace.other_side);
-    receive(states, predictions, &SubMeshState::solved, workspace.other_side);
+    receive(states, predictions, &SubMeshState::predicted, workspace.other_side);
     state.system->use_other_side(state.given(), workspace.other_side);
     state.seconds.solve += watch.lap();
 }

@@ -15,7 +15,8 @@ namespace seamflow {
 /// The state of one sub-mesh. Of the others it sees only what transfers bring: the tasks below read the states of the
 /// senders that a Transfer names, and write only to their own.
 struct SubMeshState {
-    SubMeshState(const SubMesh& sub_mesh, std::unique_ptr<SubMeshSystem> system, const Points& positions);
+    SubMeshState(const SubMesh& sub_mesh, std::unique_ptr<SubMeshSystem> system, const Points& positions,
+                 bool predicts);
 
     const SubMesh* sub_mesh;
     std::unique_ptr<SubMeshSystem> system;
@@ -25,10 +26,10 @@ struct SubMeshState {
     double p = 0.0;
     /// #local by 3, own vertices, then halo: Vᵏ at the beginning of a step, Vᵏ⁺¹ at its end.
     Points position;
-    /// #local by 3: Vᵏ⁺¹ as solved, before the correction. Until then, at own vertices, the prediction: the sub-mesh's
-    /// result with Γ held at Vᵏ. Sub-meshes that read the prediction lead somewhere on this sub-mesh's Γ, so that it
-    /// waits for them before it solves.
+    /// #local by 3: Vᵏ⁺¹ as solved, before the correction.
     Points solved;
+    /// #local by 3: at own vertices, the result with Γ held at Vᵏ; empty where sub-meshes do not predict.
+    Points predicted = Points(0, 3);
     /// Which solution of the step is being computed: with a filter that has several, the first, or the result for
     /// `data`.
     enum class Solution { Only, First, OfData } solution = Solution::Only;

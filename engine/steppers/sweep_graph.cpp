@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <memory>
-#include <utility>
 
 namespace seamflow {
 
@@ -21,48 +19,39 @@ using Node = StepGraph::Node;
 class SweepBuilder {
   public:
     SweepBuilder(StepGraph& graph, std::size_t sweep, const SweepPlan& plan,
-                 const std::vector<std::vector<Index>>& adjacency, SweepTasks tasks)
+                 const std::vector<std::vector<Index>>& adjacency, ForeignSubMeshes* foreign)
         : graph_(graph)
         , sweep_(sweep)
         , plan_(plan)
         , adjacency_(adjacency)
-        , tasks_(std::make_shared<const SweepTasks>(std::move(tasks)))
+        , foreign_(foreign)
         , root_(graph.add_root())
     {
     }
 
-    void build(const FactorWindow& window)
+    void build(const FactorWindow& window, bool predicts)
     {
         add_factorisations_and_solves();
-        if (tasks_->foreign != nullptr)
+        if (foreign_ != nullptr)
             wait_for_positions();
         wait_for_room(window);
         wait_for_traces();
-        if (tasks_->predict)
+        if (predicts)
             add_predictions();
         add_acceptances();
     }
 
   private:
-    Node add(TaskKind phase, Index s, TaskPriority priority, SweepTasks::Task SweepTasks::*task)
-    {
-        return graph_.add_task({phase, s, priority}, [tasks = tasks_, task, s] { (*tasks.*task)(s); });
-    }
+    [[nodiscard]] bool is_foreign(Index s) const { return foreign_ != nullptr && foreign_->is_foreign(s); }
 
-    [[nodiscard]] bool is_foreign(Index s) const
+    /// The arrival of what a foreign sub-mesh finds in a task; -1 if nothing waits for it.
+    Node add_arrival(TaskKind kind, Index s)
     {
-        return tasks_->foreign != nullptr && tasks_->foreign->is_foreign(s);
-    }
-
-    /// The arrival of values that a foreign sub-mesh finds; -1 if nothing waits for them.
-    Node add_arrival(News news, TaskKind kind, Index s)
-    {
-        if (!tasks_->foreign->awaits(news, sweep_, s))
+        if (!foreign_->awaits(message_of(kind), sweep_, s))
             return -1;
-        const Node event =
-            graph_.add_event({kind, s, TaskPriority::High}, [tasks = tasks_, news, s] { tasks->receive(news, s); });
+        const Node event = graph_.add_event({kind, s});
         graph_.add_dependency(root_, event);
-        tasks_->foreign->set_event(news, sweep_, s, event);
+        foreign_->set_event(message_of(kind), sweep_, s, event);
         return event;
     }
 
@@ -72,13 +61,12 @@ class SweepBuilder {
     {
         for (Index s = 0; s < n_sub_meshes(); ++s) {
             if (is_foreign(s)) {
-                factorised_.push_back(add_arrival(News::Position, TaskKind::AssembleAndFactorise, s));
-                solved_.push_back(add_arrival(News::Solution, TaskKind::Solve, s));
+                factorised_.push_back(add_arrival(TaskKind::AssembleAndFactorise, s));
+                solved_.push_back(add_arrival(TaskKind::Solve, s));
                 continue;
             }
-            factorised_.push_back(
-                add(TaskKind::AssembleAndFactorise, s, TaskPriority::Normal, &SweepTasks::assemble_and_factorise));
-            solved_.push_back(add(TaskKind::Solve, s, TaskPriority::High, &SweepTasks::solve));
+            factorised_.push_back(graph_.add_task({TaskKind::AssembleAndFactorise, s}));
+            solved_.push_back(graph_.add_task({TaskKind::Solve, s}));
             graph_.add_dependency(root_, factorised_.back());
             graph_.add_dependency(factorised_.back(), solved_.back());
         }
@@ -119,17 +107,17 @@ class SweepBuilder {
         std::vector<Node> predicted(solved_.size(), -1);
         for (Index s = 0; s < n_sub_meshes(); ++s) {
             if (is_foreign(s))
-                predicted[s] = add_arrival(News::Prediction, TaskKind::Predict, s);
+                predicted[s] = add_arrival(TaskKind::Predict, s);
             if (is_foreign(s) || plan_.traces[s].empty())
                 continue;
-            predicted[s] = add(TaskKind::Predict, s, TaskPriority::High, &SweepTasks::predict);
+            predicted[s] = graph_.add_task({TaskKind::Predict, s});
             graph_.add_dependency(factorised_[s], predicted[s]);
             graph_.add_dependency(predicted[s], solved_[s]);
         }
         for (Index s = 0; s < n_sub_meshes(); ++s) {
             if (plan_.predictions[s].empty())
                 continue;
-            const Node used = add(TaskKind::UsePredictions, s, TaskPriority::High, &SweepTasks::use_predictions);
+            const Node used = graph_.add_task({TaskKind::UsePredictions, s});
             graph_.add_dependency(factorised_[s], used);
             graph_.add_dependency(used, solved_[s]);
             if (predicted[s] >= 0)
@@ -150,7 +138,7 @@ class SweepBuilder {
         for (Index s = 0; s < n_sub_meshes(); ++s) {
             if (is_foreign(s))
                 continue;
-            const Node accepted = add(TaskKind::Accept, s, TaskPriority::High, &SweepTasks::accept);
+            const Node accepted = graph_.add_task({TaskKind::Accept, s});
             graph_.add_dependency(solved_[s], accepted);
             for (const Index neighbour : adjacency_[s])
                 if (solved_[neighbour] >= 0)
@@ -162,7 +150,7 @@ class SweepBuilder {
     std::size_t sweep_;
     const SweepPlan& plan_;
     const std::vector<std::vector<Index>>& adjacency_;
-    std::shared_ptr<const SweepTasks> tasks_;
+    ForeignSubMeshes* foreign_;
     Node root_;
     std::vector<Node> factorised_;
     std::vector<Node> solved_;
@@ -171,9 +159,10 @@ class SweepBuilder {
 }  // namespace
 
 void add_sweep(StepGraph& graph, std::size_t sweep, const SweepPlan& plan,
-               const std::vector<std::vector<Index>>& adjacency, const FactorWindow& window, SweepTasks tasks)
+               const std::vector<std::vector<Index>>& adjacency, const FactorWindow& window, bool predicts,
+               ForeignSubMeshes* foreign)
 {
-    SweepBuilder(graph, sweep, plan, adjacency, std::move(tasks)).build(window);
+    SweepBuilder(graph, sweep, plan, adjacency, foreign).build(window, predicts);
 }
 
 }  // namespace seamflow

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <vector>
 
 #include "engine/setup/sweep_plan.h"
@@ -10,21 +9,6 @@
 #include "engine/tasks/step_graph.h"
 
 namespace seamflow {
-
-/// What the tasks of a sweep do for sub-mesh s.
-struct SweepTasks {
-    using Task = std::function<void(Index s)>;
-    Task assemble_and_factorise;
-    /// Empty if sub-meshes do not predict.
-    Task predict;
-    Task use_predictions;
-    Task solve;
-    Task accept;
-    /// Null if the sweep has all sub-meshes of the mesh.
-    ForeignSubMeshes* foreign = nullptr;
-    /// With foreign sub-meshes: takes over what one has sent.
-    std::function<void(News, Index s)> receive = {};
-};
 
 /// Adds one sweep over all sub-meshes to a graph, with a root of its own. Without predictions it has three tasks for
 /// each sub-mesh:
@@ -45,7 +29,10 @@ struct SweepTasks {
 /// @param sweep the number of the plan, from 0.
 /// @param plan is not used after the call.
 /// @param adjacency per sub-mesh: those with which it shares vertices.
+/// @param predicts whether sub-meshes predict.
+/// @param foreign null if the sweep has all sub-meshes of the mesh.
 void add_sweep(StepGraph& graph, std::size_t sweep, const SweepPlan& plan,
-               const std::vector<std::vector<Index>>& adjacency, const FactorWindow& window, SweepTasks tasks);
+               const std::vector<std::vector<Index>>& adjacency, const FactorWindow& window, bool predicts,
+               ForeignSubMeshes* foreign);
 
 }  // namespace seamflow

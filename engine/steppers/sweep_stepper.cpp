@@ -11,7 +11,6 @@
 #include "engine/setup/sub_mesh_options.h"
 #include "engine/steppers/sweep_order.h"
 #include "engine/tasks/parallel_executor.h"
-#include "engine/tasks/run_for_sub_mesh.h"
 #include "partition/decomposition/make_sub_mesh.h"
 #include "partition/decomposition/overlap.h"
 #include "partition/decomposition/reverse_cuthill_mckee.h"
@@ -49,8 +48,11 @@ Decomposition overlap_sub_meshes(const PolygonMesh& mesh, const Topology& topolo
 SweepStepper::SweepStepper(const PolygonMesh& mesh, const Topology& topology, const Cut& cut,
                            const FlowOptions& options, std::vector<double> curvature, Progress& progress)
     : decomposition_(decompose(mesh, topology, cut.labels, cut.n_parts, progress.exec()))
-    , graph_(options.report.record_schedule, progress)
+    , names_(names_of(decomposition_))
+    , graph_([this](const ScheduledTask& task) { perform(task); }, options.report.record_schedule, progress)
     , positions_(copied(mesh.vertices))
+    , time_step_(options.time_step)
+    , is_classical_(is_classical(options.interface.conditions))
     , filter_(filter_of(options))
     , corrects_(corrects(options))
     , factorisation_(options.resources.factorisation)
@@ -60,7 +62,7 @@ SweepStepper::SweepStepper(const PolygonMesh& mesh, const Topology& topology, co
     if (options.interface.conditions == Conditions::Schwarz)
         decomposition_ = overlap_sub_meshes(mesh, topology, cut, stage, options.interface.overlap);
     progress.require_going_on();
-    if (is_classical(options.interface.conditions))
+    if (is_classical_)
         copies_.emplace(mesh, decomposition_, options.report.keep_gaps);
     make_states(mesh, options, progress);
     run_both(
@@ -79,9 +81,12 @@ SweepStepper::SweepStepper(const PolygonMesh& mesh, const Topology& topology, co
 SweepStepper::SweepStepper(const PolygonMesh& mesh, RankSubMeshes sub_meshes, const FlowOptions& options,
                            Progress& progress)
     : decomposition_(std::move(sub_meshes.decomposition))
+    , names_(std::move(sub_meshes.names))
     , foreign_(sub_meshes.foreign)
-    , graph_(options.report.record_schedule, progress)
+    , graph_([this](const ScheduledTask& task) { perform(task); }, options.report.record_schedule, progress)
     , positions_(copied(mesh.vertices))
+    , time_step_(options.time_step)
+    , is_classical_(is_classical(options.interface.conditions))
     , filter_(filter_of(options))
     , corrects_(corrects(options))
     , factorisation_(options.resources.factorisation)
@@ -106,12 +111,8 @@ void SweepStepper::make_plans(const std::vector<Index>& stage, std::size_t n_sub
 
 void SweepStepper::add_sweeps(const FlowOptions& options)
 {
-    for (std::size_t sweep = 0; sweep < plans_.size(); ++sweep) {
-        SweepTasks tasks = tasks_of(plans_[sweep], options);
-        if (foreign_ != nullptr)
-            add_exchange(sweep, tasks);
-        add_sweep(graph_, sweep, plans_[sweep], decomposition_.adjacency, windows_[sweep], std::move(tasks));
-    }
+    for (std::size_t sweep = 0; sweep < plans_.size(); ++sweep)
+        add_sweep(graph_, sweep, plans_[sweep], decomposition_.adjacency, windows_[sweep], predicts(options), foreign_);
 }
 
 void SweepStepper::order_factors()
@@ -162,13 +163,13 @@ void SweepStepper::make_states(const PolygonMesh& mesh, const FlowOptions& optio
         progress.require_going_on();
         SubMesh& sub_mesh = decomposition_.sub_meshes[s];
         if (!is_own(s)) {
-            made[s].emplace(sub_mesh, nullptr, mesh.vertices);
+            made[s].emplace(sub_mesh, nullptr, mesh.vertices, predicts(options));
             return;
         }
-        run_for(s, [&] {
+        run_for_sub_mesh(names_[s], [&] {
             auto equations = make_equations(sub_mesh, std::move(sub_mesh.twin), made.size() == 1, options, terms,
                                             workspaces_.local());
-            SubMeshState& state = made[s].emplace(sub_mesh, std::move(equations), mesh.vertices);
+            SubMeshState& state = made[s].emplace(sub_mesh, std::move(equations), mesh.vertices, predicts(options));
             state.p = robin_parameter(sub_mesh, state.position, options);
             if (!state.system->uses_faces())
                 keep_faces_at_interface(sub_mesh);
@@ -180,90 +181,90 @@ void SweepStepper::make_states(const PolygonMesh& mesh, const FlowOptions& optio
         states_.push_back(std::move(*state));
 }
 
-/// Failures are reported with the name of the sub-mesh.
-void SweepStepper::run_for(Index s, const std::function<void()>& body) const
+/// Does what a task is named after. Other ranks get what they wait for as soon as it is found; where they find it, it
+/// arrives.
+void SweepStepper::perform(const ScheduledTask& task)
 {
-    if (foreign_ != nullptr)
-        foreign_->run_for(s, body);
+    const Index s = task.sub_mesh;
+    const MessageKind kind = message_of(task.kind);
+    if (!is_own(s))
+        return foreign_->receive(kind, s, rows_of(kind, s));
+    run_for_sub_mesh(names_[s], [&] { perform_own(task.kind, s); });
+    if (foreign_ != nullptr && (task.kind == TaskKind::Predict || task.kind == TaskKind::Solve))
+        foreign_->send(kind, sweep_, s, rows_of(kind, s));
+}
+
+/// The rows of A are those of I + dt Δ, and on Γ the transmission condition where the sub-mesh leads, the identity
+/// where it follows (see SubMeshSystem).
+void SweepStepper::perform_own(TaskKind kind, Index s)
+{
+    SolverWorkspace& workspace = workspaces_.local();
+    switch (kind) {
+    case TaskKind::AssembleAndFactorise:
+        // A(Vᵏ) = L U
+        return make_factor(s, workspace);
+    case TaskKind::Predict:
+        // A x = Vᵏ, with x = Vᵏ on Γ
+        return predict(states_, s, workspace);
+    case TaskKind::UsePredictions:
+        // b: Vᵏ, and on Γ the condition with x beyond it
+        return use_predictions(states_, s, plan().predictions[s], workspace);
+    case TaskKind::Solve:
+        // A Vᵏ⁺¹ = b, with Vᵏ⁺¹ of the sub-meshes that lead it on Γ
+        return is_classical_ ? solve_mutual(states_, s, decomposition_.halo[s], plan(), workspace)
+                             : solve(states_, s, plan().traces[s], workspace);
+    default:
+        // Γ at the centroids of its neighbours, where it is corrected
+        return finish(s, workspace);
+    }
+}
+
+void SweepStepper::make_factor(Index s, SolverWorkspace& workspace)
+{
+    const Resources resources{*factors_, workspace};
+    if (states_[s].solution == SubMeshState::Solution::OfData)
+        begin_with_data(states_[s]);
+    else if (is_classical_)
+        assemble_and_factorise_mutual(states_, s, decomposition_.halo[s], plan(), time_step_, resources);
     else
-        run_for_sub_mesh(decomposition_.sub_meshes[s], s, body);
+        assemble_and_factorise(states_, s, decomposition_.halo[s], plan().roles[s], time_step_, resources);
 }
 
-SweepTasks SweepStepper::tasks_of(const SweepPlan& plan, const FlowOptions& options)
+void SweepStepper::finish(Index s, SolverWorkspace& workspace)
 {
-    const double time_step = options.time_step;
-    const auto task = [this](auto body) {
-        return [this, body](Index s) { run_for(s, [&] { body(s, workspaces_.local()); }); };
-    };
-    const auto resources = [this](SolverWorkspace& workspace) { return Resources{*factors_, workspace}; };
-    SweepTasks tasks;
-    if (is_classical(options.interface.conditions)) {
-        tasks.assemble_and_factorise = task([this, &plan, time_step, resources](Index s, SolverWorkspace& workspace) {
-            assemble_and_factorise_mutual(states_, s, decomposition_.halo[s], plan, time_step, resources(workspace));
-        });
-        tasks.solve = task([this, &plan](Index s, SolverWorkspace& workspace) {
-            solve_mutual(states_, s, decomposition_.halo[s], plan, workspace);
-        });
-    } else {
-        tasks.assemble_and_factorise = task([this, &plan, time_step, resources](Index s, SolverWorkspace& workspace) {
-            if (states_[s].solution == SubMeshState::Solution::OfData)
-                begin_with_data(states_[s]);
-            else
-                assemble_and_factorise(states_, s, decomposition_.halo[s], plan.roles[s], time_step,
-                                       resources(workspace));
-        });
-        tasks.solve =
-            task([this, &plan](Index s, SolverWorkspace& workspace) { solve(states_, s, plan.traces[s], workspace); });
+    const auto solution = states_[s].solution;
+    if (error_ && solution != SubMeshState::Solution::OfData)
+        error_->measure(states_, s, workspace);
+    if (solution == SubMeshState::Solution::Only)
+        accept_solution(s);
+    else
+        receive_solution(states_, s, decomposition_.halo[s]);
+}
+
+/// What sub-meshes send each other.
+Points& SweepStepper::rows_of(MessageKind kind, Index s)
+{
+    switch (kind) {
+    case MessageKind::Position:
+        return states_[s].position;
+    case MessageKind::Prediction:
+        return states_[s].predicted;
+    default:
+        return states_[s].solved;
     }
-    if (predicts(options)) {
-        tasks.predict = task([this](Index s, SolverWorkspace& workspace) { predict(states_, s, workspace); });
-        tasks.use_predictions = task([this, &plan](Index s, SolverWorkspace& workspace) {
-            use_predictions(states_, s, plan.predictions[s], workspace);
-        });
-    }
-    tasks.accept = task([this](Index s, SolverWorkspace& workspace) {
-        const auto solution = states_[s].solution;
-        if (error_ && solution != SubMeshState::Solution::OfData)
-            error_->measure(states_, s, workspace);
-        if (solution == SubMeshState::Solution::Only)
-            accept_solution(s);
-        else
-            receive_solution(states_, s, decomposition_.halo[s]);
-    });
-    return tasks;
-}
-
-Points SubMeshState::*SweepStepper::array_of(News news) const
-{
-    return news == News::Position ? &SubMeshState::position : &SubMeshState::solved;
-}
-
-/// Other ranks get what they wait for as soon as it is found.
-void SweepStepper::add_exchange(std::size_t sweep, SweepTasks& tasks)
-{
-    const auto telling = [&](SweepTasks::Task task, News news) {
-        return [this, sweep, news, run = std::move(task)](Index s) {
-            run(s);
-            foreign_->send(news, sweep, s, states_[s].*array_of(news));
-        };
-    };
-    if (tasks.predict)
-        tasks.predict = telling(std::move(tasks.predict), News::Prediction);
-    tasks.solve = telling(std::move(tasks.solve), News::Solution);
-    tasks.foreign = foreign_;
-    tasks.receive = [this](News news, Index s) { foreign_->receive(news, s, states_[s].*array_of(news)); };
 }
 
 void SweepStepper::run_sweep(std::size_t sweep, const std::function<void()>& join)
 {
+    sweep_ = sweep;
     if (foreign_ == nullptr)
         return graph_.run(sweep, 0.0, join);
-    const auto tell_positions = [&] {
+    const auto send_positions = [&] {
         for (Index s = 0; s < static_cast<Index>(states_.size()); ++s)
             if (is_own(s))
-                foreign_->send(News::Position, sweep, s, states_[s].position);
+                foreign_->send(MessageKind::Position, sweep, s, states_[s].position);
     };
-    foreign_->run(graph_, sweep, tell_positions, join);
+    foreign_->run(graph_, sweep, send_positions, join);
 }
 
 void SweepStepper::accept_solution(Index s)

@@ -17,6 +17,7 @@
 #include "engine/steppers/sub_mesh_state.h"
 #include "engine/steppers/sweep_graph.h"
 #include "engine/tasks/progress.h"
+#include "engine/tasks/run_for_sub_mesh.h"
 #include "engine/tasks/step_graph.h"
 #include "engine/tasks/workspaces.h"
 #include "partition/cut/cut.h"
@@ -29,6 +30,8 @@ namespace seamflow {
 struct RankSubMeshes {
     /// Those of this rank, and the known part of those around them (see decompose_part).
     Decomposition decomposition;
+    /// #sub-meshes.
+    std::vector<SubMeshName> names;
     /// How many all ranks have together.
     std::size_t n_of_all_ranks = 0;
     /// #sub-meshes: the sweep's order.
@@ -87,12 +90,14 @@ class SweepStepper final : public Stepper {
     void make_plans(const std::vector<Index>& stage, std::size_t n_sub_meshes, const FlowOptions& options);
     void add_sweeps(const FlowOptions& options);
     void order_factors();
-    void run_for(Index s, const std::function<void()>& body) const;
     void limit_factors(const FlowOptions& options);
-    SweepTasks tasks_of(const SweepPlan& plan, const FlowOptions& options);
-    void add_exchange(std::size_t sweep, SweepTasks& tasks);
+    [[nodiscard]] const SweepPlan& plan() const { return plans_[sweep_]; }
     void run_sweep(std::size_t sweep, const std::function<void()>& join = {});
-    [[nodiscard]] Points SubMeshState::*array_of(News news) const;
+    void perform(const ScheduledTask& task);
+    void perform_own(TaskKind kind, Index s);
+    void make_factor(Index s, SolverWorkspace& workspace);
+    void finish(Index s, SolverWorkspace& workspace);
+    Points& rows_of(MessageKind kind, Index s);
     void accept_solution(Index s);
     void take_filtered(std::size_t root, const std::function<void()>& end);
     void set_solution(SubMeshState::Solution solution);
@@ -105,6 +110,7 @@ class SweepStepper final : public Stepper {
     std::optional<SharedFactorPool> factors_;
     Workspaces workspaces_;
     Decomposition decomposition_;
+    std::vector<SubMeshName> names_;
     /// Null where all sub-meshes are its own.
     ForeignSubMeshes* foreign_ = nullptr;
     std::vector<SubMeshState> states_;
@@ -121,6 +127,10 @@ class SweepStepper final : public Stepper {
     StepGraph graph_;
     Points positions_;
     int steps_done_ = 0;
+    /// The plan of the sweep that runs.
+    std::size_t sweep_ = 0;
+    double time_step_;
+    bool is_classical_;
     StepFilter filter_;
     bool corrects_;
     Factorisation factorisation_;

@@ -43,13 +43,10 @@ void SwitchingStepper::leave_factors()
 
 void SwitchingStepper::try_to_make_factors()
 {
-    FlowOptions options = *options_;
-    options.accuracy.approach = Approach::Undecomposed;
-    options.accuracy.tolerance.reset();
     // Flows do not keep twins.
     complete_ = *topology_;
     complete_.twin = make_topology(*mesh_, progress_->exec()).twin;
-    factors_ = make_undecomposed_stepper(*mesh_, complete_, options, *progress_);
+    factors_ = make_undecomposed_stepper(*mesh_, complete_, *options_, *progress_);
 }
 
 /// @returns the solution; null without factors.

@@ -2,20 +2,39 @@
 
 #include <new>
 #include <string>
+#include <vector>
 
+#include "partition/decomposition/decomposition.h"
 #include "partition/errors.h"
+#include "partition/index.h"
 #include "solvers/platform/library_threads.h"
 
 namespace seamflow {
 
-/// Runs `body` for sub-mesh s, in one thread; failures name it.
-/// @param sub_mesh a SubMesh, or anything with `faces` and `n_vertices`.
-template <class SubMeshLike, class Body>
-void run_for_sub_mesh(const SubMeshLike& sub_mesh, Index s, Body&& body)
+/// By what a failure names a sub-mesh: its numbers in the whole mesh.
+struct SubMeshName {
+    Index number = 0;
+    Index n_vertices = 0;
+    /// One of its faces.
+    Index face = 0;
+};
+
+/// Those of a whole mesh.
+inline std::vector<SubMeshName> names_of(const Decomposition& decomposition)
+{
+    std::vector<SubMeshName> names;
+    for (const SubMesh& sub_mesh : decomposition.sub_meshes)
+        names.push_back({static_cast<Index>(names.size()), sub_mesh.n_vertices, sub_mesh.faces.front()});
+    return names;
+}
+
+/// Runs `body` for a sub-mesh, in one thread; failures name it.
+template <class Body>
+void run_for_sub_mesh(const SubMeshName& sub_mesh, Body&& body)
 {
     const auto name = [&] {
-        return "sub-mesh " + std::to_string(s) + " (" + std::to_string(sub_mesh.n_vertices) +
-               " vertices, among its faces number " + std::to_string(sub_mesh.faces.front()) + "): ";
+        return "sub-mesh " + std::to_string(sub_mesh.number) + " (" + std::to_string(sub_mesh.n_vertices) +
+               " vertices, among its faces number " + std::to_string(sub_mesh.face) + "): ";
     };
     const SingleThreadedOpenMp single_threaded;
     try {

@@ -25,4 +25,17 @@ std::string_view name_of(TaskKind kind)
     return "";
 }
 
+TaskPriority priority_of(TaskKind kind)
+{
+    switch (kind) {
+    case TaskKind::Predict:
+    case TaskKind::UsePredictions:
+    case TaskKind::Solve:
+    case TaskKind::Accept:
+        return TaskPriority::High;
+    default:
+        return TaskPriority::Normal;
+    }
+}
+
 }  // namespace seamflow

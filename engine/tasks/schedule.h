@@ -25,12 +25,14 @@ std::string_view name_of(TaskKind kind);
 /// Which of the tasks that are ready starts first.
 enum class TaskPriority { Normal, High };
 
+/// In a sweep what frees a factor comes before what makes one.
+TaskPriority priority_of(TaskKind kind);
+
 /// A task of the graph. It runs at most once in a step.
 struct ScheduledTask {
     TaskKind kind = TaskKind::Solve;
     /// -1: none.
     Index sub_mesh = 0;
-    TaskPriority priority = TaskPriority::Normal;
 };
 
 /// `after` starts when `before` is done; both are numbers of tasks.

@@ -52,7 +52,7 @@ TasksOfStep graph_of(const Schedule& schedule, int step)
         graph.task.push_back(record.task);
         graph.seconds.push_back((record.end - record.start) * (is_shared ? recorded_with : 1));
         graph.is_shared.push_back(is_shared ? 1 : 0);
-        graph.priority.push_back(schedule.tasks[record.task].priority);
+        graph.priority.push_back(priority_of(schedule.tasks[record.task].kind));
     }
     graph.before.resize(graph.task.size());
     graph.after.resize(graph.task.size());

@@ -6,62 +6,46 @@
 
 namespace seamflow {
 
-StepGraph::StepGraph(bool is_recorded, Progress& progress)
-    : schedule_(is_recorded ? std::optional<Schedule>(std::in_place) : std::nullopt)
+StepGraph::StepGraph(std::function<void(const ScheduledTask&)> perform, bool is_recorded, Progress& progress)
+    : perform_(std::move(perform))
+    , schedule_(is_recorded ? std::optional<Schedule>(std::in_place) : std::nullopt)
     , graph_(&progress)
 {
 }
 
 StepGraph::Node StepGraph::add_root()
 {
+    task_of_node_.push_back(-1);
     roots_.push_back(graph_.add_root());
     return roots_.back();
 }
 
-/// The body, as it runs in the graph.
-std::function<void()> StepGraph::recorded(const ScheduledTask& task, std::function<void()> body)
+StepGraph::Node StepGraph::add(const ScheduledTask& task,
+                               Node (TaskGraph::*add_node)(std::function<void()>, TaskPriority))
 {
-    if (!schedule_)
-        return body;
-    const auto number = static_cast<Index>(schedule_->tasks.size());
-    schedule_->tasks.push_back(task);
-    return [this, number, run = std::move(body)] { run_recorded(number, run); };
+    const auto number = static_cast<Index>(tasks_.size());
+    tasks_.push_back(task);
+    task_of_node_.push_back(number);
+    if (schedule_)
+        schedule_->tasks.push_back(task);
+    return (graph_.*add_node)([this, number] { run_task(number); }, priority_of(task.kind));
 }
 
-/// Notes the node of the latest task.
-void StepGraph::note(Node node)
+StepGraph::Node StepGraph::add_task(const ScheduledTask& task)
 {
-    if (!schedule_)
-        return;
-    task_of_node_.resize(at(node) + 1, -1);
-    task_of_node_[node] = static_cast<Index>(schedule_->tasks.size()) - 1;
+    return add(task, &TaskGraph::add_task);
 }
 
-StepGraph::Node StepGraph::add_task(const ScheduledTask& task, std::function<void()> body)
+StepGraph::Node StepGraph::add_event(const ScheduledTask& task)
 {
-    const Node node = graph_.add_task(recorded(task, std::move(body)), task.priority);
-    note(node);
-    return node;
-}
-
-StepGraph::Node StepGraph::add_event(const ScheduledTask& task, std::function<void()> body)
-{
-    const Node node = graph_.add_event(recorded(task, std::move(body)), task.priority);
-    note(node);
-    return node;
-}
-
-Index StepGraph::task_at(Node node) const
-{
-    return at(node) < task_of_node_.size() ? task_of_node_[node] : -1;
+    return add(task, &TaskGraph::add_event);
 }
 
 void StepGraph::add_dependency(Node before, Node after)
 {
     graph_.add_dependency(before, after);
-    const Dependency dependency{task_at(before), task_at(after)};
-    if (dependency.before >= 0 && dependency.after >= 0)
-        schedule_->dependencies.push_back(dependency);
+    if (schedule_ && task_of_node_[before] >= 0)
+        schedule_->dependencies.push_back({task_of_node_[before], task_of_node_[after]});
 }
 
 void StepGraph::begin_record()
@@ -80,11 +64,13 @@ void StepGraph::end_record()
             schedule_->records.push_back(record);
 }
 
-/// Notes when the body ran, unless it throws. Different tasks may run at the same time.
-void StepGraph::run_recorded(Index task, const std::function<void()>& body)
+/// Notes when the task ran, unless it throws.
+void StepGraph::run_task(Index task)
 {
+    if (!schedule_)
+        return perform_(tasks_[task]);
     const double start = clock_.seconds();
-    body();
+    perform_(tasks_[task]);
     running_[task] = {.step = static_cast<int>(schedule_->steps.size()),
                       .task = task,
                       .thread = oneapi::tbb::this_task_arena::current_thread_index(),

@@ -12,24 +12,26 @@
 
 namespace seamflow {
 
-/// The task graph of a step, in which every task has a name: what it does, and for which sub-mesh. It is built once and
-/// run once for each step. On request it records what ran when; that allocates only between steps.
+/// The task graph of a step. A task is a name: what it does, and for which sub-mesh; one function performs them all.
+/// The graph is built once and run once for each step. On request it records what ran when; that allocates only between
+/// steps.
 class StepGraph {
   public:
     using Node = TaskGraph::Node;
 
+    /// @param perform does what a task is named after; different tasks may run at the same time.
     /// @param is_recorded whether there is a schedule.
     /// @param progress counts the tasks and says whether to stop; must outlive the graph.
-    StepGraph(bool is_recorded, Progress& progress);
+    StepGraph(std::function<void(const ScheduledTask&)> perform, bool is_recorded, Progress& progress);
 
     /// A starting point: the tasks that are added before the next root belong to it.
     Node add_root();
 
     /// A task that starts as soon as all tasks and the root before it are done.
-    Node add_task(const ScheduledTask& task, std::function<void()> body);
+    Node add_task(const ScheduledTask& task);
 
     /// A task that in every step also waits until it is signalled.
-    Node add_event(const ScheduledTask& task, std::function<void()> body);
+    Node add_event(const ScheduledTask& task);
 
     /// See TaskGraph.
     void signal(Node event) { graph_.signal(event); }
@@ -51,17 +53,17 @@ class StepGraph {
     [[nodiscard]] const std::optional<Schedule>& schedule() const { return schedule_; }
 
   private:
-    std::function<void()> recorded(const ScheduledTask& task, std::function<void()> body);
-    void note(Node node);
+    Node add(const ScheduledTask& task, Node (TaskGraph::*add_node)(std::function<void()>, TaskPriority));
     void begin_record();
     void end_record();
-    void run_recorded(Index task, const std::function<void()>& body);
-    [[nodiscard]] Index task_at(Node node) const;
+    void run_task(Index task);
 
+    std::function<void(const ScheduledTask&)> perform_;
+    std::vector<ScheduledTask> tasks_;
+    /// Number of the task at each node; -1 at roots.
+    std::vector<Index> task_of_node_;
     std::optional<Schedule> schedule_;
     Stopwatch clock_;
-    /// Number of the task at each node; -1, or nothing: none.
-    std::vector<Index> task_of_node_;
     /// #tasks, for the step that runs; step 0: has not run.
     std::vector<TaskRecord> running_;
     /// Last, as its tasks refer to the others.

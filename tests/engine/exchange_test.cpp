@@ -39,7 +39,8 @@ class Machines {
         else
             plan_ = mutual() ? plan_mutual_sweep(decomposition_, rank) : plan_sweep(decomposition_, rank);
         for (const SubMesh& sub_mesh : decomposition_.sub_meshes) {
-            SubMeshState& state = states_.emplace_back(sub_mesh, system_for(sub_mesh, options), mesh.vertices);
+            SubMeshState& state =
+                states_.emplace_back(sub_mesh, system_for(sub_mesh, options), mesh.vertices, predicts(options));
             state.p = options.interface.p ? *options.interface.p : 0.7 / std::sqrt(options.time_step);
         }
     }
@@ -94,7 +95,7 @@ class Machines {
     {
         for (Index s = 0; s < n(); ++s) {
             predict(states_, s, workspace_);
-            states_[s].solved.bottomRows(decomposition_.sub_meshes[s].n_halo).setConstant(unknown);
+            states_[s].predicted.bottomRows(decomposition_.sub_meshes[s].n_halo).setConstant(unknown);
         }
         for (Index s = 0; s < n(); ++s)
             use_predictions(states_, s, plan_.predictions[s], workspace_);

@@ -19,7 +19,8 @@ Schedule schedule_of(const std::vector<double>& seconds, std::vector<Dependency>
     double now = 0.0;
     for (std::size_t i = 0; i < seconds.size(); ++i) {
         const auto task = static_cast<Index>(i);
-        schedule.tasks.push_back({TaskKind::Solve, task, priorities.empty() ? Priority::Normal : priorities[i]});
+        const bool is_high = !priorities.empty() && priorities[i] == Priority::High;
+        schedule.tasks.push_back({is_high ? TaskKind::Solve : TaskKind::AssembleAndFactorise, task});
         schedule.records.push_back({.step = 1, .task = task, .start = now, .end = now + seconds[i]});
         now += seconds[i];
     }
