@@ -11,7 +11,7 @@
 #include <fmt/format.h>
 
 #include "partition/errors.h"
-#include "partition/formats/obj.h"
+#include "partition/formats/obj_scan.h"
 #include "partition/io/input_file.h"
 #include "partition/io/mesh_builder.h"
 #include "samples/page/texture_images.h"
