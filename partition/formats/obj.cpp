@@ -152,23 +152,6 @@ PolygonMesh read_slices(const TextScanner& whole, std::span<const std::string_vi
     return mesh;
 }
 
-std::string_view extra_of_statement(std::string_view keyword)
-{
-    using Entry = std::pair<std::string_view, std::string_view>;
-    constexpr std::array<Entry, 8> known = {Entry{"vt", "texture coordinates"},
-                                            Entry{"mtllib", "materials"},
-                                            Entry{"usemtl", "materials"},
-                                            Entry{"g", "groups"},
-                                            Entry{"o", "groups"},
-                                            Entry{"s", "smoothing groups"},
-                                            Entry{"p", "points"},
-                                            Entry{"vp", "curves"}};
-    for (const auto& [name, extra] : known)
-        if (keyword == name)
-            return extra;
-    return "other statements";
-}
-
 /// Collects what there is besides the surface; see scan_obj.
 struct ExtrasVisitor {
     std::vector<std::string> extras = {};
@@ -180,7 +163,20 @@ struct ExtrasVisitor {
     }
     void normal(Index /*n*/, TextScanner& /*scanner*/) { add_once(extras, "normals"); }
     void line(TextScanner& /*scanner*/, const ObjCounts& /*before*/) { add_once(extras, "lines"); }
-    void other(std::string_view keyword) { add_once(extras, extra_of_statement(keyword)); }
+    void other(std::string_view keyword)
+    {
+        using Entry = std::pair<std::string_view, std::string_view>;
+        constexpr std::array<Entry, 8> known = {Entry{"vt", "texture coordinates"},
+                                                Entry{"mtllib", "materials"},
+                                                Entry{"usemtl", "materials"},
+                                                Entry{"g", "groups"},
+                                                Entry{"o", "groups"},
+                                                Entry{"s", "smoothing groups"},
+                                                Entry{"p", "points"},
+                                                Entry{"vp", "curves"}};
+        const auto* const found = std::ranges::find(known, keyword, &Entry::first);
+        add_once(extras, found != known.end() ? found->second : "other statements");
+    }
 };
 
 }  // namespace

@@ -61,7 +61,23 @@ class NormalUpdate {
     }
 
     /// The new normal; nothing if it stays.
-    std::optional<Point> operator()(Index normal, const Point& given, StayingNormals& staying) const;
+    std::optional<Point> operator()(Index normal, const Point& given, StayingNormals& staying) const
+    {
+        const auto corners = normals_[normal];
+        if (corners.empty()) {
+            ++staying.n_unused;
+            return std::nullopt;
+        }
+        const auto all_alike = [&](auto&& property) {
+            return std::ranges::all_of(corners, [&](Index c) { return property(c) == property(corners[0]); });
+        };
+        if (all_alike([&](Index c) { return mesh_.face_vertices[c]; }))
+            return moved_.around_vertex(corners, given);
+        if (all_alike([&](Index c) { return moved_.face_of(c); }))
+            return moved_.of_face(moved_.face_of(corners[0]), given);
+        ++staying.n_shared;
+        return std::nullopt;
+    }
 
     /// A sentence about those that would have to change, but cannot.
     /// @param staying of each slice.
@@ -73,24 +89,6 @@ class NormalUpdate {
     const PolygonMesh& mesh_;
     MovedNormals moved_;
 };
-
-std::optional<Point> NormalUpdate::operator()(Index normal, const Point& given, StayingNormals& staying) const
-{
-    const auto corners = normals_[normal];
-    if (corners.empty()) {
-        ++staying.n_unused;
-        return std::nullopt;
-    }
-    const auto all_alike = [&](auto&& property) {
-        return std::ranges::all_of(corners, [&](Index c) { return property(c) == property(corners[0]); });
-    };
-    if (all_alike([&](Index c) { return mesh_.face_vertices[c]; }))
-        return moved_.around_vertex(corners, given);
-    if (all_alike([&](Index c) { return moved_.face_of(c); }))
-        return moved_.of_face(moved_.face_of(corners[0]), given);
-    ++staying.n_shared;
-    return std::nullopt;
-}
 
 std::vector<std::string> NormalUpdate::remarks(const std::filesystem::path& path,
                                                std::span<const StayingNormals> staying) const
@@ -114,38 +112,34 @@ std::vector<std::string> NormalUpdate::remarks(const std::filesystem::path& path
 
 /// Collects the normal that each corner of a slice refers to, or `none`; without the faces that are left out of the
 /// mesh. See scan_obj.
-class CornerNormals {
-  public:
+struct CornerNormals {
+    std::vector<Index> normals = {};
+
     void face(TextScanner& scanner, const ObjCounts& before);
 
-    std::vector<Index> normals;
-
-  private:
-    std::vector<Index> vertices_;
-    std::vector<Index> distinct_;
-    std::vector<Index> sorted_;
+    /// Scratch: of a face.
+    std::vector<Index> vertices = {};
+    std::vector<Index> normals_of_face = {};
+    std::vector<Index> distinct = {};
+    std::vector<Index> sorted = {};
 };
 
 void CornerNormals::face(TextScanner& scanner, const ObjCounts& before)
 {
-    vertices_.clear();
+    vertices.clear();
+    normals_of_face.clear();
     while (scanner.has_token()) {
         const auto [vertex, attributes] = read_obj_corner(scanner, "a vertex number");
-        vertices_.push_back(counted_from_0(vertex, before.n_vertices));
-        normals.push_back(normal_of(attributes, before.n_normals));
+        vertices.push_back(counted_from_0(vertex, before.n_vertices));
+        normals_of_face.push_back(normal_of(attributes, before.n_normals));
     }
-    if (are_corners_of_face(vertices_, sorted_))
-        return;
     // As in MeshBuilder::add_face.
-    find_distinct_corners(vertices_, distinct_);
-    const std::size_t first = normals.size() - vertices_.size();
-    std::size_t n_left = 0;
-    for (const Index k : distinct_) {
-        normals[first + n_left] = normals[first + at(k)];
-        vertices_[n_left++] = vertices_[at(k)];
-    }
-    vertices_.resize(n_left);
-    normals.resize(first + (are_corners_of_face(vertices_, sorted_) ? n_left : 0));
+    find_distinct_corners(vertices, distinct);
+    for (std::size_t i = 0; i < distinct.size(); ++i)
+        vertices[i] = vertices[at(distinct[i])];
+    if (are_corners_of_face(std::span(vertices).first(distinct.size()), sorted))
+        for (const Index k : distinct)
+            normals.push_back(normals_of_face[at(k)]);
 }
 
 /// @param n_components see read_text_colours.

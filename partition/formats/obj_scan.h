@@ -86,32 +86,16 @@ bool scan_plain_obj_line(TextScanner& scanner, Visitor& visitor, ObjCounts& coun
 /// - other(keyword): any other statement;
 /// - plain_vertex(position) and plain_face(vertices): get vertices, and faces of vertices before them, whose lines are
 ///   in the commonest form; then the functions above get only other lines.
-/// @param counts of what precedes the slice. @param end of what precedes the next one, if it is known: a visitor of
-/// vertices and normals alone is done when it has seen the last of them.
+/// @param counts of what precedes the slice. @param end of what precedes the next one, for a visitor of vertices and
+/// normals alone: it is done when it has seen the last of them.
 /// @returns the counts at the end.
 template <class Visitor>
 ObjCounts scan_obj(auto&& scanner, Visitor& visitor, ObjCounts counts = {}, const ObjCounts& end = {-1, -1})
 {
-    constexpr bool visits_plain = requires(std::array<double, 3> position)
-    {
-        visitor.plain_vertex(position);
-    };
-    constexpr bool visits_faces = requires
-    {
-        visitor.face(scanner, counts);
-    };
-    constexpr bool visits_lines = requires
-    {
-        visitor.line(scanner, counts);
-    };
-    constexpr bool visits_others = requires
-    {
-        visitor.other(std::string_view());
-    };
     constexpr bool counts_alone = std::is_same_v<Visitor, ObjCounter>;
     std::vector<Index> corners;
-    while (visits_faces || visits_lines || visits_others || counts != end) {
-        if constexpr (visits_plain)
+    while (counts != end) {
+        if constexpr (requires { visitor.plain_face(corners); })
             if (scan_plain_obj_line(scanner, visitor, counts, corners))
                 continue;
         const std::string_view keyword = counts_alone          ? scanner.next_keyword()
@@ -127,12 +111,12 @@ ObjCounts scan_obj(auto&& scanner, Visitor& visitor, ObjCounts counts = {}, cons
                 visitor.normal(static_cast<Index>(counts.n_normals), scanner);
             ++counts.n_normals;
         } else if (is_obj_face(keyword)) {
-            if constexpr (visits_faces)
+            if constexpr (requires { visitor.face(scanner, counts); })
                 visitor.face(scanner, counts);
         } else if (keyword == "l") {
-            if constexpr (visits_lines)
+            if constexpr (requires { visitor.line(scanner, counts); })
                 visitor.line(scanner, counts);
-        } else if constexpr (visits_others) {
+        } else if constexpr (requires { visitor.other(keyword); }) {
             visitor.other(keyword);
         }
     }

@@ -176,19 +176,6 @@ PolygonMesh read_by_lines(const std::filesystem::path& path, std::string_view te
     return read_in_slices_if_faultless(in_slices, in_one_go);
 }
 
-/// The header, read to its end, of a file in which line breaks can be blanks; nothing if there is none. This is
-/// unambiguous only if all vertices have equally many numbers, and faces nothing but corners.
-std::optional<OffHeader> read_header_across_lines(TextScanner& scanner)
-{
-    scanner.cross_lines();
-    try {
-        const OffHeader header = read_off_header(scanner);
-        return header.has_colours() ? std::nullopt : std::optional(header);
-    } catch (const InputError&) {
-        return std::nullopt;
-    }
-}
-
 /// Whether a file lacks one line per vertex and face, or its header only makes sense with line breaks as blanks. A file
 /// with these lines is only ever read line by line, so that it is written line by line, too.
 bool breaks_lines_freely(const std::filesystem::path& path, std::string_view text, const Slicing& slicing)
@@ -203,18 +190,18 @@ bool breaks_lines_freely(const std::filesystem::path& path, std::string_view tex
     }
 }
 
-/// Reads a file with line breaks as blanks; nothing if that fails.
+/// Reads a file with line breaks as blanks; nothing if that fails, or if it is not unambiguous: all vertices must have
+/// equally many numbers, and faces nothing but corners.
 std::optional<PolygonMesh> read_across_lines(const std::filesystem::path& path, std::string_view text,
                                              const Slicing& slicing)
 {
     if (!breaks_lines_freely(path, text, slicing))
         return std::nullopt;
     TextScanner scanner(path, text);
-    const auto header = read_header_across_lines(scanner);
-    if (!header)
-        return std::nullopt;
+    scanner.cross_lines();
     try {
-        return OffReader(scanner, *header, nullptr).read_whole();
+        const OffHeader header = read_off_header(scanner);
+        return header.has_colours() ? std::nullopt : std::optional(OffReader(scanner, header, nullptr).read_whole());
     } catch (const InputError&) {
         return std::nullopt;
     }
