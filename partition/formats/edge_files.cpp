@@ -8,7 +8,7 @@
 
 #include "partition/errors.h"
 #include "partition/formats/mesh_io.h"
-#include "partition/formats/obj.h"
+#include "partition/formats/obj_scan.h"
 #include "partition/formats/ply_header.h"
 #include "partition/formats/ply_source.h"
 #include "partition/io/input_file.h"
@@ -45,30 +45,25 @@ class EdgeList {
     std::vector<Edge> edges_;
 };
 
-void read_obj_lines(TextScanner scanner, EdgeList& list)
-{
-    std::int64_t n_vertices = 0;
-    while (scanner.next_line()) {
-        const std::string_view keyword = scanner.token();
-        n_vertices += keyword == "v" ? 1 : 0;
-        if (keyword != "l")
-            continue;
-        std::int64_t before = -1;
+/// Reads the polylines of an OBJ file; see scan_obj.
+struct LineReader {
+    EdgeList& list;
+
+    void line(TextScanner& scanner, const ObjCounts& before)
+    {
+        const std::int64_t n_vertices = before.n_vertices;
+        std::int64_t previous = -1;
         for (int n = 0; scanner.has_token(); ++n) {
-            const std::int64_t number = scanner.integer_before_slash("a vertex number (as in 7 or 7/1)");
-            scanner.skip(scanner.rest_of_token().size());
+            const std::int64_t number = read_obj_corner(scanner, "a vertex number (as in 7 or 7/1)").vertex;
             if (number < -n_vertices)
-                scanner.fail(fmt::format(
-                    "names vertex {}, counted back from this line, but only {} it; correct the "
-                    "line",
-                    number, counted(static_cast<std::uint64_t>(n_vertices), "vertex precedes", "vertices precede")));
+                scanner.fail(counted_back_too_far(number, n_vertices, "correct the line"));
             const std::int64_t v = number < 0 ? n_vertices + number : number - 1;
             if (n > 0)
-                list.add(before, v, scanner, 1);
-            before = v;
+                list.add(previous, v, scanner, 1);
+            previous = v;
         }
     }
-}
+};
 
 template <class Source>
 void read_ply_edges(Source source, const PlyHeader& header, EdgeList& list)
@@ -129,9 +124,10 @@ std::vector<Edge> read_edges(const std::filesystem::path& path, Index n_vertices
                                          "or a text file with two vertex numbers per line");
     const InputFile file{OpenFile(path)};
     EdgeList list(n_vertices);
-    if (format == FileFormat::Obj)
-        read_obj_lines(TextScanner(path, file.content(), obj_syntax), list);
-    else if (format == FileFormat::Ply)
+    if (format == FileFormat::Obj) {
+        LineReader reader{list};
+        scan_obj(TextScanner(path, file.content(), obj_syntax), reader);
+    } else if (format == FileFormat::Ply)
         read_edges_of_ply(TextScanner(path, file.content(), ply_syntax), path, file.content(), list);
     else
         read_pairs(TextScanner(path, file.content()), list);

@@ -17,7 +17,6 @@
 #include "partition/formats/ply.h"
 #include "partition/formats/splicing.h"
 #include "partition/formats/stl.h"
-#include "partition/formats/text_colours.h"
 #include "partition/io/input_file.h"
 #include "partition/io/output_file.h"
 #include "partition/io/slices.h"

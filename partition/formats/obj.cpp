@@ -12,7 +12,7 @@
 #include <fmt/format.h>
 
 #include "partition/errors.h"
-#include "partition/formats/text_slices.h"
+#include "partition/formats/obj_scan.h"
 #include "partition/io/mesh_builder.h"
 
 namespace seamflow {
@@ -25,38 +25,20 @@ struct ForwardReference {
     std::size_t line;
 };
 
-/// Reads a whole file, or a slice of one.
+/// Reads a whole file, or a slice of one. Besides vertices and faces, all is passed over.
 class ObjReader {
   public:
-    ObjReader(const TextScanner& scanner, FaultLog* faults)
+    /// @param builder_arguments those of MeshBuilder behind the first number.
+    template <class... Arguments>
+    explicit ObjReader(const TextScanner& scanner, FaultLog* faults, Arguments&&... builder_arguments)
         : scanner_(scanner)
-        , builder_(scanner_, 1)
-    {
-        scanner_.note_faults_in(faults);
-    }
-
-    ObjReader(const TextScanner& scanner, const MeshSlice& slice, FaultLog* faults = nullptr)
-        : scanner_(scanner)
-        , builder_(scanner_, 1, slice)
+        , builder_(scanner_, 1, builder_arguments...)
     {
         scanner_.note_faults_in(faults);
     }
 
     /// Reads all lines.
-    void read()
-    {
-        while (true) {
-            if (read_plain_vertex() || read_plain_face())
-                continue;
-            if (!scanner_.next_line())
-                break;
-            // Texture coordinates, normals, groups, materials, points, lines, … are ignored here.
-            if (const std::string_view keyword = scanner_.token(); keyword.size() == 1 && keyword[0] == 'v')
-                read_vertex();
-            else if (is_obj_face(keyword))
-                read_face();
-        }
-    }
+    void read(const ObjCounts& before = {}) { scan_obj(scanner_, *this, before); }
 
     /// @param n number of vertices in the whole file.
     /// @throws InputError if a face names one that it does not have.
@@ -68,13 +50,16 @@ class ObjReader {
         return builder_.finish();
     }
 
+    /// See scan_obj.
+    void plain_vertex(const std::array<double, 3>& position) { builder_.add_vertex(position); }
+    void plain_face(std::span<const Index> vertices) { builder_.add_face(vertices); }
+    void position(Index /*v*/, TextScanner& scanner) { builder_.add_vertex(scanner.coordinates()); }
+    void colour(Index v, TextScanner& scanner, std::size_t n_behind);
+    void face(TextScanner& scanner, const ObjCounts& before);
+
   private:
-    bool read_plain_vertex();
-    bool read_plain_face();
-    void read_vertex();
-    void read_face();
-    Index read_corner();
-    void pass_over_attributes();
+    Index read_corner(std::int64_t n_vertices);
+    void require_attributes(std::string_view attributes);
 
     TextScanner scanner_;
     MeshBuilder builder_;
@@ -83,67 +68,28 @@ class ObjReader {
     std::vector<ForwardReference> forward_references_;
 };
 
-/// The functions read_plain_… read a line in its commonest form, without fault, and return false if it has another.
-bool ObjReader::read_plain_vertex()
+void ObjReader::colour(Index /*v*/, TextScanner& scanner, std::size_t /*n_behind*/)
 {
-    std::array<double, 3> position{};
-    const bool is_plain = scanner_.next_plain_line([&](PlainLine& line) {
-        return line.keyword('v') && line.real(position[0]) && line.real(position[1]) && line.real(position[2]) &&
-               line.ends();
-    });
-    if (is_plain)
-        builder_.add_vertex(position);
-    return is_plain;
-}
-
-bool ObjReader::read_plain_face()
-{
-    corners_.clear();
-    const auto n = static_cast<std::uint64_t>(builder_.n_vertices());
-    const bool is_plain = scanner_.next_plain_line([&](PlainLine& line) {
-        if (!line.keyword('f'))
-            return false;
-        while (!line.ends()) {
-            std::uint64_t number = 0;
-            if (!line.corner(number) || number == 0 || number > n)
-                return false;
-            corners_.push_back(static_cast<Index>(number - 1));
-        }
-        return true;
-    });
-    if (is_plain)
-        builder_.add_face(corners_);
-    return is_plain;
-}
-
-void ObjReader::read_vertex()
-{
-    const auto position = scanner_.coordinates();
     constexpr std::size_t most_further_numbers = 5;
-    if (scanner_.pass_over_rest() > most_further_numbers)
-        scanner_.fail("a vertex has 3 coordinates, optionally with a weight and a colour, but this line continues; put "
-                      "each vertex on a line of its own");
-    builder_.add_vertex(position);
+    if (scanner.pass_over_rest() > most_further_numbers)
+        scanner.fail("a vertex has 3 coordinates, optionally with a weight and a colour, but this line continues; put "
+                     "each vertex on a line of its own");
 }
 
-void ObjReader::read_face()
+void ObjReader::face(TextScanner& scanner, const ObjCounts& before)
 {
     corners_.clear();
-    while (scanner_.has_token())
-        corners_.push_back(read_corner());
+    while (scanner.has_token())
+        corners_.push_back(read_corner(before.n_vertices));
     builder_.add_face(corners_);
 }
 
-Index ObjReader::read_corner()
+Index ObjReader::read_corner(std::int64_t n)
 {
-    const std::int64_t number = scanner_.integer_before_slash("a vertex number (as in 7, 7/1, 7//2 or 7/1/2)");
-    pass_over_attributes();
-    const std::int64_t n = builder_.n_vertices();
+    const auto [number, attributes] = read_obj_corner(scanner_, "a vertex number (as in 7, 7/1, 7//2 or 7/1/2)");
+    require_attributes(attributes);
     if (number < -n) {
-        scanner_.fault(fmt::format("names vertex {}, counted back from this line, but only {} it; correct the face or "
-                                   "export the mesh again",
-                                   number,
-                                   counted(static_cast<std::uint64_t>(n), "vertex precedes", "vertices precede")));
+        scanner_.fault(counted_back_too_far(number, n, "correct the face or export the mesh again"));
         return -1;
     }
     if (number == 0) {
@@ -167,17 +113,15 @@ Index ObjReader::read_corner()
 }
 
 /// The numbers of a texture coordinate and a normal: /t, //n, /t/n, and the empty / and //.
-void ObjReader::pass_over_attributes()
+void ObjReader::require_attributes(std::string_view attributes)
 {
-    const std::string_view rest = scanner_.rest_of_token();
     int slashes = 0;
-    for (const char c : rest) {
+    for (const char c : attributes) {
         slashes += c == '/' ? 1 : 0;
         if (slashes > 2 || (c != '/' && c != '-' && c != '+' && (c < '0' || c > '9')))
-            scanner_.fail("expected a corner as in 7, 7/1, 7//2 or 7/1/2, but found " + in_quotes(rest) +
+            scanner_.fail("expected a corner as in 7, 7/1, 7//2 or 7/1/2, but found " + in_quotes(attributes) +
                           " after the vertex number; correct the face or export the mesh again");
     }
-    scanner_.skip(rest.size());
 }
 
 void ObjReader::require_no_open_reference(Index n) const
@@ -191,73 +135,73 @@ void ObjReader::require_no_open_reference(Index n) const
 }
 
 /// @throws InputError if there is any fault, not necessarily naming the line.
-PolygonMesh read_slices(const TextScanner& whole, const TextSlices& slices, const Executor& exec)
+PolygonMesh read_slices(const TextScanner& whole, std::span<const std::string_view> slices, const Executor& exec)
 {
-    if (slices.all.n_vertices == 0)
+    const std::vector<ObjCounts> counts = count_obj(whole, slices, exec);
+    const auto n_vertices = static_cast<Index>(counts.back().n_vertices);
+    if (n_vertices == 0)
         throw InputError("no vertices");
-    const auto first = static_cast<Index>(slices.counts.front().n_vertices);
-    const auto n_vertices = static_cast<Index>(slices.all.n_vertices);
     PolygonMesh mesh;
-    mesh.vertices = uninitialised_points(static_cast<Index>(slices.counts.back().n_vertices) - first);
-    append_faces(mesh, static_cast<Index>(slices.bytes.size()), exec, [&](Index i, PolygonMesh& faces) {
-        const auto first_of_slice = static_cast<Index>(slices.counts[i].n_vertices);
-        ObjReader reader(TextScanner(whole, slices.bytes[i]), {mesh.vertices, first_of_slice, faces, first});
-        reader.read();
+    mesh.vertices = uninitialised_points(n_vertices);
+    append_faces(mesh, static_cast<Index>(slices.size()), exec, [&](Index i, PolygonMesh& faces) {
+        const auto first = static_cast<Index>(counts[i].n_vertices);
+        ObjReader reader(TextScanner(whole, slices[i]), nullptr, MeshSlice{mesh.vertices, first, faces});
+        reader.read(counts[i]);
         reader.require_no_open_reference(n_vertices);
     });
     return mesh;
 }
 
-std::string_view extra_of_statement(std::string_view keyword)
-{
-    using Entry = std::pair<std::string_view, std::string_view>;
-    constexpr std::array<Entry, 10> known = {Entry{"vt", "texture coordinates"},
-                                             Entry{"vn", "normals"},
-                                             Entry{"mtllib", "materials"},
-                                             Entry{"usemtl", "materials"},
-                                             Entry{"g", "groups"},
-                                             Entry{"o", "groups"},
-                                             Entry{"s", "smoothing groups"},
-                                             Entry{"p", "points"},
-                                             Entry{"l", "lines"},
-                                             Entry{"vp", "curves"}};
-    for (const auto& [name, extra] : known)
-        if (keyword == name)
-            return extra;
-    return "other statements";
-}
+/// Collects what there is besides the surface; see scan_obj.
+struct ExtrasVisitor {
+    std::vector<std::string> extras = {};
 
-std::vector<std::string> extras_of_slice(TextScanner scanner)
-{
-    std::vector<std::string> extras;
-    while (scanner.next_line()) {
-        const std::string_view keyword = scanner.token();
-        if (is_obj_face(keyword))
-            continue;
-        if (keyword != "v") {
-            add_once(extras, extra_of_statement(keyword));
-            continue;
-        }
-        const std::size_t n = scanner.pass_over_rest();
-        if (n > 3)
-            add_once(extras, n > 5 ? "colours" : "weights");
+    void colour(Index /*v*/, TextScanner& scanner, std::size_t /*n_behind*/)
+    {
+        if (const std::size_t n = scanner.pass_over_rest(); n > 0)
+            add_once(extras, n > 2 ? "colours" : "weights");
     }
-    return extras;
-}
+    void normal(Index /*n*/, TextScanner& /*scanner*/) { add_once(extras, "normals"); }
+    void line(TextScanner& /*scanner*/, const ObjCounts& /*before*/) { add_once(extras, "lines"); }
+    void other(std::string_view keyword)
+    {
+        using Entry = std::pair<std::string_view, std::string_view>;
+        constexpr std::array<Entry, 8> known = {Entry{"vt", "texture coordinates"},
+                                                Entry{"mtllib", "materials"},
+                                                Entry{"usemtl", "materials"},
+                                                Entry{"g", "groups"},
+                                                Entry{"o", "groups"},
+                                                Entry{"s", "smoothing groups"},
+                                                Entry{"p", "points"},
+                                                Entry{"vp", "curves"}};
+        const auto* const found = std::ranges::find(known, keyword, &Entry::first);
+        add_once(extras, found != known.end() ? found->second : "other statements");
+    }
+};
 
 }  // namespace
 
-std::vector<TextCounts> count_obj(const TextScanner& whole, std::span<const std::string_view> slices,
-                                  const Executor& exec)
+ObjCorner read_obj_corner(TextScanner& scanner, const char* what)
 {
-    std::vector<TextCounts> counts(slices.size() + 1);
+    const std::int64_t vertex = scanner.integer_before_slash(what);
+    const std::string_view attributes = scanner.rest_of_token();
+    scanner.skip(attributes.size());
+    return {vertex, attributes};
+}
+
+std::string counted_back_too_far(std::int64_t vertex, std::int64_t n, const char* remedy)
+{
+    return fmt::format("names vertex {}, counted back from this line, but only {} it; {}", vertex,
+                       counted(static_cast<std::uint64_t>(n), "vertex precedes", "vertices precede"), remedy);
+}
+
+std::vector<ObjCounts> count_obj(const TextScanner& whole, std::span<const std::string_view> slices,
+                                 const Executor& exec)
+{
+    std::vector<ObjCounts> counts(slices.size() + 1);
     for_each(exec, static_cast<Index>(slices.size()), [&](Index i) {
-        TextScanner scanner(whole, slices[i]);
-        std::string_view keyword;
-        while (!(keyword = scanner.next_keyword()).empty()) {
-            counts[i + 1].n_vertices += keyword == "v" ? 1 : 0;
-            counts[i + 1].n_normals += keyword == "vn" ? 1 : 0;
-        }
+        ObjCounter counter;
+        counts[i + 1] = scan_obj(TextScanner(whole, slices[i]), counter);
     });
     for (std::size_t i = 0; i < slices.size(); ++i) {
         counts[i + 1].n_vertices = sum_of_counts(counts[i].n_vertices, counts[i + 1].n_vertices);
@@ -277,11 +221,7 @@ PolygonMesh read_obj(const std::filesystem::path& path, std::string_view text, c
     };
     if (slices.size() < 2)
         return in_one_go();
-    const auto in_slices = [&] {
-        const std::vector<TextCounts> counts = count_obj(whole, slices, slicing.exec);
-        return read_slices(whole, {slices, counts, counts.back()}, slicing.exec);
-    };
-    return read_in_slices_if_faultless(in_slices, in_one_go);
+    return read_in_slices_if_faultless([&] { return read_slices(whole, slices, slicing.exec); }, in_one_go);
 }
 
 void write_obj(OutputFile& file, const PolygonMesh& mesh, const Slicing& slicing)
@@ -304,12 +244,12 @@ std::vector<std::string> extras_of_obj(const std::filesystem::path& path, std::s
 {
     const TextScanner whole(path, text, obj_syntax);
     const std::vector<std::string_view> slices = whole.slices(slicing.bytes);
-    std::vector<std::vector<std::string>> of_slice(slices.size());
+    std::vector<ExtrasVisitor> visitors(slices.size());
     for_each(slicing.exec, static_cast<Index>(slices.size()),
-             [&](Index i) { of_slice[i] = extras_of_slice(TextScanner(whole, slices[i])); });
+             [&](Index i) { scan_obj(TextScanner(whole, slices[i]), visitors[i]); });
     std::vector<std::string> extras;
-    for (const auto& list : of_slice)
-        for (const std::string& extra : list)
+    for (const ExtrasVisitor& visitor : visitors)
+        for (const std::string& extra : visitor.extras)
             add_once(extras, extra);
     return extras;
 }

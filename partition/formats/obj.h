@@ -7,29 +7,13 @@
 #include <vector>
 
 #include "partition/formats/file_fields.h"
-#include "partition/formats/text_slices.h"
 #include "partition/index_lists.h"
-#include "partition/io/byte_writer.h"
 #include "partition/io/fault_log.h"
 #include "partition/io/output_file.h"
 #include "partition/io/slices.h"
-#include "partition/io/text_scanner.h"
 #include "partition/polygon_mesh.h"
 
 namespace seamflow {
-
-inline constexpr TextSyntax obj_syntax = {.comment = '#', .continuation = true};
-
-/// Whether a line that begins with this word describes a face.
-inline bool is_obj_face(std::string_view keyword)
-{
-    return keyword.starts_with('f') && (keyword.size() == 1 || keyword == "fo");
-}
-
-/// The counts before each slice of a file and, at the end, of the whole file.
-/// @throws InputError if there are more than 2^31 - 1 of a kind.
-std::vector<TextCounts> count_obj(const TextScanner& whole, std::span<const std::string_view> slices,
-                                  const Executor& exec);
 
 /// Reads Wavefront OBJ: the lines `v` (further numbers, a weight or a colour, are passed over) and `f` (texture
 /// coordinates and normals of the corners are passed over). All other lines, among them points and polylines, are
@@ -54,6 +38,12 @@ void write_obj(OutputFile& file, const PolygonMesh& mesh, const Slicing& slicing
 std::vector<std::string> rewrite_obj(OutputFile& file, const std::filesystem::path& path, std::string_view text,
                                      const PolygonMesh& mesh, const Slicing& slicing, const FileFields& fields = {},
                                      double seam_distance = 0.0);
+
+/// Reads the colours of the vertices, the numbers behind their coordinates, as fields; see fields_of_colours.
+/// @param path for messages only.
+/// @throws InputError naming the line of a vertex without colour.
+FileFields read_obj_fields(const std::filesystem::path& path, std::string_view text, std::span<const std::string> names,
+                           const Slicing& slicing);
 
 /// For each normal (`vn`) of a file read by `read_obj`, the corners that name it, numbered as in
 /// PolygonMesh::face_vertices, in ascending order. Numbers of missing normals do not count.

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "partition/formats/obj.h"
+#include "partition/formats/obj_scan.h"
 #include "partition/formats/splicing.h"
 #include "partition/formats/text_colours.h"
 #include "partition/io/mesh_builder.h"
@@ -20,26 +21,26 @@ namespace {
 
 constexpr Index none = -1;
 
-/// The number that a text begins with, counted from 0; `none` if there is no such number.
+/// A number as written, counted from 0; `none` if it is 0.
 /// @param n how many precede; negative numbers count back from there.
-Index index_at_start(std::string_view text, Index n)
+Index counted_from_0(std::int64_t number, std::int64_t n)
 {
-    if (text.starts_with('+'))
-        text.remove_prefix(1);
-    Index number = 0;
-    std::from_chars(text.data(), text.data() + text.size(), number);
-    return number > 0 ? number - 1 : number < 0 ? number + n : none;
+    return static_cast<Index>(number > 0 ? number - 1 : number < 0 ? number + n : none);
 }
 
-/// The normal that a corner such as 7//2 or 7/1/-2 refers to, counted from 0; it need not exist.
+/// The normal that the attributes of a corner such as //2 or /1/-2 refer to, counted from 0; it need not exist.
 /// @param n number of normals before this line.
-Index normal_of(std::string_view corner, Index n)
+Index normal_of(std::string_view attributes, std::int64_t n)
 {
-    const auto first = corner.find('/');
-    const auto second = first == std::string_view::npos ? first : corner.find('/', first + 1);
+    const auto second = attributes.find('/', 1);
     if (second == std::string_view::npos)
         return none;
-    return index_at_start(corner.substr(second + 1), n);
+    attributes.remove_prefix(second + 1);
+    if (attributes.starts_with('+'))
+        attributes.remove_prefix(1);
+    Index number = 0;
+    std::from_chars(attributes.data(), attributes.data() + attributes.size(), number);
+    return counted_from_0(number, n);
 }
 
 /// How many normals stay although the surface has moved.
@@ -60,7 +61,23 @@ class NormalUpdate {
     }
 
     /// The new normal; nothing if it stays.
-    std::optional<Point> operator()(Index normal, const Point& given, StayingNormals& staying) const;
+    std::optional<Point> operator()(Index normal, const Point& given, StayingNormals& staying) const
+    {
+        const auto corners = normals_[normal];
+        if (corners.empty()) {
+            ++staying.n_unused;
+            return std::nullopt;
+        }
+        const auto all_alike = [&](auto&& property) {
+            return std::ranges::all_of(corners, [&](Index c) { return property(c) == property(corners[0]); });
+        };
+        if (all_alike([&](Index c) { return mesh_.face_vertices[c]; }))
+            return moved_.around_vertex(corners, given);
+        if (all_alike([&](Index c) { return moved_.face_of(c); }))
+            return moved_.of_face(moved_.face_of(corners[0]), given);
+        ++staying.n_shared;
+        return std::nullopt;
+    }
 
     /// A sentence about those that would have to change, but cannot.
     /// @param staying of each slice.
@@ -72,24 +89,6 @@ class NormalUpdate {
     const PolygonMesh& mesh_;
     MovedNormals moved_;
 };
-
-std::optional<Point> NormalUpdate::operator()(Index normal, const Point& given, StayingNormals& staying) const
-{
-    const auto corners = normals_[normal];
-    if (corners.empty()) {
-        ++staying.n_unused;
-        return std::nullopt;
-    }
-    const auto all_alike = [&](auto&& property) {
-        return std::ranges::all_of(corners, [&](Index c) { return property(c) == property(corners[0]); });
-    };
-    if (all_alike([&](Index c) { return mesh_.face_vertices[c]; }))
-        return moved_.around_vertex(corners, given);
-    if (all_alike([&](Index c) { return moved_.face_of(c); }))
-        return moved_.of_face(moved_.face_of(corners[0]), given);
-    ++staying.n_shared;
-    return std::nullopt;
-}
 
 std::vector<std::string> NormalUpdate::remarks(const std::filesystem::path& path,
                                                std::span<const StayingNormals> staying) const
@@ -111,65 +110,51 @@ std::vector<std::string> NormalUpdate::remarks(const std::filesystem::path& path
                         reasons)};
 }
 
-/// The normal that each corner of a slice refers to, or `none`; without the faces that are left out of the mesh.
-/// @param counts of what precedes the slice.
-std::vector<Index> normals_of_corners(TextScanner scanner, TextCounts counts)
+/// Collects the normal that each corner of a slice refers to, or `none`; without the faces that are left out of the
+/// mesh. See scan_obj.
+struct CornerNormals {
+    std::vector<Index> normals = {};
+
+    void face(TextScanner& scanner, const ObjCounts& before);
+
+    /// Scratch: of a face.
+    std::vector<Index> vertices = {};
+    std::vector<Index> normals_of_face = {};
+    std::vector<Index> distinct = {};
+    std::vector<Index> sorted = {};
+};
+
+void CornerNormals::face(TextScanner& scanner, const ObjCounts& before)
 {
-    std::vector<Index> normals;
-    std::vector<Index> vertices;
-    std::vector<Index> distinct;
-    std::vector<Index> sorted;
-    while (scanner.next_line()) {
-        const std::string_view keyword = scanner.token();
-        counts.n_vertices += keyword == "v" ? 1 : 0;
-        counts.n_normals += keyword == "vn" ? 1 : 0;
-        if (!is_obj_face(keyword))
-            continue;
-        vertices.clear();
-        while (scanner.has_token()) {
-            const std::string_view corner = scanner.token();
-            vertices.push_back(index_at_start(corner, static_cast<Index>(counts.n_vertices)));
-            normals.push_back(normal_of(corner, static_cast<Index>(counts.n_normals)));
-        }
-        if (are_corners_of_face(vertices, sorted))
-            continue;
-        // As in MeshBuilder::add_face.
-        find_distinct_corners(vertices, distinct);
-        const std::size_t first = normals.size() - vertices.size();
-        std::size_t n_left = 0;
-        for (const Index k : distinct) {
-            normals[first + n_left] = normals[first + at(k)];
-            vertices[n_left++] = vertices[at(k)];
-        }
-        vertices.resize(n_left);
-        normals.resize(first + (are_corners_of_face(vertices, sorted) ? n_left : 0));
+    vertices.clear();
+    normals_of_face.clear();
+    while (scanner.has_token()) {
+        const auto [vertex, attributes] = read_obj_corner(scanner, "a vertex number");
+        vertices.push_back(counted_from_0(vertex, before.n_vertices));
+        normals_of_face.push_back(normal_of(attributes, before.n_normals));
     }
-    return normals;
+    // As in MeshBuilder::add_face.
+    find_distinct_corners(vertices, distinct);
+    for (std::size_t i = 0; i < distinct.size(); ++i)
+        vertices[i] = vertices[at(distinct[i])];
+    if (are_corners_of_face(std::span(vertices).first(distinct.size()), sorted))
+        for (const Index k : distinct)
+            normals.push_back(normals_of_face[at(k)]);
 }
 
-/// Rewrites a slice.
-/// @param counts of what precedes it. @param end of what precedes the next one.
-StayingNormals rewrite_slice(TextScanner scanner, Splicer splicer, TextCounts counts, const TextCounts& end,
-                             const NewVertices<NormalUpdate>& now, const NewColours& colours = {})
+/// @param n_components see read_text_colours.
+TextColours read_obj_colours(const std::filesystem::path& path, std::string_view text, Index n_components,
+                             const Slicing& slicing)
 {
-    StayingNormals staying;
-    while (counts != end && scanner.next_line()) {
-        const std::string_view keyword = scanner.token();
-        if (keyword == "v") {
-            exchange_position(scanner, splicer, now.position(counts.n_vertices));
-            colours.exchange(scanner, splicer, static_cast<Index>(counts.n_vertices++));
-        }
-        if (keyword != "vn")
-            continue;
-        const auto normal = static_cast<Index>(counts.n_normals++);
-        if (now.normals == nullptr)
-            continue;
-        const WrittenNormal given = read_normal(scanner);
-        if (const auto moved = (*now.normals)(normal, given.value, staying))
-            exchange_normal(splicer, given, *moved);
-    }
-    splicer.finish();
-    return staying;
+    const TextScanner whole(path, text, obj_syntax);
+    return read_text_colours(whole, slicing, [&](const std::vector<std::string_view>& slices, const Executor& exec) {
+        const std::vector<ObjCounts> counts = count_obj(whole, slices, exec);
+        TextColours colours(static_cast<Index>(counts.back().n_vertices), 4);
+        ColourReader reader{colours, n_components};
+        for_each(exec, static_cast<Index>(slices.size()),
+                 [&](Index i) { scan_obj(TextScanner(whole, slices[i]), reader, counts[i], counts[i + 1]); });
+        return colours;
+    });
 }
 
 }  // namespace
@@ -178,20 +163,26 @@ IndexLists corners_of_obj_normals(const std::filesystem::path& path, std::string
 {
     const TextScanner whole(path, text, obj_syntax);
     const std::vector<std::string_view> slices = whole.slices(slicing.bytes);
-    const std::vector<TextCounts> counts = count_obj(whole, slices, slicing.exec);
-    std::vector<std::vector<Index>> of_slice(slices.size());
+    const std::vector<ObjCounts> counts = count_obj(whole, slices, slicing.exec);
+    std::vector<CornerNormals> of_slice(slices.size());
     for_each(slicing.exec, static_cast<Index>(slices.size()),
-             [&](Index i) { of_slice[i] = normals_of_corners(TextScanner(whole, slices[i]), counts[i]); });
+             [&](Index i) { scan_obj(TextScanner(whole, slices[i]), of_slice[i], counts[i]); });
     const auto n = static_cast<Index>(counts.back().n_normals);
     return make_lists(n, [&](auto&& add) {
         Index corner = 0;
-        for (const std::vector<Index>& normals : of_slice)
-            for (const Index normal : normals) {
+        for (const CornerNormals& corners : of_slice)
+            for (const Index normal : corners.normals) {
                 if (normal >= 0 && normal < n)
                     add(normal, corner);
                 ++corner;
             }
     });
+}
+
+FileFields read_obj_fields(const std::filesystem::path& path, std::string_view text, std::span<const std::string> names,
+                           const Slicing& slicing)
+{
+    return fields_of_colours(path, names, [&](Index n) { return read_obj_colours(path, text, n, slicing); });
 }
 
 std::vector<std::string> rewrite_obj(OutputFile& file, const std::filesystem::path& path, std::string_view text,
@@ -200,7 +191,7 @@ std::vector<std::string> rewrite_obj(OutputFile& file, const std::filesystem::pa
 {
     const TextScanner whole(path, text, obj_syntax);
     const std::vector<std::string_view> slices = whole.slices(slicing.bytes);
-    const std::vector<TextCounts> counts = count_obj(whole, slices, slicing.exec);
+    const std::vector<ObjCounts> counts = count_obj(whole, slices, slicing.exec);
     const NewColours colours(file.path(), fields, [&](Index n) { return read_obj_colours(path, text, n, slicing); });
     std::optional<NormalUpdate> normals;
     FaultLog known_faults{.of_faces_alone = true};
@@ -210,8 +201,10 @@ std::vector<std::string> rewrite_obj(OutputFile& file, const std::filesystem::pa
     std::vector<StayingNormals> staying(slices.size());
     file.text(text.substr(0, text.size() - whole.rest().size()));
     file.slices(static_cast<Index>(slices.size()), slicing.exec, [&](Index i, OutputBuffer& slice) {
-        staying[i] = rewrite_slice(TextScanner(whole, slices[i]), Splicer(slice, slices[i]), counts[i], counts[i + 1],
-                                   {mesh.vertices, 0, normals ? &*normals : nullptr}, colours);
+        VertexRewriter rewriter{Splicer(slice, slices[i]), mesh.vertices, colours,
+                                [&](Index n, const Point& given) { return (*normals)(n, given, staying[i]); }};
+        scan_obj(TextScanner(whole, slices[i]), rewriter, counts[i], counts[i + 1]);
+        rewriter.splicer.finish();
     });
     std::vector<std::string> remarks = colours.remarks();
     if (normals)

@@ -14,7 +14,7 @@
 #include "partition/formats/off_header.h"
 #include "partition/formats/splicing.h"
 #include "partition/formats/text_colours.h"
-#include "partition/formats/text_slices.h"
+#include "partition/formats/text_vertices.h"
 #include "partition/io/mesh_builder.h"
 #include "partition/io/text_scanner.h"
 
@@ -22,194 +22,158 @@ namespace seamflow {
 
 namespace {
 
-void pass_over_numbers(TextScanner& scanner, Index n)
+/// Goes to the next line. @param what are on such lines. @param i, n number of the present one, and of all.
+/// @throws InputError if there is none.
+void next_line(TextScanner& scanner, const char* what, std::int64_t i, std::int64_t n)
 {
-    for (; n > 0; --n)
-        static_cast<void>(scanner.number_or_nan());
+    if (!scanner.next_line())
+        scanner.fail(fmt::format("the file ends after {} of {} {}; it has been cut off, or the counts in its header "
+                                 "are wrong: export the mesh again",
+                                 i, n, what));
+}
+
+/// Scans lines of text OFF after its header, which are vertices, then faces. Besides the functions of scan_vertex the
+/// visitor may have
+/// - face(scanner): reads a face from its number of corners on.
+/// @param begin, end the lines, counted from 0.
+/// @throws InputError if the file ends too early.
+template <class Visitor>
+void scan_off(TextScanner& scanner, const OffHeader& header, std::int64_t begin, std::int64_t end, Visitor& visitor)
+{
+    const std::int64_t n_vertices = header.n_vertices;
+    for (std::int64_t v = begin; v < std::min(end, n_vertices); ++v) {
+        next_line(scanner, "vertices", v, n_vertices);
+        scan_vertex(scanner, static_cast<Index>(v), header.layout(), visitor);
+    }
+    if constexpr (requires { visitor.face(scanner); })
+        for (std::int64_t f = std::max(begin, n_vertices) - n_vertices; f < end - n_vertices; ++f) {
+            next_line(scanner, "faces", f, header.n_faces);
+            visitor.face(scanner);
+        }
 }
 
 /// Reads a whole file, or a slice of one.
 class OffReader {
   public:
-    OffReader(const TextScanner& after_header, const OffHeader& header, FaultLog* faults)
-        : scanner_(after_header)
-        , builder_(scanner_)
-        , header_(header)
-    {
-        scanner_.note_faults_in(faults);
-        builder_.reserve(static_cast<std::uint64_t>(header.n_vertices), static_cast<std::uint64_t>(header.n_faces));
-    }
-
-    OffReader(const TextScanner& scanner, const OffHeader& header, const MeshSlice& slice, FaultLog* faults = nullptr)
+    /// @param slice that of the builder, if it is not for a whole file.
+    template <class... Slice>
+    OffReader(const TextScanner& scanner, const OffHeader& header, FaultLog* faults, Slice&&... slice)
         : scanner_(scanner)
-        , builder_(scanner_, 0, slice)
+        , builder_(scanner_, 0, slice...)
         , header_(header)
     {
         scanner_.note_faults_in(faults);
     }
 
     /// Reads vertices and faces, which are counted together.
-    void read(std::int64_t begin, std::int64_t end);
+    void read(std::int64_t begin, std::int64_t end) { scan_off(scanner_, header_, begin, end, *this); }
 
-    /// Checks that no line is left.
-    void require_end();
+    /// Reads all of them, and nothing may follow.
+    PolygonMesh read_whole();
 
-    PolygonMesh finish()
-    {
-        require_end();
-        return builder_.finish();
-    }
+    /// See scan_off.
+    void position(Index /*v*/, TextScanner& scanner) { builder_.add_vertex(scanner.coordinates()); }
+    void face(TextScanner& scanner);
 
   private:
-    void next_line(const char* what, std::int64_t i, std::int64_t n);
-    void read_face();
-
     TextScanner scanner_;
     MeshBuilder builder_;
     OffHeader header_;
     std::vector<Index> corners_;
 };
 
-void OffReader::read(std::int64_t begin, std::int64_t end)
+PolygonMesh OffReader::read_whole()
 {
-    const std::int64_t n_vertices = header_.n_vertices;
-    for (std::int64_t v = begin; v < std::min(end, n_vertices); ++v) {
-        next_line("vertices", v, n_vertices);
-        builder_.add_vertex(scanner_.coordinates());
-        if (scanner_.crosses_lines())
-            pass_over_numbers(scanner_, header_.n_further_numbers());
-    }
-    for (std::int64_t f = std::max(begin, n_vertices) - n_vertices; f < end - n_vertices; ++f) {
-        next_line("faces", f, header_.n_faces);
-        read_face();
-    }
-}
-
-void OffReader::require_end()
-{
+    builder_.reserve(static_cast<std::uint64_t>(header_.n_vertices), static_cast<std::uint64_t>(header_.n_faces));
+    read(0, header_.n_lines());
     if (scanner_.next_line())
         scanner_.fail(fmt::format("the file continues after the {} vertices and {} faces that its header announces; "
                                   "correct the counts in the header",
                                   header_.n_vertices, header_.n_faces));
+    return builder_.finish();
 }
 
-void OffReader::next_line(const char* what, std::int64_t i, std::int64_t n)
+void OffReader::face(TextScanner& scanner)
 {
-    if (!scanner_.next_line())
-        scanner_.fail(fmt::format("the file ends after {} of {} {}; it has been cut off, or the counts in its header "
-                                  "are wrong: export the mesh again",
-                                  i, n, what));
-}
-
-void OffReader::read_face()
-{
-    const std::int64_t n = scanner_.integer("the number of corners of a face");
+    const std::int64_t n = scanner.integer("the number of corners of a face");
     corners_.clear();
     for (std::int64_t k = 0; k < n; ++k)
         corners_.push_back(
-            builder_.vertex(scanner_.integer("the vertices of all corners of the face"), header_.n_vertices));
+            builder_.vertex(scanner.integer("the vertices of all corners of the face"), header_.n_vertices));
     builder_.add_face(corners_);
 }
 
-std::vector<TextCounts> count_slices(const TextScanner& after_header, std::span<const std::string_view> slices,
-                                     const Executor& exec)
-{
-    std::vector<TextCounts> counts;
-    for (const std::int64_t n : count_lines(after_header, slices, exec))
-        counts.push_back({.n_lines = n});
-    return counts;
-}
-
-Index vertices_before(const TextCounts& counts, const OffHeader& header)
-{
-    return static_cast<Index>(std::min(counts.n_lines, header.n_vertices));
-}
-
+/// @param slices after the header.
 /// @throws InputError if there is any fault, not necessarily naming it.
-PolygonMesh read_slices(const TextScanner& after_header, const OffHeader& header, const TextSlices& slices,
-                        const Executor& exec)
+PolygonMesh read_slices(const TextScanner& after_header, const OffHeader& header,
+                        std::span<const std::string_view> slices, const Executor& exec)
 {
-    if (header.n_vertices == 0 || slices.all.n_lines != header.n_lines())
+    const std::vector<std::int64_t> lines_before = count_lines(after_header, slices, exec);
+    if (header.n_vertices == 0 || lines_before.back() != header.n_lines())
         throw InputError("the file ends too early, or goes on");
-    static_cast<void>(sum_of_counts(0, header.n_vertices));
-    const TextCounts& begin = slices.counts.front();
-    const TextCounts& end = slices.counts.back();
-    const Index first = vertices_before(begin, header);
-    const Index n_vertices = vertices_before(end, header) - first;
     PolygonMesh mesh;
-    mesh.vertices = uninitialised_points(n_vertices);
-    mesh.face_offsets.reserve(static_cast<std::size_t>(end.n_lines - begin.n_lines - n_vertices) + 1);
-    append_faces(mesh, static_cast<Index>(slices.bytes.size()), exec, [&](Index i, PolygonMesh& faces) {
-        OffReader reader(TextScanner(after_header, slices.bytes[i]), header,
-                         {mesh.vertices, vertices_before(slices.counts[i], header), faces, first});
-        reader.read(slices.counts[i].n_lines, slices.counts[i + 1].n_lines);
+    mesh.vertices = uninitialised_points(sum_of_counts(0, header.n_vertices));
+    mesh.face_offsets.reserve(static_cast<std::size_t>(header.n_faces) + 1);
+    append_faces(mesh, static_cast<Index>(slices.size()), exec, [&](Index i, PolygonMesh& faces) {
+        const auto first_vertex = static_cast<Index>(std::min(lines_before[i], header.n_vertices));
+        OffReader reader(TextScanner(after_header, slices[i]), header, nullptr,
+                         MeshSlice{mesh.vertices, first_vertex, faces});
+        reader.read(lines_before[i], lines_before[i + 1]);
     });
     return mesh;
 }
 
-/// Writes the lines of a slice that are vertices.
-/// @param v, end the first of them and the one past the last.
-void rewrite_slice(Splicer splicer, TextScanner scanner, Index v, Index end, const NewVertices<MovedNormals>& now,
-                   const OffHeader& header, const NewColours& colours = {})
+/// @param n_components see fields_of_colours.
+TextColours read_off_colours(const std::filesystem::path& path, std::string_view text, Index n_components,
+                             const Slicing& slicing)
 {
-    for (; v < end; ++v) {
-        scanner.next_line();
-        exchange_position(scanner, splicer, now.position(v));
-        if (header.has_normals()) {
-            const WrittenNormal given = read_normal(scanner);
-            const auto moved = now.normals != nullptr ? now.normals->around_vertex(v, given.value) : std::nullopt;
-            if (moved)
-                exchange_normal(splicer, given, *moved);
-        }
-        colours.exchange(scanner, splicer, v, at(header.n_numbers_behind_colour()));
-        if (scanner.crosses_lines())
-            pass_over_numbers(scanner, header.n_numbers_behind_colour());
-    }
-    splicer.finish();
+    if (start_of_binary_off(text))
+        throw InputError(path.string() + ": no colours of vertices can be read from binary OFF files; convert the mesh "
+                                         "to text OFF or to PLY");
+    TextScanner scanner(path, text);
+    const OffHeader header = read_off_header(scanner);
+    if (!header.has_colours())
+        scanner.fail("the keyword " + in_quotes(std::string(header.prefix) + "OFF") +
+                     " announces no colours of vertices; write them behind the coordinates, and the keyword COFF");
+    return read_text_colours(scanner, slicing, [&](const std::vector<std::string_view>& slices, const Executor& exec) {
+        const std::vector<std::int64_t> lines_before = count_lines(scanner, slices, exec);
+        TextColours colours(static_cast<Index>(header.n_vertices), 4);
+        ColourReader reader{colours, n_components};
+        for_each(exec, static_cast<Index>(slices.size()), [&](Index i) {
+            TextScanner lines(scanner, slices[i], scanner.line());
+            scan_off(lines, header, lines_before[i], lines_before[i + 1], reader);
+        });
+        return colours;
+    });
 }
 
-/// The kinds of the numbers after the coordinates, by the keyword of the file.
-void add_extras_of_keyword(std::vector<std::string>& extras, const OffHeader& header)
-{
-    if (header.has_texture())
-        add_once(extras, "texture coordinates");
-    if (header.has_colours())
-        add_once(extras, "colours");
-    if (header.has_normals())
-        add_once(extras, "normals");
-}
+/// Collects what there is besides the surface; see scan_off.
+struct OffExtrasVisitor {
+    const OffHeader& header;
+    std::vector<std::string>& extras;
+
+    void colour(Index /*v*/, TextScanner& scanner, std::size_t /*n_behind*/)
+    {
+        if (scanner.has_token() && header.prefix.empty())
+            add_once(extras, "further numbers of vertices");
+    }
+    void face(TextScanner& scanner)
+    {
+        if (const std::int64_t n = scanner.integer("corners"); scanner.pass_over_rest() > static_cast<std::size_t>(n))
+            add_once(extras, "colours of faces");
+    }
+};
 
 PolygonMesh read_by_lines(const std::filesystem::path& path, std::string_view text, const Slicing& slicing,
                           FaultLog* faults)
 {
     TextScanner scanner(path, text);
     const OffHeader header = read_off_header(scanner);
-    const auto in_one_go = [&] {
-        OffReader reader(scanner, header, faults);
-        reader.read(0, header.n_lines());
-        return reader.finish();
-    };
+    const auto in_one_go = [&] { return OffReader(scanner, header, faults).read_whole(); };
     if (text.size() <= slicing.bytes)
         return in_one_go();
-    const auto in_slices = [&] {
-        const std::vector<std::string_view> slices = scanner.slices(slicing.bytes);
-        const std::vector<TextCounts> counts = count_slices(scanner, slices, slicing.exec);
-        return read_slices(scanner, header, {slices, counts, counts.back()}, slicing.exec);
-    };
+    const auto in_slices = [&] { return read_slices(scanner, header, scanner.slices(slicing.bytes), slicing.exec); };
     return read_in_slices_if_faultless(in_slices, in_one_go);
-}
-
-/// The header, read to its end, of a file in which line breaks can be blanks; nothing if there is none. This is
-/// unambiguous only if all vertices have equally many numbers, and faces nothing but corners.
-std::optional<OffHeader> read_header_across_lines(TextScanner& scanner)
-{
-    scanner.cross_lines();
-    try {
-        const OffHeader header = read_off_header(scanner);
-        return header.has_colours() ? std::nullopt : std::optional(header);
-    } catch (const InputError&) {
-        return std::nullopt;
-    }
 }
 
 /// Whether a file lacks one line per vertex and face, or its header only makes sense with line breaks as blanks. A file
@@ -226,20 +190,18 @@ bool breaks_lines_freely(const std::filesystem::path& path, std::string_view tex
     }
 }
 
-/// Reads a file with line breaks as blanks; nothing if that fails.
+/// Reads a file with line breaks as blanks; nothing if that fails, or if it is not unambiguous: all vertices must have
+/// equally many numbers, and faces nothing but corners.
 std::optional<PolygonMesh> read_across_lines(const std::filesystem::path& path, std::string_view text,
                                              const Slicing& slicing)
 {
     if (!breaks_lines_freely(path, text, slicing))
         return std::nullopt;
     TextScanner scanner(path, text);
-    const auto header = read_header_across_lines(scanner);
-    if (!header)
-        return std::nullopt;
+    scanner.cross_lines();
     try {
-        OffReader reader(scanner, *header, nullptr);
-        reader.read(0, header->n_lines());
-        return reader.finish();
+        const OffHeader header = read_off_header(scanner);
+        return header.has_colours() ? std::nullopt : std::optional(OffReader(scanner, header, nullptr).read_whole());
     } catch (const InputError&) {
         return std::nullopt;
     }
@@ -304,19 +266,30 @@ std::vector<std::string> rewrite_off(OutputFile& file, const std::filesystem::pa
     FaultLog known_faults{.of_faces_alone = true};
     if (header.has_normals())
         normals.emplace(mesh, read_off(path, content, slicing, &known_faults).vertices, slicing.exec, seam_distance);
-    const NewVertices<MovedNormals> now{mesh.vertices, 0, normals ? &*normals : nullptr};
+    const auto rewrite = [&](ByteWriter& to, std::string_view bytes, TextScanner from, std::int64_t begin,
+                             std::int64_t end) {
+        VertexRewriter rewriter{Splicer(to, bytes), mesh.vertices, colours,
+                                [&](Index v, const Point& given) { return normals->around_vertex(v, given); }};
+        scan_off(from, header, begin, end, rewriter);
+        rewriter.splicer.finish();
+    };
     if (crosses_lines) {
-        rewrite_slice(Splicer(file, content), scanner, 0, mesh.n_vertices(), now, header);
+        rewrite(file, content, scanner, 0, header.n_lines());
         return colours.remarks();
     }
     const std::vector<std::string_view> slices = scanner.slices(slicing.bytes);
-    const std::vector<TextCounts> counts = count_slices(scanner, slices, slicing.exec);
+    const std::vector<std::int64_t> lines_before = count_lines(scanner, slices, slicing.exec);
     file.text(content.substr(0, content.size() - scanner.rest().size()));
     file.slices(static_cast<Index>(slices.size()), slicing.exec, [&](Index i, OutputBuffer& slice) {
-        rewrite_slice(Splicer(slice, slices[i]), TextScanner(scanner, slices[i]), vertices_before(counts[i], header),
-                      vertices_before(counts[i + 1], header), now, header, colours);
+        rewrite(slice, slices[i], TextScanner(scanner, slices[i]), lines_before[i], lines_before[i + 1]);
     });
     return colours.remarks();
+}
+
+FileFields read_off_fields(const std::filesystem::path& path, std::string_view text, std::span<const std::string> names,
+                           const Slicing& slicing)
+{
+    return fields_of_colours(path, names, [&](Index n) { return read_off_colours(path, text, n, slicing); });
 }
 
 std::vector<std::string> extras_of_off(const std::filesystem::path& path, std::string_view content)
@@ -329,15 +302,16 @@ std::vector<std::string> extras_of_off(const std::filesystem::path& path, std::s
     if (crosses_lines)
         scanner.cross_lines();
     const OffHeader header = read_off_header(scanner);
-    add_extras_of_keyword(extras, header);
+    if (header.has_texture())
+        add_once(extras, "texture coordinates");
+    if (header.has_colours())
+        add_once(extras, "colours");
+    if (header.has_normals())
+        add_once(extras, "normals");
     if (crosses_lines)
         return extras;
-    for (std::int64_t v = 0; v < header.n_vertices && scanner.next_line(); ++v)
-        if (scanner.pass_over_rest() > 3 && header.prefix.empty())
-            add_once(extras, "further numbers of vertices");
-    for (std::int64_t f = 0; f < header.n_faces && scanner.next_line(); ++f)
-        if (const std::int64_t n = scanner.integer("corners"); scanner.pass_over_rest() > static_cast<std::size_t>(n))
-            add_once(extras, "colours of faces");
+    OffExtrasVisitor visitor{header, extras};
+    scan_off(scanner, header, 0, header.n_lines(), visitor);
     return extras;
 }
 

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -39,6 +40,12 @@ void write_off(OutputFile& file, const PolygonMesh& mesh, const Slicing& slicing
 std::vector<std::string> rewrite_off(OutputFile& file, const std::filesystem::path& path, std::string_view content,
                                      const PolygonMesh& mesh, const Slicing& slicing, const FileFields& fields = {},
                                      double seam_distance = 0.0);
+
+/// Reads the colours of the vertices of a file in text, whose keyword has a C, as fields; see fields_of_colours.
+/// @param path for messages only.
+/// @throws InputError naming the line of a vertex without colour; also for other files.
+FileFields read_off_fields(const std::filesystem::path& path, std::string_view text, std::span<const std::string> names,
+                           const Slicing& slicing);
 
 /// Content besides the surface, in a few words each; comments do not count.
 /// @param path for messages only.

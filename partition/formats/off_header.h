@@ -5,7 +5,7 @@
 #include <optional>
 #include <string_view>
 
-#include "partition/index.h"
+#include "partition/formats/text_vertices.h"
 #include "partition/io/text_scanner.h"
 
 namespace seamflow {
@@ -23,12 +23,7 @@ struct OffHeader {
     [[nodiscard]] bool has_texture() const { return prefix.find("ST") != std::string_view::npos; }
     [[nodiscard]] bool has_colours() const { return prefix.find('C') != std::string_view::npos; }
 
-    /// How many numbers a vertex has before its colour and behind it.
-    [[nodiscard]] Index n_numbers_before_colour() const { return has_normals() ? 6 : 3; }
-    [[nodiscard]] Index n_numbers_behind_colour() const { return has_texture() ? 2 : 0; }
-
-    /// How many numbers a vertex has after its coordinates, if it has no colours, whose number varies.
-    [[nodiscard]] Index n_further_numbers() const { return (has_normals() ? 3 : 0) + (has_texture() ? 2 : 0); }
+    [[nodiscard]] VertexLayout layout() const { return {has_normals(), has_texture() ? 2 : 0}; }
 };
 
 /// Where the data begin if the first line is `OFF BINARY`, else nothing.

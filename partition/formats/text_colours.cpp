@@ -3,15 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <limits>
 #include <string>
 
 #include <fmt/format.h>
 
 #include "partition/errors.h"
-#include "partition/formats/obj.h"
-#include "partition/formats/off_header.h"
 
 namespace seamflow {
 
@@ -44,59 +41,12 @@ WrittenColour read_colour(TextScanner& scanner, std::size_t n_behind)
     return colour;
 }
 
-/// Reads the colours of some lines.
-class ColourReader {
-  public:
-    ColourReader(TextColours& colours, Index n_components, std::size_t n_behind)
-        : colours_(colours)
-        , n_components_(static_cast<std::size_t>(n_components))
-        , n_behind_(n_behind)
-    {
-    }
-
-    /// @param scanner stands before the colour of vertex v.
-    void read(TextScanner& scanner, Index v)
-    {
-        const WrittenColour colour = read_colour(scanner, n_behind_);
-        if (colour.count < n_components_ || colour.count > colour_names.size())
-            scanner.fail(fmt::format("vertex {} (numbered from 0) has {} where the {} numbers of a colour should be; "
-                                     "give each vertex a colour, or name no colours",
-                                     v, counted(colour.count, "number", "numbers"), n_components_));
-        colours_.row(v).setZero();
-        for (std::size_t k = 0; k < colour.count; ++k) {
-            if (std::isnan(colour.numbers[k].value))
-                scanner.fail("expected a colour, but found " + in_quotes(colour.numbers[k].part) +
-                             "; write a finite number such as 0.5 or 128");
-            colours_(v, static_cast<Index>(k)) = colour.numbers[k].value;
-        }
-    }
-
-  private:
-    TextColours& colours_;
-    std::size_t n_components_;
-    std::size_t n_behind_;
-};
-
-void pass_over_tokens(TextScanner& scanner, Index n)
-{
-    for (; n > 0; --n)
-        scanner.token();
-}
-
-/// Reads slices several at a time; those with a fault in one go, which names the line.
-/// @param read called with slices and an executor.
-TextColours read_text(const TextScanner& after_header, const Slicing& slicing, const auto& read)
-{
-    return read_in_slices_if_faultless([&] { return read(after_header.slices(slicing.bytes), slicing.exec); },
-                                       [&] { return read({after_header.rest()}, Executor(run_serially)); });
-}
-
 bool is_colour(std::string_view name)
 {
     return std::ranges::find(colour_names, name) != colour_names.end();
 }
 
-/// The largest whole number of a colour, if that is what colours are: see NewColours::find_scale.
+/// The largest whole number of a colour, if that is what colours are: see NewColours.
 std::optional<double> largest_whole(const TextColours& written)
 {
     const auto is_whole = [](double value) { return std::trunc(value) == value; };
@@ -105,8 +55,26 @@ std::optional<double> largest_whole(const TextColours& written)
     return {};
 }
 
-/// @param read as in NewColours.
-FileFields fields_of_colours(const std::filesystem::path& path, std::span<const std::string> names, const auto& read)
+}  // namespace
+
+void ColourReader::colour(Index v, TextScanner& scanner, std::size_t n_behind) const
+{
+    const WrittenColour colour = read_colour(scanner, n_behind);
+    if (colour.count < at(n_components) || colour.count > colour_names.size())
+        scanner.fail(fmt::format("vertex {} (numbered from 0) has {} where the {} numbers of a colour should be; "
+                                 "give each vertex a colour, or name no colours",
+                                 v, counted(colour.count, "number", "numbers"), n_components));
+    colours.row(v).setZero();
+    for (std::size_t k = 0; k < colour.count; ++k) {
+        if (std::isnan(colour.numbers[k].value))
+            scanner.fail("expected a colour, but found " + in_quotes(colour.numbers[k].part) +
+                         "; write a finite number such as 0.5 or 128");
+        colours(v, static_cast<Index>(k)) = colour.numbers[k].value;
+    }
+}
+
+FileFields fields_of_colours(const std::filesystem::path& path, std::span<const std::string> names,
+                             const std::function<TextColours(Index n_components)>& read)
 {
     FileFields fields{names_of_fields(path, names, is_colour)};
     for (const std::string& name : fields.names)
@@ -126,71 +94,9 @@ FileFields fields_of_colours(const std::filesystem::path& path, std::span<const 
     return fields;
 }
 
-}  // namespace
-
-TextColours read_obj_colours(const std::filesystem::path& path, std::string_view text, Index n_components,
-                             const Slicing& slicing)
-{
-    const TextScanner whole(path, text, obj_syntax);
-    return read_text(whole, slicing, [&](const std::vector<std::string_view>& slices, const Executor& exec) {
-        const std::vector<TextCounts> counts = count_obj(whole, slices, exec);
-        TextColours colours(static_cast<Index>(counts.back().n_vertices), 4);
-        for_each(exec, static_cast<Index>(slices.size()), [&](Index i) {
-            TextScanner scanner(whole, slices[i]);
-            ColourReader reader(colours, n_components, 0);
-            auto v = static_cast<Index>(counts[i].n_vertices);
-            while (scanner.next_line()) {
-                if (scanner.token() != "v")
-                    continue;
-                pass_over_tokens(scanner, 3);
-                reader.read(scanner, v++);
-            }
-        });
-        return colours;
-    });
-}
-
-TextColours read_off_colours(const std::filesystem::path& path, std::string_view text, Index n_components,
-                             const Slicing& slicing)
-{
-    if (start_of_binary_off(text))
-        throw InputError(path.string() + ": no colours of vertices can be read from binary OFF files; convert the mesh "
-                                         "to text OFF or to PLY");
-    TextScanner scanner(path, text);
-    const OffHeader header = read_off_header(scanner);
-    if (!header.has_colours())
-        scanner.fail("the keyword " + in_quotes(std::string(header.prefix) + "OFF") +
-                     " announces no colours of vertices; write them behind the coordinates, and the keyword COFF");
-    const auto n_vertices = static_cast<Index>(header.n_vertices);
-    return read_text(scanner, slicing, [&](const std::vector<std::string_view>& slices, const Executor& exec) {
-        const std::vector<std::int64_t> lines_before = count_lines(scanner, slices, exec);
-        TextColours colours(n_vertices, 4);
-        for_each(exec, static_cast<Index>(slices.size()), [&](Index i) {
-            TextScanner lines(scanner, slices[i], scanner.line());
-            ColourReader reader(colours, n_components, at(header.n_numbers_behind_colour()));
-            const auto end = static_cast<Index>(std::min(lines_before[i + 1], header.n_vertices));
-            for (auto v = static_cast<Index>(lines_before[i]); v < end && lines.next_line(); ++v) {
-                pass_over_tokens(lines, header.n_numbers_before_colour());
-                reader.read(lines, v);
-            }
-        });
-        return colours;
-    });
-}
-
-FileFields read_obj_fields(const std::filesystem::path& path, std::string_view text, std::span<const std::string> names,
-                           const Slicing& slicing)
-{
-    return fields_of_colours(path, names, [&](Index n) { return read_obj_colours(path, text, n, slicing); });
-}
-
-FileFields read_off_fields(const std::filesystem::path& path, std::string_view text, std::span<const std::string> names,
-                           const Slicing& slicing)
-{
-    return fields_of_colours(path, names, [&](Index n) { return read_off_colours(path, text, n, slicing); });
-}
-
-void NewColours::require_colours(const std::filesystem::path& target, const FileFields& fields)
+NewColours::NewColours(const std::filesystem::path& target, const FileFields& fields,
+                       const std::function<TextColours(Index n_components)>& read)
+    : fields_(fields)
 {
     for (const std::string& name : fields.names)
         if (!is_colour(name))
@@ -198,11 +104,9 @@ void NewColours::require_colours(const std::filesystem::path& target, const File
                               in_quotes(name) + "; write a .ply file, which holds any");
     if (fields.values.hasNaN())
         throw OutputError(target.string() + ": cannot be written: a colour is not a number; give each vertex a colour");
-}
-
-void NewColours::find_scale(const TextColours& written)
-{
-    largest_ = largest_whole(written);
+    std::ranges::transform(colour_names, columns_.begin(), [&](auto name) { return fields.column(name); });
+    if (has_any())
+        largest_ = largest_whole(read(columns_.back() >= 0 ? 4 : 3));
 }
 
 std::vector<std::string> NewColours::remarks() const
@@ -211,7 +115,7 @@ std::vector<std::string> NewColours::remarks() const
     for (std::size_t k = 0; k < columns_.size() && largest_; ++k) {
         if (columns_[k] < 0)
             continue;
-        const auto values = fields_->values.col(columns_[k]);
+        const auto values = fields_.values.col(columns_[k]);
         if (std::round(values.minCoeff()) < 0.0 || std::round(values.maxCoeff()) > *largest_)
             remarks.push_back(clamping_remark(colour_names[k], fmt::format("0 to {}", *largest_)));
     }
@@ -226,7 +130,7 @@ void NewColours::exchange(TextScanner& scanner, Splicer& splicer, Index v, std::
     for (std::size_t k = 0; k < std::min(colour.count, columns_.size()); ++k) {
         if (columns_[k] < 0)
             continue;
-        const double after = fields_->values(v, columns_[k]);
+        const double after = fields_.values(v, columns_[k]);
         if (!differ(colour.numbers[k].value, after))
             continue;
         ByteWriter& file = splicer.exchange(colour.numbers[k].part);

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -21,63 +22,77 @@ inline constexpr std::array<std::string_view, 4> colour_names = {"red", "green",
 /// #V by 4. The alpha of a colour that has none is 0.
 using TextColours = Eigen::Matrix<double, Eigen::Dynamic, colour_names.size()>;
 
-/// Reads the colours in an OBJ file: the numbers behind the coordinates in the lines `v`.
-/// @param path for messages only. @param n_components 3, or 4: all colours must have alpha.
-/// @throws InputError naming the line of a vertex without colour.
-TextColours read_obj_colours(const std::filesystem::path& path, std::string_view text, Index n_components,
-                             const Slicing& slicing);
+/// Reads the colours of vertices; see scan_vertex. Several threads may use one.
+struct ColourReader {
+    /// Has a row for each vertex.
+    TextColours& colours;
+    /// 3, or 4: all colours must have alpha.
+    Index n_components;
 
-/// The same for an OFF file, in text, whose keyword has a C.
-/// @throws InputError naming the line; also for other keywords.
-TextColours read_off_colours(const std::filesystem::path& path, std::string_view text, Index n_components,
-                             const Slicing& slicing);
+    /// @throws InputError for a vertex without colour.
+    void colour(Index v, TextScanner& scanner, std::size_t n_behind) const;
+};
 
-/// Those of some names, as fields.
+/// Reads the slices of a text several at a time; if they have a fault, all in one, which names the line.
+/// @param read called with slices and an executor.
+TextColours read_text_colours(const TextScanner& after_header, const Slicing& slicing, const auto& read)
+{
+    return read_in_slices_if_faultless([&] { return read(after_header.slices(slicing.bytes), slicing.exec); },
+                                       [&] { return read({after_header.rest()}, Executor(run_serially)); });
+}
+
+/// Colours as fields.
+/// @param read gives the colours of a file, for a number of components as above.
 /// @throws InputError also for other names than colour_names and their groups; see names_of_fields.
-FileFields read_obj_fields(const std::filesystem::path& path, std::string_view text, std::span<const std::string> names,
-                           const Slicing& slicing);
-FileFields read_off_fields(const std::filesystem::path& path, std::string_view text, std::span<const std::string> names,
-                           const Slicing& slicing);
+FileFields fields_of_colours(const std::filesystem::path& path, std::span<const std::string> names,
+                             const std::function<TextColours(Index n_components)>& read);
 
 /// The colours of `fields` for a text file.
 class NewColours {
   public:
-    /// None.
-    NewColours() = default;
-
     /// @param target the file to write. @param fields must outlive this object.
-    /// @param read gives the colours that the file has, for a number of components as above.
+    /// @param read gives the colours that the file has, see fields_of_colours.
     /// @throws OutputError for fields that are no colours, and for NaN.
-    NewColours(const std::filesystem::path& target, const FileFields& fields, const auto& read)
-        : fields_(&fields)
-    {
-        require_colours(target, fields);
-        for (Index k = 0; k < static_cast<Index>(colour_names.size()); ++k)
-            columns_[k] = fields.column(colour_names[k]);
-        if (has_any())
-            find_scale(read(columns_.back() >= 0 ? 4 : 3));
-    }
+    NewColours(const std::filesystem::path& target, const FileFields& fields,
+               const std::function<TextColours(Index n_components)>& read);
 
     [[nodiscard]] bool has_any() const { return columns_ != no_columns; }
 
     /// Replaces the colour of vertex v.
     /// @param scanner stands before it. @param n_behind how many numbers of the line follow the colour.
-    void exchange(TextScanner& scanner, Splicer& splicer, Index v, std::size_t n_behind = 0) const;
+    void exchange(TextScanner& scanner, Splicer& splicer, Index v, std::size_t n_behind) const;
 
     /// Sentences for the user: colours that are kept within their range.
     [[nodiscard]] std::vector<std::string> remarks() const;
 
   private:
-    static void require_colours(const std::filesystem::path& target, const FileFields& fields);
-    /// Colours are whole numbers if all those of the file are and some exceed 1. They reach from 0 to 255, or to the
-    /// largest of the file.
-    void find_scale(const TextColours& written);
-
     static constexpr std::array<Index, colour_names.size()> no_columns = {-1, -1, -1, -1};
-    const FileFields* fields_ = nullptr;
+    const FileFields& fields_;
     std::array<Index, colour_names.size()> columns_ = no_columns;
-    /// Nothing if colours are not whole.
+    /// Colours are whole numbers if all those of the file are and some exceed 1. They reach from 0 to 255, or to the
+    /// largest of the file. Nothing if they are not whole.
     std::optional<double> largest_;
+};
+
+/// Writes the vertices of a file, or a slice of it, with new data; see scan_vertex.
+struct VertexRewriter {
+    Splicer splicer;
+    const Points& positions;
+    const NewColours& colours;
+    /// What normal n becomes, or nothing.
+    std::function<std::optional<Point>(Index n, const Point& given)> new_normal;
+
+    void position(Index v, TextScanner& scanner) { exchange_position(scanner, splicer, positions.row(v)); }
+    void normal(Index n, TextScanner& scanner)
+    {
+        const WrittenNormal given = read_normal(scanner);
+        if (const std::optional<Point> now = new_normal(n, given.value))
+            exchange_normal(splicer, given, *now);
+    }
+    void colour(Index v, TextScanner& scanner, std::size_t n_behind)
+    {
+        colours.exchange(scanner, splicer, v, n_behind);
+    }
 };
 
 }  // namespace seamflow

@@ -46,7 +46,6 @@ MeshBuilder::MeshBuilder(const InputPosition& position, Index first_number, cons
     : position_(position)
     , first_number_(first_number)
     , n_vertices_(slice.first_vertex)
-    , first_row_(slice.first_row)
     , vertices_(&slice.vertices)
     , mesh_(slice.faces)
 {
@@ -64,7 +63,7 @@ void MeshBuilder::add_vertex(const std::array<double, 3>& position)
     if (at(n_vertices_) >= most)
         position_.fail(fmt::format("more than {} vertices; divide the mesh into several files", most));
     if (vertices_ != nullptr)
-        vertices_->row(n_vertices_ - first_row_) << position[0], position[1], position[2];
+        vertices_->row(n_vertices_) << position[0], position[1], position[2];
     else
         coordinates_.insert(coordinates_.end(), position.begin(), position.end());
     ++n_vertices_;

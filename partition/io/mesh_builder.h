@@ -20,14 +20,12 @@ void find_distinct_corners(std::span<const Index> corners, std::vector<Index>& p
 
 /// Where the elements of one slice of a file belong.
 struct MeshSlice {
-    /// Those of the whole file, with room for all, or those from `first_row` on.
+    /// Those of the whole file, with room for all.
     Points& vertices;
     /// The first of the slice.
     Index first_vertex;
     /// Gets the faces of the slice.
     PolygonMesh& faces;
-    /// The vertex of the file whose position is the first of `vertices`.
-    Index first_row = 0;
 };
 
 /// Collects the vertices and faces that a reader finds, and checks each face on its way in. Where faults are noted
@@ -80,7 +78,6 @@ class MeshBuilder {
     const InputPosition& position_;
     Index first_number_;
     Index n_vertices_ = 0;
-    Index first_row_ = 0;
     /// Those that were left out included.
     Index n_faces_ = 0;
     std::vector<double> coordinates_;

@@ -11,7 +11,7 @@
 #include <fmt/format.h>
 
 #include "partition/errors.h"
-#include "partition/formats/obj.h"
+#include "partition/formats/obj_scan.h"
 #include "partition/io/input_file.h"
 #include "partition/io/mesh_builder.h"
 #include "samples/page/texture_images.h"
@@ -101,12 +101,14 @@ class ObjColourReader {
 
     FileColours read();
 
+    /// See scan_obj.
+    void colour(Index v, TextScanner& scanner, std::size_t n_behind);
+    void face(TextScanner& scanner, const ObjCounts& before);
+    void other(std::string_view keyword);
+
   private:
-    void read_vertex();
-    void read_face();
     void read_library();
-    void use_material(const std::string& name);
-    Index read_place();
+    [[nodiscard]] Index place_of(std::string_view attributes) const;
     void drop_what_is_not_shown();
 
     const std::filesystem::path& path_;
@@ -115,7 +117,6 @@ class ObjColourReader {
     std::span<const Index> left_out_;
     FileColours result_;
     std::vector<std::array<double, 3>> colours_;
-    Index n_vertices_ = 0;
     Index n_faces_of_file_ = 0;
     std::string material_;
     Descriptions descriptions_;
@@ -123,30 +124,26 @@ class ObjColourReader {
     std::vector<std::string> names_;
 };
 
-void ObjColourReader::read_vertex()
+void ObjColourReader::colour(Index /*v*/, TextScanner& scanner, std::size_t /*n_behind*/)
 {
     std::vector<double> numbers;
-    while (scanner_.has_token())
-        numbers.push_back(scanner_.number_or_nan());
-    ++n_vertices_;
-    if (numbers.size() >= 6)
+    while (scanner.has_token())
+        numbers.push_back(scanner.number_or_nan());
+    if (numbers.size() >= 3)
         colours_.push_back({numbers[numbers.size() - 3], numbers[numbers.size() - 2], numbers[numbers.size() - 1]});
 }
 
 /// For a corner such as 7/2, 7/2/1 or 7/-1, the place behind its first slash; the first place if there is none.
-Index ObjColourReader::read_place()
+Index ObjColourReader::place_of(std::string_view attributes) const
 {
-    const std::string_view corner = scanner_.token();
-    const std::size_t slash = corner.find('/');
-    const auto n = static_cast<std::int64_t>(result_.places.size());
     std::int64_t number = 0;
-    if (slash != std::string_view::npos)
-        std::from_chars(corner.data() + slash + 1, corner.data() + corner.size(), number);
-    const std::int64_t place = number < 0 ? n + number : number - 1;
+    if (!attributes.empty())
+        std::from_chars(attributes.data() + 1, attributes.data() + attributes.size(), number);
+    const std::int64_t place = number < 0 ? static_cast<std::int64_t>(result_.places.size()) + number : number - 1;
     return place >= 0 && place < (std::int64_t{1} << 31) - 1 ? static_cast<Index>(place) : 0;
 }
 
-void ObjColourReader::read_face()
+void ObjColourReader::face(TextScanner& scanner, const ObjCounts& /*before*/)
 {
     const Index number = n_faces_of_file_++;
     if (std::binary_search(left_out_.begin(), left_out_.end(), number))
@@ -154,11 +151,10 @@ void ObjColourReader::read_face()
     const auto f = static_cast<Index>(result_.material_of_face.size());
     std::vector<Index> vertices;
     std::vector<Index> places;
-    while (scanner_.has_token()) {
-        std::string_view corner = scanner_.peek();
-        corner.remove_prefix(corner.starts_with('+') ? 1 : 0);
-        std::from_chars(corner.data(), corner.data() + corner.size(), vertices.emplace_back(0));
-        places.push_back(read_place());
+    while (scanner.has_token()) {
+        const auto [vertex, attributes] = read_obj_corner(scanner, "a vertex number");
+        vertices.push_back(static_cast<Index>(vertex));
+        places.push_back(place_of(attributes));
     }
     std::vector<Index> distinct;
     find_distinct_corners(vertices, distinct);
@@ -206,26 +202,25 @@ void ObjColourReader::drop_what_is_not_shown()
         place = at(place) < result_.places.size() ? place : 0;
 }
 
+void ObjColourReader::other(std::string_view keyword)
+{
+    if (keyword == "vt") {
+        const float u = finite_part(scanner_.number_or_nan());
+        const float v = scanner_.has_token() ? finite_part(scanner_.number_or_nan()) : 0.0F;
+        result_.places.push_back({u, v});
+    } else if (keyword == "usemtl") {
+        material_ = rest_of(scanner_);
+    } else if (keyword == "mtllib") {
+        read_library();
+    }
+}
+
 FileColours ObjColourReader::read()
 {
-    while (scanner_.next_line()) {
-        const std::string_view keyword = scanner_.token();
-        if (keyword == "v")
-            read_vertex();
-        else if (is_obj_face(keyword))
-            read_face();
-        else if (keyword == "vt") {
-            const float u = finite_part(scanner_.number_or_nan());
-            const float v = scanner_.has_token() ? finite_part(scanner_.number_or_nan()) : 0.0F;
-            result_.places.push_back({u, v});
-        } else if (keyword == "usemtl")
-            material_ = rest_of(scanner_);
-        else if (keyword == "mtllib")
-            read_library();
-    }
-    if (n_vertices_ != mesh_.n_vertices() || at(mesh_.n_faces()) != result_.material_of_face.size())
+    const std::int64_t n_vertices = scan_obj(scanner_, *this).n_vertices;
+    if (n_vertices != mesh_.n_vertices() || at(mesh_.n_faces()) != result_.material_of_face.size())
         throw InputError(path_.string() + ": the file is not that of the mesh");
-    if (colours_.size() == at(n_vertices_)) {
+    if (colours_.size() == at(mesh_.n_vertices())) {
         const bool is_to_255 = std::any_of(colours_.begin(), colours_.end(), [](const auto& colour) {
             return std::any_of(colour.begin(), colour.end(), [](double part) { return part > 1.0; });
         });

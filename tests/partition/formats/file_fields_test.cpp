@@ -15,7 +15,6 @@
 #include "partition/formats/obj.h"
 #include "partition/formats/off.h"
 #include "partition/formats/ply.h"
-#include "partition/formats/text_colours.h"
 #include "partition/io/byte_order.h"
 #include "tests/support/mesh_files.h"
 #include "tests/support/temporary_directory.h"

@@ -14,6 +14,7 @@
 
 #include "partition/errors.h"
 #include "partition/formats/obj.h"
+#include "partition/formats/obj_scan.h"
 #include "partition/io/plain_numbers.h"
 #include "partition/io/text_scanner.h"
 #include "samples/meshes/random_numbers.h"

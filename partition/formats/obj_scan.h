@@ -1,0 +1,131 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include "partition/executor.h"
+#include "partition/formats/text_vertices.h"
+#include "partition/index.h"
+#include "partition/io/plain_line.h"
+#include "partition/io/text_scanner.h"
+
+/// The grammar of Wavefront OBJ.
+namespace seamflow {
+
+inline constexpr TextSyntax obj_syntax = {.comment = '#', .continuation = true};
+
+/// How many lines `v` and `vn` there are up to a place in a file.
+struct ObjCounts {
+    std::int64_t n_vertices = 0;
+    std::int64_t n_normals = 0;
+
+    friend bool operator==(const ObjCounts&, const ObjCounts&) = default;
+};
+
+/// A corner of a face, or of a polyline, as written.
+struct ObjCorner {
+    /// From 1; a negative one is counted back from the line.
+    std::int64_t vertex;
+    /// What follows the vertex, as in 7/1, 7//2 or 7/1/2; it may be anything.
+    std::string_view attributes;
+};
+
+/// Reads the next corner of the line. @param what is expected, for the message.
+/// @throws InputError if it does not begin with a whole number.
+ObjCorner read_obj_corner(TextScanner& scanner, const char* what);
+
+/// "names vertex -3, counted back …": the complaint about a vertex before the first.
+/// @param n number of vertices before the line. @param remedy what to do.
+std::string counted_back_too_far(std::int64_t vertex, std::int64_t n, const char* remedy);
+
+/// A visitor of nothing, for the counts.
+struct ObjCounter {};
+
+/// Whether a line that begins with this word describes a face.
+inline bool is_obj_face(std::string_view keyword)
+{
+    return keyword.starts_with('f') && (keyword.size() == 1 || keyword == "fo");
+}
+
+/// Scans the next line if it is a vertex or a face in the commonest form, without fault; see scan_obj.
+/// @param corners scratch.
+template <class Visitor>
+bool scan_plain_obj_line(TextScanner& scanner, Visitor& visitor, ObjCounts& counts, std::vector<Index>& corners)
+{
+    std::array<double, 3> position{};
+    if (scanner.next_plain_line([&](PlainLine& line) {
+            return line.keyword('v') && line.real(position[0]) && line.real(position[1]) && line.real(position[2]) &&
+                   line.ends();
+        })) {
+        visitor.plain_vertex(position);
+        ++counts.n_vertices;
+        return true;
+    }
+    corners.clear();
+    const bool is_face = scanner.next_plain_line([&](PlainLine& line) {
+        bool goes_on = line.keyword('f');
+        for (std::uint64_t number = 0; goes_on && !line.ends(); corners.push_back(static_cast<Index>(number - 1)))
+            goes_on = line.corner(number) && number > 0 && number <= static_cast<std::uint64_t>(counts.n_vertices);
+        return goes_on;
+    });
+    if (is_face)
+        visitor.plain_face(corners);
+    return is_face;
+}
+
+/// Scans a file, or a slice of it, with a TextScanner. Of these functions the visitor has those that it needs, besides
+/// those of scan_vertex for lines `v`:
+/// - normal(n, scanner): reads the line `vn` number n from its first number on;
+/// - face(scanner, counts): reads a face from its first corner on; the counts are those before it;
+/// - line(scanner, counts): the same for a polyline;
+/// - other(keyword): any other statement;
+/// - plain_vertex(position) and plain_face(vertices): get vertices, and faces of vertices before them, whose lines are
+///   in the commonest form; then the functions above get only other lines.
+/// @param counts of what precedes the slice. @param end of what precedes the next one, for a visitor of vertices and
+/// normals alone: it is done when it has seen the last of them.
+/// @returns the counts at the end.
+template <class Visitor>
+ObjCounts scan_obj(auto&& scanner, Visitor& visitor, ObjCounts counts = {}, const ObjCounts& end = {-1, -1})
+{
+    constexpr bool counts_alone = std::is_same_v<Visitor, ObjCounter>;
+    std::vector<Index> corners;
+    while (counts != end) {
+        if constexpr (requires { visitor.plain_face(corners); })
+            if (scan_plain_obj_line(scanner, visitor, counts, corners))
+                continue;
+        const std::string_view keyword = counts_alone          ? scanner.next_keyword()
+                                         : scanner.next_line() ? scanner.token()
+                                                               : std::string_view();
+        if (keyword.empty())
+            break;
+        if (keyword == "v") {
+            scan_vertex(scanner, static_cast<Index>(counts.n_vertices), {}, visitor);
+            ++counts.n_vertices;
+        } else if (keyword == "vn") {
+            if constexpr (requires { visitor.normal(Index{}, scanner); })
+                visitor.normal(static_cast<Index>(counts.n_normals), scanner);
+            ++counts.n_normals;
+        } else if (is_obj_face(keyword)) {
+            if constexpr (requires { visitor.face(scanner, counts); })
+                visitor.face(scanner, counts);
+        } else if (keyword == "l") {
+            if constexpr (requires { visitor.line(scanner, counts); })
+                visitor.line(scanner, counts);
+        } else if constexpr (requires { visitor.other(keyword); }) {
+            visitor.other(keyword);
+        }
+    }
+    return counts;
+}
+
+/// The counts before each slice of a file and, at the end, of the whole file.
+/// @throws InputError if there are more than 2^31 - 1 of a kind.
+std::vector<ObjCounts> count_obj(const TextScanner& whole, std::span<const std::string_view> slices,
+                                 const Executor& exec);
+
+}  // namespace seamflow

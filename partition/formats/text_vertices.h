@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstddef>
+
+#include "partition/index.h"
+#include "partition/io/text_scanner.h"
+
+/// Vertices in lines of text: what the scans of OBJ and OFF have in common.
+namespace seamflow {
+
+/// What follows the coordinates of a vertex: perhaps a normal, then as many numbers of a colour as there are.
+struct VertexLayout {
+    bool has_normal = false;
+    /// How many numbers follow the colour.
+    Index n_behind_colour = 0;
+};
+
+/// Visits the numbers of a vertex. Of these functions the visitor has those that it needs:
+/// - position(v, scanner): reads the three coordinates;
+/// - normal(v, scanner): reads the three numbers of the normal;
+/// - colour(v, scanner, n_behind): reads the rest of the line, whose last n_behind numbers are no colour.
+/// @param scanner stands before the coordinates. Where line ends are blanks, it is taken past the vertex, which then
+/// has no colour.
+template <class Visitor>
+void scan_vertex(TextScanner& scanner, Index v, const VertexLayout& layout, Visitor& visitor)
+{
+    constexpr bool visits_colour = requires
+    {
+        visitor.colour(v, scanner, std::size_t{});
+    };
+    const bool goes_on = visits_colour || scanner.crosses_lines();
+    const auto pass_over = [&](Index n) {
+        for (; goes_on && n > 0; --n)
+            scanner.token();
+    };
+    if constexpr (requires { visitor.position(v, scanner); })
+        visitor.position(v, scanner);
+    else
+        pass_over(3);
+    if (layout.has_normal) {
+        if constexpr (requires { visitor.normal(v, scanner); })
+            visitor.normal(v, scanner);
+        else
+            pass_over(3);
+    }
+    if (scanner.crosses_lines())
+        pass_over(layout.n_behind_colour);
+    else if constexpr (visits_colour)
+        visitor.colour(v, scanner, at(layout.n_behind_colour));
+}
+
+}  // namespace seamflow
