@@ -53,17 +53,15 @@ SparsePattern make_large_pattern(Index n, const std::vector<MatrixEntry>& entrie
 
 }  // namespace
 
-WholeSystem::WholeSystem(const PolygonMesh& mesh, const Topology& topology, Laplacian laplacian, SystemForm form,
-                         StorageOrder order)
+WholeSystem::WholeSystem(const PolygonMesh& mesh, const Topology& topology, Laplacian laplacian, StorageOrder order)
     : topology_(&topology)
-    , form_(form)
     , order_(order)
     , assembler_(make_assembler(laplacian, faces_of(mesh, topology)))
 {
-    assert(form == SystemForm::AsTheyStand || laplacian != Laplacian::PtackovaVelho);
+    assert(laplacian != Laplacian::PtackovaVelho);
     std::vector<Index> unknown_of(mesh.n_vertices(), -1);
     for (Index v = 0; v < mesh.n_vertices(); ++v)
-        if (form == SystemForm::AsTheyStand || topology.moves(v)) {
+        if (topology.moves(v)) {
             unknown_of[v] = static_cast<Index>(vertices_.size());
             vertices_.push_back(v);
         }
@@ -113,8 +111,7 @@ void WholeSystem::assemble(const Points& positions, double time_step)
     for (const Index slot : diagonal_slots_)
         values_[slot] += 1.0;
     right_hand_side_ = unknowns_at(positions);
-    if (form_ == SystemForm::Symmetric)
-        make_symmetric(positions);
+    make_symmetric(positions);
     if (!std::all_of(values_.begin(), values_.end() - 1, [](double value) { return std::isfinite(value); }))
         throw ComputationError("the equations are not finite: use a smaller time step or fewer steps");
 }
@@ -156,8 +153,7 @@ void WholeSystem::move(const Columns& solution, Points& positions) const
     if (!solution.allFinite())
         throw ComputationError("the result is not finite: use a smaller time step");
     for (Index u = 0; u < n(); ++u)
-        if (topology_->moves(vertices_[u]))
-            positions.row(vertices_[u]) = solution.row(u);
+        positions.row(vertices_[u]) = solution.row(u);
 }
 
 }  // namespace seamflow
