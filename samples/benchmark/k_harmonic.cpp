@@ -49,7 +49,7 @@ Matrix first_matrix(const PolygonMesh& mesh, const FlowOptions& flow)
             throw InputError(
                 "--k-harmonic needs a manifold mesh whose vertices all have faces: inspect names the others");
     std::fill(topology.fixed.begin(), topology.fixed.end(), 0);
-    WholeSystem system(mesh, topology, flow.laplacian, StorageOrder::ByColumns);
+    WholeSystem system(mesh, topology, flow.laplacian);
     system.assemble(mesh.vertices, flow.time_step);
     const SparsePattern& pattern = system.pattern();
     return Eigen::Map<const Matrix>(system.n(), system.n(), pattern.n_entries(), pattern.column_offsets.data(),

@@ -11,14 +11,12 @@
 
 #include <nlohmann/json.hpp>
 #include <sys/prctl.h>
-#include <sys/resource.h>
 
 #include "partition/errors.h"
 #include "partition/formats/mesh_io.h"
 #include "samples/benchmark/process.h"
 #include "samples/benchmark/run_method.h"
 #include "samples/files/output_files.h"
-#include "solvers/platform/blas_work_area.h"
 
 namespace seamflow {
 
@@ -39,19 +37,6 @@ std::int64_t high_water_mark()
         if (std::int64_t kilobytes = 0; word == "VmHWM:" && status >> kilobytes)
             return kilobytes * 1024;
     return 0;
-}
-
-/// OpenBLAS never stops asking for the work area of its first call (128 MiB a thread) if the address space is limited
-/// and full. Here there is still room, or it is known that there is none.
-/// @throws std::bad_alloc if there is no room.
-void take_blas_work_areas_within_limit(int threads)
-{
-    rlimit limit{};
-    if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY)
-        return;
-    constexpr std::size_t one_area = std::size_t{130} << 20;
-    ::operator delete(::operator new(one_area* static_cast<std::size_t>(threads)));
-    take_blas_work_areas();
 }
 
 TaskJson read_json(const fs::path& path)
@@ -100,9 +85,7 @@ MethodResult run_from_file_to_file(const MethodTask& task)
 MethodResult result_or_error(const fs::path& folder)
 {
     try {
-        const MethodTask task = read_task(folder);
-        take_blas_work_areas_within_limit(task.options.resources.threads);
-        return run_from_file_to_file(task);
+        return run_from_file_to_file(read_task(folder));
     } catch (const std::bad_alloc&) {
         return failed("out of memory");
     } catch (const std::exception& error) {

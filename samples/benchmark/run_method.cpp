@@ -35,7 +35,7 @@ MethodResult run_solver(const PolygonMesh& mesh, const MethodTask& task, PeerSol
     MethodResult result;
     Stopwatch watch;
     const Topology topology = make_topology(mesh);
-    WholeSystem system(mesh, topology, task.options.laplacian, solver.order());
+    WholeSystem system(mesh, topology, task.options.laplacian);
     solver.analyse(system);
     result.setup_seconds = watch.lap();
 

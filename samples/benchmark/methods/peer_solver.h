@@ -13,9 +13,6 @@ class PeerSolver {
   public:
     virtual ~PeerSolver() = default;
 
-    /// The order in which it takes the entries of the matrix.
-    [[nodiscard]] virtual StorageOrder order() const = 0;
-
     /// Called once, before the values are known.
     /// @param system must outlive the solver.
     virtual void analyse(const WholeSystem& system) = 0;

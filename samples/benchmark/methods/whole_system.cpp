@@ -53,9 +53,8 @@ SparsePattern make_large_pattern(Index n, const std::vector<MatrixEntry>& entrie
 
 }  // namespace
 
-WholeSystem::WholeSystem(const PolygonMesh& mesh, const Topology& topology, Laplacian laplacian, StorageOrder order)
+WholeSystem::WholeSystem(const PolygonMesh& mesh, const Topology& topology, Laplacian laplacian)
     : topology_(&topology)
-    , order_(order)
     , assembler_(make_assembler(laplacian, faces_of(mesh, topology)))
 {
     assert(laplacian != Laplacian::PtackovaVelho);
@@ -76,8 +75,7 @@ void WholeSystem::make_slots(const std::vector<MatrixEntry>& entries, const std:
     const auto placed = [&](const MatrixEntry& entry) -> MatrixEntry {
         if (!moves(entry.row) || unknown_of[entry.column] < 0)
             return none;
-        const MatrixEntry mapped{unknown_of[entry.column], unknown_of[entry.row]};
-        return order_ == StorageOrder::ByRows ? MatrixEntry{mapped.row, mapped.column} : mapped;
+        return {unknown_of[entry.column], unknown_of[entry.row]};
     };
     std::vector<MatrixEntry> wanted;
     wanted.reserve(entries.size() + vertices_.size());
@@ -121,11 +119,8 @@ void WholeSystem::make_symmetric(const Points& positions)
     row_factor_.resize(vertices_.size());
     std::transform(vertices_.begin(), vertices_.end(), row_factor_.begin(),
                    [&](Index v) { return assembler_->mass(v); });
-    for (Index line = 0; line < n(); ++line)
-        for (std::size_t i = at(pattern_.column_offsets[line]); i < at(pattern_.column_offsets[line + 1]); ++i) {
-            const Index row = order_ == StorageOrder::ByRows ? line : pattern_.rows[i];
-            values_[i] *= row_factor_[row];
-        }
+    for (std::size_t i = 0; i < pattern_.rows.size(); ++i)
+        values_[i] *= row_factor_[pattern_.rows[i]];
     for (Index u = 0; u < n(); ++u)
         right_hand_side_.row(u) *= row_factor_[u];
     for (std::size_t i = 0; i < couplings_.size(); ++i) {

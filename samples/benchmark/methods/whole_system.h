@@ -11,9 +11,6 @@
 
 namespace seamflow {
 
-/// The order in which the entries of the matrix are stored.
-enum class StorageOrder { ByColumns, ByRows };
-
 /// The equations of one backward Euler step on the whole mesh, (M + dt K) Vᵏ⁺¹ = M Vᵏ, vertices that stay moved to the
 /// right-hand side: symmetric positive definite. A fixed pattern, and values that are filled in anew for each step, by
 /// the arithmetic that sub-meshes use, in one thread.
@@ -22,7 +19,7 @@ class WholeSystem {
     /// @param mesh, topology must outlive the system.
     /// @param laplacian symmetric.
     /// @throws ComputationError if there are 2³¹ or more entries.
-    WholeSystem(const PolygonMesh& mesh, const Topology& topology, Laplacian laplacian, StorageOrder order);
+    WholeSystem(const PolygonMesh& mesh, const Topology& topology, Laplacian laplacian);
 
     /// Fills matrix and right-hand side.
     /// @param positions #V by 3: Vᵏ.
@@ -33,9 +30,8 @@ class WholeSystem {
     [[nodiscard]] Index n() const { return pattern_.n(); }
     /// Vertex of each unknown, ascending.
     [[nodiscard]] const std::vector<Index>& vertices() const { return vertices_; }
-    /// With StorageOrder::ByRows its offsets are those of rows, and its `rows` are columns.
     [[nodiscard]] const SparsePattern& pattern() const { return pattern_; }
-    /// One per entry of the pattern.
+    /// One per entry of the pattern. By rows the matrix is the same.
     [[nodiscard]] std::span<const double> values() const;
     /// n by 3.
     [[nodiscard]] const Columns& right_hand_side() const { return right_hand_side_; }
@@ -56,7 +52,6 @@ class WholeSystem {
     void make_symmetric(const Points& positions);
 
     const Topology* topology_;
-    StorageOrder order_;
     std::unique_ptr<LaplacianAssembler> assembler_;
     std::vector<Index> vertices_;
     SparsePattern pattern_;
