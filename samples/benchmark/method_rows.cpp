@@ -7,8 +7,8 @@
 #include "partition/errors.h"
 #include "partition/formats/mesh_io.h"
 #include "partition/metrics/vertex_distance.h"
-#include "samples/benchmark/median.h"
 #include "samples/benchmark/method_process.h"
+#include "samples/benchmark/methods/median.h"
 
 namespace seamflow {
 

@@ -9,7 +9,7 @@
 
 #include "partition/errors.h"
 #include "partition/formats/mesh_io.h"
-#include "samples/benchmark/median.h"
+#include "samples/benchmark/methods/median.h"
 #include "samples/benchmark/process.h"
 
 namespace seamflow {

@@ -3,7 +3,7 @@
 #include <numeric>
 #include <utility>
 
-#include "samples/benchmark/median.h"
+#include "samples/benchmark/methods/median.h"
 
 namespace seamflow {
 
