@@ -172,7 +172,7 @@ void print_losses(std::ostream& out, const std::vector<GridCell>& cells)
         if (is_lost(cell))
             out << fmt::format("  {}, {} vertices, dt {}, steps {}: {} takes {:.2f} of the time of {}\n", cell.mesh,
                                cell.vertices, cell.time_step_edges, cell.steps, cell.fastest_peer()->name(),
-                               cell.ratio(), cell.ours.result.approach);
+                               cell.ratio(), cell.ours.name());
     out << std::flush;
 }
 
