@@ -1,15 +1,15 @@
 // Compares one implicit step of ours with the alternatives of a user.
 //
-//     mesh ──► temporary file ──► a process for each method ──► positions, times, memory ──► table, JSON
-//                                 (ours, CHOLMOD, UMFPACK,
-//                                 conjugate gradients, …)
+//     mesh ──► file ──► a process for each method ──► file, times, memory ──► rows of one table, or of JSON
+//                       (ours, CHOLMOD, conjugate
+//                       gradients, BoomerAMG)
 
 #include <iostream>
 #include <string_view>
 
 #include "samples/benchmark/benchmark_command.h"
 #include "samples/benchmark/method_process.h"
-#include "samples/benchmark/sweeps.h"
+#include "samples/benchmark/runs.h"
 #include "samples/files/output_files.h"
 
 using namespace seamflow;

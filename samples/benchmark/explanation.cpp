@@ -6,110 +6,79 @@
 #include <fmt/format.h>
 
 #include "engine/options/option_names.h"
+#include "engine/setup/automatic_choices.h"
 #include "engine/setup/cost_model.h"
-#include "samples/benchmark/case_json.h"
-#include "samples/benchmark/memory_bandwidth.h"
 
 namespace seamflow {
 
-namespace {
-
-using Json = nlohmann::ordered_json;
-
-std::string distance_text(const std::optional<double>& distance)
+Table explanation_table(std::ostream& out)
 {
-    return distance ? fmt::format("{:.1e}", *distance) : "";
-}
-
-}  // namespace
-
-Explanation explain(const PolygonMesh& mesh, const FlowOptions& flow, Reference reference)
-{
-    const Topology topology = make_topology(mesh);
-    const MeshSize size = size_of(mesh);
-    Explanation explanation{.size = {.vertices = mesh.n_vertices(),
-                                     .rows = average_rows(mesh, topology, flow.laplacian),
-                                     .time_step = flow.time_step,
-                                     .steps = flow.steps,
-                                     .cores = flow.resources.tune_for},
-                            .threads = flow.resources.threads,
-                            .bandwidth_of_one = triad_bandwidth(1),
-                            .bandwidth = triad_bandwidth(flow.resources.threads),
-                            .chosen = choose_approach(mesh, topology, size, flow).approach,
-                            .entries = {}};
-    MethodRows rows(mesh);
-    rows.find_reference(reference, flow);
-    for (const auto& [approach, method] : our_approaches) {
-        FlowOptions options = flow;
-        options.accuracy.approach = approach;
-        const auto tolerance = choose_tolerance(mesh, size, options).tolerance;
-        Row row = rows.run(MethodRows::task_of(method, flow));
-        rows.measure(row);
-        explanation.entries.push_back({predict_cost(approach, explanation.size, tolerance), std::move(row)});
-    }
-    return explanation;
-}
-
-void print_explanation(std::ostream& out, const Explanation& explanation)
-{
-    const FlowSize& size = explanation.size;
     out << "the model on two cores, in nanoseconds for each vertex, and for each coefficient of its row besides; and "
-           "the "
-           "part that one core works alone:\n";
+           "the part that one core works alone:\n";
     for (const CostConstant& constant : cost_constants())
         out << fmt::format("  {:<36} {:>7.1f} {:>7.1f} {:>7.2f}\n", constant.name, constant.per_vertex,
                            constant.per_coefficient, constant.serial);
-    out << fmt::format("memory: {:.3g} GB/s with {} of the flow, {:.3g} GB/s with one (triad)\n",
-                       1e-9 * explanation.bandwidth,
-                       explanation.threads == 1 ? "the thread" : fmt::format("the {} threads", explanation.threads),
-                       1e-9 * explanation.bandwidth_of_one);
-    out << fmt::format("{} vertices, {:.2f} coefficients a row beside the diagonal, dt times K/M {:.1f}, {} steps\n"
-                       "{:<14} {:>9} {:>9} {:>9}  {:>9} {:>9} {:>9} {:>6} {:>6} {:>9} {:>9}\n"
-                       "{:<14} {:>9} {:>9} {:>9}  {:>9} {:>9} {:>9}\n",
-                       size.vertices, size.rows.length, size.time_step * size.rows.stiffness, size.steps, "seconds",
-                       "predicted", "", "", "measured", "", "", "iter.", "pred.", "V_mean", "V_max", "", "setup",
-                       "step", "all", "setup", "step", "all");
-    for (const auto& [predicted, row] : explanation.entries) {
-        const bool is_chosen = predicted.approach == explanation.chosen;
-        out << fmt::format("{:<14} {:>9.4f} {:>9.4f} {:>9.4f}  ",
-                           std::string(option_name(predicted.approach)) + (is_chosen ? " *" : ""), predicted.setup,
-                           predicted.step, predicted.of(size.steps));
-        if (!row.succeeded()) {
-            out << row.result.error << '\n';
-            continue;
-        }
-        const bool is_cg = predicted.approach == Approach::ConjugateGradients;
-        out << fmt::format("{:>9.4f} {:>9.4f} {:>9.4f} {:>6} {:>6} {:>9} {:>9}\n", row.result.setup_seconds,
-                           row.result.step_seconds(), row.result.total_seconds(), row.result.iterations,
-                           is_cg ? fmt::format("{:.0f}", size.steps * predicted_iterations(size, *predicted.tolerance))
-                                 : "",
-                           distance_text(row.v_mean), distance_text(row.v_max));
-    }
-    out << "*: chosen by default\n" << std::flush;
+    out << "seconds as predicted, and as measured; *: chosen by default; row: coefficients beside the diagonal\n\n";
+    return {out,
+            {{"mesh", "mesh", 20},
+             {"vertices", "vertices", 9},
+             {"coefficients", "row", 5},
+             {"dt_times_stiffness", "dt K/M", 6},
+             {"steps", "steps", 5},
+             {"approach", "approach", 12},
+             {"chosen", "", 1},
+             {"predicted_setup_s", "set-up", 8},
+             {"predicted_step_s", "step", 8},
+             {"predicted_all_s", "all", 8},
+             {"predicted_iterations", "iter.", 6},
+             {"setup_s", "measured", 8},
+             {"step_s", "step", 8},
+             {"all_s", "all", 8},
+             {"iterations", "iter.", 6},
+             {"v_mean", "V_mean", 9},
+             {"v_max", "V_max", 9}}};
 }
 
-Json explanation_json(const Explanation& explanation)
+void add_explanation(Table& table, const std::string& name, const PolygonMesh& mesh, const FlowOptions& flow)
 {
-    Json json{{"vertices", explanation.size.vertices},
-              {"coefficients", explanation.size.rows.length},
-              {"stiffness", explanation.size.rows.stiffness},
-              {"time_step", explanation.size.time_step},
-              {"steps", explanation.size.steps},
-              {"threads", explanation.threads},
-              {"triad_bytes_per_second", explanation.bandwidth},
-              {"triad_bytes_per_second_one_thread", explanation.bandwidth_of_one},
-              {"chosen", option_name(explanation.chosen)}};
-    for (const CostConstant& constant : cost_constants())
-        json["constants"][std::string(constant.name)] = {constant.per_vertex, constant.per_coefficient,
-                                                         constant.serial};
-    for (const auto& [predicted, row] : explanation.entries)
-        json["approaches"][std::string(option_name(predicted.approach))] = {
-            {"predicted",
-             {{"setup_s", predicted.setup},
-              {"step_s", predicted.step},
-              {"all_s", predicted.of(explanation.size.steps)}}},
-            {"measured", row_json(row)}};
-    return json;
+    const Topology topology = make_topology(mesh);
+    const MeshSize size = size_of(mesh);
+    const FlowSize flow_size{.vertices = mesh.n_vertices(),
+                             .rows = average_rows(mesh, topology, flow.laplacian),
+                             .time_step = flow.time_step,
+                             .steps = flow.steps,
+                             .cores = flow.resources.tune_for};
+    const Approach chosen = choose_approach(mesh, topology, size, flow).approach;
+    MethodRows rows(mesh);
+    rows.find_reference(flow);
+    for (const Approach approach :
+         {Approach::Sweep, Approach::Converged, Approach::ConjugateGradients, Approach::Undecomposed}) {
+        FlowOptions options = flow;
+        options.accuracy.approach = approach;
+        const auto tolerance = choose_tolerance(mesh, size, options).tolerance;
+        const PredictedCost predicted = predict_cost(approach, flow_size, tolerance);
+        nlohmann::ordered_json json{{"mesh", name},
+                                    {"vertices", mesh.n_vertices()},
+                                    {"coefficients", flow_size.rows.length},
+                                    {"dt_times_stiffness", flow.time_step * flow_size.rows.stiffness},
+                                    {"steps", flow.steps},
+                                    {"predicted_setup_s", predicted.setup},
+                                    {"predicted_step_s", predicted.step},
+                                    {"predicted_all_s", predicted.of(flow.steps)}};
+        if (approach == Approach::ConjugateGradients)
+            json["predicted_iterations"] = flow.steps * predicted_iterations(flow_size, *predicted.tolerance);
+        if (approach == Approach::Sweep)
+            options.accuracy.tolerance.reset();
+        // Options of sub-meshes mean nothing to the others, which refuse them.
+        if (takes_whole_mesh(approach)) {
+            options.cut = {};
+            options.resources.memory_limit.reset();
+        }
+        json.update(rows.run(MethodRows::task_of(Method::Ours, options)).json());
+        json["approach"] = option_name(approach);
+        json["chosen"] = approach == chosen;
+        table.add(std::move(json));
+    }
 }
 
 }  // namespace seamflow

@@ -1,13 +1,21 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <iosfwd>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "samples/benchmark/method_rows.h"
+#include "samples/benchmark/table.h"
 
 namespace seamflow {
+
+/// The candidates for a tolerance of equal accuracy, from loose to tight.
+inline constexpr std::array tolerance_ladder{1e-1, 3e-2, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 3e-5,
+                                             1e-5, 3e-6, 1e-6, 3e-7, 1e-7, 3e-8, 1e-8};
 
 /// One mesh, dt and number of steps.
 struct GridCell {
@@ -33,10 +41,15 @@ bool is_as_near(const Row& row, const Row& ours);
 
 /// The methods to run in a cell, and how.
 struct GridOptions {
+    /// None: nor is the undecomposed flow.
     std::vector<Method> peers;
-    Reference reference = Reference::Automatic;
     /// How often ours and the peers with similar times are run, in turns; the medians count.
     int turns = 3;
+    /// Of iterative peers; empty: the loosest with which they are as near as ours.
+    std::optional<double> tolerance = {};
+    /// Whether a peer is abandoned if it is not yet as near as ours and takes twice as long as the fastest: its row
+    /// reports this.
+    bool abandons_slower = true;
 };
 
 /// Runs the cells of one mesh, in turn.
@@ -45,8 +58,7 @@ class GridRunner {
     /// @param mesh, options must outlive this.
     GridRunner(const PolygonMesh& mesh, const GridOptions& options);
 
-    /// Ours, the undecomposed flow, and the peers. A peer is abandoned if it is not yet as near and takes twice as long
-    /// as the fastest: its row reports this.
+    /// Ours, the undecomposed flow, and the peers.
     /// @returns a cell without name and dt in edges; without peers if ours or the undecomposed flow fails; the row of
     ///          ours then has the reason.
     GridCell run(const FlowOptions& flow);
@@ -57,7 +69,6 @@ class GridRunner {
   private:
     Row run_peer(Method peer, const GridCell& cell, const FlowOptions& flow);
     Row run_iterative(Method peer, const GridCell& cell, const FlowOptions& flow);
-    [[nodiscard]] Row run_once(const MethodTask& task) const;
     void repeat(GridCell& cell) const;
 
     const GridOptions& options_;
@@ -65,5 +76,14 @@ class GridRunner {
     /// Index in tolerance_ladder of the tolerance of the previous cell.
     std::map<Method, std::size_t> place_;
 };
+
+/// The table of cells, a line for each method.
+Table cell_table(std::ostream& out);
+void add_cell(Table& table, const GridCell& cell);
+
+/// Prints a table of the ratios in Markdown, with a line for each mesh and a column for each time step with all numbers
+/// of steps; and the cells in which ours is not the fastest, with the margins.
+/// @param cells mesh by mesh, for each dt by dt.
+void print_grid_summary(std::ostream& out, const std::vector<GridCell>& cells);
 
 }  // namespace seamflow

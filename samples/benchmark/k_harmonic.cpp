@@ -28,6 +28,12 @@ namespace {
 
 using Matrix = Eigen::SparseMatrix<double>;
 
+/// Seconds.
+struct SolverTimes {
+    double factor = 0.0;
+    double solve = 0.0;
+};
+
 /// The equations A u = b of one k, at all vertices.
 struct Equations {
     Matrix matrix;
@@ -43,7 +49,7 @@ Matrix first_matrix(const PolygonMesh& mesh, const FlowOptions& flow)
             throw InputError(
                 "--k-harmonic needs a manifold mesh whose vertices all have faces: inspect names the others");
     std::fill(topology.fixed.begin(), topology.fixed.end(), 0);
-    WholeSystem system(mesh, topology, flow.laplacian, SystemForm::Symmetric, StorageOrder::ByColumns);
+    WholeSystem system(mesh, topology, flow.laplacian);
     system.assemble(mesh.vertices, flow.time_step);
     const SparsePattern& pattern = system.pattern();
     return Eigen::Map<const Matrix>(system.n(), system.n(), pattern.n_entries(), pattern.column_offsets.data(),
@@ -77,7 +83,7 @@ double backward_error(const Equations& equations, const Columns& u)
 }
 
 /// A linear flow has one matrix: its first step factorises and solves, the second one solves.
-Columns solve_by_ours(const PolygonMesh& mesh, const FlowOptions& flow, int k, double tolerance, KHarmonicRow& row)
+Columns solve_by_ours(const PolygonMesh& mesh, const FlowOptions& flow, int k, double tolerance, SolverTimes& times)
 {
     FlowOptions options = flow;
     options.flow = FlowEquation::Linear;
@@ -92,16 +98,16 @@ Columns solve_by_ours(const PolygonMesh& mesh, const FlowOptions& flow, int k, d
     Stopwatch watch;
     Flow steps(moved, options);
     steps.step();
-    row.factor = watch.lap();
+    times.factor = watch.lap();
     const Columns solution = moved.vertices;
     watch.lap();
     steps.step();
-    row.solve = watch.lap();
-    row.factor -= row.solve;
+    times.solve = watch.lap();
+    times.factor -= times.solve;
     return solution;
 }
 
-Columns solve_by_cholmod(const Equations& equations, KHarmonicRow& row)
+Columns solve_by_cholmod(const Equations& equations, SolverTimes& times)
 {
     Stopwatch watch;
     Eigen::CholmodSupernodalLLT<Matrix> cholmod;
@@ -110,9 +116,9 @@ Columns solve_by_cholmod(const Equations& equations, KHarmonicRow& row)
     cholmod.compute(equations.matrix);
     if (cholmod.info() != Eigen::Success)
         throw ComputationError("the factorisation fails");
-    row.factor = watch.lap();
+    times.factor = watch.lap();
     const Columns solution = cholmod.solve(equations.right_hand_side);
-    row.solve = watch.lap();
+    times.solve = watch.lap();
     return solution;
 }
 
@@ -125,7 +131,7 @@ SparsePattern pattern_of(const Matrix& matrix)
     return pattern;
 }
 
-Columns solve_by_own_factor(const Equations& equations, KHarmonicRow& row)
+Columns solve_by_own_factor(const Equations& equations, SolverTimes& times)
 {
     Stopwatch watch;
     const Matrix upper = equations.matrix.triangularView<Eigen::Upper>();
@@ -142,16 +148,16 @@ Columns solve_by_own_factor(const Equations& equations, KHarmonicRow& row)
                                                  *std::pmr::new_delete_resource(), workspace);
     if (!factor)
         throw ComputationError("the matrix is not positive definite up to rounding");
-    row.factor = watch.lap();
+    times.factor = watch.lap();
     Columns solution = place_of * equations.right_hand_side;
     factor->solve(solution, solution, workspace);
     solution = (place_of.inverse() * solution).eval();
-    row.solve = watch.lap();
+    times.solve = watch.lap();
     return solution;
 }
 
 /// To an error of 1e-8, if that can be reached in a minute.
-Columns solve_by_gradients(const Equations& equations, KHarmonicRow& row)
+Columns solve_by_gradients(const Equations& equations, SolverTimes& times)
 {
     constexpr double wanted = 1e-8;
     constexpr double longest = 60.0;
@@ -163,92 +169,70 @@ Columns solve_by_gradients(const Equations& equations, KHarmonicRow& row)
         throw ComputationError("the incomplete factorisation fails");
     gradients.setTolerance(0.0);
     gradients.setMaxIterations(iterations_at_once);
-    row.factor = watch.lap();
+    times.factor = watch.lap();
     Columns solution = Columns::Zero(equations.right_hand_side.rows(), 3);
     double error = backward_error(equations, solution);
     watch.lap();
     while (error > wanted) {
-        if (row.solve > longest)
-            throw ComputationError(fmt::format("an error of {:.1e} after {:.0f} s", error, row.solve));
+        if (times.solve > longest)
+            throw ComputationError(fmt::format("an error of {:.1e} after {:.0f} s", error, times.solve));
         watch.lap();
         solution = gradients.solveWithGuess(equations.right_hand_side, solution).eval();
-        row.solve += watch.lap();
+        times.solve += watch.lap();
         error = backward_error(equations, solution);
     }
     return solution;
 }
 
-KHarmonicRow run(int k, std::string method, const Equations& equations,
-                 const std::function<Columns(KHarmonicRow&)>& solve)
+nlohmann::ordered_json run(const Equations& equations, const std::function<Columns(SolverTimes&)>& solve)
 {
-    KHarmonicRow row{.k = k, .method = std::move(method), .failure = {}};
     try {
-        row.error = backward_error(equations, solve(row));
-        if (!std::isfinite(row.error))
+        SolverTimes times;
+        const double error = backward_error(equations, solve(times));
+        if (!std::isfinite(error))
             throw ComputationError("the solution is not finite");
+        return {{"factor_s", times.factor},
+                {"solve_s", times.solve},
+                {"both_s", times.factor + times.solve},
+                {"backward_error", error}};
     } catch (const ComputationError& error) {
-        row.failure = error.what();
+        return {{"error", error.what()}};
     }
-    return row;
-}
-
-/// Those without a result come last.
-double rank_of(const KHarmonicRow& row)
-{
-    return row.failure.empty() ? row.factor + row.solve : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace
 
-std::vector<KHarmonicRow> run_k_harmonic(const PolygonMesh& mesh, const FlowOptions& flow,
-                                         const std::vector<int>& orders)
+Table k_harmonic_table(std::ostream& out)
+{
+    return {out,
+            {{"mesh", "mesh", 20},
+             {"vertices", "vertices", 9},
+             {"k", "k", 1},
+             {"method", "method", 10},
+             {"factor_s", "factor, s", 9},
+             {"solve_s", "solve, s", 9},
+             {"both_s", "both, s", 9},
+             {"backward_error", "backward error", 14}}};
+}
+
+void add_k_harmonic(Table& table, const std::string& name, const PolygonMesh& mesh, const FlowOptions& flow,
+                    const std::vector<int>& orders)
 {
     const Matrix first = first_matrix(mesh, flow);
-    std::vector<KHarmonicRow> rows;
     for (const int k : orders) {
         const Equations equations = make_equations(mesh, first, k);
-        const auto add = [&](std::string method, auto&& solve) {
-            rows.push_back(run(k, std::move(method), equations, solve));
+        const auto add = [&](const std::string& method, auto&& solve) {
+            nlohmann::ordered_json row{{"mesh", name}, {"vertices", mesh.n_vertices()}, {"k", k}, {"method", method}};
+            row.update(run(equations, solve));
+            table.add(std::move(row));
         };
         for (const double tolerance : {1e-8, 1e-14})
             add(fmt::format("ours {:.0e}", tolerance),
-                [&](KHarmonicRow& row) { return solve_by_ours(mesh, flow, k, tolerance, row); });
-        add("cholmod", [&](KHarmonicRow& row) { return solve_by_cholmod(equations, row); });
-        add("own LDL", [&](KHarmonicRow& row) { return solve_by_own_factor(equations, row); });
-        add("cg-ic", [&](KHarmonicRow& row) { return solve_by_gradients(equations, row); });
+                [&](SolverTimes& times) { return solve_by_ours(mesh, flow, k, tolerance, times); });
+        add("cholmod", [&](SolverTimes& times) { return solve_by_cholmod(equations, times); });
+        add("own LDL", [&](SolverTimes& times) { return solve_by_own_factor(equations, times); });
+        add("cg-ic", [&](SolverTimes& times) { return solve_by_gradients(equations, times); });
     }
-    return rows;
-}
-
-void print_k_harmonic(std::ostream& out, const std::vector<KHarmonicRow>& rows)
-{
-    std::vector<KHarmonicRow> sorted = rows;
-    std::ranges::stable_sort(sorted, {}, [](const KHarmonicRow& row) { return std::pair(row.k, rank_of(row)); });
-    int k = 0;
-    for (const KHarmonicRow& row : sorted) {
-        if (std::exchange(k, row.k) != row.k)
-            out << fmt::format("k = {}\n{:<14} {:>9} {:>9} {:>9} {:>14}\n", row.k, "seconds", "factor", "solve", "both",
-                               "backward error");
-        if (row.failure.empty())
-            out << fmt::format("{:<14} {:>9.3f} {:>9.3f} {:>9.3f} {:>14.1e}\n", row.method, row.factor, row.solve,
-                               row.factor + row.solve, row.error);
-        else
-            out << fmt::format("{:<14} {}\n", row.method, row.failure);
-    }
-    out << std::flush;
-}
-
-nlohmann::ordered_json k_harmonic_json(const std::vector<KHarmonicRow>& rows)
-{
-    nlohmann::ordered_json list = nlohmann::ordered_json::array();
-    for (const KHarmonicRow& row : rows) {
-        list.push_back({{"k", row.k}, {"method", row.method}});
-        if (!row.failure.empty())
-            list.back()["failure"] = row.failure;
-        else
-            list.back().update({{"factor_s", row.factor}, {"solve_s", row.solve}, {"backward_error", row.error}});
-    }
-    return list;
 }
 
 }  // namespace seamflow

@@ -5,25 +5,28 @@
 #include <exception>
 #include <fstream>
 #include <new>
+#include <optional>
 #include <string>
 #include <utility>
 
+#include <nlohmann/json.hpp>
 #include <sys/prctl.h>
-#include <sys/resource.h>
 
 #include "partition/errors.h"
 #include "partition/formats/mesh_io.h"
 #include "samples/benchmark/process.h"
 #include "samples/benchmark/run_method.h"
-#include "samples/benchmark/scratch_folder.h"
-#include "solvers/platform/blas_work_area.h"
+#include "samples/files/output_files.h"
 
 namespace seamflow {
 
 namespace {
 
 namespace fs = std::filesystem;
+using TaskJson = nlohmann::json;
 
+constexpr const char* task_file = "task.json";
+constexpr const char* result_file = "result.json";
 constexpr const char* this_program = "/proc/self/exe";
 
 /// The high-water mark of this process alone, in bytes. That of getrusage includes the parent's.
@@ -36,17 +39,38 @@ std::int64_t high_water_mark()
     return 0;
 }
 
-/// OpenBLAS never stops asking for the work area of its first call (128 MiB a thread) if the address space is limited
-/// and full. Here there is still room, or it is known that there is none.
-/// @throws std::bad_alloc if there is no room.
-void take_blas_work_areas_within_limit(int threads)
+TaskJson read_json(const fs::path& path)
 {
-    rlimit limit{};
-    if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY)
-        return;
-    constexpr std::size_t one_area = std::size_t{130} << 20;
-    ::operator delete(::operator new(one_area* static_cast<std::size_t>(threads)));
-    take_blas_work_areas();
+    std::ifstream file(path);
+    TaskJson json = TaskJson::parse(file, nullptr, false);
+    if (json.is_discarded())
+        throw InputError(path.string() + ": cannot be read");
+    return json;
+}
+
+void write_result(const fs::path& folder, const MethodResult& result)
+{
+    write_text(folder / result_file, TaskJson{{"error", result.error},
+                                              {"setup_seconds", result.setup_seconds},
+                                              {"steps", result.steps},
+                                              {"iterations", result.iterations},
+                                              {"approach", result.approach},
+                                              {"peak_memory_bytes", result.peak_memory_bytes}}
+                                         .dump());
+}
+
+/// @returns without positions, which are in the file of the task.
+MethodResult read_result(const fs::path& folder)
+{
+    const TaskJson json = read_json(folder / result_file);
+    MethodResult result;
+    json.at("error").get_to(result.error);
+    json.at("setup_seconds").get_to(result.setup_seconds);
+    json.at("steps").get_to(result.steps);
+    json.at("iterations").get_to(result.iterations);
+    json.at("approach").get_to(result.approach);
+    json.at("peak_memory_bytes").get_to(result.peak_memory_bytes);
+    return result;
 }
 
 MethodResult run_from_file_to_file(const MethodTask& task)
@@ -61,9 +85,7 @@ MethodResult run_from_file_to_file(const MethodTask& task)
 MethodResult result_or_error(const fs::path& folder)
 {
     try {
-        const MethodTask task = read_task(folder);
-        take_blas_work_areas_within_limit(task.options.resources.threads);
-        return task.input.empty() ? run_method(read_mesh_for_methods(folder), task) : run_from_file_to_file(task);
+        return run_from_file_to_file(read_task(folder));
     } catch (const std::bad_alloc&) {
         return failed("out of memory");
     } catch (const std::exception& error) {
@@ -91,6 +113,49 @@ void serve_method(const fs::path& folder)
     MethodResult result = result_or_error(folder);
     result.peak_memory_bytes = high_water_mark();
     write_result(folder, result);
+}
+
+void write_task(const fs::path& folder, const MethodTask& task)
+{
+    const FlowOptions& options = task.options;
+    const auto optional = [](const auto& value) { return value ? TaskJson(*value) : TaskJson(nullptr); };
+    write_text(folder / task_file, TaskJson{{"method", task.method},
+                                            {"laplacian", options.laplacian},
+                                            {"time_step", options.time_step},
+                                            {"steps", options.steps},
+                                            {"subdomains", options.cut.subdomains},
+                                            {"converge", optional(options.accuracy.tolerance)},
+                                            {"approach", options.accuracy.approach},
+                                            {"memory_limit", optional(options.resources.memory_limit)},
+                                            {"threads", options.resources.threads},
+                                            {"tune_for", options.resources.tune_for},
+                                            {"tolerance", task.tolerance},
+                                            {"input", task.input.string()},
+                                            {"output", task.output.string()}}
+                                       .dump());
+}
+
+MethodTask read_task(const fs::path& folder)
+{
+    const TaskJson json = read_json(folder / task_file);
+    MethodTask task;
+    FlowOptions& options = task.options;
+    json.at("method").get_to(task.method);
+    json.at("laplacian").get_to(options.laplacian);
+    json.at("time_step").get_to(options.time_step);
+    json.at("steps").get_to(options.steps);
+    json.at("subdomains").get_to(options.cut.subdomains);
+    if (const TaskJson& tolerance = json.at("converge"); !tolerance.is_null())
+        options.accuracy.tolerance = tolerance.get<double>();
+    json.at("approach").get_to(options.accuracy.approach);
+    if (const TaskJson& limit = json.at("memory_limit"); !limit.is_null())
+        options.resources.memory_limit = limit.get<std::size_t>();
+    json.at("threads").get_to(options.resources.threads);
+    json.at("tune_for").get_to(options.resources.tune_for);
+    json.at("tolerance").get_to(task.tolerance);
+    task.input = json.at("input").get<std::string>();
+    task.output = json.at("output").get<std::string>();
+    return task;
 }
 
 }  // namespace seamflow

@@ -1,80 +1,115 @@
 #include "samples/benchmark/method_rows.h"
 
-#include <cmath>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "partition/errors.h"
+#include "partition/formats/mesh_io.h"
 #include "partition/metrics/vertex_distance.h"
 #include "samples/benchmark/method_process.h"
+#include "samples/benchmark/methods/median.h"
 
 namespace seamflow {
 
 namespace {
 
 constexpr double reference_tolerance = 1e-12;
-
-/// @param tolerance a power of ten, as everywhere except at equal accuracy.
-std::string with_tolerance(std::string_view title, double tolerance)
-{
-    const int exponent = static_cast<int>(std::lround(std::log10(tolerance)));
-    return std::string(title) + "-1e" + std::to_string(exponent);
-}
-
-std::string name_of(const MethodTask& task)
-{
-    const std::string_view title = title_of(task.method, task.options.laplacian);
-    return is_iterative(task.method) ? with_tolerance(title, task.tolerance) : std::string(title);
-}
+constexpr Index most_vertices_to_factorise = 2'000'000;
 
 }  // namespace
 
+double Row::seconds() const
+{
+    return median(turns);
+}
+
+std::string Row::name() const
+{
+    if (is_iterative(task.method))
+        return fmt::format("{} to {:.0e}", name_of(task.method), task.tolerance);
+    return result.approach.empty() ? std::string(name_of(task.method))
+                                   : fmt::format("{} by {}", name_of(task.method), result.approach);
+}
+
+nlohmann::ordered_json Row::json() const
+{
+    nlohmann::ordered_json json{{"method", name_of(task.method)}};
+    if (!succeeded()) {
+        json["error"] = result.error;
+        return json;
+    }
+    if (is_iterative(task.method))
+        json["tolerance"] = task.tolerance;
+    if (task.method == Method::Ours)
+        json["approach"] = result.approach;
+    json.update(nlohmann::ordered_json{{"setup_s", result.setup_seconds},
+                                       {"step_s", result.step_seconds()},
+                                       {"all_s", seconds()},
+                                       {"turns_s", turns},
+                                       {"peak_memory_mb", 1e-6 * static_cast<double>(result.peak_memory_bytes)},
+                                       {"threads", task.options.resources.threads}});
+    if (result.iterations > 0)
+        json["iterations"] = result.iterations;
+    if (v_max) {
+        json["v_mean"] = *v_mean;
+        json["v_max"] = *v_max;
+    }
+    return json;
+}
+
 MethodRows::MethodRows(const PolygonMesh& mesh)
     : mesh_(mesh)
+    , input_(scratch_.path() / "input.ply")
+    , output_(scratch_.path() / "output.ply")
 {
-    write_mesh_for_methods(scratch_.path(), mesh);
+    write_mesh(input_, mesh, kind_for_writing(input_, FileKind{}));
 }
 
 MethodTask MethodRows::task_of(Method method, const FlowOptions& flow, double tolerance)
 {
-    MethodTask task{method, flow, tolerance, {}};
+    MethodTask task{method, flow, tolerance};
     if (method == Method::Amg)
         task.options.resources.threads = 1;
     return task;
 }
 
+Row MethodRows::run_task(MethodTask task) const
+{
+    if (task.input.empty()) {
+        task.input = input_;
+        task.output = output_;
+    }
+    Row row{task, run_in_process(scratch_.path(), task), {}, {}, {}};
+    row.turns = {row.result.total_seconds()};
+    return row;
+}
+
 Row MethodRows::run(const MethodTask& task) const
 {
-    const std::string obstacle = why_not(task.method, task.options.laplacian);
-    return {
-        name_of(task), task, obstacle.empty() ? run_in_process(scratch_.path(), task) : failed(obstacle), {}, {}, {}};
+    Row row = run_task(task);
+    if (row.succeeded() && reference_row_)
+        measure(row, row.task.output);
+    return row;
 }
 
-bool MethodRows::is_small_enough_to_factorise(Laplacian laplacian) const
-{
-    return mesh_.n_vertices() <= (is_symmetric(laplacian) ? 2'000'000 : 300'000);
-}
-
-void MethodRows::find_reference(Reference wanted, const FlowOptions& flow)
+void MethodRows::find_reference(const FlowOptions& flow)
 {
     reference_row_.reset();
-    if (wanted == Reference::None)
-        return;
-    const bool is_direct =
-        wanted == Reference::Direct || (wanted == Reference::Automatic && is_small_enough_to_factorise(flow.laplacian));
-    if (is_direct)
-        reference_row_ = run(task_of(is_symmetric(flow.laplacian) ? Method::Cholmod : Method::Umfpack, flow));
-    if (!is_direct || (wanted == Reference::Automatic && !reference_row_->succeeded()))
-        reference_row_ = run(task_of(Method::Krylov, flow, reference_tolerance));
+    if (mesh_.n_vertices() <= most_vertices_to_factorise)
+        reference_row_ = run_task(task_of(Method::Cholmod, flow));
+    if (!reference_row_ || !reference_row_->succeeded())
+        reference_row_ = run_task(task_of(Method::Gradients, flow, reference_tolerance));
     require_success(*reference_row_);
-    reference_ = std::exchange(reference_row_->result.positions, Points(0, 3));
+    reference_row_->v_mean = reference_row_->v_max = 0.0;
+    reference_ = read_mesh(output_).mesh.vertices;
 }
 
-void MethodRows::measure(Row& row) const
+void MethodRows::measure(Row& row, const std::filesystem::path& output) const
 {
-    const Points positions = std::exchange(row.result.positions, Points(0, 3));
-    if (!row.succeeded() || !reference_row_ || positions.rows() == 0)
+    if (!reference_row_)
         return;
-    const VertexDistance distance = vertex_distance(mesh_, reference_, positions);
+    const VertexDistance distance = vertex_distance(mesh_, reference_, read_mesh(output).mesh.vertices);
     row.v_mean = distance.mean / distance.mean_edge;
     row.v_max = distance.max / distance.mean_edge;
 }
@@ -82,7 +117,7 @@ void MethodRows::measure(Row& row) const
 void require_success(const Row& row)
 {
     if (!row.succeeded())
-        throw ComputationError(row.name + ": " + row.result.error);
+        throw ComputationError(row.name() + ": " + row.result.error);
 }
 
 }  // namespace seamflow

@@ -2,41 +2,34 @@
 
 #include <optional>
 #include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
 
 #include "samples/benchmark/methods/method.h"
 #include "samples/benchmark/scratch_folder.h"
-#include "samples/benchmark/turns.h"
 
 namespace seamflow {
 
-/// The method whose positions represent the undecomposed flow.
-enum class Reference {
-    /// Direct up to two million vertices (300,000 for Ptáčková-Velho, whose factors are larger); for larger meshes, and
-    /// if that fails, Iterative.
-    Automatic,
-    /// One factorisation of the whole mesh: CHOLMOD, for Ptáčková-Velho UMFPACK.
-    Direct,
-    /// Conjugate gradients (BiCGSTAB) to 1e-12.
-    Iterative,
-    /// No distances, and no rows at equal accuracy.
-    None,
-};
-
 /// One method with one tolerance.
 struct Row {
-    /// As in the table and in JSON: "ours", "cholmod", "cg-1e-8", "cg-equal-accuracy", "cg-equal-both", …
-    std::string name;
     MethodTask task;
     /// Without the positions.
     MethodResult result;
     /// Distance to the undecomposed flow after all steps, in mean edge lengths of its mesh.
     std::optional<double> v_mean;
     std::optional<double> v_max;
-    /// Seconds from the beginning of set-up to the end of the last step of each run, in a grid; from file to file in a
-    /// WholeRun; else empty.
-    Turns turns;
+    /// Seconds of each run: from the beginning of set-up to the end of the last step; in a whole run from file to file.
+    std::vector<double> turns;
 
     [[nodiscard]] bool succeeded() const { return result.error.empty(); }
+    /// The median of the turns.
+    [[nodiscard]] double seconds() const;
+    /// The method, with the approach of ours or the tolerance of an iterative one: "ours by sweep", "cg to 1e-03".
+    [[nodiscard]] std::string name() const;
+    /// The members of a row of the table: "method" with "error", or with "tolerance" or "approach", "setup_s",
+    /// "step_s", "all_s" (the median of "turns_s"), "peak_memory_mb", "threads", "iterations", "v_mean" and "v_max".
+    [[nodiscard]] nlohmann::ordered_json json() const;
 };
 
 /// Runs methods on one mesh, each in a process of its own, and measures how far from the undecomposed flow they end.
@@ -46,30 +39,34 @@ class MethodRows {
     /// @param mesh must outlive this.
     explicit MethodRows(const PolygonMesh& mesh);
 
-    /// A task of a peer with the threads that it can use.
+    /// A task of a peer with the threads that it can use, without files.
     [[nodiscard]] static MethodTask task_of(Method method, const FlowOptions& flow, double tolerance = 0.0);
 
-    /// Returns a row with its positions, without its distance.
+    /// Runs a method, and measures how far it ends from the undecomposed flow, if that is known.
     [[nodiscard]] Row run(const MethodTask& task) const;
 
-    /// Runs the method that gives the undecomposed flow for these options, which replaces the previous one.
+    /// Takes the undecomposed flow for these options, which replaces the previous one: by one factorisation, or, above
+    /// two million vertices or if that fails, by conjugate gradients to 1e-12.
     /// @throws ComputationError if it fails.
-    void find_reference(Reference wanted, const FlowOptions& flow);
+    void find_reference(const FlowOptions& flow);
 
-    /// The row of the reference; empty with Reference::None.
+    /// The row of the undecomposed flow; empty: unknown.
     [[nodiscard]] const std::optional<Row>& reference() const { return reference_row_; }
 
-    /// Replaces the positions of a row by distances.
-    void measure(Row& row) const;
+    /// Sets the distances of a row whose method has left its positions in a file.
+    void measure(Row& row, const std::filesystem::path& output) const;
 
     [[nodiscard]] const PolygonMesh& mesh() const { return mesh_; }
     [[nodiscard]] const ScratchFolder& scratch() const { return scratch_; }
 
   private:
-    [[nodiscard]] bool is_small_enough_to_factorise(Laplacian laplacian) const;
+    /// @returns without distances.
+    [[nodiscard]] Row run_task(MethodTask task) const;
 
     const PolygonMesh& mesh_;
     ScratchFolder scratch_;
+    std::filesystem::path input_;
+    std::filesystem::path output_;
     std::optional<Row> reference_row_;
     Points reference_ = Points(0, 3);
 };

@@ -9,8 +9,7 @@
 
 #include "partition/errors.h"
 #include "partition/formats/mesh_io.h"
-#include "samples/benchmark/case_json.h"
-#include "samples/benchmark/grid_report.h"
+#include "samples/benchmark/methods/median.h"
 #include "samples/benchmark/process.h"
 
 namespace seamflow {
@@ -26,99 +25,104 @@ std::string path_of_smooth()
     return (fs::read_symlink("/proc/self/exe").parent_path() / "smooth").string();
 }
 
-std::vector<std::string> words_of_smooth(const fs::path& input, const fs::path& output, const WholeRun& run)
-{
-    const FlowOptions& flow = run.flow;
-    std::vector<std::string> words{"smooth",
-                                   input.string(),
-                                   output.string(),
-                                   "--laplacian",
-                                   std::string(name_of(flow.laplacian)),
-                                   "--time-step-edges",
-                                   fmt::format("{}", run.time_step_edges),
-                                   "--steps",
-                                   std::to_string(flow.steps),
-                                   "--threads",
-                                   std::to_string(flow.resources.threads)};
-    if (flow.cut.subdomains > 0)
-        words.insert(words.end(), {"--subdomains", std::to_string(flow.cut.subdomains)});
-    if (flow.accuracy.tolerance)
-        words.insert(words.end(), {"--converge", fmt::format("{}", *flow.accuracy.tolerance)});
-    else if (flow.accuracy.approach == Approach::Sweep)
-        words.insert(words.end(), {"--converge", "never"});
-    return words;
-}
-
-/// One run from file to file, in turn after turn.
+/// `smooth` and its peers from file to file, in turn after turn.
 class WholeRunner {
   public:
-    WholeRunner(const GridRunner& grid, const fs::path& given, WholeRun& run)
-        : grid_(grid)
-        , run_(run)
-        , input_(given.empty() ? grid.rows().scratch().path() / ("input." + run.format) : given)
-        , output_(grid.rows().scratch().path() / ("output." + run.format))
+    WholeRunner(const WholeRunInput& input, const FlowOptions& flow, double time_step_edges, const GridOptions& options)
+        : grid_(input.mesh, options)
+        , flow_(flow)
+        , time_step_edges_(time_step_edges)
+        , input_(input.file.empty() ? scratch() / ("input." + input.format) : input.file)
+        , output_(scratch() / ("output." + input.format))
     {
-        if (given.empty())
-            write_mesh(input_, grid.rows().mesh(), kind_for_writing(input_, FileKind{}));
-        run_.file_bytes = fs::file_size(input_);
+        if (input.file.empty())
+            write_mesh(input_, input.mesh, kind_for_writing(input_, FileKind{}));
+        if (options.peers.empty())
+            return;
+        const GridCell cell = grid_.run(flow);
+        require_success(cell.ours);
+        for (const Row& peer : cell.peers)
+            if (is_as_near(peer, cell.ours))
+                add_peer(peer);
     }
 
     /// Leaves the output of `smooth`.
     void take_turn()
     {
-        for (Row& peer : run_.peers) {
+        for (Row& peer : peers_) {
             if (peer.task.method == Method::Cholmod)
                 run_cholmod_step();
             const Row row = grid_.rows().run(peer.task);
             require_success(row);
-            peer.turns.seconds.push_back(row.result.process_seconds);
+            peer.turns.push_back(row.result.process_seconds);
         }
         const ProcessEnd end = run_smooth({});
-        run_.smooth.seconds.push_back(end.seconds);
-        run_.peak_memory_bytes = end.peak_memory_bytes;
+        smooth_.turns.push_back(end.seconds);
+        smooth_.result.peak_memory_bytes = static_cast<std::int64_t>(end.peak_memory_bytes);
     }
 
-    /// Phases of one more run, for a report. What that measures besides takes its time, so that the rest is that of the
-    /// runs before.
-    void note_phases()
+    /// The phases of one more run, for a report. What that measures besides takes its time, so that the rest is that of
+    /// the runs before.
+    Json phases()
     {
-        const fs::path file = grid_.rows().scratch().path() / "report.json";
+        const fs::path file = scratch() / "report.json";
         run_smooth({"--report", file.string()});
         const Json seconds = Json::parse(std::ifstream(file)).at("seconds");
-        WholeRunPhases& phases = run_.phases;
-        seconds.at("read").get_to(phases.read);
-        seconds.at("cut").get_to(phases.cut);
-        seconds.at("analyse").get_to(phases.analyse);
-        seconds.at("step").get_to(phases.steps);
-        seconds.at("write").get_to(phases.write);
-        phases.rest = std::max(
-            run_.smooth.median() - phases.read - phases.cut - phases.analyse - phases.steps - phases.write, 0.0);
+        Json phases;
+        double rest = smooth_.seconds();
+        for (const auto& [phase, member] :
+             {std::pair{"read", "read"}, std::pair{"cut", "cut"}, std::pair{"analyse", "analyse"},
+              std::pair{"steps_s", "step"}, std::pair{"write", "write"}}) {
+            phases[phase] = seconds.at(member);
+            rest -= seconds.at(member).get<double>();
+        }
+        phases["rest"] = std::max(rest, 0.0);
+        return phases;
     }
+
+    /// With the distance of the output of the last turn.
+    const Row& smooth()
+    {
+        grid_.rows().measure(smooth_, output_);
+        return smooth_;
+    }
+
+    [[nodiscard]] const std::vector<Row>& peers() const { return peers_; }
+    [[nodiscard]] const std::vector<double>& cholmod_steps() const { return cholmod_steps_; }
+    [[nodiscard]] std::uintmax_t file_bytes() const { return fs::file_size(input_); }
+
+  private:
+    [[nodiscard]] const fs::path& scratch() const { return grid_.rows().scratch().path(); }
 
     void add_peer(Row row)
     {
         row.task.input = input_;
         row.task.output = output_;
-        row.turns.seconds.clear();
-        run_.peers.push_back(std::move(row));
+        row.turns.clear();
+        peers_.push_back(std::move(row));
     }
 
-    /// How close the output of `smooth` is to the undecomposed flow.
-    void measure_output()
-    {
-        Row row;
-        row.result.positions = read_mesh(output_).mesh.vertices;
-        grid_.rows().measure(row);
-        run_.v_max = row.v_max;
-        run_.v_mean = row.v_mean;
-    }
-
-  private:
     ProcessEnd run_smooth(const std::vector<std::string>& further)
     {
-        std::vector<std::string> words = words_of_smooth(input_, output_, run_);
+        std::vector<std::string> words{"smooth",
+                                       input_.string(),
+                                       output_.string(),
+                                       "--laplacian",
+                                       std::string(name_of(flow_.laplacian)),
+                                       "--time-step-edges",
+                                       fmt::format("{}", time_step_edges_),
+                                       "--steps",
+                                       std::to_string(flow_.steps),
+                                       "--threads",
+                                       std::to_string(flow_.resources.threads)};
+        if (flow_.cut.subdomains > 0)
+            words.insert(words.end(), {"--subdomains", std::to_string(flow_.cut.subdomains)});
+        if (flow_.accuracy.tolerance)
+            words.insert(words.end(), {"--converge", fmt::format("{}", *flow_.accuracy.tolerance)});
+        else if (flow_.accuracy.approach == Approach::Sweep)
+            words.insert(words.end(), {"--converge", "never"});
         words.insert(words.end(), further.begin(), further.end());
-        ProcessEnd end = run_process(path_of_smooth(), words, run_.flow.resources.threads);
+        ProcessEnd end = run_process(path_of_smooth(), words, flow_.resources.threads);
         if (!end.failure.empty())
             throw ComputationError("smooth: " + end.failure);
         return end;
@@ -126,116 +130,94 @@ class WholeRunner {
 
     void run_cholmod_step()
     {
-        FlowOptions flow = run_.flow;
+        FlowOptions flow = flow_;
         flow.steps = 1;
         const Row row = grid_.rows().run(MethodRows::task_of(Method::Cholmod, flow));
         require_success(row);
-        run_.cholmod_step.seconds.push_back(row.result.step_seconds());
+        cholmod_steps_.push_back(row.result.step_seconds());
     }
 
-    const GridRunner& grid_;
-    WholeRun& run_;
+    GridRunner grid_;
+    const FlowOptions& flow_;
+    double time_step_edges_;
     fs::path input_;
     fs::path output_;
+    Row smooth_;
+    std::vector<Row> peers_;
+    std::vector<double> cholmod_steps_;
 };
-
-Json phases_json(const WholeRunPhases& phases)
-{
-    return {{"read", phases.read},   {"cut", phases.cut},     {"analyse", phases.analyse},
-            {"steps", phases.steps}, {"write", phases.write}, {"rest", phases.rest}};
-}
-
-void print_turns(std::ostream& out, const std::string& name, const Turns& turns, const Turns& smooth)
-{
-    out << fmt::format("{:<34} {:>9.4f} {:>9.4f} {:>9.2f}\n", name, turns.least(), turns.median(),
-                       turns.median() / smooth.median());
-}
 
 }  // namespace
 
-double WholeRun::ratio_to_cholmod_step() const
+Table whole_run_table(std::ostream& out)
 {
-    return smooth.median() / cholmod_step.median();
+    out << "seconds from file to file, medians of the turns, and of the phases of smooth; MB: of the file, and peak "
+           "memory; ratio: in the time of smooth\n"
+           "V_mean, V_max: distance of smooth to the undecomposed flow in mean edge lengths; peers are at least as "
+           "near\n\n";
+    return {out,
+            {{"mesh", "mesh", 20},
+             {"vertices", "vertices", 9},
+             {"format", "file", 4},
+             {"file_mb", "MB", 8},
+             {"dt_over_h2", "dt", 5},
+             {"steps", "steps", 5},
+             {"method", "method", 15},
+             {"tolerance", "to", 6},
+             {"all_s", "all", 8},
+             {"ratio", "ratio", 6},
+             {"us_per_vertex", "us/vertex", 9},
+             {"bytes_per_vertex", "bytes/vertex", 12},
+             {"peak_memory_mb", "MB", 8},
+             {"v_mean", "V_mean", 9},
+             {"v_max", "V_max", 9},
+             {"read", "read", 8},
+             {"cut", "cut", 8},
+             {"analyse", "analyse", 8},
+             {"steps_s", "steps", 8},
+             {"write", "write", 8},
+             {"rest", "rest", 8}}};
 }
 
-WholeRun run_whole(const PolygonMesh& mesh, const fs::path& given, const std::string& format, const FlowOptions& flow,
-                   double time_step_edges, const GridOptions& options)
+void add_whole_run(Table& table, const WholeRunInput& input, const FlowOptions& flow, double time_step_edges,
+                   const GridOptions& options)
 {
-    WholeRun run;
-    run.vertices = mesh.n_vertices();
-    run.flow = flow;
-    run.time_step_edges = time_step_edges;
-    run.format = format;
     GridOptions once = options;
     once.turns = 1;
-    GridRunner grid(mesh, once);
-    WholeRunner runner(grid, given, run);
-    if (!options.peers.empty()) {
-        const GridCell cell = grid.run(flow);
-        for (const Row& peer : cell.peers)
-            if (is_as_near(peer, cell.ours))
-                runner.add_peer(peer);
-    }
+    WholeRunner runner(input, flow, time_step_edges, once);
     for (int turn = 0; turn < options.turns; ++turn)
         runner.take_turn();
-    runner.note_phases();
-    runner.measure_output();
-    return run;
-}
-
-void print_whole_run(std::ostream& out, const WholeRun& run)
-{
-    out << fmt::format("{}, {} vertices, {} of {:.1f} MB, {}, dt {} squared mean edge lengths, steps: {}, threads: {}, "
-                       "turns: {}\n{:<34} {:>9} {:>9} {:>9}\n",
-                       run.mesh, run.vertices, run.format, static_cast<double>(run.file_bytes) / 1e6,
-                       name_of(run.flow.laplacian), run.time_step_edges, run.flow.steps, run.flow.resources.threads,
-                       run.smooth.seconds.size(), "seconds, from file to file", "least", "median", "ratio");
-    print_turns(out, "smooth", run.smooth, run.smooth);
-    const WholeRunPhases& p = run.phases;
-    for (const auto& [name, value] :
-         {std::pair{"read", p.read}, std::pair{"cut", p.cut}, std::pair{"analyse", p.analyse},
-          std::pair{"steps", p.steps}, std::pair{"write", p.write}, std::pair{"rest", p.rest}})
-        out << fmt::format("  {:<32} {:>9.4f}\n", name, value);
-    for (const Row& peer : run.peers)
-        print_turns(out, name_with_tolerance(peer), peer.turns, run.smooth);
-    if (!run.cholmod_step.seconds.empty()) {
-        print_turns(out, "one step of cholmod, no files", run.cholmod_step, run.smooth);
-        out << fmt::format("smooth takes {:.2f} of one step of cholmod\n", run.ratio_to_cholmod_step());
-    }
-    if (run.v_max)
-        out << fmt::format("V_max {:.1e}, V_mean {:.1e} mean edge lengths; peers are at least as near\n", *run.v_max,
-                           *run.v_mean);
-    out << fmt::format("peak memory of smooth: {:.0f} MB\n", static_cast<double>(run.peak_memory_bytes) / 1e6)
-        << std::endl;
-}
-
-Json whole_run_json(const WholeRun& run)
-{
-    Json json{{"mesh", run.mesh},
-              {"vertices", run.vertices},
-              {"format", run.format},
-              {"file_bytes", run.file_bytes},
-              {"laplacian", name_of(run.flow.laplacian)},
-              {"dt_over_h2", run.time_step_edges},
-              {"steps", run.flow.steps},
-              {"threads", run.flow.resources.threads},
-              {"smooth", turns_json(run.smooth)},
-              {"phases", phases_json(run.phases)},
-              {"peak_memory_bytes", run.peak_memory_bytes}};
-    if (run.v_max) {
-        json["v_max"] = *run.v_max;
-        json["v_mean"] = *run.v_mean;
-    }
-    if (!run.cholmod_step.seconds.empty()) {
-        json["cholmod_step"] = turns_json(run.cholmod_step);
-        json["ratio_to_cholmod_step"] = run.ratio_to_cholmod_step();
-    }
-    json["peers"] = Json::object();
-    for (const Row& peer : run.peers) {
-        Json& row = json["peers"][peer.name] = row_json(peer);
-        row["whole"] = turns_json(peer.turns);
-    }
-    return json;
+    const Json head{{"mesh", input.name},
+                    {"vertices", input.mesh.n_vertices()},
+                    {"format", input.format},
+                    {"file_mb", 1e-6 * static_cast<double>(runner.file_bytes())},
+                    {"dt_over_h2", time_step_edges},
+                    {"steps", flow.steps}};
+    const auto add = [&](const Json& row, const std::vector<double>& turns, double smooth) {
+        Json json = head;
+        json.update(row);
+        json["all_s"] = median(turns);
+        json["turns_s"] = turns;
+        json["ratio"] = median(turns) / smooth;
+        table.add(std::move(json));
+    };
+    Json phases = runner.phases();
+    const Row& smooth = runner.smooth();
+    const double seconds = smooth.seconds();
+    const double bytes = static_cast<double>(smooth.result.peak_memory_bytes);
+    const double n = input.mesh.n_vertices();
+    Json json{{"method", "smooth"},
+              {"us_per_vertex", 1e6 * seconds / n},
+              {"bytes_per_vertex", bytes / n},
+              {"peak_memory_mb", 1e-6 * bytes}};
+    if (smooth.v_max)
+        json.update(Json{{"v_mean", *smooth.v_mean}, {"v_max", *smooth.v_max}});
+    json.update(phases);
+    add(json, smooth.turns, seconds);
+    for (const Row& peer : runner.peers())
+        add(peer.json(), peer.turns, seconds);
+    if (!runner.cholmod_steps().empty())
+        add(Json{{"method", "step of cholmod"}}, runner.cholmod_steps(), seconds);
 }
 
 }  // namespace seamflow

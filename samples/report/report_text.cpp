@@ -296,13 +296,4 @@ void print_error_map(std::ostream& out, const std::string& file, const ErrorRang
         << std::endl;
 }
 
-void print_simulations(std::ostream& out, const std::vector<Simulation>& simulations)
-{
-    out << "workers      makespan  efficiency  speed-up            critical path\n";
-    for (const Simulation& simulation : simulations)
-        out << fmt::format("{:7}  {:9.3f} ms  {:10.3f}  {:8.2f}  {:9.3f} ms, {:3} tasks\n", simulation.workers,
-                           1e3 * simulation.makespan, simulation.efficiency(), simulation.speed_up(),
-                           1e3 * simulation.critical_path_seconds, simulation.critical_path.size());
-}
-
 }  // namespace seamflow

@@ -7,7 +7,6 @@
 
 #include "engine/measure/flow_report.h"
 #include "engine/options/flow_options.h"
-#include "engine/tasks/schedule_simulation.h"
 #include "samples/report/comparison.h"
 #include "samples/report/error_map.h"
 #include "samples/report/run_record.h"
@@ -44,9 +43,5 @@ void print_comparison(std::ostream& out, const Comparison& comparison);
 
 /// Prints the path of an error map and the meaning of its colours.
 void print_error_map(std::ostream& out, const std::string& file, const ErrorRange& range);
-
-/// Prints a table with one line per simulation: workers, makespan, efficiency, speed-up and critical path, times in
-/// milliseconds.
-void print_simulations(std::ostream& out, const std::vector<Simulation>& simulations);
 
 }  // namespace seamflow

@@ -36,20 +36,9 @@ Callers& callers()
     return callers;
 }
 
-/// Makes BLAS allocate what it keeps from then on.
-void take_area()
-{
-    try {
-        ::operator delete(::operator new(area_bytes));
-    } catch (const std::bad_alloc&) {
-        throw ComputationError("there is no memory for the work area of BLAS, " + std::to_string(area_bytes >> 20) +
-                               " MiB: raise the limit of this program (ulimit -v)");
-    }
-    take_blas_work_areas();
-}
-
-}  // namespace
-
+/// Makes OpenBLAS allocate the work areas that it keeps and reuses, by a product so large that its threads share it and
+/// that no processor's kernels for small matrices, which need no area, take it (with AVX-512, up to 100³). With another
+/// BLAS, or none, it has no relevant effect. There must be room.
 void take_blas_work_areas()
 {
     using Gemm = void(const char*, const char*, const int*, const int*, const int*, const double*, const double*,
@@ -63,6 +52,20 @@ void take_blas_work_areas()
     std::vector<double> product = a;
     gemm("N", "N", &n, &n, &n, &one, a.data(), &n, a.data(), &n, &one, product.data(), &n);
 }
+
+/// Makes BLAS allocate what it keeps from then on.
+void take_area()
+{
+    try {
+        ::operator delete(::operator new(area_bytes));
+    } catch (const std::bad_alloc&) {
+        throw ComputationError("there is no memory for the work area of BLAS, " + std::to_string(area_bytes >> 20) +
+                               " MiB: raise the limit of this program (ulimit -v)");
+    }
+    take_blas_work_areas();
+}
+
+}  // namespace
 
 BlasWorkArea::BlasWorkArea()
 {

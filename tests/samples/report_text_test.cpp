@@ -57,15 +57,3 @@ TEST_CASE("what a run prints at the end: choices, time, remarks, and what the re
     CHECK(other.str().find("chosen") == std::string::npos);
     CHECK(other.str().find("distance   V_mean 0.5  V_RMS 1  V_max 1.5 mean edge lengths") != std::string::npos);
 }
-
-TEST_CASE("simulations are a table, a line each")
-{
-    std::ostringstream out;
-    print_simulations(
-        out,
-        {{.workers = 1, .work = 3.0, .makespan = 3.0, .critical_path_seconds = 0.75, .critical_path = {4, 2}},
-         {.workers = 1024, .work = 3.0, .makespan = 0.75, .critical_path_seconds = 0.75, .critical_path = {4, 2}}});
-    CHECK(out.str() == "workers      makespan  efficiency  speed-up            critical path\n"
-                       "      1   3000.000 ms       1.000      1.00    750.000 ms,   2 tasks\n"
-                       "   1024    750.000 ms       0.004      4.00    750.000 ms,   2 tasks\n");
-}

@@ -91,9 +91,6 @@ class AmgSolver final : public PeerSolver {
     AmgSolver(const AmgSolver&) = delete;
     AmgSolver& operator=(const AmgSolver&) = delete;
 
-    [[nodiscard]] SystemForm form() const override { return SystemForm::Symmetric; }
-    [[nodiscard]] StorageOrder order() const override { return StorageOrder::ByRows; }
-
     void analyse(const WholeSystem& system) override
     {
         rows_.resize(system.n());

@@ -38,9 +38,6 @@ class WholeCholmod final : public PeerSolver {
     WholeCholmod(const WholeCholmod&) = delete;
     WholeCholmod& operator=(const WholeCholmod&) = delete;
 
-    [[nodiscard]] SystemForm form() const override { return SystemForm::Symmetric; }
-    [[nodiscard]] StorageOrder order() const override { return StorageOrder::ByColumns; }
-
     void analyse(const WholeSystem& system) override
     {
         const SparsePattern& pattern = system.pattern();

@@ -339,17 +339,13 @@ MethodResult run_fused_cg(const PolygonMesh& mesh, const MethodTask& task)
         Points after;
         result.setup_seconds = watch.lap();
         for (int step = 0; step < options.steps; ++step) {
-            StepSeconds& seconds = result.steps.emplace_back();
             watch.lap();
             assemble(flow, result.positions, centroid, equations);
-            seconds.assemble = watch.lap();
             result.iterations += solve(flow, result.positions, task.tolerance, equations, iteration, after);
             std::swap(result.positions, after);
-            seconds.solve = watch.lap();
-            seconds.total = seconds.assemble + seconds.solve;
+            result.steps.push_back(watch.lap());
         }
     });
-    result.phases = result.steps[median_step(result.steps)];
     return result;
 }
 

@@ -13,10 +13,6 @@ class PeerSolver {
   public:
     virtual ~PeerSolver() = default;
 
-    /// The form in which it takes the equations.
-    [[nodiscard]] virtual SystemForm form() const = 0;
-    [[nodiscard]] virtual StorageOrder order() const = 0;
-
     /// Called once, before the values are known.
     /// @param system must outlive the solver.
     virtual void analyse(const WholeSystem& system) = 0;
@@ -30,14 +26,10 @@ class PeerSolver {
     virtual int solve(const WholeSystem& system, Columns& solution) = 0;
 };
 
-/// The solver that a task asks for; not for Ours and SmoothShape, which take whole steps.
-/// @throws ComputationError if the program was built without it.
-std::unique_ptr<PeerSolver> make_peer_solver(const MethodTask& task);
-
-/// One maker for each library; `tolerance` as in MethodTask.
 std::unique_ptr<PeerSolver> make_cholmod_solver();
-std::unique_ptr<PeerSolver> make_umfpack_solver();
-std::unique_ptr<PeerSolver> make_krylov_solver(Method method, Laplacian laplacian, double tolerance, int threads);
+
+/// @param tolerance as in MethodTask.
+/// @throws ComputationError if the program was built without it.
 std::unique_ptr<PeerSolver> make_amg_solver(double tolerance);
 
 /// Whether make_amg_solver is available.

@@ -53,17 +53,14 @@ SparsePattern make_large_pattern(Index n, const std::vector<MatrixEntry>& entrie
 
 }  // namespace
 
-WholeSystem::WholeSystem(const PolygonMesh& mesh, const Topology& topology, Laplacian laplacian, SystemForm form,
-                         StorageOrder order)
+WholeSystem::WholeSystem(const PolygonMesh& mesh, const Topology& topology, Laplacian laplacian)
     : topology_(&topology)
-    , form_(form)
-    , order_(order)
     , assembler_(make_assembler(laplacian, faces_of(mesh, topology)))
 {
-    assert(form == SystemForm::AsTheyStand || laplacian != Laplacian::PtackovaVelho);
+    assert(laplacian != Laplacian::PtackovaVelho);
     std::vector<Index> unknown_of(mesh.n_vertices(), -1);
     for (Index v = 0; v < mesh.n_vertices(); ++v)
-        if (form == SystemForm::AsTheyStand || topology.moves(v)) {
+        if (topology.moves(v)) {
             unknown_of[v] = static_cast<Index>(vertices_.size());
             vertices_.push_back(v);
         }
@@ -78,8 +75,7 @@ void WholeSystem::make_slots(const std::vector<MatrixEntry>& entries, const std:
     const auto placed = [&](const MatrixEntry& entry) -> MatrixEntry {
         if (!moves(entry.row) || unknown_of[entry.column] < 0)
             return none;
-        const MatrixEntry mapped{unknown_of[entry.column], unknown_of[entry.row]};
-        return order_ == StorageOrder::ByRows ? MatrixEntry{mapped.row, mapped.column} : mapped;
+        return {unknown_of[entry.column], unknown_of[entry.row]};
     };
     std::vector<MatrixEntry> wanted;
     wanted.reserve(entries.size() + vertices_.size());
@@ -113,8 +109,7 @@ void WholeSystem::assemble(const Points& positions, double time_step)
     for (const Index slot : diagonal_slots_)
         values_[slot] += 1.0;
     right_hand_side_ = unknowns_at(positions);
-    if (form_ == SystemForm::Symmetric)
-        make_symmetric(positions);
+    make_symmetric(positions);
     if (!std::all_of(values_.begin(), values_.end() - 1, [](double value) { return std::isfinite(value); }))
         throw ComputationError("the equations are not finite: use a smaller time step or fewer steps");
 }
@@ -124,11 +119,8 @@ void WholeSystem::make_symmetric(const Points& positions)
     row_factor_.resize(vertices_.size());
     std::transform(vertices_.begin(), vertices_.end(), row_factor_.begin(),
                    [&](Index v) { return assembler_->mass(v); });
-    for (Index line = 0; line < n(); ++line)
-        for (std::size_t i = at(pattern_.column_offsets[line]); i < at(pattern_.column_offsets[line + 1]); ++i) {
-            const Index row = order_ == StorageOrder::ByRows ? line : pattern_.rows[i];
-            values_[i] *= row_factor_[row];
-        }
+    for (std::size_t i = 0; i < pattern_.rows.size(); ++i)
+        values_[i] *= row_factor_[pattern_.rows[i]];
     for (Index u = 0; u < n(); ++u)
         right_hand_side_.row(u) *= row_factor_[u];
     for (std::size_t i = 0; i < couplings_.size(); ++i) {
@@ -156,8 +148,7 @@ void WholeSystem::move(const Columns& solution, Points& positions) const
     if (!solution.allFinite())
         throw ComputationError("the result is not finite: use a smaller time step");
     for (Index u = 0; u < n(); ++u)
-        if (topology_->moves(vertices_[u]))
-            positions.row(vertices_[u]) = solution.row(u);
+        positions.row(vertices_[u]) = solution.row(u);
 }
 
 }  // namespace seamflow

@@ -11,26 +11,15 @@
 
 namespace seamflow {
 
-/// The form of the equations of a step; all forms are equivalent.
-enum class SystemForm {
-    /// (I + dt Δ) V^{k+1} = V^k with one row per vertex; V^{k+1} = V^k in the rows of vertices that stay.
-    AsTheyStand,
-    /// Each row divided by the positive diagonal factor of Δ (Δ_F: nᵥ / Σ‖e‖, Δ_A: 1 / vertex area), vertices that stay
-    /// moved to the right-hand side: symmetric positive definite. Not for Δ_P.
-    Symmetric,
-};
-
-/// The order in which the entries of the matrix are stored.
-enum class StorageOrder { ByColumns, ByRows };
-
-/// The equations of one backward Euler step on the whole mesh: a fixed pattern, and values that are filled in anew for
-/// each step, by the arithmetic that sub-meshes use, in one thread.
+/// The equations of one backward Euler step on the whole mesh, (M + dt K) Vᵏ⁺¹ = M Vᵏ, vertices that stay moved to the
+/// right-hand side: symmetric positive definite. A fixed pattern, and values that are filled in anew for each step, by
+/// the arithmetic that sub-meshes use, in one thread.
 class WholeSystem {
   public:
     /// @param mesh, topology must outlive the system.
+    /// @param laplacian symmetric.
     /// @throws ComputationError if there are 2³¹ or more entries.
-    WholeSystem(const PolygonMesh& mesh, const Topology& topology, Laplacian laplacian, SystemForm form,
-                StorageOrder order);
+    WholeSystem(const PolygonMesh& mesh, const Topology& topology, Laplacian laplacian);
 
     /// Fills matrix and right-hand side.
     /// @param positions #V by 3: Vᵏ.
@@ -41,9 +30,8 @@ class WholeSystem {
     [[nodiscard]] Index n() const { return pattern_.n(); }
     /// Vertex of each unknown, ascending.
     [[nodiscard]] const std::vector<Index>& vertices() const { return vertices_; }
-    /// With StorageOrder::ByRows its offsets are those of rows, and its `rows` are columns.
     [[nodiscard]] const SparsePattern& pattern() const { return pattern_; }
-    /// One per entry of the pattern.
+    /// One per entry of the pattern. By rows the matrix is the same.
     [[nodiscard]] std::span<const double> values() const;
     /// n by 3.
     [[nodiscard]] const Columns& right_hand_side() const { return right_hand_side_; }
@@ -64,8 +52,6 @@ class WholeSystem {
     void make_symmetric(const Points& positions);
 
     const Topology* topology_;
-    SystemForm form_;
-    StorageOrder order_;
     std::unique_ptr<LaplacianAssembler> assembler_;
     std::vector<Index> vertices_;
     SparsePattern pattern_;

@@ -8,10 +8,8 @@
 #include <doctest/doctest.h>
 
 #include "engine/mean_curvature_flow.h"
-#include "engine/tasks/schedule_simulation.h"
 #include "samples/meshes/meshes.h"
 #include "tests/support/flows.h"
-#include "tests/support/relative.h"
 
 using namespace seamflow;
 
@@ -147,24 +145,4 @@ TEST_CASE("without being asked a flow records nothing, and explicit steps have n
     CHECK(mean_curvature_flow(mesh, options).schedule->records.empty());
     options.scheme = Scheme::ExplicitEuler;
     CHECK_FALSE(mean_curvature_flow(mesh, options).schedule);
-}
-
-TEST_CASE("a recorded step is simulated: one worker is busy all the time, none beats the critical path")
-{
-    const Recorded flow(recorded(1));
-    const Simulation one = simulate(flow.schedule(), 2, 1);
-    CHECK(one.efficiency() == test::relative(1.0, 1e-5));
-    double path = 0.0;
-    for (const TaskRecord& record : flow.schedule().records)
-        if (record.step == 2 && std::ranges::count(one.critical_path, record.task) > 0)
-            path += record.end - record.start;
-    CHECK(path == test::relative(one.critical_path_seconds, 1e-5));
-    for (const int workers : {2, 8, 1000}) {
-        const Simulation simulation = simulate(flow.schedule(), 2, workers);
-        CHECK(simulation.work == one.work);
-        CHECK(simulation.makespan >= simulation.critical_path_seconds);
-        // Graham's bound for every list schedule.
-        CHECK(simulation.makespan <= (simulation.work / workers + simulation.critical_path_seconds) * (1.0 + 1e-9));
-    }
-    CHECK(simulate(flow.schedule(), 2, 1000).makespan == test::relative(one.critical_path_seconds, 1e-5));
 }
