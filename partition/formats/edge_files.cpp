@@ -9,6 +9,7 @@
 #include "partition/errors.h"
 #include "partition/formats/mesh_io.h"
 #include "partition/formats/obj_scan.h"
+#include "partition/formats/ply_data.h"
 #include "partition/formats/ply_header.h"
 #include "partition/formats/ply_source.h"
 #include "partition/io/input_file.h"
@@ -65,28 +66,6 @@ struct LineReader {
     }
 };
 
-template <class Source>
-void read_ply_edges(Source source, const PlyHeader& header, EdgeList& list)
-{
-    const PlyElement* element = header.elements.data();
-    for (; element->name != "edge"; ++element)
-        for (std::uint64_t e = 0; e < element->count; ++e)
-            pass_over(source, *element, e, "file");
-    for (std::uint64_t e = 0; e < element->count; ++e) {
-        std::int64_t ends[2] = {-1, -1};
-        source.begin_element(*element, e);
-        for (const PlyProperty& property : element->properties) {
-            const bool is_first = property.name == "vertex1";
-            if (is_first || property.name == "vertex2")
-                ends[is_first ? 0 : 1] = source.integer(property.type);
-            else
-                pass_over(source, property, "file");
-        }
-        list.add(ends[0], ends[1], source.position(), 0);
-        source.end_element();
-    }
-}
-
 void read_edges_of_ply(TextScanner scanner, const std::filesystem::path& path, std::string_view content, EdgeList& list)
 {
     const PlyHeader header = read_ply_header(scanner);
@@ -99,7 +78,18 @@ void read_edges_of_ply(TextScanner scanner, const std::filesystem::path& path, s
             throw InputError(fmt::format("{}: the edges have no integer property {}; declare vertex1 and vertex2",
                                          scanner.position_of(element->line), name));
     }
-    with_source(scanner, path, content, header, [&](auto source) { read_ply_edges(std::move(source), header, list); });
+    const PlyData data{path, content, header, scanner, scanner.rest(), PlyUse::OtherData};
+    std::int64_t ends[2] = {-1, -1};
+    data.scan(
+        data.whole(), *element,
+        columns_of(*element,
+                   [](const PlyProperty& p) { return p.name == "vertex1"   ? 0
+                                                     : p.name == "vertex2" ? 1
+                                                                           : -1; }),
+        [&](PlySource& source, Index, Index column, const PlyProperty& property) {
+            ends[column] = source.integer(property.type);
+        },
+        [&](PlySource& source, Index) { list.add(ends[0], ends[1], source.position(), 0); });
 }
 
 void read_pairs(TextScanner scanner, EdgeList& list)

@@ -11,6 +11,7 @@
 
 #include "partition/errors.h"
 #include "partition/formats/mesh_io.h"
+#include "partition/formats/ply_data.h"
 #include "partition/formats/ply_header.h"
 #include "partition/formats/ply_source.h"
 #include "partition/index_lists.h"
@@ -137,29 +138,7 @@ void require_property(const TextScanner& scanner, const PlyHeader& header, Index
     require_number(scanner, *element, property);
 }
 
-/// @param header has vertices with a number of the wanted name.
 /// @param take called with each vertex, its number, and the source, in order.
-template <class Source, class Take>
-void read_elements(Source source, const PlyHeader& header, std::string_view wanted, Take&& take)
-{
-    const PlyElement* element = header.elements.data();
-    for (; element->name != "vertex"; ++element)
-        for (std::uint64_t e = 0; e < element->count; ++e)
-            pass_over(source, *element, e, "file");
-    for (std::uint64_t v = 0; v < element->count; ++v) {
-        source.begin_element(*element, v);
-        for (const PlyProperty& property : element->properties) {
-            if (property.name != wanted) {
-                pass_over(source, property, "file");
-                continue;
-            }
-            const double value = source.number(property.type);
-            take(static_cast<Index>(v), value, source);
-        }
-        source.end_element();
-    }
-}
-
 template <class Take>
 void read_ply_property(const std::filesystem::path& path, Index n_vertices, std::string_view property, Take&& take)
 {
@@ -167,8 +146,14 @@ void read_ply_property(const std::filesystem::path& path, Index n_vertices, std:
     TextScanner scanner(path, file.content(), ply_syntax);
     const PlyHeader header = read_ply_header(scanner);
     require_property(scanner, header, n_vertices, property);
-    with_source(scanner, path, file.content(), header,
-                [&](auto source) { read_elements(std::move(source), header, property, take); });
+    const PlyData data{path, file.content(), header, scanner, scanner.rest(), PlyUse::OtherData};
+    const PlyElement& vertices = *header.element("vertex");
+    data.scan(
+        data.whole(), vertices, columns_of(vertices, [&](const PlyProperty& p) { return p.name == property ? 0 : -1; }),
+        [&](PlySource& source, Index v, Index, const PlyProperty& wanted) {
+            take(v, source.number(wanted.type), source);
+        },
+        [](PlySource&, Index) {});
 }
 
 std::vector<Index> from_ply(const std::filesystem::path& path, Index n_vertices, std::string_view property)

@@ -10,7 +10,6 @@
 
 #include "partition/formats/file_fields.h"
 #include "partition/formats/off_header.h"
-#include "partition/formats/ply_header.h"
 #include "partition/io/fault_log.h"
 #include "partition/io/output_file.h"
 #include "partition/io/slices.h"
@@ -60,22 +59,6 @@ std::vector<std::string> extras_of_off(const std::filesystem::path& path, std::s
 /// @throws InputError naming the byte.
 PolygonMesh read_binary_off(const std::filesystem::path& path, std::string_view file, std::size_t offset,
                             const Slicing& slicing, FaultLog* faults);
-
-/// Bytes of the counts before the vertices of such a file.
-inline constexpr std::size_t binary_off_counts_bytes = 12;
-
-/// The four layouts in order, each as the header of a binary PLY file whose elements are the bytes after the counts;
-/// empty if the file is too short for counts.
-std::vector<PlyHeader> layouts_of_binary_off(std::string_view file, std::size_t offset);
-
-/// Reports that no layout fits.
-/// @throws InputError naming the byte.
-[[noreturn]] void refuse_binary_off(const std::filesystem::path& path, std::string_view file, std::size_t offset);
-
-/// Checks that floats can hold some vertices. @param first the number of the first of them.
-/// @throws OutputError
-void require_fits_binary_off(const std::filesystem::path& path, const Points& vertices, Index first,
-                             const Executor& exec);
 
 /// Rewrites such a file with the positions of `mesh`, rounded to floats; every other byte stays.
 /// @param mesh with the faces of the file.

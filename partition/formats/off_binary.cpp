@@ -10,8 +10,7 @@
 
 #include "partition/errors.h"
 #include "partition/formats/off.h"
-#include "partition/formats/ply.h"
-#include "partition/formats/ply_slices.h"
+#include "partition/formats/ply_data.h"
 #include "partition/formats/ply_source.h"
 #include "partition/io/byte_scanner.h"
 
@@ -20,14 +19,16 @@ namespace seamflow {
 namespace {
 
 constexpr std::size_t word_size = 4;
+/// Bytes of the counts before the vertices.
+constexpr std::size_t counts_bytes = 3 * word_size;
 
-/// The first layout that fits the length of the data.
-std::optional<PlyHeader> layout_of(std::string_view file, std::size_t offset)
+/// An element with a count at `counts`.
+PlyElement element_of(const char* name, const char* counts, Encoding encoding)
 {
-    for (PlyHeader& header : layouts_of_binary_off(file, offset))
-        if (are_all_elements(file, offset + binary_off_counts_bytes, header))
-            return std::move(header);
-    return std::nullopt;
+    PlyElement element;
+    element.name = name;
+    element.count = from_bytes<std::uint32_t>(counts, order_of(encoding));
+    return element;
 }
 
 /// @param type of four bytes.
@@ -40,52 +41,47 @@ PlyProperty word_list(const char* name, PlyType type)
     return property;
 }
 
-}  // namespace
-
-PolygonMesh read_binary_off(const std::filesystem::path& path, std::string_view file, std::size_t offset,
-                            const Slicing& slicing, FaultLog* faults)
+/// Whether the file has all elements from `begin` on, and only padding after them.
+bool are_all_elements(std::string_view file, std::size_t begin, const PlyHeader& header)
 {
-    const std::optional<PlyHeader> layout = layout_of(file, offset);
-    if (!layout)
-        refuse_binary_off(path, file, offset);
-    return read_ply_elements(path, file, offset + binary_off_counts_bytes, *layout, slicing, faults);
+    PlySource source(ByteScanner({}, file, begin, order_of(header.encoding)), "mesh");
+    try {
+        for (const PlyElement& element : header.elements)
+            source.pass_over(element, 0, element.count);
+        source.finish();
+        return true;
+    } catch (const InputError&) {
+        return false;
+    }
 }
 
-void refuse_binary_off(const std::filesystem::path& path, std::string_view file, std::size_t offset)
+/// The first of four layouts that fits the length of the data, as the header of a binary PLY file whose elements are
+/// the bytes after the counts.
+std::optional<PlyHeader> layout_of(std::string_view file, std::size_t offset)
 {
-    ByteScanner(path, file, offset, std::endian::big)
-        .fail("the binary data do not end where their counts say, in either byte order; the file has been cut off, or "
-              "holds more "
-              "than coordinates and faces: convert the mesh to text OFF or to PLY");
-}
-
-std::vector<PlyHeader> layouts_of_binary_off(std::string_view file, std::size_t offset)
-{
-    std::vector<PlyHeader> headers;
-    if (file.size() < offset + binary_off_counts_bytes)
-        return headers;
+    if (file.size() < offset + counts_bytes)
+        return std::nullopt;
     for (const auto& [encoding, colours_follow_faces] :
          {std::pair{Encoding::BinaryBigEndian, true}, std::pair{Encoding::BinaryLittleEndian, false},
           std::pair{Encoding::BinaryBigEndian, false}, std::pair{Encoding::BinaryLittleEndian, true}}) {
         const char* const counts = file.data() + offset;
-        PlyElement vertices;
-        vertices.name = "vertex";
-        vertices.count = from_bytes<std::uint32_t>(counts, order_of(encoding));
+        PlyElement vertices = element_of("vertex", counts, encoding);
         for (const std::string name : {"x", "y", "z"})
             vertices.properties.emplace_back().name = name;
-        PlyElement faces;
-        faces.name = "face";
-        faces.count = from_bytes<std::uint32_t>(counts + word_size, order_of(encoding));
+        PlyElement faces = element_of("face", counts + word_size, encoding);
         faces.properties.push_back(word_list("vertex_indices", PlyType::Int32));
         if (colours_follow_faces)
             faces.properties.push_back(word_list("colours", PlyType::Float32));
-        headers.push_back({encoding, {vertices, faces}});
+        PlyHeader header{encoding, {vertices, faces}};
+        if (are_all_elements(file, offset + counts_bytes, header))
+            return header;
     }
-    return headers;
+    return std::nullopt;
 }
 
-void require_fits_binary_off(const std::filesystem::path& path, const Points& vertices, Index first,
-                             const Executor& exec)
+/// Checks that floats can hold the vertices.
+/// @throws OutputError
+void require_fits_floats(const std::filesystem::path& path, const Points& vertices, const Executor& exec)
 {
     const auto too_large = select(exec, static_cast<Index>(vertices.rows()), [&](Index v) {
         return vertices.row(v).cwiseAbs().maxCoeff() > double{std::numeric_limits<float>::max()};
@@ -94,7 +90,21 @@ void require_fits_binary_off(const std::filesystem::path& path, const Points& ve
         throw OutputError(
             fmt::format("{}: cannot be written: vertex {} (numbered from 0) has a coordinate too large for the single "
                         "precision of binary OFF; write another format",
-                        path.string(), first + too_large.front()));
+                        path.string(), too_large.front()));
+}
+
+}  // namespace
+
+PolygonMesh read_binary_off(const std::filesystem::path& path, std::string_view file, std::size_t offset,
+                            const Slicing& slicing, FaultLog* faults)
+{
+    const std::optional<PlyHeader> layout = layout_of(file, offset);
+    if (!layout)
+        ByteScanner(path, file, offset, std::endian::big)
+            .fail("the binary data do not end where their counts say, in either byte order; the file has been cut off, "
+                  "or holds more than coordinates and faces: convert the mesh to text OFF or to PLY");
+    const TextScanner no_text(path, {});
+    return read_ply_elements({path, file, *layout, no_text, file.substr(offset + counts_bytes)}, slicing, faults);
 }
 
 bool rewrite_binary_off(OutputFile& output, std::string_view file, std::size_t offset, const PolygonMesh& mesh,
@@ -102,9 +112,9 @@ bool rewrite_binary_off(OutputFile& output, std::string_view file, std::size_t o
 {
     const auto layout = layout_of(file, offset);
     const std::endian order = order_of(layout ? layout->encoding : Encoding::BinaryBigEndian);
-    require_fits_binary_off(output.path(), mesh.vertices, 0, slicing.exec);
+    require_fits_floats(output.path(), mesh.vertices, slicing.exec);
     constexpr std::size_t vertex_bytes = 3 * word_size;
-    const std::size_t first = offset + binary_off_counts_bytes;
+    const std::size_t first = offset + counts_bytes;
     output.text(file.substr(0, first));
     write_elements(output, mesh.n_vertices(), elements_per_slice(slicing, vertex_bytes), slicing.exec,
                    [&](ByteWriter& slice, Index v) {

@@ -26,12 +26,6 @@ namespace seamflow {
 MeshFile read_ply(const std::filesystem::path& path, std::string_view file, const Slicing& slicing,
                   FaultLog* faults = nullptr);
 
-/// Reads the elements of a binary file, which may be of another format with the same layout.
-/// @param begin of the first element in the file. @param header with vertices whose coordinates are single numbers.
-/// @throws InputError naming the element and its byte.
-PolygonMesh read_ply_elements(const std::filesystem::path& path, std::string_view file, std::size_t begin,
-                              const PlyHeader& header, const Slicing& slicing, FaultLog* faults = nullptr);
-
 /// Content of a PLY file besides the mesh; omitted if empty.
 struct PlyExtras {
     /// #F; each face has the properties red, green, blue (uchar) and label (int) too.

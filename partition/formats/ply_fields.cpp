@@ -9,56 +9,31 @@
 
 #include "partition/errors.h"
 #include "partition/formats/ply.h"
+#include "partition/formats/ply_data.h"
 #include "partition/formats/ply_header.h"
 #include "partition/formats/ply_source.h"
-#include "partition/formats/ply_vertices.h"
 
 namespace seamflow {
 
 namespace {
 
-/// A property of the vertices, and where its numbers go.
-struct ReadProperty {
-    const PlyProperty& property;
-    /// -1: it is passed over.
-    Index column;
-    /// In messages.
-    std::string name;
-};
-
-std::vector<ReadProperty> properties_to_read(const PlyElement& vertices, const FileFields& fields)
+Eigen::MatrixXd read_columns(const PlyData& data, const FileFields& fields, const Slicing& slicing)
 {
-    std::vector<ReadProperty> properties;
-    for (const PlyProperty& property : vertices.properties)
-        properties.push_back({property, fields.column(property.name), "the number " + in_quotes(property.name)});
-    return properties;
-}
-
-/// Reads the numbers of vertex v of the file into a row.
-template <class Source>
-void read_row(Source& source, const PlyElement& vertices, Index v, const std::vector<ReadProperty>& properties,
-              auto&& row)
-{
-    source.begin_element(vertices, at(v));
-    for (const auto& [property, column, name] : properties)
-        if (column < 0)
-            pass_over(source, property);
-        else
-            row(column) = source.field(property.type, name.c_str());
-    source.end_element();
-}
-
-Eigen::MatrixXd read_columns(const PlyVertexSlices& slices, const PlyHeader& header, const FileFields& fields,
-                             const Executor& exec)
-{
-    const PlyElement& vertices = *header.element("vertex");
-    const std::vector<ReadProperty> properties = properties_to_read(vertices, fields);
-    Eigen::MatrixXd values(static_cast<Index>(vertices.count), static_cast<Index>(fields.names.size()));
-    for_each(exec, slices.count(), [&](Index i) {
-        slices.with_source(i, [&](auto& source) {
-            for_each_vertex(source, header, slices[i],
-                            [&](Index v) { read_row(source, vertices, v, properties, values.row(v)); });
-        });
+    const PlyElement& vertices = *data.header.element("vertex");
+    const std::vector<Index> columns =
+        columns_of(vertices, [&](const PlyProperty& property) { return fields.column(property.name); });
+    const std::vector<PlySlice> slices = data.slices(data.up_to(vertices), slicing);
+    std::vector<std::string> words;
+    for (const std::string& name : fields.names)
+        words.push_back("the number " + in_quotes(name));
+    Eigen::MatrixXd values(static_cast<Index>(vertices.count), static_cast<Index>(words.size()));
+    for_each(slicing.exec, static_cast<Index>(slices.size()), [&](Index i) {
+        data.scan(
+            slices[i], vertices, columns,
+            [&](PlySource& source, Index v, Index column, const PlyProperty& property) {
+                values(v, column) = source.field(property.type, words[column].c_str());
+            },
+            [](PlySource&, Index) {});
     });
     return values;
 }
@@ -105,12 +80,10 @@ FileFields read_ply_fields(const std::filesystem::path& path, std::string_view c
     TextScanner scanner(path, content, ply_syntax);
     const PlyHeader header = read_ply_header(scanner);
     FileFields fields = find_fields(scanner, path, header, names);
-    const auto read = [&](const Slicing& sliced) {
-        return read_columns({path, content, header, scanner, sliced}, header, fields, sliced.exec);
-    };
-    fields.values = read_in_slices_if_faultless([&] { return read(slicing); },
+    const PlyData data{path, content, header, scanner};
+    fields.values = read_in_slices_if_faultless([&] { return read_columns(data, fields, slicing); },
                                                 [&] {
-                                                    return read({run_serially, content.size()});
+                                                    return read_columns(data, fields, {run_serially, content.size()});
                                                 });
     return fields;
 }

@@ -21,7 +21,7 @@ inline constexpr TextSyntax ply_syntax = {.comment = '\0', .first_line_end_decid
 enum class PlyType : std::uint8_t { Int8, UInt8, Int16, UInt16, Int32, UInt32, Int64, UInt64, Float32, Float64 };
 
 /// Calls `act` with a zero of that type.
-auto with_type(PlyType type, const auto& act)
+[[gnu::always_inline]] inline auto with_type(PlyType type, const auto& act)
 {
     switch (type) {
     case PlyType::Int8:

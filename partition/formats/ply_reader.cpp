@@ -1,7 +1,7 @@
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <optional>
-#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -10,11 +10,11 @@
 
 #include "partition/errors.h"
 #include "partition/formats/ply.h"
-#include "partition/formats/ply_elements.h"
+#include "partition/formats/ply_data.h"
 #include "partition/formats/ply_header.h"
 #include "partition/formats/ply_plain.h"
-#include "partition/formats/ply_slices.h"
 #include "partition/formats/ply_source.h"
+#include "partition/io/mesh_builder.h"
 #include "partition/io/text_scanner.h"
 
 namespace seamflow {
@@ -33,22 +33,26 @@ void require_coordinates(const TextScanner& scanner, const PlyHeader& header)
     if (vertices == nullptr || vertices->count == 0)
         scanner.fail("the file has no vertices; export the mesh again");
     std::size_t n_found = 0;
-    for (std::size_t p = 0; const PlyRole role : roles_of(*vertices)) {
+    for (std::size_t p = 0; const Index column : coordinates_in(*vertices)) {
         const PlyProperty& property = vertices->properties[p++];
-        if (role != PlyRole::Other && property.length_type)
+        if (column >= 0 && property.length_type)
             refuse(scanner, property.line, "a coordinate must be one number, not a list; correct the header");
-        n_found += role != PlyRole::Other ? 1 : 0;
+        n_found += column >= 0 ? 1 : 0;
     }
     if (n_found < 3)
         refuse(scanner, vertices->line, "the vertices lack x, y or z; correct the header or export the mesh again");
 }
 
-void require_corners(const TextScanner& scanner, const PlyElement& faces)
+/// @param name of faces or strips.
+void require_corners(const TextScanner& scanner, const PlyHeader& header, std::string_view name)
 {
+    const PlyElement* const faces = header.element(name);
+    if (faces == nullptr || faces->count == 0)
+        return;
     std::size_t n_found = 0;
-    for (std::size_t p = 0; const PlyRole role : roles_of(faces)) {
-        const PlyProperty& property = faces.properties[p++];
-        if (role != PlyRole::Corners)
+    for (std::size_t p = 0; const Index column : corners_in(*faces)) {
+        const PlyProperty& property = faces->properties[p++];
+        if (column < 0)
             continue;
         if (!property.length_type || !is_integer(property.type))
             refuse(
@@ -58,136 +62,172 @@ void require_corners(const TextScanner& scanner, const PlyElement& faces)
     }
     if (n_found != 1)
         refuse(
-            scanner, faces.line,
+            scanner, faces->line,
             fmt::format("the faces must have one list named vertex_indices or vertex_index, but have {}; correct the "
                         "header or export the mesh again",
                         n_found));
 }
 
-template <class Source>
-PolygonMesh read_elements(Source source, const PlyHeader& header, FaultLog* faults)
-{
-    source.note_faults_in(faults);
-    ElementReader<Source> reader(source, header);
-    for (const PlyElement& element : header.elements)
-        reader.read(element, 0, element.count);
-    return reader.finish();
-}
+/// In place of a corner.
+constexpr Index end_of_strip = -2;
 
-/// Reads a text file without one line per element; nothing if it has these, or cannot be read this way either.
-std::optional<PolygonMesh> read_across_lines(TextScanner after_header, const PlyHeader& header, FaultLog* faults)
+/// Every vertex of a strip except the first two forms a triangle with the two before it, every other one reversed.
+/// Those that name a vertex twice join strips, and are skipped.
+void add_strips(MeshBuilder& builder, const std::vector<Index>& corners)
 {
-    if (!breaks_lines_freely(after_header, header))
-        return std::nullopt;
-    after_header.cross_lines();
-    FaultLog own = faults != nullptr ? *faults : FaultLog();
-    try {
-        PolygonMesh mesh = read_elements(PlyTextSource(after_header), header, faults != nullptr ? &own : nullptr);
-        if (faults != nullptr)
-            *faults = std::move(own);
-        return mesh;
-    } catch (const InputError&) {
-        return std::nullopt;
+    std::size_t begin = 0;
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+        if (corners[k] == end_of_strip)
+            begin = k + 1;
+        if (k < begin + 2)
+            continue;
+        std::array<Index, 3> triangle{corners[k - 2], corners[k - 1], corners[k]};
+        if ((k - begin) % 2 == 1)
+            std::swap(triangle[0], triangle[1]);
+        if (triangle[0] != triangle[1] && triangle[1] != triangle[2] && triangle[2] != triangle[0])
+            builder.add_face(triangle);
     }
 }
 
-/// @throws InputError if there is any fault, not necessarily naming it.
-PolygonMesh read_binary_slices(const std::filesystem::path& path, std::string_view file, std::size_t data,
-                               const PlyHeader& header, const Slicing& slicing)
+void read_vertices(PlySource& source, MeshBuilder& builder, const PlyElement& vertices, std::uint64_t begin,
+                   std::uint64_t end)
 {
-    if (header.element("vertex")->count == 0 || header.element("vertex")->count > std::numeric_limits<Index>::max())
-        throw InputError("no vertices, or too many");
-    const auto n_vertices = static_cast<Index>(header.element("vertex")->count);
-    const std::vector<PlySlice> slices = slice_elements(file, data, header.encoding, header.elements, slicing);
-    const auto source_of = [&](std::string_view bytes) {
-        return PlyBinarySource(path, file, static_cast<std::size_t>(bytes.data() - file.data()), header.encoding);
-    };
-    PolygonMesh mesh;
-    mesh.vertices = uninitialised_points(n_vertices);
-    if (const PlyElement* const faces = header.element("face"))
-        mesh.face_offsets.reserve(faces->count + 1);
-    append_faces(mesh, static_cast<Index>(slices.size()), slicing.exec, [&](Index i, PolygonMesh& faces) {
-        const auto first = static_cast<Index>(count_before(slices[i].begin, header, "vertex"));
-        const MeshSlice place{mesh.vertices, first, faces};
-        if (read_plain_slice(header, slices[i], place))
-            return;
-        PlyBinarySource source = source_of(slices[i].bytes);
-        ElementReader<PlyBinarySource> reader(source, n_vertices, place);
-        for_each_kind(header.elements, slices[i],
-                      [&](const PlyElement& element, std::uint64_t begin, std::uint64_t end) {
-                          reader.read(element, begin, end);
-                      });
-    });
-    PlyBinarySource end = source_of(std::string_view(slices.back().bytes.data() + slices.back().bytes.size(), 0));
-    end.finish();
-    return mesh;
+    std::array<double, 3> point{};
+    source.scan(
+        vertices, begin, end, coordinates_in(vertices),
+        [&](Index, Index column, const PlyProperty& property) { point[column] = source.real(property.type); },
+        [&](Index) {
+            source.end_element();
+            builder.add_vertex(point);
+        });
+}
+
+/// @param n_vertices of the whole file.
+void read_faces(PlySource& source, MeshBuilder& builder, std::int64_t n_vertices, const PlyElement& faces,
+                std::uint64_t begin, std::uint64_t end)
+{
+    const bool are_strips = faces.name == "tristrips";
+    std::vector<Index> corners;
+    source.scan(
+        faces, begin, end, corners_in(faces),
+        [&](Index, Index, const PlyProperty& list) {
+            corners.clear();
+            source.integers(list, [&](std::int64_t v) {
+                corners.push_back(are_strips && v == -1 ? end_of_strip : builder.vertex(v, n_vertices));
+            });
+        },
+        [&](Index) {
+            source.end_element();
+            if (are_strips)
+                add_strips(builder, corners);
+            else
+                builder.add_face(corners);
+        });
+}
+
+/// Reads all elements of a slice.
+void read_slice(PlySource& source, MeshBuilder& builder, const PlyHeader& header, const PlySlice& slice)
+{
+    const auto n_vertices = static_cast<std::int64_t>(header.element("vertex")->count);
+    PlyData::for_each_kind(header.elements, slice,
+                           [&](const PlyElement& element, std::uint64_t begin, std::uint64_t end) {
+                               if (element.name == "vertex")
+                                   read_vertices(source, builder, element, begin, end);
+                               else if (element.name == "face" || element.name == "tristrips")
+                                   read_faces(source, builder, n_vertices, element, begin, end);
+                               else
+                                   source.pass_over(element, begin, end);
+                           });
+}
+
+std::uint64_t n_faces(const PlyHeader& header)
+{
+    const PlyElement* const faces = header.element("face");
+    return faces != nullptr ? faces->count : 0;
+}
+
+PolygonMesh read_in_one_go(const PlyData& data, const PlySlice& whole, FaultLog* faults)
+{
+    PlySource source = data.source(whole);
+    source.note_faults_in(faults);
+    MeshBuilder builder(source.position());
+    builder.reserve(data.header.element("vertex")->count, n_faces(data.header));
+    read_slice(source, builder, data.header, whole);
+    source.finish();
+    return builder.finish();
+}
+
+/// Reads a file that may have faults. Where it has not one line per element, and cannot be read across lines either, it
+/// is read as if it had, for the messages.
+PolygonMesh read_in_one_go(const PlyData& data, FaultLog* faults)
+{
+    PlySlice whole = data.whole();
+    if (std::exchange(whole.crosses_lines, false)) {
+        PlySlice across = whole;
+        across.crosses_lines = true;
+        FaultLog own = faults != nullptr ? *faults : FaultLog();
+        try {
+            PolygonMesh mesh = read_in_one_go(data, across, faults != nullptr ? &own : nullptr);
+            if (faults != nullptr)
+                *faults = std::move(own);
+            return mesh;
+        } catch (const InputError&) {
+        }
+    }
+    return read_in_one_go(data, whole, faults);
+}
+
+/// How many of the first `end` elements of a file are vertices.
+std::uint64_t vertices_before(std::uint64_t end, const PlyHeader& header)
+{
+    std::uint64_t n = 0;
+    PlyData::for_each_kind(header.elements, {0, end},
+                           [&](const PlyElement& element, std::uint64_t, std::uint64_t n_here) {
+                               n = element.name == "vertex" ? n_here : n;
+                           });
+    return n;
 }
 
 /// @throws InputError if there is any fault, not necessarily naming it.
-PolygonMesh read_text_slices(const TextScanner& after_header, const PlyHeader& header, const Slicing& slicing)
+PolygonMesh read_in_slices(const PlyData& data, const Slicing& slicing)
 {
-    const std::vector<std::string_view> slices = after_header.slices(slicing.bytes);
-    const std::vector<std::int64_t> lines = count_lines(after_header, slices, slicing.exec);
-    if (static_cast<std::uint64_t>(lines.back()) != header.n_elements())
-        throw InputError("the file ends too early, or goes on");
-    const Index n_vertices = sum_of_counts(0, static_cast<std::int64_t>(header.element("vertex")->count));
+    const std::uint64_t n_vertices = data.header.element("vertex")->count;
+    const std::vector<PlySlice> slices = data.slices(data.header.elements, slicing);
+    if (n_vertices == 0 || n_vertices > std::numeric_limits<Index>::max() || slices.front().crosses_lines)
+        throw InputError("no vertices, too many, or no line per element");
     PolygonMesh mesh;
-    mesh.vertices = uninitialised_points(n_vertices);
-    if (const PlyElement* const faces = header.element("face"))
-        mesh.face_offsets.reserve(faces->count + 1);
+    mesh.vertices = uninitialised_points(static_cast<Index>(n_vertices));
+    mesh.face_offsets.reserve(n_faces(data.header) + 1);
     append_faces(mesh, static_cast<Index>(slices.size()), slicing.exec, [&](Index i, PolygonMesh& faces) {
-        const PlySlice slice{static_cast<std::uint64_t>(lines[i]), static_cast<std::uint64_t>(lines[i + 1]), slices[i]};
-        PlyTextSource source(TextScanner(after_header, slice.bytes));
-        const auto first = static_cast<Index>(count_before(slice.begin, header, "vertex"));
-        ElementReader<PlyTextSource> reader(source, n_vertices, MeshSlice{mesh.vertices, first, faces});
-        for_each_kind(header.elements, slice, [&](const PlyElement& element, std::uint64_t begin, std::uint64_t end) {
-            reader.read(element, begin, end);
-        });
+        const auto first = static_cast<Index>(vertices_before(slices[i].begin, data.header));
+        const MeshSlice place{mesh.vertices, first, faces};
+        if (data.header.encoding != Encoding::Ascii && read_plain_slice(data.header, slices[i], place))
+            return;
+        PlySource source = data.source(slices[i]);
+        MeshBuilder builder(source.position(), 0, place);
+        read_slice(source, builder, data.header, slices[i]);
     });
+    const std::string_view last = slices.back().bytes;
+    data.source({.bytes = last.substr(last.size())}).finish();
     return mesh;
 }
 
 }  // namespace
 
-void require_surface(const TextScanner& scanner, const PlyHeader& header)
+PolygonMesh read_ply_elements(const PlyData& data, const Slicing& slicing, FaultLog* faults)
 {
-    require_coordinates(scanner, header);
-    const PlyElement* const faces = header.element("face");
-    const PlyElement* const strips = header.element("tristrips");
-    if (faces != nullptr && faces->count > 0)
-        require_corners(scanner, *faces);
-    if (strips != nullptr && strips->count > 0)
-        require_corners(scanner, *strips);
-}
-
-PolygonMesh read_ply_elements(const std::filesystem::path& path, std::string_view file, std::size_t begin,
-                              const PlyHeader& header, const Slicing& slicing, FaultLog* faults)
-{
-    const auto in_one_go = [&] {
-        return read_elements(PlyBinarySource(path, file, begin, header.encoding), header, faults);
-    };
-    if (file.size() - begin <= slicing.bytes)
-        return in_one_go();
-    return read_in_slices_if_faultless([&] { return read_binary_slices(path, file, begin, header, slicing); },
-                                       in_one_go);
+    return read_in_slices_if_faultless([&] { return read_in_slices(data, slicing); },
+                                       [&] { return read_in_one_go(data, faults); });
 }
 
 MeshFile read_ply(const std::filesystem::path& path, std::string_view file, const Slicing& slicing, FaultLog* faults)
 {
     TextScanner scanner(path, file, ply_syntax);
     const PlyHeader header = read_ply_header(scanner);
-    require_surface(scanner, header);
-    const FileKind kind{FileFormat::Ply, header.encoding};
-    if (header.encoding != Encoding::Ascii)
-        return {read_ply_elements(path, file, file.size() - scanner.rest().size(), header, slicing, faults), kind};
-    const auto in_one_go = [&] {
-        if (std::optional<PolygonMesh> mesh = read_across_lines(scanner, header, faults))
-            return *std::move(mesh);
-        return read_elements(PlyTextSource(scanner), header, faults);
-    };
-    if (scanner.rest().size() <= slicing.bytes)
-        return {in_one_go(), kind};
-    return {read_in_slices_if_faultless([&] { return read_text_slices(scanner, header, slicing); }, in_one_go), kind};
+    require_coordinates(scanner, header);
+    for (const char* const name : {"face", "tristrips"})
+        require_corners(scanner, header, name);
+    return {read_ply_elements({path, file, header, scanner}, slicing, faults), {FileFormat::Ply, header.encoding}};
 }
 
 }  // namespace seamflow

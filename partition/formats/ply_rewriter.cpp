@@ -13,11 +13,10 @@
 
 #include "partition/errors.h"
 #include "partition/formats/ply.h"
+#include "partition/formats/ply_data.h"
 #include "partition/formats/ply_header.h"
 #include "partition/formats/ply_numbers.h"
-#include "partition/formats/ply_slices.h"
 #include "partition/formats/ply_source.h"
-#include "partition/formats/ply_vertices.h"
 #include "partition/formats/splicing.h"
 
 namespace seamflow {
@@ -116,100 +115,96 @@ std::vector<std::string> add_fields(std::vector<Change>& changes, const PlyEleme
 }
 
 /// Writes the vertices of a slice of a file.
-template <class Source>
 class VertexRewriter {
   public:
-    VertexRewriter(Source& source, Splicer& splicer, Encoding encoding)
-        : source_(source)
-        , splicer_(splicer)
-        , encoding_(encoding)
+    VertexRewriter(Splicer splicer, const PlyData& data, const std::vector<Change>& changes,
+                   const NewVertices<MovedNormals>& now)
+        : splicer_(splicer)
+        , data_(data)
+        , changes_(changes)
+        , now_(now)
+        , vertices_(*data.header.element("vertex"))
+        , numbers_(vertices_.properties.size())
     {
     }
 
-    /// Writes vertex v.
-    void rewrite(const PlyElement& vertices, const std::vector<Change>& changes, Index v,
-                 const NewVertices<MovedNormals>& now);
-
-    [[nodiscard]] bool rounded() const { return rounded_; }
+    /// @returns whether positions were rounded.
+    bool rewrite(const PlySlice& slice);
 
   private:
-    void read(const PlyElement& vertices, const std::vector<Change>& changes, Index v);
+    /// A number of the present vertex that may change.
+    struct Number {
+        std::string_view part;
+        double value;
+    };
+
+    void write_vertex(Index v, std::string_view end);
     void write(ByteWriter& file, const Change& change, double number);
 
-    Source& source_;
-    Splicer& splicer_;
-    Encoding encoding_;
-    /// For one vertex, one entry per property: its bytes and its number if it may change.
-    std::vector<std::string_view> parts_;
-    std::vector<double> numbers_;
+    Splicer splicer_;
+    const PlyData& data_;
+    const std::vector<Change>& changes_;
+    const NewVertices<MovedNormals>& now_;
+    const PlyElement& vertices_;
+    /// One for each property.
+    std::vector<Number> numbers_;
     Point normal_ = Point::Zero();
-    /// The place behind the vertex.
-    std::string_view end_;
     bool rounded_ = false;
 };
 
-template <class Source>
-void VertexRewriter<Source>::read(const PlyElement& vertices, const std::vector<Change>& changes, Index v)
+bool VertexRewriter::rewrite(const PlySlice& slice)
 {
-    const std::size_t n_properties = vertices.properties.size();
-    parts_.resize(n_properties);
-    numbers_.resize(n_properties);
-    source_.begin_element(vertices, at(v));
-    for (std::size_t p = 0; p < n_properties; ++p) {
-        const PlyProperty& property = vertices.properties[p];
-        const Index column = changes[p].column;
-        if (column < 0) {
-            pass_over(source_, property);
-            continue;
-        }
-        parts_[p] = source_.peek(property.type);
-        numbers_[p] = source_.number(property.type);
-        if (column >= 3 && column < first_field)
-            normal_[column - 3] = numbers_[p];
-    }
-    end_ = source_.behind();
-    source_.end_element();
+    std::vector<Index> properties;
+    for (std::size_t p = 0; p < numbers_.size(); ++p)
+        properties.push_back(changes_[p].column < 0 ? -1 : static_cast<Index>(p));
+    data_.scan(
+        slice, vertices_, properties,
+        [&](PlySource& source, Index, Index p, const PlyProperty& property) {
+            const std::string_view part = source.peek(property.type);
+            numbers_[p] = {part, source.number(property.type)};
+            if (const Index column = changes_[p].column; column >= 3 && column < first_field)
+                normal_[column - 3] = numbers_[p].value;
+        },
+        [&](PlySource& source, Index v) { write_vertex(v, source.behind()); });
+    splicer_.finish();
+    return rounded_;
 }
 
-template <class Source>
-void VertexRewriter<Source>::rewrite(const PlyElement& vertices, const std::vector<Change>& changes, Index v,
-                                     const NewVertices<MovedNormals>& now)
+/// @param end the place behind the vertex.
+void VertexRewriter::write_vertex(Index v, std::string_view end)
 {
-    read(vertices, changes, v);
-    const Point position = now.position(v);
-    const Point normal = now.normals != nullptr ? now.normals->around_vertex(v, normal_).value_or(normal_) : normal_;
-    for (std::size_t p = 0; p < parts_.size(); ++p) {
-        const auto [column, type] = changes[p];
+    const bool is_text = data_.header.encoding == Encoding::Ascii;
+    const Point position = now_.position(v);
+    const Point normal = now_.normals != nullptr ? now_.normals->around_vertex(v, normal_).value_or(normal_) : normal_;
+    for (std::size_t p = 0; p < changes_.size(); ++p) {
+        const auto [column, type] = changes_[p];
         if (column < 0)
             continue;
         const double after = column < 3             ? position[column]
                              : column < first_field ? normal[column - 3]
-                                                    : now.field(v, column - first_field);
-        const bool wider = encoding_ != Encoding::Ascii && type != vertices.properties[p].type;
-        if (wider || differ_as_data(numbers_[p], after))
-            write(splicer_.exchange(parts_[p]), changes[p], after);
-    }
-    if (parts_.size() == changes.size())
-        return;
-    ByteWriter& file = splicer_.exchange(end_);
-    for (std::size_t p = parts_.size(); p < changes.size(); ++p) {
-        file.text(encoding_ == Encoding::Ascii ? " " : "");
-        write(file, changes[p], now.field(v, changes[p].column - first_field));
+                                                    : now_.field(v, column - first_field);
+        if (p >= numbers_.size()) {
+            ByteWriter& file = splicer_.exchange(end);
+            file.text(is_text ? " " : "");
+            write(file, changes_[p], after);
+        } else if ((!is_text && type != vertices_.properties[p].type) || differ_as_data(numbers_[p].value, after)) {
+            write(splicer_.exchange(numbers_[p].part), changes_[p], after);
+        }
     }
 }
 
-template <class Source>
-void VertexRewriter<Source>::write(ByteWriter& file, const Change& change, double number)
+void VertexRewriter::write(ByteWriter& file, const Change& change, double number)
 {
+    const Encoding encoding = data_.header.encoding;
     const bool is_position = change.column < 3;
-    if (is_position && encoding_ == Encoding::Ascii)
+    if (is_position && encoding == Encoding::Ascii)
         return file.number(number);
     with_type(change.type, [&](auto zero) {
         const auto stored = stored_as<decltype(zero)>(number);
-        if (encoding_ == Encoding::Ascii)
+        if (encoding == Encoding::Ascii)
             file.number(stored);
         else
-            file.binary(stored, order_of(encoding_));
+            file.binary(stored, order_of(encoding));
     });
     const bool single = change.type == PlyType::Float32;
     rounded_ = rounded_ || (is_position && single && double{static_cast<float>(number)} != number);
@@ -249,31 +244,18 @@ std::vector<std::string> rewrite_header(ByteWriter& file, const std::filesystem:
     return remarks;
 }
 
-/// Writes a slice.
-/// @returns whether positions were rounded.
-template <class Source>
-bool rewrite_slice(Source& source, Splicer splicer, const PlyHeader& header, const PlySlice& slice,
-                   const std::vector<Change>& changes, const NewVertices<MovedNormals>& now)
-{
-    VertexRewriter<Source> rewriter(source, splicer, header.encoding);
-    const PlyElement& vertices = *header.element("vertex");
-    for_each_vertex(source, header, slice, [&](Index v) { rewriter.rewrite(vertices, changes, v, now); });
-    splicer.finish();
-    return rewriter.rounded();
-}
-
 /// Writes all that follows the header.
 /// @returns whether positions were rounded.
-bool rewrite_elements(OutputFile& file, const PlyVertexSlices& slices, const PlyHeader& header,
-                      const std::vector<Change>& changes, const NewVertices<MovedNormals>& now, const Executor& exec)
+bool rewrite_elements(OutputFile& file, const PlyData& data, const std::vector<Change>& changes,
+                      const NewVertices<MovedNormals>& now, const Slicing& slicing)
 {
-    std::vector<std::uint8_t> rounded(at(slices.count()));
-    file.slices(slices.count(), exec, [&](Index i, OutputBuffer& slice) {
-        rounded[i] = slices.with_source(i, [&](auto& source) {
-            return rewrite_slice(source, Splicer(slice, slices[i].bytes), header, slices[i], changes, now);
-        });
+    const std::vector<PlySlice> slices = data.slices(data.up_to(*data.header.element("vertex")), slicing);
+    std::vector<std::uint8_t> rounded(slices.size());
+    file.slices(static_cast<Index>(slices.size()), slicing.exec, [&](Index i, OutputBuffer& slice) {
+        rounded[i] = VertexRewriter(Splicer(slice, slices[i].bytes), data, changes, now).rewrite(slices[i]);
     });
-    file.text(slices.rest());
+    const std::string_view last = slices.back().bytes;
+    file.text({last.data() + last.size(), data.file.data() + data.file.size()});
     return std::ranges::find(rounded, 1) != rounded.end();
 }
 
@@ -313,9 +295,8 @@ std::vector<std::string> rewrite_ply(OutputFile& file, const std::filesystem::pa
     const std::string_view before_elements = content.substr(0, content.size() - scanner.rest().size());
     for (std::string& remark : rewrite_header(file, path, before_elements, vertices, changes, fields))
         remarks.push_back(std::move(remark));
-    const PlyVertexSlices slices(path, content, header, scanner, slicing);
     const NewVertices<MovedNormals> now{mesh.vertices, 0, normals ? &*normals : nullptr, &fields.values};
-    const bool rounded = rewrite_elements(file, slices, header, changes, now, slicing.exec);
+    const bool rounded = rewrite_elements(file, {path, content, header, scanner}, changes, now, slicing);
     if (kind == Normals::Other)
         remarks.push_back("the normals of " + path.string() +
                           " are written as they were: they are not three floating-point numbers nx, ny, nz");

@@ -1,99 +1,116 @@
 #include "partition/formats/ply_source.h"
 
-#include <bit>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include <fmt/format.h>
 
-#include "partition/io/slices.h"
-
 namespace seamflow {
 
-void PlyTextSource::begin_element(const PlyElement& element, std::uint64_t i)
+std::vector<PlySlot> slots_of(const PlyElement& element, const std::vector<Index>& columns)
 {
-    if (!scanner_.next_line())
-        scanner_.fail(fmt::format("the file ends after {} of {} elements {}; it has been cut off, or the header is "
-                                  "wrong: export or copy the mesh again",
-                                  i, element.count, in_quotes(element.name)));
+    std::vector<PlySlot> slots;
+    PlySlot slot;
+    const PlyProperty* first = element.properties.data();
+    for (std::size_t p = 0; const PlyProperty& property : element.properties) {
+        slot.column = columns[p++];
+        if (slot.column < 0 && !property.length_type) {
+            slot.passed_over = {first, &property + 1};
+            slot.n_bytes += size_in_bytes(property.type);
+            continue;
+        }
+        slot.property = &property;
+        slots.push_back(std::exchange(slot, {}));
+        first = &property + 1;
+    }
+    slot.column = -1;
+    slots.push_back(slot);
+    return slots;
 }
 
-bool breaks_lines_freely(const TextScanner& after_header, const PlyHeader& header)
+const InputPosition& PlySource::position() const
 {
-    const std::string_view all = after_header.rest();
-    return static_cast<std::uint64_t>(count_lines(after_header, {&all, 1}, run_serially).back()) != header.n_elements();
+    return std::visit([](const auto& scanner) -> const InputPosition& { return scanner; }, scanner_);
 }
 
-void PlyTextSource::end_element()
+void PlySource::note_faults_in(FaultLog* log)
 {
-    if (scanner_.crosses_lines() || !scanner_.has_token())
+    std::visit([log](auto& scanner) { scanner.note_faults_in(log); }, scanner_);
+}
+
+void PlySource::pass_over(const PlyElement& element, std::uint64_t begin, std::uint64_t end)
+{
+    const std::vector<Index> columns(element.properties.size(), -1);
+    if (const PlySlot first = slots_of(element, columns).front(); !is_text() && first.property == nullptr &&
+                                                                  first.n_bytes > 0 &&
+                                                                  end - begin <= bytes().remaining() / first.n_bytes)
+        return bytes().skip(static_cast<std::size_t>(end - begin) * first.n_bytes,
+                            size_in_bytes(first.passed_over.back().type));
+    scan(
+        element, begin, end, columns, [](Index, Index, const PlyProperty&) {}, [this](Index) { end_element(); });
+}
+
+void PlySource::begin_line(const PlyElement& element, std::uint64_t i)
+{
+    if (!text().next_line())
+        text().fail(fmt::format("the file ends after {} of {} elements {}; it has been cut off, or the header is "
+                                "wrong: export or copy the mesh again",
+                                i, element.count, in_quotes(element.name)));
+}
+
+void PlySource::end_line()
+{
+    if (text().crosses_lines() || !text().has_token())
         return;
-    scanner_.harmless_fault("the line continues with " + in_quotes(scanner_.peek()) +
-                            " after all the properties that the header declares; correct the header or the line");
-    scanner_.pass_over_rest();
+    text().harmless_fault("the line continues with " + in_quotes(text().peek()) +
+                          " after all the properties that the header declares; correct the header or the line");
+    text().pass_over_rest();
 }
 
-void PlyTextSource::pass_over(PlyType, std::int64_t n)
+void PlySource::finish()
 {
-    for (; n > 0; --n)
-        if (scanner_.token().empty())
-            scanner_.fail("the line has fewer numbers than the header declares; add what is missing or export the mesh "
-                          "again");
-}
-
-void PlyTextSource::finish()
-{
-    if (scanner_.next_line())
-        scanner_.fail(
+    if (!is_text())
+        return bytes().require_end();
+    if (text().next_line())
+        text().fail(
             "the file continues after all the elements that its header announces; correct the counts in the header");
 }
 
-PlyBinarySource::PlyBinarySource(const std::filesystem::path& path, std::string_view file, std::size_t begin,
-                                 Encoding encoding)
-    : scanner_(path, file, begin, order_of(encoding))
+double PlySource::field(PlyType type, const char* name)
 {
-}
-
-double PlyBinarySource::real(PlyType type)
-{
-    const double value = number(type);
-    if (!std::isfinite(value))
-        scanner_.fault("a coordinate is not a finite number; remove the vertex or mend it");
-    return value;
-}
-
-double PlyBinarySource::number(PlyType type)
-{
-    return with_type(type, [&](auto zero) { return static_cast<double>(scanner_.read<decltype(zero)>()); });
-}
-
-double PlyBinarySource::field(PlyType type, const char* name)
-{
+    if (is_text())
+        return text().real_or_nan(name);
     const double value = number(type);
     if (std::isinf(value))
-        scanner_.fail(fmt::format("{} is infinite; write a finite number, or NaN where there is none", name));
+        bytes().fail(fmt::format("{} is infinite; write a finite number, or NaN where there is none", name));
     return value;
 }
 
-std::int64_t PlyBinarySource::integer(PlyType type)
+void PlySource::pass_over_tokens(std::int64_t n)
 {
-    if (!is_integer(type))
-        scanner_.fail("a number that should be whole has a type with decimals; correct the header");
-    return with_type(type, [&](auto zero) { return static_cast<std::int64_t>(scanner_.read<decltype(zero)>()); });
+    for (; n > 0; --n)
+        if (text().token().empty())
+            text().fail("the line has fewer numbers than the header declares; add what is missing or export the mesh "
+                        "again");
 }
 
-void PlyBinarySource::pass_over(PlyType type, std::int64_t n)
+std::string_view PlySource::behind()
 {
-    require_room(type, n);
-    scanner_.take(static_cast<std::size_t>(n) * size_in_bytes(type));
+    return is_text() ? text().rest_of_token().substr(0, 0) : bytes().peek(0);
 }
 
-void PlyBinarySource::require_room(PlyType type, std::int64_t n) const
+void PlySource::refuse_length(const PlyProperty& list, std::int64_t n) const
 {
-    if (static_cast<std::uint64_t>(n) > scanner_.remaining() / size_in_bytes(type))
-        scanner_.fail(fmt::format("a list of {} numbers goes past the end of the file; it has been cut off, or the "
-                                  "length is wrong: export or copy the mesh again",
-                                  n));
+    position().fail("the length of the list " + in_quotes(list.name) + " is " + std::to_string(n) + "; export the " +
+                    what_ + " again");
+}
+
+void PlySource::refuse_room(std::int64_t n) const
+{
+    position().fail(fmt::format("a list of {} numbers goes past the end of the file; it has been cut off, or the "
+                                "length is wrong: export or copy the mesh again",
+                                n));
 }
 
 }  // namespace seamflow

@@ -1,12 +1,16 @@
 #pragma once
 
 #include <bit>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
-#include <filesystem>
-#include <string>
+#include <span>
 #include <string_view>
+#include <variant>
+#include <vector>
 
 #include "partition/formats/ply_header.h"
+#include "partition/index.h"
 #include "partition/io/byte_scanner.h"
 #include "partition/io/text_scanner.h"
 
@@ -18,130 +22,205 @@ inline std::endian order_of(Encoding encoding)
     return encoding == Encoding::BinaryBigEndian ? std::endian::big : std::endian::little;
 }
 
-/// The numbers of a text PLY file, one after another; an element is a line. All functions throw InputError, naming the
-/// line, if the file holds something else.
-class PlyTextSource {
+/// For each property of an element, in order, what `column` makes of it: where its number goes, or -1 if it is passed
+/// over.
+std::vector<Index> columns_of(const PlyElement& element, const auto& column)
+{
+    std::vector<Index> columns;
+    for (const PlyProperty& property : element.properties)
+        columns.push_back(column(property));
+    return columns;
+}
+
+/// A property of an element that is read, or a list, and what is passed over before it.
+struct PlySlot {
+    /// Numbers, not lists.
+    std::span<const PlyProperty> passed_over;
+    /// Their bytes in a binary file.
+    std::size_t n_bytes = 0;
+    /// Null at the end of the element.
+    const PlyProperty* property = nullptr;
+    /// Where its numbers go; -1: it is passed over.
+    Index column = -1;
+};
+
+/// The slots of an element, in order. @param columns see columns_of.
+std::vector<PlySlot> slots_of(const PlyElement& element, const std::vector<Index>& columns);
+
+/// The numbers of a PLY file, one after another. In text an element is a line, and types do not matter. All functions
+/// throw InputError, naming the line, or element and byte, if the file holds something else.
+class PlySource {
   public:
+    /// Of a text file.
     /// @param scanner stands before the first line, that is, at the last line of the header.
-    explicit PlyTextSource(const TextScanner& scanner)
+    /// @param what is to be exported again if the length of a list is negative.
+    PlySource(const TextScanner& scanner, const char* what)
         : scanner_(scanner)
+        , what_(what)
     {
     }
 
-    [[nodiscard]] const InputPosition& position() const { return scanner_; }
-    void note_faults_in(FaultLog* log) { scanner_.note_faults_in(log); }
+    /// Of a binary file.
+    /// @param scanner stands at the first number.
+    PlySource(const ByteScanner& scanner, const char* what)
+        : scanner_(scanner)
+        , what_(what)
+    {
+    }
 
-    /// To be called before the properties of element i, numbered from 0, are read.
-    void begin_element(const PlyElement& element, std::uint64_t i);
-    void end_element();
+    [[nodiscard]] const InputPosition& position() const;
+    void note_faults_in(FaultLog* log);
 
-    /// The next number, which is finite, unless faults are noted. In text its type does not matter.
-    double real(PlyType) { return scanner_.real("a coordinate"); }
+    /// Reads the elements begin to end - 1 of a kind, numbered from 0.
+    /// @param columns of its properties. @param read called with the number of the element, the column of a property
+    ///        and its declaration, to read it.
+    /// @param act called with the number of the element after its last property; it calls end_element.
+    void scan(const PlyElement& element, std::uint64_t begin, std::uint64_t end, const std::vector<Index>& columns,
+              const auto& read, const auto& act)
+    {
+        const std::vector<PlySlot> slots = slots_of(element, columns);
+        for (std::uint64_t i = begin; i < end; ++i) {
+            begin_element(element, i);
+            for (const PlySlot& slot : slots) {
+                pass_over(slot);
+                if (slot.column >= 0)
+                    read(static_cast<Index>(i), slot.column, *slot.property);
+                else if (slot.property != nullptr)
+                    pass_over(*slot.property);
+            }
+            act(static_cast<Index>(i));
+        }
+    }
 
-    /// The next number, finite or not; NaN if it is none.
-    double number(PlyType) { return scanner_.number_or_nan(); }
+    /// Passes over the elements begin to end - 1 of a kind.
+    void pass_over(const PlyElement& element, std::uint64_t begin, std::uint64_t end);
 
-    /// The next number of a field (see FileFields), which is not infinite.
-    /// @param name of the field, in messages.
-    double field(PlyType, const char* name) { return scanner_.real_or_nan(name); }
-
-    /// The characters of the next number.
-    std::string_view peek(PlyType) { return scanner_.peek(); }
-
-    /// The place behind the number before: no characters.
-    [[nodiscard]] std::string_view behind() const { return scanner_.rest_of_token().substr(0, 0); }
-
-    std::int64_t integer(PlyType) { return scanner_.integer("a whole number"); }
-
-    /// Passes over n numbers.
-    void pass_over(PlyType, std::int64_t n);
-
-    /// Nothing to check: even the longest list ends with its line.
-    void require_room(PlyType, std::int64_t) const {}
+    /// Checks that the element has no further numbers.
+    void end_element()
+    {
+        if (is_text())
+            end_line();
+    }
 
     /// To be called after the last element.
     void finish();
 
-  private:
-    TextScanner scanner_;
-};
+    /// The next number, which is finite, unless faults are noted.
+    double real(PlyType type)
+    {
+        if (is_text())
+            return text().real("a coordinate");
+        const double value = number(type);
+        if (!std::isfinite(value))
+            bytes().fault("a coordinate is not a finite number; remove the vertex or mend it");
+        return value;
+    }
 
-/// The numbers of a binary PLY file, one after another. Has the functions of PlyTextSource; InputError names element
-/// and byte.
-class PlyBinarySource {
-  public:
-    /// @param path for messages only.
-    /// @param file the whole file; must outlive the source.
-    /// @param begin of the data in the file.
-    PlyBinarySource(const std::filesystem::path& path, std::string_view file, std::size_t begin, Encoding encoding);
+    /// The next number, finite or not; NaN if it is none.
+    double number(PlyType type)
+    {
+        if (is_text())
+            return text().number_or_nan();
+        return with_type(type, [&](auto zero) { return static_cast<double>(bytes().template read<decltype(zero)>()); });
+    }
 
-    [[nodiscard]] const InputPosition& position() const { return scanner_; }
-    void note_faults_in(FaultLog* log) { scanner_.note_faults_in(log); }
-
-    void begin_element(const PlyElement& element, std::uint64_t i) { scanner_.enter(element.name, i); }
-    void end_element() {}
-    double real(PlyType type);
-    double number(PlyType type);
+    /// The next number of a field (see FileFields), which is not infinite.
+    /// @param name of the field, in messages.
     double field(PlyType type, const char* name);
-    std::string_view peek(PlyType type) const { return scanner_.peek(size_in_bytes(type)); }
-    [[nodiscard]] std::string_view behind() const { return scanner_.peek(0); }
-    std::int64_t integer(PlyType type);
-    void pass_over(PlyType type, std::int64_t n);
 
-    /// Checks that n numbers can follow.
-    void require_room(PlyType type, std::int64_t n) const;
+    [[gnu::always_inline]] std::int64_t integer(PlyType type)
+    {
+        if (is_text())
+            return text().integer("a whole number");
+        if (!is_integer(type))
+            bytes().fail("a number that should be whole has a type with decimals; correct the header");
+        return with_type(type,
+                         [&](auto zero) { return static_cast<std::int64_t>(bytes().template read<decltype(zero)>()); });
+    }
 
-    void finish() { scanner_.require_end(); }
+    /// Reads the length of a list.
+    std::int64_t length(const PlyProperty& list)
+    {
+        const std::int64_t n = integer(*list.length_type);
+        if (n < 0)
+            refuse_length(list, n);
+        if (!is_text())
+            require_room(list.type, n);
+        return n;
+    }
+
+    /// Calls `act` with each of the whole numbers in a list.
+    void integers(const PlyProperty& list, const auto& act)
+    {
+        std::int64_t n = length(list);
+        if (is_text() || !is_integer(list.type)) {
+            for (; n > 0; --n)
+                act(integer(list.type));
+            return;
+        }
+        with_type(list.type, [&](auto zero) {
+            for (; n > 0; --n)
+                act(static_cast<std::int64_t>(bytes().template read<decltype(zero)>()));
+        });
+    }
+
+    /// Passes over a number or a list.
+    [[gnu::always_inline]] void pass_over(const PlyProperty& property)
+    {
+        const std::int64_t n = property.length_type ? length(property) : 1;
+        if (is_text())
+            return pass_over_tokens(n);
+        require_room(property.type, n);
+        bytes().take(static_cast<std::size_t>(n) * size_in_bytes(property.type));
+    }
+
+    /// The characters or bytes of the next number.
+    std::string_view peek(PlyType type) { return is_text() ? text().peek() : bytes().peek(size_in_bytes(type)); }
+
+    /// The place behind the number before: no characters.
+    [[nodiscard]] std::string_view behind();
 
   private:
-    ByteScanner scanner_;
+    [[nodiscard]] bool is_text() const { return scanner_.index() == 0; }
+    [[nodiscard]] TextScanner& text() { return *std::get_if<TextScanner>(&scanner_); }
+    [[nodiscard]] ByteScanner& bytes() { return *std::get_if<ByteScanner>(&scanner_); }
+
+    void begin_element(const PlyElement& element, std::uint64_t i)
+    {
+        if (is_text())
+            begin_line(element, i);
+        else
+            bytes().enter(element.name, i);
+    }
+
+    /// Passes over the numbers before the property of a slot.
+    void pass_over(const PlySlot& slot)
+    {
+        if (slot.passed_over.empty())
+            return;
+        if (!is_text() && slot.n_bytes <= bytes().remaining())
+            return bytes().skip(slot.n_bytes, size_in_bytes(slot.passed_over.back().type));
+        for (const PlyProperty& property : slot.passed_over)
+            pass_over(property);
+    }
+
+    /// Checks that n numbers can follow in a binary file.
+    void require_room(PlyType type, std::int64_t n)
+    {
+        const auto wanted = static_cast<std::uint64_t>(n);
+        const std::uint64_t room = bytes().remaining();
+        if (wanted > room || wanted * size_in_bytes(type) > room)
+            refuse_room(n);
+    }
+
+    void begin_line(const PlyElement& element, std::uint64_t i);
+    void end_line();
+    void pass_over_tokens(std::int64_t n);
+    [[noreturn]] void refuse_length(const PlyProperty& list, std::int64_t n) const;
+    [[noreturn]] void refuse_room(std::int64_t n) const;
+
+    std::variant<TextScanner, ByteScanner> scanner_;
+    const char* what_;
 };
-
-/// Reads the length of a list.
-/// @param what is to be exported again if it is negative.
-template <class Source>
-std::int64_t read_length(Source& source, const PlyProperty& property, const char* what = "mesh")
-{
-    const std::int64_t n = source.integer(*property.length_type);
-    if (n < 0)
-        source.position().fail("the length of the list " + in_quotes(property.name) + " is " + std::to_string(n) +
-                               "; export the " + what + " again");
-    source.require_room(property.type, n);
-    return n;
-}
-
-/// Passes over a property of one element. @param what see read_length.
-template <class Source>
-void pass_over(Source& source, const PlyProperty& property, const char* what = "mesh")
-{
-    source.pass_over(property.type, property.length_type ? read_length(source, property, what) : 1);
-}
-
-/// Passes over element i. @param what see read_length.
-template <class Source>
-void pass_over(Source& source, const PlyElement& element, std::uint64_t i, const char* what = "mesh")
-{
-    source.begin_element(element, i);
-    for (const PlyProperty& property : element.properties)
-        pass_over(source, property, what);
-    source.end_element();
-}
-
-/// Whether a text file does not have one line per element, so that line ends only count as blanks.
-/// @param after_header stands at the last line of the header.
-bool breaks_lines_freely(const TextScanner& after_header, const PlyHeader& header);
-
-/// Calls `read` with the source of what follows the header.
-/// @param after_header stands at the last line of the header. @param file the whole file.
-auto with_source(const TextScanner& after_header, const std::filesystem::path& path, std::string_view file,
-                 const PlyHeader& header, const auto& read)
-{
-    if (header.encoding != Encoding::Ascii)
-        return read(PlyBinarySource(path, file, file.size() - after_header.rest().size(), header.encoding));
-    TextScanner scanner = after_header;
-    if (breaks_lines_freely(after_header, header))
-        scanner.cross_lines();
-    return read(PlyTextSource(scanner));
-}
 
 }  // namespace seamflow

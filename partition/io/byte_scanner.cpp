@@ -14,12 +14,6 @@ ByteScanner::ByteScanner(const std::filesystem::path& path, std::string_view fil
 {
 }
 
-void ByteScanner::enter(std::string_view element, std::uint64_t i)
-{
-    element_ = element;
-    i_ = i;
-}
-
 void ByteScanner::require_end()
 {
     element_ = {};

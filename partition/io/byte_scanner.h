@@ -24,7 +24,11 @@ class ByteScanner final : public InputPosition {
     ByteScanner(const std::filesystem::path& path, std::string_view file, std::size_t offset, std::endian order);
 
     /// Sets, for messages, the element (numbered from 0) of the following bytes.
-    void enter(std::string_view element, std::uint64_t i);
+    void enter(std::string_view element, std::uint64_t i)
+    {
+        element_ = element;
+        i_ = i;
+    }
 
     /// @throws InputError if the file ends first.
     template <class Number>
@@ -42,6 +46,14 @@ class ByteScanner final : public InputPosition {
             fail_at_end();
         next_ += n;
         return file_.data() + last_;
+    }
+
+    /// Skips n bytes, which the caller knows to be there.
+    /// @param size of the last number among them, to which messages refer.
+    void skip(std::size_t n, std::size_t size)
+    {
+        next_ += n;
+        last_ = next_ - size;
     }
 
     /// The next n bytes, which the caller knows to be there.

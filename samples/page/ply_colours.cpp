@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "partition/errors.h"
+#include "partition/formats/ply_data.h"
 #include "partition/formats/ply_source.h"
 #include "partition/io/mesh_builder.h"
 #include "samples/page/texture_images.h"
@@ -75,69 +76,81 @@ class PlyColourReader {
     {
     }
 
-    template <class Source>
-    void read(Source source, const PlyHeader& header)
+    void read(PlySource source, const PlyHeader& header)
     {
         for (const PlyElement& element : header.elements)
-            for (std::uint64_t e = 0; e < element.count; ++e) {
-                if (element.name == "vertex")
-                    read_vertex(source, element, e);
-                else if (element.name == "face" && has_image_)
-                    read_face(source, element, e);
-                else
-                    pass_over(source, element, e, "file");
-            }
+            if (element.name == "vertex")
+                read_vertices(source, element);
+            else if (element.name == "face" && has_image_)
+                read_faces(source, element);
+            else
+                source.pass_over(element, 0, element.count);
     }
 
     /// @throws InputError
     FileColours finish(const std::filesystem::path& path);
 
   private:
-    template <class Source>
-    void read_vertex(Source& source, const PlyElement& element, std::uint64_t v)
+    void read_vertices(PlySource& source, const PlyElement& vertices)
     {
         std::array<std::uint8_t, 3> colour{};
         std::array<float, 2> place{};
-        source.begin_element(element, v);
-        for (const PlyProperty& property : element.properties) {
-            const PlyColourRole role = property.length_type ? Other : colour_role_of(property.name);
-            if (role == Other)
-                pass_over(source, property, "file");
-            else if (role < U)
-                colour[role] = eight_bits_of(source.number(property.type), property.type);
-            else
-                place[role - U] = static_cast<float>(source.number(property.type));
-        }
-        source.end_element();
-        if (has(element, Red) && has(element, Green) && has(element, Blue))
-            result_.of_vertices.push_back(colour);
-        if (has_image_ && has(element, U) && has(element, V))
-            result_.places.push_back(place);
-        ++n_vertices_;
+        const bool have_colours = has(vertices, Red) && has(vertices, Green) && has(vertices, Blue);
+        const bool have_places = has_image_ && has(vertices, U) && has(vertices, V);
+        source.scan(
+            vertices, 0, vertices.count,
+            columns_of(vertices,
+                       [](const PlyProperty& property) {
+                           const PlyColourRole role = colour_role_of(property.name);
+                           return property.length_type || role == Other ? -1 : static_cast<Index>(role);
+                       }),
+            [&](Index, Index role, const PlyProperty& property) {
+                const double number = source.number(property.type);
+                if (role < static_cast<Index>(U))
+                    colour[role] = eight_bits_of(number, property.type);
+                else
+                    place[role - static_cast<Index>(U)] = static_cast<float>(number);
+            },
+            [&](Index) {
+                source.end_element();
+                if (have_colours)
+                    result_.of_vertices.push_back(colour);
+                if (have_places)
+                    result_.places.push_back(place);
+                ++n_vertices_;
+            });
     }
 
-    template <class Source>
-    void read_face(Source& source, const PlyElement& element, std::uint64_t number)
+    void read_faces(PlySource& source, const PlyElement& faces)
     {
-        const bool is_there = !std::binary_search(left_out_.begin(), left_out_.end(), static_cast<Index>(number));
         std::vector<std::int64_t> vertices;
         std::optional<std::vector<double>> numbers;
-        const auto read_list = [&](const PlyProperty& property, auto& list, auto&& next) {
-            for (std::int64_t n = read_length(source, property, "file"); n > 0; --n)
-                list.push_back(next(property.type));
-        };
-        source.begin_element(element, number);
-        for (const PlyProperty& property : element.properties)
-            if (is_there && property.length_type && property.name == "texcoord")
-                read_list(property, numbers.emplace(), [&](PlyType type) { return source.number(type); });
-            else if (is_there && is_list_of_corners(property))
-                read_list(property, vertices, [&](PlyType type) { return source.integer(type); });
-            else
-                pass_over(source, property, "file");
-        source.end_element();
-        if (numbers)
-            add_places({vertices.begin(), vertices.end()}, std::move(*numbers));
-        n_faces_ += is_there ? 1 : 0;
+        const auto is_there = [this](Index f) { return !std::binary_search(left_out_.begin(), left_out_.end(), f); };
+        source.scan(
+            faces, 0, faces.count,
+            columns_of(faces,
+                       [](const PlyProperty& property) {
+                           return property.length_type && property.name == "texcoord" ? 0
+                                  : is_list_of_corners(property)                      ? 1
+                                                                                      : -1;
+                       }),
+            [&](Index f, Index column, const PlyProperty& list) {
+                if (!is_there(f))
+                    return source.pass_over(list);
+                if (column == 1)
+                    return source.integers(list, [&](std::int64_t v) { vertices.push_back(v); });
+                numbers.emplace();
+                for (std::int64_t n = source.length(list); n > 0; --n)
+                    numbers->push_back(source.number(list.type));
+            },
+            [&](Index f) {
+                source.end_element();
+                if (numbers)
+                    add_places({vertices.begin(), vertices.end()}, std::move(*numbers));
+                vertices.clear();
+                numbers.reset();
+                n_faces_ += is_there(f) ? 1 : 0;
+            });
     }
 
     /// Adds the places of a face's corners, of those that the mesh has.
@@ -198,7 +211,8 @@ FileColours read_ply_colours(const std::filesystem::path& path, std::string_view
     const PlyHeader header = read_ply_header(scanner);
     const std::string name = texture_file(file.substr(0, file.size() - scanner.rest().size()));
     PlyColourReader reader(mesh, left_out, !name.empty());
-    with_source(scanner, path, file, header, [&](auto source) { reader.read(std::move(source), header); });
+    const PlyData data{path, file, header, scanner, scanner.rest(), PlyUse::OtherData};
+    reader.read(data.source(data.whole()), header);
     FileColours colours = reader.finish(path);
     if (colours.place_of_corner.empty())
         return colours;

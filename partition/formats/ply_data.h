@@ -1,0 +1,109 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "partition/formats/ply_source.h"
+#include "partition/io/fault_log.h"
+#include "partition/io/slices.h"
+
+namespace seamflow {
+
+/// Consecutive elements of a PLY file. Elements of all kinds are counted together, from 0.
+struct PlySlice {
+    std::uint64_t begin = 0;
+    std::uint64_t end = 0;
+    std::string_view bytes = {};
+    /// Whether this is a whole text file without one line per element, so that line ends only count as blanks.
+    bool crosses_lines = false;
+};
+
+/// What a PLY file is read for.
+enum class PlyUse {
+    /// A mesh, or data of a mesh that has been read from the file.
+    Mesh,
+    /// Data for a mesh from another file.
+    OtherData
+};
+
+/// The elements of a PLY file, or bytes with the same layout in a file of another format.
+struct PlyData {
+    /// For messages only.
+    const std::filesystem::path& path;
+    /// The whole file.
+    std::string_view file;
+    const PlyHeader& header;
+    /// Of a text file: stands at the last line of the header.
+    const TextScanner& after_header;
+    /// What follows the header.
+    std::string_view bytes = after_header.rest();
+    PlyUse use = PlyUse::Mesh;
+
+    /// All elements.
+    [[nodiscard]] PlySlice whole() const;
+
+    /// Slices of the first kinds of elements; in a text file they go on to its end.
+    /// @returns one slice at least, an empty one if there are no elements.
+    /// @throws InputError, with no useful message, if a binary file lacks some of them.
+    [[nodiscard]] std::vector<PlySlice> slices(std::span<const PlyElement> kinds, const Slicing& slicing) const;
+
+    /// The numbers of a slice. The lines in its messages are right if there is one slice.
+    [[nodiscard]] PlySource source(const PlySlice& slice) const;
+
+    /// The kinds of elements before the end of one of them.
+    [[nodiscard]] std::span<const PlyElement> up_to(const PlyElement& kind) const
+    {
+        return {header.elements.data(), &kind + 1};
+    }
+
+    /// Calls `act` with every kind of elements in a slice and the numbers, within the kind, of the first element and
+    /// the one after the last.
+    static void for_each_kind(std::span<const PlyElement> kinds, const PlySlice& slice, const auto& act)
+    {
+        std::uint64_t first = 0;
+        for (const PlyElement& element : kinds) {
+            const std::uint64_t begin = std::max(slice.begin, first);
+            const std::uint64_t end = std::min(slice.end, first + element.count);
+            if (begin < end)
+                act(element, begin - first, end - first);
+            first += element.count;
+        }
+    }
+
+    /// Reads the elements of one kind in a slice, and passes over those before them and, in data of a mesh, over the
+    /// faults that its reader has accepted.
+    /// @param columns, read, act see PlySource::scan; both are called with the source first, and end_element after
+    /// `act`.
+    void scan(const PlySlice& slice, const PlyElement& wanted, const std::vector<Index>& columns, const auto& read,
+              const auto& act) const
+    {
+        PlySource numbers = source(slice);
+        FaultLog known_faults{.of_faces_alone = true};
+        if (use == PlyUse::Mesh)
+            numbers.note_faults_in(&known_faults);
+        for_each_kind(up_to(wanted), slice, [&](const PlyElement& element, std::uint64_t begin, std::uint64_t end) {
+            if (&element != &wanted)
+                return numbers.pass_over(element, begin, end);
+            numbers.scan(
+                element, begin, end, columns,
+                [&](Index i, Index column, const PlyProperty& property) { read(numbers, i, column, property); },
+                [&](Index i) {
+                    act(numbers, i);
+                    numbers.end_element();
+                });
+        });
+    }
+};
+
+/// Reads the elements as a mesh.
+/// @param data with vertices whose coordinates are single numbers. @param faults if not null, collects faults instead
+/// of
+///        throwing.
+/// @throws InputError naming the line, or the element and its byte.
+PolygonMesh read_ply_elements(const PlyData& data, const Slicing& slicing, FaultLog* faults = nullptr);
+
+}  // namespace seamflow
