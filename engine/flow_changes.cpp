@@ -50,6 +50,7 @@ void FlowRun::hold(std::span<const Index> vertices, bool is_held)
     stepper_->hold(flowing, is_held);
     for (const Index v : flowing)
         topology.fixed[v] = is_held_[v] = is_held ? 1 : 0;
+    tools_->vanishing.look_again(find_small_components(mesh_.mesh(), topology, options().motion.strength));
     was_changed_ = true;
 }
 
@@ -67,6 +68,7 @@ void FlowRun::attach(std::span<const Index> vertices, std::span<const double> we
             throw OptionError(
                 fmt::format("an attachment weight is {}, but must be at least 0 and finite (1/length²)", weight));
     stepper_->attach(flowing, weights);
+    tools_->vanishing.attach(flowing, weights);
     was_changed_ = true;
 }
 
@@ -82,6 +84,7 @@ void FlowRun::move(std::span<const Index> vertices, const Points& to)
     mesh_.move_isolated(vertices, to);
     stepper_->move(flowing, there);
     stepper_->move_first(flowing, there);
+    tools_->vanishing.move_first(flowing, there);
     mesh_.move_to(stepper_->positions());
     tools_->limit.emplace(mesh_.mesh(), options().accuracy.largest_update);
     was_changed_ = true;

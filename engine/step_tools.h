@@ -19,7 +19,7 @@ struct StepTools {
         : is_scaled(options.motion.rescale != Rescale::None && options.flow == FlowEquation::Conformalized)
         , is_scaled_apart(options.motion.rescale != Rescale::None && !is_scaled)
         , rescaling(mesh, topology, options.motion.rescale)
-        , vanishing(mesh, topology, options)
+        , vanishing(options, mesh.vertices, find_small_components(mesh, topology, options.motion.strength))
         , mesh_(&mesh)
     {
         if (options.motion.direction.kind != MotionDirection::Kind::Any)

@@ -3,37 +3,45 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <limits>
+#include <memory>
 #include <numbers>
+#include <optional>
+#include <utility>
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include "engine/tasks/parallel_executor.h"
-#include "partition/connected_components.h"
 #include "solvers/laplacian/laplacian.h"
 
 namespace seamflow {
 
 namespace {
 
-/// dt over the squared diagonal of a component from which on it is small: masses have eleven digits left beside dt K.
+/// dt over the squared diagonal of a component from which on it is small: masses have eleven digits left beside dt K,
+/// and the scaling neglects the square of what is left of the shape, the ten-billionth part of it.
 constexpr double small_by_steps = 1e5;
+/// A component whose diagonal is a smaller fraction of its coordinates than this is a point.
+constexpr double point_in_coordinates = 1e6 * std::numeric_limits<double>::epsilon();
 
-Eigen::AlignedBox3d box_of(const Points& positions, std::span<const Index> vertices)
+using Box = Eigen::AlignedBox3d;
+
+Box box_of(const Points& positions, std::span<const Index> rows)
 {
-    Eigen::AlignedBox3d box;
-    for (const Index v : vertices)
-        box.extend(positions.row(v).transpose());
+    Box box;
+    for (const Index row : rows)
+        box.extend(positions.row(row).transpose());
     return box;
 }
 
-Point mean_of(const Points& positions, std::span<const Index> vertices)
+Point mean_of(const Points& positions, std::span<const Index> rows)
 {
-    const Point origin = positions.row(vertices.front());
+    const Point origin = positions.row(rows.front());
     Point sum = Point::Zero();
-    for (const Index v : vertices)
-        sum += positions.row(v) - origin;
-    return origin + sum / static_cast<double>(vertices.size());
+    for (const Index row : rows)
+        sum += positions.row(row) - origin;
+    return origin + sum / static_cast<double>(rows.size());
 }
 
 /// The i-th of n points spread over a ball of diameter 1: a shape that is no worse than others for any faces.
@@ -45,125 +53,215 @@ Point spread_point(std::size_t i, std::size_t n)
     return 0.5 * Point(radius * std::cos(angle), radius * std::sin(angle), height);
 }
 
-bool is_point(const Points& positions, std::span<const Index> vertices)
+/// Whether the steps of a vertex are so weak that something of the shape of a small component may be left.
+/// @param strength #V, or empty: 1 everywhere.
+bool is_weak(std::span<const double> strength, Index v)
 {
-    return std::ranges::all_of(vertices, [&](Index v) { return positions.row(v) == positions.row(vertices.front()); });
+    return !strength.empty() && strength[v] < 0.01;
 }
 
-}  // namespace
-
-VanishingComponents::VanishingComponents(const PolygonMesh& mesh, const Topology& topology, const FlowOptions& options)
-    : mesh_(&mesh)
-    , topology_(&topology)
-    , options_(&options)
+/// Components of the vertices of faces, none of which is fixed or hardly moves.
+IndexLists free_components(const PolygonMesh& mesh, const Topology& topology, std::span<const double> strength)
 {
-    // The Laplacian with uniform weights does not depend on any size.
-    if (options.scheme != Scheme::BackwardEuler || smooths_normals(options) || options.laplacian == Laplacian::Uniform)
-        return;
-    extent_ = std::sqrt(options.time_step / small_by_steps);
-    // The matrix of a linear flow has the sizes of the first surface in all steps, and keeps enough of its masses.
-    if (options.flow == FlowEquation::Linear) {
-        most_ = find_small(mesh.vertices).size();
-        extent_ = 0.0;
+    const auto is_held = [&](Index v) { return !topology.moves(v) || is_weak(strength, v); };
+    IndexLists free;
+    const IndexLists faces_at = make_lists(mesh.n_vertices(), [&](auto&& add) {
+        for (Index f = 0; f < mesh.n_faces(); ++f)
+            for (const Index v : mesh.face(f))
+                add(v, f);
+    });
+    const Components all = connected_components(mesh.n_vertices(), [&](Index v, auto&& visit) {
+        for (const Index f : faces_at[v])
+            for (const Index w : mesh.face(f))
+                visit(w);
+    });
+    for (Index c = 0; c < all.count(); ++c) {
+        const auto vertices = all.nodes[c];
+        if (vertices.size() == 1 || std::ranges::any_of(vertices, is_held))
+            continue;
+        free.values.insert(free.values.end(), vertices.begin(), vertices.end());
+        std::sort(free.values.end() - static_cast<std::ptrdiff_t>(vertices.size()), free.values.end());
+        free.close();
     }
-    // There M goes with lengths, and K, which is kept, with those of the first surface.
-    if (options.flow == FlowEquation::Conformalized && traits_of(options.laplacian).divisor == Divisor::EdgeLengths) {
-        find_components();
-        for (Index c = 0; c < components_.count(); ++c)
-            pose_.push_back(extent_ * (extent_ / std::max(box_of(mesh.vertices, components_.nodes[c]).diagonal().norm(),
-                                                          1e-9 * extent_)));
-    }
+    return free;
 }
 
-/// Whether any face is small enough for a small component.
-bool VanishingComponents::has_small_face(const Points& positions) const
+/// Whether any face is small enough for a component of less than `extent`.
+bool has_small_face(const PolygonMesh& mesh, const Points& positions, double extent)
 {
     std::atomic<bool> found = false;
-    for_each_block(run_in_parallel, mesh_->n_faces(), [&](Index, Index begin, Index end) {
+    for_each_block(run_in_parallel, mesh.n_faces(), [&](Index, Index begin, Index end) {
         for (Index f = begin; f < end && !found; ++f) {
-            const auto corners = mesh_->face(f);
-            if ((positions.row(corners[1]) - positions.row(corners[0])).squaredNorm() < extent_ * extent_)
+            const auto corners = mesh.face(f);
+            if ((positions.row(corners[1]) - positions.row(corners[0])).squaredNorm() < extent * extent)
                 found = true;
         }
     });
     return found;
 }
 
-bool VanishingComponents::is_small(const Points& positions, std::span<const Index> vertices) const
+/// Whether the bounding box of some vertices has a diagonal of less than `extent`.
+bool is_smaller(const Points& positions, std::span<const Index> vertices, double extent)
 {
-    Eigen::AlignedBox3d box;
+    Box box;
     for (const Index v : vertices) {
         box.extend(positions.row(v).transpose());
-        if (!(box.diagonal().norm() < extent_))
+        if (!(box.diagonal().norm() < extent))
             return false;
     }
     return true;
 }
 
-void VanishingComponents::find_components()
-{
-    const IndexLists faces_at = make_lists(mesh_->n_vertices(), [&](auto&& add) {
-        for (Index f = 0; f < mesh_->n_faces(); ++f)
-            for (const Index v : mesh_->face(f))
-                add(v, f);
-    });
-    components_ = connected_components(mesh_->n_vertices(), [&](Index v, auto&& visit) {
-        for (const Index f : faces_at[v])
-            for (const Index w : mesh_->face(f))
-                visit(w);
-    });
-}
+}  // namespace
 
-/// Where steps of a vertex are so weak that something of the shape may be left, its component counts as held.
-bool VanishingComponents::is_free(std::span<const Index> vertices) const
+FindSmallComponents find_small_components(const PolygonMesh& mesh, const Topology& topology,
+                                          std::span<const double> strength)
 {
-    const std::vector<double>& strength = options_->motion.strength;
-    return std::ranges::all_of(
-        vertices, [&](Index v) { return topology_->moves(v) && (strength.empty() || strength[v] >= 0.01); });
-}
-
-/// The small components that nothing holds, and those that are points.
-std::vector<Index> VanishingComponents::find_small(const Points& positions)
-{
-    std::vector<Index> small;
-    if (extent_ == 0.0 || !has_small_face(positions))
+    auto known = std::make_shared<std::optional<IndexLists>>();
+    return [&mesh, &topology, strength, known](const Points& positions, double extent) {
+        SmallComponents small;
+        if (!has_small_face(mesh, positions, extent))
+            return small;
+        if (!*known)
+            *known = free_components(mesh, topology, strength);
+        for (Index c = 0; c < (*known)->size(); ++c) {
+            const auto vertices = (**known)[c];
+            if (!is_smaller(positions, vertices, extent))
+                continue;
+            for (const Index v : vertices) {
+                small.rows.values.push_back(static_cast<Index>(small.vertices.size()));
+                small.vertices.push_back(v);
+            }
+            small.rows.close();
+        }
+        small.table = [vertices = small.vertices](const Points& of_vertices) {
+            return Points(of_vertices(vertices, Eigen::all));
+        };
         return small;
-    if (components_.count() == 0)
-        find_components();
-    for (Index c = 0; c < components_.count(); ++c)
-        if (const auto vertices = components_.nodes[c]; vertices.size() > 1 && is_small(positions, vertices) &&
-                                                        (is_free(vertices) || is_point(positions, vertices)))
-            small.push_back(c);
-    return small;
+    };
+}
+
+VanishingComponents::VanishingComponents(const FlowOptions& options, const Points& first, FindSmallComponents find)
+    : options_(options)
+    , find_(std::move(find))
+{
+    // The Laplacian with uniform weights does not depend on any size.
+    if (options.scheme == Scheme::BackwardEuler && !smooths_normals(options) && options.laplacian != Laplacian::Uniform)
+        extent_ = std::sqrt(options.time_step / small_by_steps);
+    // The matrix of a linear flow has the sizes of the first surface in all steps, and keeps enough of its masses.
+    if (options.flow == FlowEquation::Linear && extent_ > 0.0)
+        most_ = find_(first, std::exchange(extent_, 0.0)).rows.size();
+    is_attached_ = options.motion.attachment > 0.0 || !options.motion.attachment_weights.empty();
+    has_kept_lengths_ =
+        options.flow == FlowEquation::Conformalized && traits_of(options.laplacian).divisor == Divisor::EdgeLengths;
+    if (extent_ > 0.0 && (is_attached_ || has_kept_lengths_))
+        first_ = first;
+}
+
+void VanishingComponents::attach(std::span<const Index> vertices, std::span<const double> weights)
+{
+    std::vector<double>& each = options_.motion.attachment_weights;
+    if (first_.rows() == 0)
+        return;
+    if (each.empty())
+        each.assign(at(static_cast<Index>(first_.rows())), options_.motion.attachment);
+    for (std::size_t i = 0; i < vertices.size(); ++i)
+        each[vertices[i]] = weights[i];
+}
+
+void VanishingComponents::move_first(std::span<const Index> vertices, const Points& to)
+{
+    // Of a mean curvature flow an attachment goes on pulling to where it pulled.
+    if (first_.rows() > 0 && options_.flow != FlowEquation::MeanCurvature)
+        move_rows(vertices, to, first_);
 }
 
 void VanishingComponents::step(Stepper& stepper, const Points& before)
 {
-    const std::vector<Index> small = find_small(before);
-    if (small.empty())
+    const SmallComponents small = extent_ > 0.0 ? find_(before, extent_) : SmallComponents();
+    const Index n = small.rows.size();
+    if (n == 0)
         return stepper.step(before);
-    most_ = std::max(most_, small.size());
-    std::vector<Index> vertices;
-    std::vector<Point> posed;
-    std::vector<Point> centres;
-    for (const Index c : small) {
-        const auto component = components_.nodes[c];
-        const Point centre = mean_of(before, component);
-        const double extent = pose_.empty() ? extent_ : pose_[c];
-        for (std::size_t i = 0; i < component.size(); ++i) {
-            vertices.push_back(component[i]);
-            posed.emplace_back(centre + extent * spread_point(i, component.size()));
-            centres.push_back(centre);
-        }
-    }
-    const auto rows_of = [](const std::vector<Point>& points) {
-        return Points(Eigen::Map<const Points>(points.front().data(), std::ssize(points), 3));
-    };
+    most_ = std::max(most_, n);
+    const Points table = small.table(before);
+    const Points first = is_attached_ || has_kept_lengths_ ? small.table(first_) : Points(0, 3);
+    Points posed = table;
+    std::vector<Pose> poses;
+    for (Index c = 0; c < n; ++c)
+        poses.push_back(pose(small.rows[c], first, posed));
     Points beginning = before;
-    move_rows(vertices, rows_of(posed), beginning);
-    stepper.move(vertices, rows_of(posed));
+    for (std::size_t row = 0; row < small.vertices.size(); ++row)
+        if (small.vertices[row] >= 0)
+            beginning.row(small.vertices[row]) = posed.row(static_cast<Index>(row));
+    stepper.move(small.vertices, posed);
     stepper.step(beginning);
-    stepper.move(vertices, rows_of(centres));
+    Points after = small.table(stepper.positions());
+    Points weights;
+    if (is_attached_) {
+        const std::vector<double>& each = options_.motion.attachment_weights;
+        Points of_vertices = Points::Constant(first_.rows(), 3, options_.motion.attachment);
+        if (!each.empty())
+            of_vertices.colwise() = Eigen::Map<const Eigen::VectorXd>(each.data(), first_.rows());
+        const std::vector<double>& strength = options_.motion.strength;
+        for (std::size_t v = 0; v < strength.size(); ++v)
+            of_vertices.row(static_cast<Eigen::Index>(v)) *= strength[v];
+        weights = small.table(of_vertices);
+    }
+    for (Index c = 0; c < n; ++c)
+        bring_back(small.rows[c], poses[c], table, first, weights, after);
+    stepper.move(small.vertices, after);
+}
+
+/// Brings a component to the pose for the step.
+/// @param first the initial positions, if they are kept.
+VanishingComponents::Pose VanishingComponents::pose(std::span<const Index> rows, const Points& first,
+                                                    Points& table) const
+{
+    const Box box = box_of(table, rows);
+    const double diagonal = box.diagonal().norm();
+    const double farthest = std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
+    // M goes with lengths, and K, which is kept, with those of the first surface.
+    const double wanted = has_kept_lengths_ ? extent_ * (extent_ / box_of(first, rows).diagonal().norm()) : extent_;
+    Pose pose{.centre = mean_of(table, rows)};
+    if (diagonal > point_in_coordinates * farthest) {
+        pose.scale = std::max(wanted / diagonal, 1.0);
+        pose.rest = 1.0 / (pose.scale * pose.scale * (has_kept_lengths_ ? 1.0 : pose.scale));
+    }
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const Point shape = pose.scale > 0.0 ? Point(pose.scale * (table.row(rows[i]) - pose.centre))
+                                             : Point(wanted * spread_point(i, rows.size()));
+        table.row(rows[i]) = pose.centre + shape;
+    }
+    return pose;
+}
+
+/// @param before as it was; first, weights those of the attachment, if there is one.
+/// @param table as the step has left the component in its pose; receives where it is.
+void VanishingComponents::bring_back(std::span<const Index> rows, const Pose& pose, const Points& before,
+                                     const Points& first, const Points& weights, Points& table) const
+{
+    double pull = 0.0;
+    Point target = pose.centre;
+    if (is_attached_) {
+        double total = 0.0;
+        Point towards = Point::Zero();
+        for (const Index row : rows) {
+            total += weights(row, 0);
+            towards += weights(row, 0) * (first.row(row) - pose.centre);
+        }
+        pull = options_.time_step * total / static_cast<double>(rows.size());
+        if (total > 0.0)
+            target += towards / total;
+    }
+    // The offset of the centroid by mass from the mean of the vertices: the step has found it, scaled.
+    const Point mean = mean_of(table, rows);
+    Point off_centre = Point::Zero();
+    if (pose.scale > 0.0)
+        off_centre = ((mean - pose.centre) * (1.0 + pull) - pull * (target - pose.centre)) / pose.scale;
+    const Point shift = (off_centre + pull * (target - pose.centre)) / (1.0 + pull);
+    for (const Index row : rows)
+        table.row(row) = pose.scale > 0.0 ? Point(pose.centre + shift + pose.rest * (table.row(row) - mean))
+                                          : Point(before.row(row) + shift);
 }
 
 std::string VanishingComponents::remark() const

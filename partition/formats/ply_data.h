@@ -101,8 +101,7 @@ struct PlyData {
 
 /// Reads the elements as a mesh.
 /// @param data with vertices whose coordinates are single numbers. @param faults if not null, collects faults instead
-/// of
-///        throwing.
+/// of throwing.
 /// @throws InputError naming the line, or the element and its byte.
 PolygonMesh read_ply_elements(const PlyData& data, const Slicing& slicing, FaultLog* faults = nullptr);
 
