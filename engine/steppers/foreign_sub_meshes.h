@@ -23,7 +23,8 @@ enum class MessageKind : std::uint8_t {
     Solution,
 };
 
-/// The message that takes the place of a foreign sub-mesh's task, and that an own one sends after it.
+/// The message that takes the place of a foreign sub-mesh's task. An own sub-mesh sends its position before the sweep,
+/// and the others after these tasks.
 constexpr MessageKind message_of(TaskKind kind)
 {
     switch (kind) {
