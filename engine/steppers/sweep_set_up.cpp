@@ -1,0 +1,181 @@
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "engine/setup/sub_mesh_options.h"
+#include "engine/steppers/sweep_order.h"
+#include "engine/steppers/sweep_stepper.h"
+#include "engine/tasks/parallel_executor.h"
+#include "partition/decomposition/make_sub_mesh.h"
+#include "partition/decomposition/overlap.h"
+#include "partition/decomposition/reverse_cuthill_mckee.h"
+#include "partition/errors.h"
+
+namespace seamflow {
+
+namespace {
+
+/// Copies in parallel: the first access to new memory is slow.
+Points copied(const Points& positions)
+{
+    Points copy(positions.rows(), 3);
+    run_in_parallel(static_cast<Index>(positions.rows()), [&](Index begin, Index end) {
+        copy.middleRows(begin, end - begin) = positions.middleRows(begin, end - begin);
+    });
+    return copy;
+}
+
+/// The sub-meshes of a cut, grown into each other for a sweep in ascending order of `rank`.
+Decomposition overlap_sub_meshes(const PolygonMesh& mesh, const Topology& topology, const Cut& cut,
+                                 std::span<const Index> stage, int layers)
+{
+    const Overlap overlap{cut.labels, stage, layers};
+    auto faces = faces_by_label(cut.labels, cut.n_parts, run_in_parallel);
+    std::vector<SubMesh> sub_meshes(faces.size());
+    for_each(run_in_parallel, static_cast<Index>(faces.size()), [&](Index s) {
+        sub_meshes[s] = make_overlapping_sub_mesh(mesh, topology, overlap, s, std::move(faces[s]));
+    });
+    return connect_overlapping(std::move(sub_meshes), topology, overlap);
+}
+
+}  // namespace
+
+SweepStepper::SweepStepper(const PolygonMesh& mesh, const Topology& topology, const Cut& cut,
+                           const FlowOptions& options, std::vector<double> curvature, Progress& progress)
+    : decomposition_(decompose(mesh, topology, cut.labels, cut.n_parts, progress.exec()))
+    , names_(names_of(decomposition_))
+    , graph_([this](const ScheduledTask& task) { perform(task); }, options.report.record_schedule, progress)
+    , positions_(copied(mesh.vertices))
+    , time_step_(options.time_step)
+    , is_classical_(is_classical(options.interface.conditions))
+    , filter_(filter_of(options))
+    , corrects_(corrects(options))
+    , factorisation_(options.resources.factorisation)
+{
+    const auto stage = assign_stages(decomposition_, options.interface.colouring, curvature);
+    curvature = std::vector<double>();
+    if (options.interface.conditions == Conditions::Schwarz)
+        decomposition_ = overlap_sub_meshes(mesh, topology, cut, stage, options.interface.overlap);
+    progress.require_going_on();
+    if (is_classical_)
+        copies_.emplace(mesh, decomposition_, options.report.keep_gaps);
+    make_states(mesh, options, progress);
+    run_both(
+        [&] {
+            if (options.interface.conditions == Conditions::Schwarz)
+                return;
+            peers_ = std::make_unique<OnePeer>(static_cast<Index>(states_.size()));
+            error_.emplace(decomposition_, mesh, topology, options, *peers_);
+        },
+        [&] { make_plans(stage, states_.size(), options); });
+    order_factors();
+    limit_factors(options);
+    add_sweeps(options);
+}
+
+SweepStepper::SweepStepper(const PolygonMesh& mesh, RankSubMeshes sub_meshes, const FlowOptions& options,
+                           Progress& progress)
+    : decomposition_(std::move(sub_meshes.decomposition))
+    , names_(std::move(sub_meshes.names))
+    , foreign_(sub_meshes.foreign)
+    , graph_([this](const ScheduledTask& task) { perform(task); }, options.report.record_schedule, progress)
+    , positions_(copied(mesh.vertices))
+    , time_step_(options.time_step)
+    , is_classical_(is_classical(options.interface.conditions))
+    , filter_(filter_of(options))
+    , corrects_(corrects(options))
+    , factorisation_(options.resources.factorisation)
+{
+    make_states(mesh, options, progress);
+    make_plans(sub_meshes.stage, sub_meshes.n_of_all_ranks, options);
+    windows_ = std::move(sub_meshes.windows);
+    limit_factors(options);
+    peers_ = std::move(sub_meshes.peers);
+    error_.emplace(decomposition_, mesh, *sub_meshes.topology, options, *peers_);
+    foreign_->connect(decomposition_, plans_, error_->foreign_rows());
+    add_sweeps(options);
+}
+
+/// @param n_sub_meshes in the whole mesh.
+void SweepStepper::make_plans(const std::vector<Index>& stage, std::size_t n_sub_meshes, const FlowOptions& options)
+{
+    plans_.push_back(make_plan(decomposition_, options, stage));
+    if (alternates(options, n_sub_meshes))
+        plans_.push_back(make_plan(decomposition_, options, reversed(stage)));
+}
+
+void SweepStepper::add_sweeps(const FlowOptions& options)
+{
+    for (std::size_t sweep = 0; sweep < plans_.size(); ++sweep)
+        add_sweep(graph_, sweep, plans_[sweep], decomposition_.adjacency, windows_[sweep], predicts(options), foreign_);
+}
+
+void SweepStepper::order_factors()
+{
+    const std::vector<Index> order = reverse_cuthill_mckee(decomposition_.adjacency);
+    for (const SweepPlan& plan : plans_)
+        windows_.push_back(least_window(plan, order_by_need(plan, order)));
+}
+
+/// Without a limit, each thread has enough work within the window. The windows are as small as they can be without
+/// deadlocks.
+void SweepStepper::limit_factors(const FlowOptions& options)
+{
+    constexpr Index places_per_thread = 4;
+    std::size_t largest = 1;
+    for (const SubMeshState& state : states_)
+        if (state.system)
+            largest = std::max(largest, state.system->factor_bytes());
+    factors_.emplace(largest);
+
+    const auto n = static_cast<Index>(windows_.front().order.size());
+    Index least = 0;
+    for (const FactorWindow& window : windows_)
+        least = std::max(least, window.size);
+    // A further solution begins when the previous one is complete.
+    least = filter_.is_plain() ? std::min(least, n) : n;
+    const auto resize = [&](Index size) {
+        for (FactorWindow& window : windows_)
+            window.size = size;
+    };
+    resize(std::min(n, least + places_per_thread * workspaces_.size()));
+    if (!options.resources.memory_limit)
+        return;
+    const std::size_t places = *options.resources.memory_limit / largest;
+    if (places < at(least))
+        throw OptionError("memory_limit is " + std::to_string(*options.resources.memory_limit) + " bytes, but the " +
+                          std::to_string(least) + " factorisations that a step needs at once take " +
+                          std::to_string(at(least) * largest) + ": raise it, or use more sub-meshes");
+    resize(static_cast<Index>(std::min(at(n), places)));
+}
+
+void SweepStepper::make_states(const PolygonMesh& mesh, const FlowOptions& options, Progress& progress)
+{
+    std::vector<std::optional<SubMeshState>> made(decomposition_.sub_meshes.size());
+    const FlowTerms terms = terms_of(options, mesh.vertices);
+    progress.expect(static_cast<double>(made.size()));
+    for_each(run_in_parallel, static_cast<Index>(made.size()), [&](Index s) {
+        progress.require_going_on();
+        SubMesh& sub_mesh = decomposition_.sub_meshes[s];
+        if (!is_own(s)) {
+            made[s].emplace(sub_mesh, nullptr, mesh.vertices, predicts(options));
+            return;
+        }
+        run_for_sub_mesh(names_[s], [&] {
+            auto equations = make_equations(sub_mesh, std::move(sub_mesh.twin), made.size() == 1, options, terms,
+                                            workspaces_.local());
+            SubMeshState& state = made[s].emplace(sub_mesh, std::move(equations), mesh.vertices, predicts(options));
+            state.p = robin_parameter(sub_mesh, state.position, options);
+            if (!state.system->uses_faces())
+                keep_faces_at_interface(sub_mesh);
+        });
+        progress.count();
+    });
+    states_.reserve(made.size());
+    for (auto& state : made)
+        states_.push_back(std::move(*state));
+}
+
+}  // namespace seamflow
