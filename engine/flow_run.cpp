@@ -168,8 +168,29 @@ void FlowRun::make_steppers()
     if (prepared_->curvature.empty() && options().report.measures)
         curvature_before_ =
             measure_largest_curvature(mesh, prepared_->topology, mesh.vertices, laplacian_of(options()));
-    describe(*prepared_, mesh_, report_);
     progress_.enter(FlowPhase::Analyse, 0, 0.6 * setup_, options().report.reference ? 0.8 * setup_ : setup_);
+    try {
+        make_stepper_of_flow();
+    } catch (const MemoryLimitError&) {
+        if (!prepared_->without_factors)
+            throw;
+        leave_factors(*prepared_, mesh, progress_.exec());
+        make_stepper_of_flow();
+    }
+    describe(*prepared_, mesh_, report_);
+    report_.cut.labels = std::move(prepared_->cut.labels);
+    report_.seconds.analyse = watch.lap();
+    report_.seconds.total = report_.seconds.cut + report_.seconds.analyse;
+    if (options().report.reference) {
+        progress_.enter(FlowPhase::Analyse, 0, 0.8 * setup_, setup_);
+        reference_ = make_undecomposed_stepper(mesh, prepared_->topology, options(), std::nullopt, progress_);
+    }
+}
+
+/// As the options ask for, or as ranks share it.
+void FlowRun::make_stepper_of_flow()
+{
+    const PolygonMesh& mesh = mesh_.mesh();
     if (prepared_->costs && options().accuracy.approach == Approach::ConjugateGradients &&
         filter_of(options()).is_plain())
         stepper_ =
@@ -180,13 +201,6 @@ void FlowRun::make_steppers()
     else
         stepper_ = make_stepper(mesh, prepared_->topology, prepared_->cut, options(), std::move(prepared_->curvature),
                                 progress_);
-    report_.cut.labels = std::move(prepared_->cut.labels);
-    report_.seconds.analyse = watch.lap();
-    report_.seconds.total = report_.seconds.cut + report_.seconds.analyse;
-    if (options().report.reference) {
-        progress_.enter(FlowPhase::Analyse, 0, 0.8 * setup_, setup_);
-        reference_ = make_undecomposed_stepper(mesh, prepared_->topology, options(), progress_);
-    }
 }
 
 /// Restores everything to its state after a step.

@@ -58,6 +58,7 @@ class FlowRun {
 
     [[nodiscard]] const FlowOptions& options() const { return prepared_->options; }
     void make_steppers();
+    void make_stepper_of_flow();
     void require_rows(std::span<const Index> vertices, const Points& to) const;
     [[nodiscard]] std::vector<Index> require_changeable(std::string_view what, std::span<const Index> vertices,
                                                         bool needs_stepper) const;

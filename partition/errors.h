@@ -17,6 +17,12 @@ class OptionError : public std::invalid_argument {
     using std::invalid_argument::invalid_argument;
 };
 
+/// What a flow needs at once does not fit into its memory limit.
+class MemoryLimitError : public OptionError {
+  public:
+    using OptionError::OptionError;
+};
+
 /// The work itself failed: a singular system, a result that is not finite, not enough memory. The message names the
 /// sub-mesh, or the file.
 /// The programs answer it with exit status 4.

@@ -311,12 +311,13 @@ struct ResourceOptions {
     /// The number of cores, at least 1, for which an automatic approach is the fastest. The result depends on it, and
     /// on no number of threads.
     int tune_for = 2;
-    /// Largest number of bytes of all factorisations of sub-meshes at once, at least 1. If it is too small for a step,
-    /// the flow throws an OptionError with the necessary number. nullopt: sweeps keep as few factorisations as keep all
-    /// threads busy, converged steps keep all. With a limit, converged steps of symmetric Laplacians recompute the
-    /// other factorisations when they are needed, and factors of undecided precision count as double precision; Δ_P
-    /// needs all of them. Factors of UMFPACK count by its own estimate. A limit implies sub-meshes if the approach is
-    /// automatic; the result does not depend on its value. It does not apply to `reference`.
+    /// Largest number of bytes of all factorisations at once, at least 1. nullopt: sweeps keep as few factorisations as
+    /// keep all threads busy, converged steps keep all. With a limit, converged steps of symmetric Laplacians recompute
+    /// the other factorisations when they are needed, and factors of undecided precision count as double precision; Δ_P
+    /// needs all of them. Factors of UMFPACK count by its own estimate. If the limit is too small for a step, a flow
+    /// whose approach is automatic takes conjugate gradients, which factorise nothing, where its other options allow
+    /// it; any other throws a MemoryLimitError with the necessary number. Otherwise the result does not depend on the
+    /// limit. It does not apply to `reference`.
     std::optional<std::size_t> memory_limit = {};
     /// The direct solver of sub-meshes. It changes the result by rounding only. Converged steps of symmetric Laplacians
     /// always use the library's own, which provides their Schur complements.

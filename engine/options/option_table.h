@@ -119,7 +119,7 @@ auto option_table(Options& options)
         row("converge_iterations", "--converge-iterations", converged_steps, converge_iterations,
             at_least(0, "at least 0")),
         row("approach", "--approach", solution, approach),
-        row("memory_limit", "--memory-limit", factors | no_result, memory_limit, at_least(1, "at least 1 (byte)")),
+        row("memory_limit", "--memory-limit", no_result, memory_limit, at_least(1, "at least 1 (byte)")),
         row("factorisation", "--factorisation", factors, factorisation),
         row("precision", "--precision", factors | converged_steps, precision),
         row("tune_for", "--tune-for", solution, tune_for,

@@ -238,4 +238,18 @@ ApproachChoice choose_approach(const PolygonMesh& mesh, const Topology& topology
     return choice;
 }
 
+std::optional<ApproachChoice> choose_without_factors(const MeshSize& size, const FlowOptions& options)
+{
+    if (options.accuracy.approach != Approach::Automatic || speaks_of_sub_meshes(options) ||
+        !is_symmetric(options.laplacian) || options.flow == FlowEquation::Conformalized)
+        return {};
+    const double tolerance = options.accuracy.tolerance.value_or(tolerance_by_gradients(options, size));
+    return ApproachChoice{
+        .approach = Approach::ConjugateGradients,
+        .tolerance = tolerance,
+        .reason = fmt::format("The whole mesh is solved at once by conjugate gradients, to {:g} of the residual: they "
+                              "factorise nothing, and factorisations would exceed the memory limit.",
+                              tolerance)};
+}
+
 }  // namespace seamflow

@@ -89,4 +89,10 @@ ApproachChoice choose_approach(const PolygonMesh& mesh, const Topology& topology
                                const FlowOptions& options, std::optional<Approach> earlier = {},
                                Sharing sharing = Sharing::None);
 
+/// Steps that factorise nothing, for an automatic approach whose factors do not fit into the memory limit: by conjugate
+/// gradients.
+/// @param options as given.
+/// @returns empty where the options rule them out.
+std::optional<ApproachChoice> choose_without_factors(const MeshSize& size, const FlowOptions& options);
+
 }  // namespace seamflow

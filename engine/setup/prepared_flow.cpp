@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <iterator>
 
 #include <fmt/format.h>
 
@@ -132,6 +133,13 @@ std::unique_ptr<PreparedFlow> prepare(FlowingMesh& mesh, FlowOptions given, bool
     progress.count();
     const Topology& topology = prepared->topology;
     AccuracyOptions& accuracy = prepared->options.accuracy;
+    // Steps that were begun go on in the same way.
+    if (options.resources.memory_limit && resume == nullptr && control.ranks == nullptr)
+        prepared->without_factors = choose_without_factors(prepared->size, options);
+    if (prepared->without_factors) {
+        prepared->choices_without_factors = {prepared->without_factors->reason};
+        std::ranges::copy(prepared->choices, std::back_inserter(prepared->choices_without_factors));
+    }
     const ApproachChoice choice = choose_approach(mesh.mesh(), topology, prepared->size, prepared->options,
                                                   resume != nullptr ? std::optional(resume->approach) : std::nullopt,
                                                   control.ranks != nullptr ? Sharing::Ranks : Sharing::None);
@@ -153,6 +161,16 @@ std::unique_ptr<PreparedFlow> prepare(FlowingMesh& mesh, FlowOptions given, bool
     if (!accuracy.tolerance && options.scheme == Scheme::BackwardEuler)
         require_boundary_unshared(topology, prepared->cut.labels, moving_rim(mesh.mesh(), topology));
     return prepared;
+}
+
+void leave_factors(PreparedFlow& prepared, const PolygonMesh& mesh, const Executor& exec)
+{
+    prepared.options.accuracy.approach = prepared.without_factors->approach;
+    prepared.options.accuracy.tolerance = prepared.without_factors->tolerance;
+    prepared.cut = cut_into(mesh, prepared.topology, 1, exec);
+    prepared.choices = std::move(prepared.choices_without_factors);
+    // There are to be none later either.
+    prepared.costs.reset();
 }
 
 void describe(const PreparedFlow& prepared, const FlowingMesh& mesh, FlowReport& report)

@@ -10,6 +10,7 @@
 #include "engine/measure/surface_measures.h"
 #include "engine/options/flow_control.h"
 #include "engine/options/flow_options.h"
+#include "engine/setup/automatic_choices.h"
 #include "engine/setup/cost_model.h"
 #include "engine/setup/flowing_mesh.h"
 #include "engine/state/flow_state.h"
@@ -26,6 +27,10 @@ struct PreparedFlow {
     FlowOptions options;
     /// What the cost of steps follows from; empty if there was no choice how to take them.
     std::optional<FlowSize> costs;
+    /// What replaces steps whose factors do not fit into the memory limit; empty: nothing does.
+    std::optional<ApproachChoice> without_factors;
+    /// In place of `choices`, then.
+    std::vector<std::string> choices_without_factors;
     /// Of the mesh and the given options. Empty if it is not needed.
     FlowIdentity identity;
     MeshSize size;
@@ -54,6 +59,9 @@ struct PreparedFlow {
 ///         METIS; Cancelled.
 std::unique_ptr<PreparedFlow> prepare(FlowingMesh& mesh, FlowOptions options, bool is_observed,
                                       const FlowControl& control, Progress& progress);
+
+/// Leaves sub-meshes and factorisations for conjugate gradients, as PreparedFlow::without_factors says.
+void leave_factors(PreparedFlow& prepared, const PolygonMesh& mesh, const Executor& exec);
 
 /// Adds this to the report.
 void describe(const PreparedFlow& prepared, const FlowingMesh& mesh, FlowReport& report);

@@ -34,7 +34,7 @@ struct KeptFactors {
 /// @param factors their sizes for all sub-meshes, in bytes.
 /// @param limit in bytes. Empty: all are kept.
 /// @param n_threads at least 1: there are no more places than that.
-/// @throws OptionError if there is no room for any factor; its message gives the necessary number of bytes.
+/// @throws MemoryLimitError if there is no room for any factor; its message gives the necessary number of bytes.
 KeptFactors choose_kept_factors(std::span<const std::size_t> factors, std::optional<std::size_t> limit,
                                 Index n_threads);
 

@@ -28,13 +28,13 @@ std::unique_ptr<Stepper> make_stepper(const PolygonMesh& mesh, const Topology& t
 }
 
 std::unique_ptr<Stepper> make_undecomposed_stepper(const PolygonMesh& mesh, const Topology& topology,
-                                                   const FlowOptions& options, Progress& progress)
+                                                   const FlowOptions& options, std::optional<std::size_t> memory_limit,
+                                                   Progress& progress)
 {
     FlowOptions undecomposed = options;
     undecomposed.accuracy.approach = Approach::Undecomposed;
     undecomposed.accuracy.tolerance.reset();
-    // The whole mesh is one factor, which no limit for sub-meshes suits.
-    undecomposed.resources.memory_limit.reset();
+    undecomposed.resources.memory_limit = memory_limit;
     const Cut whole = cut_into(mesh, topology, 1);
     if (options.flow == FlowEquation::Linear)
         return std::make_unique<SchurStepper>(mesh, topology, whole, undecomposed, progress);

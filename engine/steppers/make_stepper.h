@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "engine/options/flow_options.h"
@@ -16,13 +18,16 @@ namespace seamflow {
 /// @param mesh, topology, progress must outlive the stepper.
 /// @param options with the tolerance that was chosen, if any.
 /// @param curvature #V: ‖ΔV⁰‖; empty: as if it were 0.
-/// @throws ComputationError naming the sub-mesh if an analysis fails; OptionError if the memory limit is too low;
-///         Cancelled.
+/// @throws ComputationError naming the sub-mesh if an analysis fails; MemoryLimitError if the memory limit is too
+///         low; Cancelled.
 std::unique_ptr<Stepper> make_stepper(const PolygonMesh& mesh, const Topology& topology, const Cut& cut,
                                       const FlowOptions& options, std::vector<double> curvature, Progress& progress);
 
-/// Backward Euler steps of the whole mesh as one, regardless of options on sub-meshes and memory.
+/// Backward Euler steps of the whole mesh as one, regardless of options on sub-meshes.
+/// @param memory_limit in place of that of the options, in bytes; empty: none.
+/// @throws MemoryLimitError if the factorisation needs more.
 std::unique_ptr<Stepper> make_undecomposed_stepper(const PolygonMesh& mesh, const Topology& topology,
-                                                   const FlowOptions& options, Progress& progress);
+                                                   const FlowOptions& options, std::optional<std::size_t> memory_limit,
+                                                   Progress& progress);
 
 }  // namespace seamflow

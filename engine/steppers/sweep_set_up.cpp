@@ -119,8 +119,8 @@ void SweepStepper::order_factors()
         windows_.push_back(least_window(plan, order_by_need(plan, order)));
 }
 
-/// Without a limit, each thread has enough work within the window. The windows are as small as they can be without
-/// deadlocks.
+/// Each thread has enough work within the window, as far as the limit allows. The windows are as small as they can be
+/// without deadlocks.
 void SweepStepper::limit_factors(const FlowOptions& options)
 {
     constexpr Index places_per_thread = 4;
@@ -140,15 +140,17 @@ void SweepStepper::limit_factors(const FlowOptions& options)
         for (FactorWindow& window : windows_)
             window.size = size;
     };
-    resize(std::min(n, least + places_per_thread * workspaces_.size()));
+    const Index enough = std::min(n, least + places_per_thread * workspaces_.size());
+    resize(enough);
     if (!options.resources.memory_limit)
         return;
     const std::size_t places = *options.resources.memory_limit / largest;
     if (places < at(least))
-        throw OptionError("memory_limit is " + std::to_string(*options.resources.memory_limit) + " bytes, but the " +
-                          std::to_string(least) + " factorisations that a step needs at once take " +
-                          std::to_string(at(least) * largest) + ": raise it, or use more sub-meshes");
-    resize(static_cast<Index>(std::min(at(n), places)));
+        throw MemoryLimitError("memory_limit is " + std::to_string(*options.resources.memory_limit) +
+                               " bytes, but the " + std::to_string(least) +
+                               " factorisations that a step needs at once take " + std::to_string(at(least) * largest) +
+                               ": raise it, or use more sub-meshes");
+    resize(static_cast<Index>(std::min(at(enough), places)));
 }
 
 void SweepStepper::make_states(const PolygonMesh& mesh, const FlowOptions& options, Progress& progress)

@@ -29,6 +29,8 @@ void SwitchingStepper::make_factors()
         try_to_make_factors();
     } catch (const ComputationError&) {
         leave_factors();
+    } catch (const MemoryLimitError&) {
+        leave_factors();
     } catch (const std::bad_alloc&) {
         leave_factors();
     }
@@ -46,7 +48,7 @@ void SwitchingStepper::try_to_make_factors()
     // Flows do not keep twins.
     complete_ = *topology_;
     complete_.twin = make_topology(*mesh_, progress_->exec()).twin;
-    factors_ = make_undecomposed_stepper(*mesh_, complete_, *options_, *progress_);
+    factors_ = make_undecomposed_stepper(*mesh_, complete_, *options_, options_->resources.memory_limit, *progress_);
 }
 
 /// @returns the solution; null without factors.

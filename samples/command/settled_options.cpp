@@ -240,8 +240,6 @@ void require_consistent(const CLI::App& app, const SmoothCommand& command)
     if (app.count("--factorisation") > 0 && command.options.scheme == Scheme::ExplicitEuler &&
         !command.options.report.reference)
         throw OptionError("--factorisation is for backward Euler steps; --scheme explicit solves no equations");
-    if (command.options.resources.memory_limit && command.options.scheme == Scheme::ExplicitEuler)
-        throw OptionError("--memory-limit is for the factorisations of sub-meshes; --scheme explicit has none");
 }
 
 }  // namespace

@@ -245,10 +245,11 @@ void add_machine(CLI::App& app, FlowOptions& options)
               "number of threads, at most 1024; 0: all cores that the control group allows [0]");
     add_field(
         app, options, "--memory-limit",
-        "limit for the factorisations of sub-meshes at any time: 500M, 2GiB [as much as is fast]\n"
-        "In bytes or with K, M, G, T, KiB, MiB, GiB, TiB. It implies sub-meshes; the result does not depend on "
-        "its value. Converged steps recompute the factors that they cannot keep. By default sweeps take as little "
-        "as keeps all threads busy, and converged steps have no limit.");
+        "limit for all factorisations at any time: 500M, 2GiB [as much as is fast]\n"
+        "In bytes or with K, M, G, T, KiB, MiB, GiB, TiB. Converged steps recompute the factors that they cannot keep; "
+        "what still does not fit is solved by conjugate gradients, which factorise nothing, unless another option asks "
+        "for sub-meshes. By default sweeps take as little as keeps all threads busy, and converged steps have no "
+        "limit.");
 }
 
 void add_what_is_printed(CLI::App& app, SmoothCommand& command)

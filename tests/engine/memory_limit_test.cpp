@@ -78,27 +78,28 @@ TEST_CASE("no limit changes a bit of the result, nor do threads")
     }
 }
 
-TEST_CASE("factors keep to the limit, and there are as many at once as it lets be")
+TEST_CASE("factors keep to the limit, and there are as many at once as without it where it lets them be")
 {
     const PolygonMesh mesh = make_mixed_polygons(3000);
     for (const Conditions conditions : {Conditions::AdaptedRobin, Conditions::Schwarz, Conditions::Robin})
         for (const int threads : {1, 4}) {
             FlowOptions options = limited_options(conditions, threads);
             const std::size_t least = least_limit(mesh, options);
+            PolygonMesh free = mesh;
+            const Index enough = mean_curvature_flow(free, options).resources.live_factors;
             PolygonMesh narrow = mesh;
             options.resources.memory_limit = least;
             const FlowReport at_least = mean_curvature_flow(narrow, options);
-            CHECK(at_least.resources.live_factors < at_least.cut.n_sub_meshes());
+            CHECK(at_least.resources.live_factors < enough);
             CHECK(at_least.resources.factor_memory_bytes <= least);
             PolygonMesh wide = mesh;
             options.resources.memory_limit = 2 * least;
             const FlowReport twice = mean_curvature_flow(wide, options);
-            CHECK(twice.resources.live_factors ==
-                  std::min(2 * at_least.resources.live_factors, twice.cut.n_sub_meshes()));
+            CHECK(twice.resources.live_factors == std::min(2 * at_least.resources.live_factors, enough));
             CHECK(twice.resources.factor_memory_bytes <= 2 * least);
             PolygonMesh boundless = mesh;
             options.resources.memory_limit = std::numeric_limits<std::size_t>::max();
-            CHECK(mean_curvature_flow(boundless, options).resources.live_factors == twice.cut.n_sub_meshes());
+            CHECK(mean_curvature_flow(boundless, options).resources.live_factors == enough);
         }
 }
 
@@ -167,4 +168,39 @@ TEST_CASE("converged steps keep to the limit, and what they make again changes n
                     CHECK(report.steps.back().residual == expected.steps.back().residual);
                 }
         }
+}
+
+TEST_CASE(
+    "a limit that no factors fit into leaves the choice to conjugate gradients, and one that changes nothing to none")
+{
+    const PolygonMesh mesh = make_mixed_polygons(6000);
+    for (const double step_edges : {2.0, 500.0}) {
+        FlowOptions options;
+        options.time_step = step_edges * mean_edge_length(mesh) * mean_edge_length(mesh);
+        options.steps = 3;
+        PolygonMesh free = mesh;
+        const FlowReport of_free = mean_curvature_flow(free, options);
+        options.resources.memory_limit = std::numeric_limits<std::size_t>::max();
+        CHECK(same_bits(test::flowed(mesh, options), free.vertices));
+        options.resources.memory_limit = 1;
+        PolygonMesh lean = mesh;
+        const FlowReport of_lean = mean_curvature_flow(lean, options);
+        CHECK(of_lean.convergence.approach == Approach::ConjugateGradients);
+        CHECK(of_lean.resources.factor_memory_bytes == 0);
+        CHECK(of_lean.cut.n_sub_meshes() == 1);
+        CHECK((lean.vertices - free.vertices).rowwise().norm().maxCoeff() < 0.1 * mean_edge_length(mesh));
+        if (of_free.convergence.approach != Approach::ConjugateGradients)
+            CHECK(of_lean.choices.front().find("would exceed the memory limit") != std::string::npos);
+    }
+}
+
+TEST_CASE("a flow that needs sub-meshes is refused, however little its limit is")
+{
+    const PolygonMesh mesh = make_mixed_polygons(3000);
+    FlowOptions options = limited_options(Conditions::AdaptedRobin);
+    CHECK_FALSE(complaint_about(mesh, options, 1).empty());
+    options = FlowOptions();
+    options.time_step = 1e-4;
+    options.laplacian = Laplacian::PtackovaVelho;
+    CHECK_FALSE(complaint_about(mesh, options, 1).empty());
 }

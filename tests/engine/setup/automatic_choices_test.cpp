@@ -245,7 +245,6 @@ TEST_CASE("what costs least is chosen where nothing is said of sub-meshes, and a
     CHECK(with([&](FlowOptions& o) { o.cut.labels.assign(mesh.n_faces(), 0); }) == Approach::Sweep);
     CHECK(with([](FlowOptions& o) { o.interface.colouring = Colouring::Label; }) == Approach::Sweep);
     CHECK(with([](FlowOptions& o) { o.resources.factorisation = Factorisation::Own; }) == Approach::Sweep);
-    CHECK(with([](FlowOptions& o) { o.resources.memory_limit = 1'000'000'000; }) == Approach::Sweep);
     CHECK(with([](FlowOptions& o) { o.scheme = Scheme::ExplicitEuler; }) == Approach::Sweep);
     CHECK(with([](FlowOptions& o) { o.cut.subdomains = 4, o.accuracy.tolerance = 1e-8; }) == Approach::Converged);
 }

@@ -171,7 +171,6 @@ TEST_CASE("what has no meaning with conjugate gradients is refused")
     refuses([](FlowOptions& o) { o.cut.labels.assign(81, 0); });
     refuses([](FlowOptions& o) { o.interface.conditions = Conditions::Robin; });
     refuses([](FlowOptions& o) { o.scheme = Scheme::ExplicitEuler; });
-    refuses([](FlowOptions& o) { o.resources.memory_limit = 1'000'000'000; });
     refuses([](FlowOptions& o) { o.resources.factorisation = Factorisation::Own; });
 }
 

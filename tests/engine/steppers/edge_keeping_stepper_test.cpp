@@ -213,7 +213,6 @@ TEST_CASE("what leaves no room for edges is refused")
     };
     refuses([](FlowOptions& o) { o.scheme = Scheme::ExplicitEuler; });
     refuses([](FlowOptions& o) { o.cut.subdomains = 2; });
-    refuses([](FlowOptions& o) { o.resources.memory_limit = std::size_t{1} << 30; });
     refuses([](FlowOptions& o) { o.interface.colouring = Colouring::Label; });
     refuses([](FlowOptions& o) { o.accuracy.approach = Approach::ConjugateGradients; });
     refuses([](FlowOptions& o) { o.accuracy.tolerance = 1e-3; });
