@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <iostream>
 #include <memory>
 #include <new>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <vector>
 
@@ -193,6 +196,7 @@ ExitStatus run(SmoothCommand& command, RunRecord& run, RankGroup* ranks)
         throw;
     }
     long_run.end();
+    run.checkpoint_seconds = long_run.checkpoint_seconds();
     return_freed_memory();
     report.remarks.insert(report.remarks.begin(), run.remarks.begin(), run.remarks.end());
     // Without steps, the choices do not matter.
@@ -239,12 +243,48 @@ void share_threads(SmoothCommand& command, RankGroup& ranks)
     }
 }
 
+/// Removes the report of an earlier run that a refused command line names, so that nobody takes it for that of this
+/// one. Other files stay.
+void remove_stale_report(std::span<char* const> arguments)
+{
+    constexpr std::string_view option = "--report";
+    std::filesystem::path report;
+    for (std::size_t i = 1; i < arguments.size(); ++i) {
+        const std::string_view word = arguments[i];
+        if (word == option && i + 1 < arguments.size())
+            report = arguments[i + 1];
+        else if (word.starts_with(option) && word.substr(option.size()).starts_with("="))
+            report = word.substr(option.size() + 1);
+    }
+    const std::string beginning = smooth_failure_json({}, {}).substr(0, sizeof "{\n  \"schema\":");
+    std::string found(beginning.size(), ' ');
+    if (std::ifstream(report).read(found.data(), static_cast<std::streamsize>(found.size())) && found == beginning) {
+        std::error_code ignored;
+        std::filesystem::remove(report, ignored);
+    }
+}
+
+/// parse_smooth_command, which leaves no report of an earlier run where it refuses.
+std::optional<ExitStatus> parse(int argc, char** argv, SmoothCommand& command, const SmoothProgram& program)
+{
+    const std::span<char* const> arguments(argv, static_cast<std::size_t>(argc));
+    try {
+        const auto end = parse_smooth_command(argc, argv, command, program);
+        if (end == ExitStatus::WrongUsage)
+            remove_stale_report(arguments);
+        return end;
+    } catch (...) {
+        remove_stale_report(arguments);
+        throw;
+    }
+}
+
 }  // namespace
 
 ExitStatus run_smooth_program(int argc, char** argv, const SmoothProgram& program, RankGroup* ranks)
 {
     SmoothCommand command;
-    if (const auto end = parse_smooth_command(argc, argv, command, program))
+    if (const auto end = parse(argc, argv, command, program))
         return *end;
     if (!command.out_dir.empty())
         return smooth_tiles(command);

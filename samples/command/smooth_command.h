@@ -84,7 +84,7 @@ struct SmoothCommand {
     std::optional<LengthOnMesh> weld = LengthOnMesh{};
     /// The folder of the checkpoint; empty: none is kept.
     std::filesystem::path checkpoint;
-    CheckpointPeriod checkpoint_period;
+    CheckpointPeriod checkpoint_period{.most_of_time = 0.1};
     /// Whether to print only errors; and details of each step and task.
     bool quiet = false;
     bool verbose = false;

@@ -268,7 +268,7 @@ void add_checkpoints(CLI::App& app, SmoothCommand& command)
                        "more --steps can follow.")
             ->type_name("FOLDER");
     add_parsed(app, "--checkpoint-every", command.checkpoint_period, parse_checkpoint_period, "STEPS|TIME",
-               "how often, in steps (10) or time (30s, 5min, 1h), and at the end [1]")
+               "how often, in steps (10) or time (30s, 5min, 1h), and at the end [at most a tenth of the time]")
         ->needs(checkpoint);
 }
 

@@ -28,10 +28,15 @@ std::shared_ptr<const FlowState> Checkpoints::find(const PolygonMesh& mesh, cons
 
 void Checkpoints::keep(const StepState& state, bool is_last)
 {
-    if (!is_last && (state.step % period_.steps != 0 || since_kept_.seconds() < period_.seconds))
+    const double since = since_kept_.seconds();
+    if (!is_last && (state.step % period_.steps != 0 || since < period_.seconds ||
+                     seconds_of_last_ > period_.most_of_time * (seconds_of_last_ + since)))
         return;
+    const Stopwatch saving;
     write_checkpoint(file_, state.capture());
     step_ = state.step;
+    seconds_of_last_ = saving.seconds();
+    seconds_ += seconds_of_last_;
     since_kept_.lap();
 }
 

@@ -10,10 +10,13 @@
 
 namespace seamflow {
 
-/// The steps after which a checkpoint is saved: every `steps`, and only if the last one is `seconds` old.
+/// The steps after which a checkpoint is saved: every `steps`, and only if the last one is `seconds` old, and saving it
+/// took at most a certain part of the time since the one before it.
 struct CheckpointPeriod {
     int steps = 1;
     double seconds = 0.0;
+    /// 1: any part.
+    double most_of_time = 1.0;
 };
 
 /// The checkpoint of a run in a folder of its own, always that of the latest saved step.
@@ -37,11 +40,16 @@ class Checkpoints {
     /// The step that this object saved last; 0: none.
     [[nodiscard]] int step() const { return step_; }
 
+    /// Wall-clock time that saving has taken.
+    [[nodiscard]] double seconds() const { return seconds_; }
+
   private:
     std::filesystem::path file_;
     CheckpointPeriod period_;
     Stopwatch since_kept_;
     int step_ = 0;
+    double seconds_ = 0.0;
+    double seconds_of_last_ = 0.0;
 };
 
 }  // namespace seamflow

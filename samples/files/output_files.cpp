@@ -6,11 +6,14 @@
 #include <set>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include "partition/errors.h"
+#include "partition/io/gzip.h"
 #include "partition/io/input_file.h"
 #include "partition/io/output_file.h"
 
@@ -86,6 +89,46 @@ void require_storable(const PolygonMesh& mesh, const fs::path& path, const FileK
                                      mesh.face(f).size(), extensions_of(FormatGroup::Polygons)));
     if (has_isolated_vertices(mesh))
         refuse(path, "STL cannot hold vertices without faces; choose " + extensions_of(FormatGroup::Polygons));
+}
+
+namespace {
+
+/// The bytes of a result: as many as the input has, if it is of the same kind, else what the shortest of formats takes.
+std::size_t expected_bytes(const fs::path& path, const MeshFile& file, const fs::path& input)
+{
+    std::error_code error;
+    if (!is_input_stream(input) && is_gzip_name(path) == is_gzip_name(input) &&
+        kind_for_writing(path, file.kind).format == file.kind.format)
+        if (const std::uintmax_t of_input = fs::file_size(input, error); !error)
+            return static_cast<std::size_t>(of_input);
+    constexpr std::size_t of_vertex = 12;
+    constexpr std::size_t of_corner = 2;
+    const std::size_t plain = of_vertex * static_cast<std::size_t>(file.mesh.n_vertices()) +
+                              of_corner * static_cast<std::size_t>(file.mesh.n_corners());
+    constexpr std::size_t most_packed = 10;
+    return is_gzip_name(path) ? plain / most_packed : plain;
+}
+
+}  // namespace
+
+ReservedRoom::ReservedRoom(const fs::path& path, const MeshFile& file, const fs::path& input)
+{
+    const auto bytes = static_cast<off_t>(expected_bytes(path, file, input));
+    if (is_standard_stream(path) || bytes == 0)
+        return;
+    descriptor_ = ::open(directory_of(file_behind(path)).c_str(), O_WRONLY | O_TMPFILE | O_CLOEXEC, 0600);
+    if (descriptor_ < 0 || ::fallocate(descriptor_, 0, 0, bytes) == 0)
+        return;
+    const int reason = errno;
+    give_back();
+    if (reason == ENOSPC || reason == EDQUOT)
+        fail_to_write(path, reason);
+}
+
+void ReservedRoom::give_back()
+{
+    if (descriptor_ >= 0)
+        ::close(std::exchange(descriptor_, -1));
 }
 
 void write_text(const fs::path& path, const std::string& text)

@@ -9,6 +9,7 @@
 #include "partition/executor.h"
 #include "partition/io/input_position.h"
 #include "samples/report/json_parts.h"
+#include "samples/report/report_text.h"
 
 namespace seamflow {
 
@@ -114,9 +115,7 @@ void print_fields(std::ostream& out, const RunRecord& run, const FieldSummary& s
     for (std::size_t i = 0; i < report.flow.choices.size(); ++i)
         out << (i == 0 ? "chosen     " : " ") << report.flow.choices[i]
             << (i + 1 == report.flow.choices.size() ? "\n" : "");
-    const PhaseSeconds& phases = report.flow.seconds;
-    out << fmt::format("time       {:.3g} s: read {:.3f}, set-up {:.3f}, steps {:.3f}, write {:.3f}; {:.4g} MB\n",
-                       run.seconds, run.read_seconds, phases.cut + phases.analyse, phases.step, run.write_seconds,
+    out << fmt::format("{}; {:.4g} MB\n", time_of(run, report.flow.seconds),
                        static_cast<double>(peak_memory_of(run)) / 1e6);
     for (const std::string& remark : report.remarks)
         out << "remark     " << remark << '\n';

@@ -220,16 +220,24 @@ void print_ranks(std::ostream& out, const RunRecord& run, int n_ranks)
     out << " vertices" << (run.ranks.size() > 1 ? " each" : "") << '\n';
 }
 
+std::string time_of(const RunRecord& run, const PhaseSeconds& phases)
+{
+    const double set_up = phases.cut + phases.analyse;
+    const double saved = run.checkpoint_seconds;
+    const double rest = run.seconds - run.read_seconds - set_up - phases.step - saved - run.write_seconds;
+    return fmt::format("time       {:.3g} s: read {:.3f}, set-up {:.3f}, steps {:.3f}, {}write {:.3f}, rest {:.3f}",
+                       run.seconds, run.read_seconds, set_up, phases.step,
+                       saved > 0.0 ? fmt::format("checkpoints {:.3f}, ", saved) : "", run.write_seconds,
+                       std::max(rest, 0.0));
+}
+
 void print_result(std::ostream& out, const RunRecord& run, const FlowReport& report)
 {
     for (std::size_t i = 0; i < report.choices.size(); ++i)
         out << (i == 0 ? "chosen     " : " ") << report.choices[i] << (i + 1 == report.choices.size() ? "\n" : "");
-    const PhaseSeconds& phases = report.seconds;
-    out << fmt::format("time       {:.3g} s: read {:.3f}, set-up {:.3f}, steps {:.3f}, write {:.3f}; {}, {} MB{}\n",
-                       run.seconds, run.read_seconds, phases.cut + phases.analyse, phases.step, run.write_seconds,
-                       counted(report.resources.threads, "thread", "threads"),
-                       digits(static_cast<double>(peak_memory_of(run)) / 1e6, 4),
-                       run.ranks.size() > 1 ? " of a rank at most" : "");
+    out << fmt::format(
+        "{}; {}, {} MB{}\n", time_of(run, report.seconds), counted(report.resources.threads, "thread", "threads"),
+        digits(static_cast<double>(peak_memory_of(run)) / 1e6, 4), run.ranks.size() > 1 ? " of a rank at most" : "");
     for (const std::string& remark : report.remarks)
         out << "remark     " << remark << '\n';
     if (!report.steps.empty() && report.steps.back().distance) {

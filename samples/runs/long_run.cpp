@@ -31,6 +31,7 @@ LongRun::LongRun(const SmoothCommand& command, const MeshFile& file, Interruptio
     , file_(&file)
     , interruption_(&interruption)
     , bar_(command.quiet ? ProgressBar::Shown::Never : ProgressBar::Shown::OnTerminal)
+    , room_(command.output, file, command.input)
 {
     if (!command.checkpoint.empty()) {
         checkpoints_.emplace(command.checkpoint, command.checkpoint_period);
@@ -76,6 +77,12 @@ StepObserver LongRun::observing(StepObserver inner)
     };
 }
 
+void LongRun::end()
+{
+    bar_.erase();
+    room_.give_back();
+}
+
 ExitStatus LongRun::end_early()
 {
     bar_.erase();
@@ -110,8 +117,9 @@ void LongRun::keep_last_step()
     }
 }
 
-std::filesystem::path LongRun::write_last_step() const
+std::filesystem::path LongRun::write_last_step()
 {
+    room_.give_back();
     const std::filesystem::path output = is_standard_stream(command_->output)
                                              ? std::filesystem::path("smooth" + extension_of(file_->kind.format))
                                              : command_->output;

@@ -9,6 +9,7 @@
 #include "partition/formats/mesh_io.h"
 #include "samples/command/smooth_command.h"
 #include "samples/files/checkpoints.h"
+#include "samples/files/output_files.h"
 #include "samples/process/exit_status.h"
 #include "samples/process/interruption.h"
 #include "samples/report/progress_bar.h"
@@ -22,9 +23,10 @@ std::filesystem::path interrupted_path(const std::filesystem::path& output, cons
 /// Runs beside the flow of `smooth`: the progress bar, checkpoints, and the handling of interruptions.
 class LongRun {
   public:
-    /// Loads the checkpoint, if there is one; from here on, a signal makes the flow stop.
+    /// Reserves room for the result, and loads the checkpoint, if there is one; from here on, a signal makes the flow
+    /// stop.
     /// @param file its mesh flows; all arguments must outlive this.
-    /// @throws what Checkpoints::find throws.
+    /// @throws what Checkpoints::find throws; OutputError if there is no room.
     LongRun(const SmoothCommand& command, const MeshFile& file, Interruption& interruption, std::ostream& out);
 
     /// The control for the flow. Its observer must not outlive this.
@@ -33,8 +35,11 @@ class LongRun {
     /// An observer that calls `inner` and saves checkpoints.
     [[nodiscard]] StepObserver observing(StepObserver inner);
 
-    /// After the flow: makes room for other text.
-    void end() { bar_.erase(); }
+    /// After the flow: makes room for other text and for the result.
+    void end();
+
+    /// Wall-clock time that checkpoints have taken.
+    [[nodiscard]] double checkpoint_seconds() const { return checkpoints_ ? checkpoints_->seconds() : 0.0; }
 
     /// After the flow was cancelled: writes the last complete step, if there was one, and reports it.
     /// @returns the exit status.
@@ -45,12 +50,13 @@ class LongRun {
     void keep_last_step();
 
   private:
-    [[nodiscard]] std::filesystem::path write_last_step() const;
+    [[nodiscard]] std::filesystem::path write_last_step();
 
     const SmoothCommand* command_;
     const MeshFile* file_;
     Interruption* interruption_;
     ProgressBar bar_;
+    ReservedRoom room_;
     std::optional<Checkpoints> checkpoints_;
     std::shared_ptr<const FlowState> resume_;
     /// The last complete step of this run; 0: none.

@@ -110,7 +110,7 @@ TEST_CASE("benchmark goes on where ours fails in a cell of its grid")
 {
     const Workshop w;
     REQUIRE(w.run(BENCHMARK " --grid --kind quads --vertices 10000 --steps 1 --turns 1 --converge 1e-8 "
-                            "--memory-limit 1K --peers none --json grid.json") == 0);
+                            "--subdomains 4 --memory-limit 1K --peers none --json grid.json") == 0);
     CHECK(w.json("grid.json")[3].contains("error"));
     CHECK(w.count_lines("said", "| quads | 10000 | failed | failed | failed | failed |") == 1);
 }

@@ -34,6 +34,12 @@ TEST_CASE("a checkpoint is kept after every so many steps, or when so much time 
     for (int step = 1; step <= 7; ++step)
         CHECK(keep(every_third, step, false) == step / 3 * 3);
     CHECK(keep(every_third, 8, true) == 8);
+    // Each takes some time, and almost none passes between them.
+    Checkpoints cheaply(directory.path(), {.most_of_time = 0.0});
+    for (int step = 1; step <= 3; ++step)
+        CHECK(keep(cheaply, step, false) == 1);
+    CHECK(keep(cheaply, 4, true) == 4);
+    CHECK(cheaply.seconds() > 0.0);
     Checkpoints rarely(directory.path(), {.seconds = 1e6});
     for (int step = 1; step <= 3; ++step)
         CHECK(keep(rarely, step, false) == 0);

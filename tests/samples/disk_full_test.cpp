@@ -41,6 +41,9 @@ TEST_CASE("on a disk that is full, smooth says so with status 5, and leaves noth
     };
     const std::string elsewhere = SMOOTH " large.obj there.obj --time-step-edges 2 --subdomains 3 ";
     is_refused(command, "small/out.obj");
+    // Before the work.
+    CHECK(w.said().find("amount") != std::string::npos);
+    CHECK(run_on_small_disk(w, "200k", command + " --steps 1000000000") == 5);
     is_refused(elsewhere + "--parts small/parts.ply", "small/parts.ply");
     is_refused(elsewhere + "--every-step small/at-%d.ply", "small/at-1.ply");
     is_refused(SMOOTH " large.obj there.obj --time-step 1e-12 --steps 100 --subdomains 9 --converge never "

@@ -105,6 +105,7 @@ void fail_every_output(const Workshop& w, const std::string& command, const std:
         whole.push_back(test::content_of(w.directory / name));
     for (const Fault& fault : faults_of_outputs(w.directory.path())) {
         int n = 1;
+        int n_harmless = 0;
         for (;; ++n) {
             CAPTURE(command);
             CAPTURE(fault.call);
@@ -115,6 +116,13 @@ void fail_every_output(const Workshop& w, const std::string& command, const std:
             if (status < 0)
                 break;
             CAPTURE(w.said());
+            // Room that was reserved for the result is given back, which matters to nothing.
+            if (fault.call == "close" && status == 0) {
+                CHECK(++n_harmless == 1);
+                for (std::size_t i = 0; i < outputs.size(); ++i)
+                    CHECK(is_whole(outputs[i], test::content_of(w.directory / outputs[i]), whole[i]));
+                continue;
+            }
             CHECK(status == 5);
             CHECK(is_explained(w, files, fault.error));
             int n_old = 0;

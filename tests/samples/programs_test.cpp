@@ -186,7 +186,7 @@ TEST_CASE("--memory-limit bounds the factors, which the summary tells, and chang
     CHECK(test::content_of(w.directory / "tight.obj") == test::content_of(w.directory / "free.obj"));
     REQUIRE(w.smooth("mesh.obj free.obj --time-step-edges 2") == 0);
     REQUIRE(w.smooth("mesh.obj lean.obj --time-step-edges 2 --memory-limit 1") == 0);
-    CHECK(w.count_lines("said", "conjugate gradients") == 1);
+    CHECK(w.said().find("at once by conjugate gradients") != std::string::npos);
     REQUIRE(w.smooth("mesh.obj out.obj --time-step 1e-7 --scheme explicit --memory-limit 1") == 0);
     CHECK(w.count_lines("said", "factors") == 0);
 }

@@ -171,3 +171,20 @@ TEST_CASE("usage errors begin with the name of the program, and an option mistyp
         CHECK(!w.has("out.obj"));
     }
 }
+
+TEST_CASE("a refused command line removes the report of an earlier run, and no other file")
+{
+    const Workshop w;
+    for (const std::string refused : {"mesh.obj out.obj --radius 1% --steps -1 ", "mesh.obj out.obj --radus 1% ",
+                                      "mesh.obj missing/out.obj --radius 1% "})
+        for (const std::string report : {"--report report.json", "--report=report.json"}) {
+            CAPTURE(refused);
+            REQUIRE(w.smooth("mesh.obj out.obj --time-step-edges 1 " + report) == 0);
+            REQUIRE(w.has("report.json"));
+            CHECK(w.smooth(refused + report) != 0);
+            CHECK_FALSE(w.has("report.json"));
+            static_cast<void>(w.directory.with("report.json", "{\n  \"mine\": 1}"));
+            CHECK(w.smooth(refused + report) != 0);
+            CHECK(w.has("report.json"));
+        }
+}
