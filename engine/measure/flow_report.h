@@ -70,7 +70,7 @@ struct StepReport {
     std::optional<int> iterations;
     std::optional<double> residual;
     /// An estimate of the largest distance to the undecomposed flow after this step, VertexDistance::max. For sweeps it
-    /// follows from the residual of the whole mesh's rows (see ErrorEstimate), for converged steps from their residual.
+    /// follows from the residual of the whole mesh's rows, for converged steps from their residual.
     /// Only for backward Euler steps, and not with Conditions::Schwarz, whose sub-meshes overlap.
     std::optional<double> estimated_v_max;  ///< in mean edge lengths
     /// Distance to the undecomposed flow after this step, with ReportOptions::reference.

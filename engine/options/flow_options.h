@@ -45,7 +45,7 @@ enum class Scheme {
     /// (I + dt Δ(Vⁿ)) Vⁿ⁺¹ = Vⁿ (paper, eq. 3).
     BackwardEuler,
     /// Vⁿ⁺¹ = (I - dt Δ(Vⁿ)) Vⁿ, undecomposed: options about sub-meshes are ignored. dt must not exceed the square of
-    /// the shortest edge (see largest_explicit_step); a quarter of it is safe on regular grids. Above that the surface
+    /// the shortest edge; a quarter of it is safe on regular grids. Above that the surface
     /// can become rough instead of smooth; the report then has a remark.
     ExplicitEuler,
 };
@@ -133,11 +133,10 @@ enum class Rescale {
 
 /// The solver of a backward Euler step.
 enum class Approach {
-    /// The fastest of Decomposed, ConjugateGradients and Undecomposed, by a cost model (see choose_approach). It is
-    /// Decomposed if another option concerns sub-meshes or sweeps, or if the Laplacian is not symmetric.
+    /// The fastest of Decomposed, ConjugateGradients and Undecomposed, by a cost model. It is Decomposed if another
+    /// option concerns sub-meshes or sweeps, or if the Laplacian is not symmetric.
     Automatic,
-    /// Sub-meshes: Converged with a tolerance, or to a loose one where that pays (see choose_tolerance), otherwise
-    /// Sweep.
+    /// Sub-meshes: Converged with a tolerance, or to a loose one where that pays, otherwise Sweep.
     Decomposed,
     /// One sweep over the colours. Not with a tolerance.
     Sweep,
@@ -295,7 +294,7 @@ struct MotionOptions {
     Rescale rescale = Rescale::None;
     /// Largest distance of any vertex from its first position, above 0, in units of length. It bounds each result; the
     /// flow itself is not changed. Vertices beyond it are put back to that distance, and their neighbours follow
-    /// smoothly (see DisplacementBound). nullopt: no bound.
+    /// smoothly. nullopt: no bound.
     std::optional<double> within = {};
     /// Limits of each result, like `within`. Not in distributed flows.
     ComponentLimits limits = {};
@@ -361,8 +360,9 @@ struct FlowOptions {
     /// dt of one step, in length²; one step smooths over a distance of about √dt. Must be positive and finite, or 0 if
     /// `radius` gives the amount.
     double time_step = 0.0;
-    /// The amount of all steps together, in place of time_step: bumps of this radius and smaller lose at least half
-    /// their height (see smoothed_radius). Must be positive and finite. FlowReport::time_step has the resulting dt.
+    /// The amount of all steps together, in place of time_step: bumps of this radius lose half their height, smaller
+    /// ones more (see smoothed_radius; with uniform weights those of uneven meshes up to a tenth less). Must be
+    /// positive and finite. FlowReport::time_step has the resulting dt.
     std::optional<LengthOnMesh> radius = {};
     /// h of Laplacian::Uniform: the edge length, in length, for which dt and radii hold. 0: the mean edge length of the
     /// given mesh. Must be finite, and not negative.
@@ -373,14 +373,14 @@ struct FlowOptions {
     Scheme scheme = Scheme::BackwardEuler;
     /// Keeps edges at which the normals of faces differ by more than this angle, in degrees, above 0 and below 180, and
     /// corners where such edges meet; 20 to 40 suit most meshes. Smaller angles are smoothed. In each step, face
-    /// normals diffuse by dt, but not across edges, and vertices move to fit them (see NormalDiffusion, fit_vertices).
+    /// normals diffuse by dt, but not across edges, and vertices move to fit them.
     /// dt has its usual meaning; because edges do not suffer, ten to thirty squared mean edge lengths suit one step.
     /// Further steps start from the resulting surface. Fixed vertices stay, and a free boundary does not shrink. There
     /// are no sub-meshes, no equations of the Laplacian (which still gives the reported mean curvatures), and no
     /// undecomposed flow to compare with: options about these are refused. nullopt: mean curvature flow.
     std::optional<double> keep_edges = {};
     /// Removes noise in place of a flow: each step estimates the true normal of each face and how large the noise is
-    /// there, and moves vertices to fit (see NormalDenoiser); along the normals, unless a face would fold. Edges,
+    /// there, and moves vertices to fit; along the normals, unless a face would fold. Edges,
     /// round parts and details stay, and where there is no noise, vertices stay bit for bit. No amount is needed:
     /// time_step is ignored. One step is enough; further ones treat what is left as noise. As with keep_edges there are
     /// no sub-meshes and no equations of the Laplacian.

@@ -49,7 +49,7 @@ constexpr std::array table{
                  .attach = LengthOnMesh{0.05, true}},
     PresetTraits{.preset = Preset::Fair,
                  .name = "fair",
-                 .purpose = "makes a fair surface: bumps of up to 3 % of the diagonal lose at least half their height",
+                 .purpose = "makes a fair surface: bumps of up to 3 % of the diagonal lose about half their height or more",
                  .laplacian = Laplacian::VirtualRefinement,
                  .flow = FlowEquation::Conformalized,
                  .steps = 5,

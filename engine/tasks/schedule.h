@@ -7,7 +7,7 @@
 
 namespace seamflow {
 
-/// What a task does for its sub-mesh (see sub_mesh_state.h; the last three: schur_stepper.h).
+/// What a task does for its sub-mesh (the last three: in converged steps).
 enum class TaskKind {
     AssembleAndFactorise,
     Predict,

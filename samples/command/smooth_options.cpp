@@ -37,7 +37,7 @@ void add_amount(CLI::App& app, SmoothCommand& command)
                "noise of the vertices, if it is known [measured]\n"
                "The standard deviation along the normals. A preset derives the amount from it.");
     add_length(app, "--radius", command.amount.radius,
-               "bumps of this radius and smaller lose at least half their height, over all steps together");
+               "bumps of this radius lose half their height, smaller ones more, over all steps together");
     add_real(app, "--time-step", command.amount.time_step, positive(), "time step, in length²");
     add_real(app, "--time-step-edges", command.amount.time_step_edges, positive(),
              "time step, in squared mean edge lengths");
