@@ -98,7 +98,8 @@ std::vector<std::string> write_mesh_like(const MeshSource& source, const std::fi
                                          const PolygonMesh& mesh, const FileFields& fields,
                                          const Executor& exec = run_serially, double seam_distance = 0.0);
 
-/// As write_mesh, with numbers of the vertices as properties (double) of a PLY file.
+/// As write_mesh, with numbers of the vertices as properties (double) of a PLY file. Colours that were read from an OBJ
+/// or OFF file become red, green and blue (uchar).
 /// @param fields not infinite.
 /// @throws OutputError also for other formats if there are fields.
 std::vector<std::string> write_mesh(const std::filesystem::path& path, const PolygonMesh& mesh, const FileKind& kind,

@@ -1,5 +1,7 @@
 #include "samples/files/mesh_results.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "partition/errors.h"
@@ -15,6 +17,24 @@ bool has_format_of(const MeshFile& input, const std::filesystem::path& path)
     return kind_for_writing(path, input.kind).format == input.kind.format;
 }
 
+constexpr const char* colours_among_extras = "colours";
+
+/// The colours of vertices that a file of another format than the input's gets, too; no fields where there are none.
+FileFields colours_for(const std::filesystem::path& path, const MeshFile& input, const Executor& exec)
+{
+    if (kind_for_writing(path, input.kind).format != FileFormat::Ply)
+        return {};
+    const std::vector<std::string> extras = extras_of(*input.source, exec);
+    if (std::ranges::find(extras, colours_among_extras) == extras.end())
+        return {};
+    try {
+        return read_fields(*input.source, std::vector<std::string>{"colour"}, exec);
+    } catch (const InputError&) {
+        // Not every vertex has one.
+        return {};
+    }
+}
+
 }  // namespace
 
 std::vector<std::string> write_state(const std::filesystem::path& path, const PolygonMesh& mesh,
@@ -23,7 +43,9 @@ std::vector<std::string> write_state(const std::filesystem::path& path, const Po
 {
     if (separated == nullptr && has_format_of(input, path))
         return write_mesh_like(*input.source, path, mesh, exec, seam_distance);
-    return write_mesh(path, separated == nullptr ? mesh : *separated, kind_for_writing(path, input.kind), exec);
+    const FileKind kind = kind_for_writing(path, input.kind);
+    return separated != nullptr ? write_mesh(path, *separated, kind, exec)
+                                : write_mesh(path, mesh, kind, colours_for(path, input, exec), exec);
 }
 
 std::vector<std::string> remarks_on_losses(const std::filesystem::path& path, bool joined, const MeshFile& input,
@@ -32,7 +54,10 @@ std::vector<std::string> remarks_on_losses(const std::filesystem::path& path, bo
     if (joined && has_format_of(input, path))
         return {};
     std::string list;
+    const bool has_colours = joined && !colours_for(path, input, exec).names.empty();
     for (const std::string& extra : extras_of(*input.source, exec)) {
+        if (has_colours && extra == colours_among_extras)
+            continue;
         list += list.empty() ? "" : ", ";
         list += extra;
     }

@@ -2,6 +2,7 @@
 #include <vector>
 
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include "samples/files/mesh_results.h"
 #include "tests/support/temporary_directory.h"
@@ -43,4 +44,29 @@ TEST_CASE("a remark says what a result in another format, or of separated sub-me
                "the input's format, keep them"});
     const MeshFile plain = read_mesh(folder.with("p.off", "OFF 3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"));
     CHECK(remarks_on_losses("b.ply", true, plain).empty());
+}
+
+TEST_CASE("colours of OBJ and OFF files arrive in PLY files as bytes, whichever way they are written")
+{
+    const test::TemporaryDirectory directory;
+    const auto obj = [&](const char* red, const char* mixed) {
+        return directory.with("a.obj", fmt::format("v 0 0 0 {0}\nv 1 0 0 {1}\nv 0 1 0 {0}\nf 1 2 3\n", red, mixed));
+    };
+    const auto off = directory.with("a.off", "COFF\n3 1 0\n0 0 0 255 0 0 255\n1 0 0 51 102 255 255\n"
+                                             "0 1 0 255 0 0 255\n3 0 1 2\n");
+    const auto ply = directory / "b.ply";
+    const auto check = [&](const std::filesystem::path& input) {
+        CAPTURE(input.string());
+        const MeshFile file = read_mesh(input);
+        CHECK(remarks_on_losses(ply, true, file, run_serially).empty());
+        write_state(ply, file.mesh, nullptr, file, run_serially);
+        CHECK(test::content_of(ply).find("property uchar red\nproperty uchar green\nproperty uchar blue\n") !=
+              std::string::npos);
+        const FileFields colours = read_fields(*read_mesh(ply).source, std::vector<std::string>{"colour"});
+        CHECK(colours.values == (Eigen::MatrixXd(3, 3) << 255, 0, 0, 51, 102, 255, 255, 0, 0).finished());
+        CHECK(remarks_on_losses(directory / "b.stl", true, file, run_serially).size() == 1);
+    };
+    check(off);
+    check(obj("255 0 0", "51 102 255"));
+    check(obj("1 0 0", "0.2 0.4 1.0"));
 }
