@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -27,7 +28,7 @@ struct PreparedFlow {
     /// What the cost of steps follows from; empty if there was no choice how to take them.
     std::optional<FlowSize> costs;
     /// Of the mesh and the given options. Empty if it is not needed.
-    FlowIdentity identity;
+    std::uint64_t identity = 0;
     MeshSize size;
     /// Which vertices move, too.
     Topology topology;
