@@ -11,6 +11,7 @@
 #include "engine/measure/remarks.h"
 #include "engine/measure/surface_measures.h"
 #include "engine/ranks/rank_stepper.h"
+#include "engine/state/archive.h"
 #include "engine/step_tools.h"
 #include "engine/steppers/make_stepper.h"
 #include "engine/steppers/switching_stepper.h"

@@ -6,8 +6,8 @@
 #include "engine/options/flow_options.h"
 #include "partition/errors.h"
 
-/// The names of the values of FlowOptions in command lines and checkpoints. There is no other list of them: a new value
-/// needs one line here.
+/// The names of the values of FlowOptions in command lines. There is no other list of them: a new value needs one line
+/// here.
 namespace seamflow {
 
 template <class Option>

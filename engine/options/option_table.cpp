@@ -17,17 +17,11 @@ std::span<const OptionTraits> all_options()
 
 std::string_view first_set(const FlowOptions& options, unsigned concerns)
 {
-    const FlowOptions defaults;
     std::string_view found;
-    const auto look = [&](const auto& row, const auto& by_default) {
+    for_each_option(options, FlowOptions{}, [&](const auto& row, const auto& by_default) {
         if (found.empty() && (row.concerns & concerns) != 0 && *row.value != *by_default.value)
             found = row.field;
-    };
-    std::apply(
-        [&](const auto&... row) {
-            std::apply([&](const auto&... by_default) { (look(row, by_default), ...); }, option_table(defaults));
-        },
-        option_table(options));
+    });
     return found;
 }
 

@@ -160,6 +160,17 @@ void for_each_option(Options& options, Action&& action)
     std::apply([&](const auto&... row) { (action(row), ...); }, option_table(options));
 }
 
+/// Calls action with the rows of both, in pairs.
+template <class Action>
+void for_each_option(const FlowOptions& one, const FlowOptions& other, Action&& action)
+{
+    std::apply(
+        [&](const auto&... of_one) {
+            std::apply([&](const auto&... of_other) { (action(of_one, of_other), ...); }, option_table(other));
+        },
+        option_table(one));
+}
+
 /// All rows without values, in the order of the table.
 std::span<const OptionTraits> all_options();
 

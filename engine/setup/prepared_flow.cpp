@@ -10,7 +10,9 @@
 #include "engine/measure/surface_measures.h"
 #include "engine/setup/automatic_choices.h"
 #include "engine/setup/constraints.h"
+#include "engine/state/flow_identity.h"
 #include "engine/tasks/parallel_executor.h"
+#include "partition/errors.h"
 #include "solvers/laplacian/laplacian.h"
 
 namespace seamflow {
@@ -18,16 +20,17 @@ namespace seamflow {
 namespace {
 
 /// Checks the mesh, and identifies the flow where that is needed.
-FlowIdentity require_sound(const PolygonMesh& mesh, const FlowOptions& options, bool is_observed,
-                           const FlowState* resume, Progress& progress)
+std::uint64_t require_sound(const PolygonMesh& mesh, const FlowOptions& options, bool is_observed,
+                            const FlowState* resume, Progress& progress)
 {
     require_valid(mesh, progress.exec());
     progress.count();
     if (resume == nullptr && !is_observed)
-        return {};
-    FlowIdentity identity = identify(mesh, options);
-    if (resume != nullptr)
-        require_same(resume->identity, identity);
+        return 0;
+    const std::uint64_t identity = identify(mesh, options);
+    if (resume != nullptr && resume->identity != identity)
+        throw InputError("the state to resume from belongs to another mesh or to other options: resume with those "
+                         "that made it");
     progress.count();
     return identity;
 }

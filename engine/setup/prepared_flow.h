@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -32,7 +33,7 @@ struct PreparedFlow {
     /// In place of `choices`, then.
     std::vector<std::string> choices_without_factors;
     /// Of the mesh and the given options. Empty if it is not needed.
-    FlowIdentity identity;
+    std::uint64_t identity = 0;
     MeshSize size;
     /// Which vertices move, too.
     Topology topology;

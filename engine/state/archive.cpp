@@ -3,13 +3,22 @@
 #include <algorithm>
 
 #include "partition/errors.h"
+#include "partition/version.h"
 
 namespace seamflow {
 
 namespace {
 
 /// Must be increased whenever `fields` or the checksum changes.
-constexpr std::uint32_t format = 0x5ea30005;
+constexpr std::uint32_t format = 0x5ea30006;
+
+/// The beginning of a file.
+std::string header_of(std::string_view line)
+{
+    std::string header(line);
+    header.append(reinterpret_cast<const char*>(&format), sizeof format);
+    return header.append(version).append("\n");
+}
 
 }  // namespace
 
@@ -19,14 +28,12 @@ void refuse_archive(const std::filesystem::path& file, const std::string& reason
 }
 
 ArchiveWriter::ArchiveWriter(const std::filesystem::path& path, std::string_view line)
-    : file_(path)
+    : file_(std::in_place, path)
 {
-    numbers(std::span(line));
-    number(format);
+    numbers(std::span<const char>(header_of(line)));
 }
 
-ArchiveReader::ArchiveReader(const std::filesystem::path& path, std::string_view line,
-                             std::optional<std::uint64_t> expected)
+ArchiveReader::ArchiveReader(const std::filesystem::path& path, std::string_view line)
     : path_(path)
     , file_(path, std::ios::binary | std::ios::ate)
 {
@@ -34,19 +41,16 @@ ArchiveReader::ArchiveReader(const std::filesystem::path& path, std::string_view
         refuse_archive(path, "cannot be opened");
     n_left_ = static_cast<std::uint64_t>(std::max<std::streamoff>(file_.tellg(), 0));
     file_.seekg(0);
-    const std::size_t n_before = line.size() + sizeof format;
-    std::string line_there(line.size(), ' ');
-    if (n_left_ >= n_before + sizeof(std::uint64_t))
-        numbers(std::span(line_there));
-    if (line_there != line)
+    const std::string header = header_of(line);
+    std::string header_there(header.size(), ' ');
+    if (n_left_ >= header.size() + sizeof(std::uint64_t))
+        numbers(std::span(header_there));
+    if (!header_there.starts_with(line))
         refuse_archive(path, "is not a checkpoint, or only the beginning of one");
-    std::uint32_t format_there = 0;
-    number(format_there);
-    if (format_there != format)
+    if (header_there != header)
         refuse_archive(path, "was written by another version of this program, or on another kind of machine");
     Checksum checksum;
-    checksum.add(std::as_bytes(std::span(line)));
-    checksum.add_numbers(std::span<const std::uint32_t>(&format_there, 1));
+    checksum.add(std::as_bytes(std::span(header)));
     const std::uint64_t n_bytes = n_left_ - sizeof(std::uint64_t);
     std::vector<char> portion(std::size_t{1} << 20);
     while (n_left_ > sizeof(std::uint64_t)) {
@@ -59,9 +63,7 @@ ArchiveReader::ArchiveReader(const std::filesystem::path& path, std::string_view
     number(checksum_there);
     if (checksum_there != checksum.value())
         refuse_archive(path, "is damaged: it is not as it was written");
-    if (expected.value_or(checksum_there) != checksum_there)
-        refuse_archive(path, "does not belong to the others");
-    file_.seekg(static_cast<std::streamoff>(n_before));
+    file_.seekg(static_cast<std::streamoff>(header.size()));
     n_left_ = n_bytes;
 }
 

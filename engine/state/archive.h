@@ -18,8 +18,8 @@
 #include "partition/io/output_file.h"
 
 /// Files that hold structs, bit for bit. A file is: a line that names its kind; the format, which reads differently on
-/// machines of another byte order; the fields of the struct in the order of `fields`, arrays after their sizes; the
-/// checksum of all that.
+/// machines of another byte order; the version of this library; the fields of the struct in the order of `fields`,
+/// arrays after their sizes; the checksum of all that.
 namespace seamflow {
 
 /// @throws InputError naming the file, the reason and what to do.
@@ -28,6 +28,9 @@ namespace seamflow {
 /// Writes parts to a file.
 class ArchiveWriter {
   public:
+    /// Only for the checksum of the parts.
+    ArchiveWriter() = default;
+
     /// @param line what the file is.
     ArchiveWriter(const std::filesystem::path& path, std::string_view line);
 
@@ -36,7 +39,8 @@ class ArchiveWriter {
     {
         const auto bytes = std::as_bytes(numbers);
         checksum_.add(bytes);
-        file_.text({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+        if (file_)
+            file_->text({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
     }
 
     template <class Number>
@@ -57,17 +61,18 @@ class ArchiveWriter {
         number(static_cast<std::uint64_t>(value ? 1 : 0));
     }
 
-    /// @returns the checksum of all.
-    std::uint64_t commit()
+    /// Of all parts so far.
+    [[nodiscard]] std::uint64_t checksum() const { return checksum_.value(); }
+
+    /// Ends the file.
+    void commit()
     {
-        const std::uint64_t value = checksum_.value();
-        number(value);
-        file_.commit();
-        return value;
+        number(checksum());
+        file_->commit();
     }
 
   private:
-    OutputFile file_;
+    std::optional<OutputFile> file_;
     Checksum checksum_;
 };
 
@@ -75,8 +80,8 @@ class ArchiveWriter {
 /// gives.
 class ArchiveReader {
   public:
-    /// Checks the whole file first. @param expected its checksum, where that is known.
-    ArchiveReader(const std::filesystem::path& path, std::string_view line, std::optional<std::uint64_t> expected);
+    /// Checks the whole file first.
+    ArchiveReader(const std::filesystem::path& path, std::string_view line);
 
     template <class Number>
     void numbers(std::span<Number> numbers)
@@ -136,20 +141,7 @@ class ArchiveReader {
 template <class Value, class Struct>
 concept Is = std::is_same_v<std::remove_const_t<Value>, Struct>;
 
-/// The fields of the structs of a state: all of them, or the compiler complains. Other structs have a function of their
-/// own in their namespace.
-auto fields(Is<FlowIdentity::Entry> auto& of)
-{
-    auto& [name, value] = of;
-    return std::tie(name, value);
-}
-
-auto fields(Is<FlowIdentity> auto& of)
-{
-    auto& [entries] = of;
-    return std::tie(entries);
-}
-
+/// Structs have a function `fields` in their namespace: all fields, or the compiler complains.
 template <class Value>
 concept HasFields = requires(Value& value)
 {
@@ -187,26 +179,32 @@ void transfer(Archive& archive, Value& value)
     }
 }
 
+/// The checksum of values, as a file would hold them.
+template <class... Value>
+std::uint64_t checksum_of(const Value&... values)
+{
+    ArchiveWriter archive;
+    (transfer(archive, values), ...);
+    return archive.checksum();
+}
+
 /// Writes a struct to a file and to the disk. The file holds all of it, or stays as it was.
-/// @returns the checksum of the file.
 /// @throws OutputError naming the file.
 template <class Struct>
-std::uint64_t write_archive(const std::filesystem::path& path, std::string_view line, const Struct& of)
+void write_archive(const std::filesystem::path& path, std::string_view line, const Struct& of)
 {
     ArchiveWriter archive(path, line);
     transfer(archive, of);
-    return archive.commit();
+    archive.commit();
 }
 
 /// Reads it back.
-/// @param expected its checksum, where that is known.
 /// @throws InputError naming the file if it cannot be opened, is not such a file, comes from a version or a machine
 ///         with another format, is cut off, or has changed since it was written.
 template <class Struct>
-Struct read_archive(const std::filesystem::path& path, std::string_view line,
-                    std::optional<std::uint64_t> expected = {})
+Struct read_archive(const std::filesystem::path& path, std::string_view line)
 {
-    ArchiveReader archive(path, line, expected);
+    ArchiveReader archive(path, line);
     Struct of;
     transfer(archive, of);
     archive.require_end();

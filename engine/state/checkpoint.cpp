@@ -1,6 +1,5 @@
 #include "engine/state/checkpoint.h"
 
-#include <exception>
 #include <string_view>
 #include <system_error>
 #include <tuple>
@@ -87,23 +86,17 @@ void make_checkpoint_folder(const std::filesystem::path& folder)
                                       folder.string(), error ? error.message() : "it is a file"));
 }
 
-void require_belongs(const std::filesystem::path& file, const FlowIdentity& of_state, const FlowIdentity& of_flow,
+void require_belongs(const std::filesystem::path& file, std::uint64_t of_state, std::uint64_t of_flow,
                      std::int64_t step, int steps)
 {
-    const auto message = [&](const std::exception& error) {
-        return fmt::format(
-            "{}: {}; continue with the same input and options, name another folder, or remove it to start over",
-            file.string(), error.what());
-    };
-    try {
-        require_same(of_state, of_flow);
-        if (step > steps)
-            throw OptionError(fmt::format("is after step {}, but steps is {}", step, steps));
-    } catch (const InputError& error) {
-        throw InputError(message(error));
-    } catch (const OptionError& error) {
-        throw OptionError(message(error));
-    }
+    constexpr const char* what_to_do =
+        "continue with the same input and options, name another folder, or remove it to start over";
+    if (of_state != of_flow)
+        throw InputError(
+            fmt::format("{}: belongs to another input or to other options; {}", file.string(), what_to_do));
+    if (step > steps)
+        throw OptionError(
+            fmt::format("{}: is after step {}, but steps is {}; {}", file.string(), step, steps, what_to_do));
 }
 
 }  // namespace seamflow

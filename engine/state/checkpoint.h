@@ -22,8 +22,10 @@ void make_checkpoint_folder(const std::filesystem::path& folder);
 
 /// Checks that a checkpoint belongs to a flow, and is not beyond its end.
 /// @param step after which the checkpoint was kept. @param steps of the flow.
-/// @throws InputError and OptionError, naming the file, what differs, and what to do.
-void require_belongs(const std::filesystem::path& file, const FlowIdentity& of_state, const FlowIdentity& of_flow,
+/// @param of_state, of_flow see identify.
+/// @throws InputError if the input or the options differ, OptionError if the checkpoint is beyond the end, naming the
+///         file and what to do.
+void require_belongs(const std::filesystem::path& file, std::uint64_t of_state, std::uint64_t of_flow,
                      std::int64_t step, int steps);
 
 }  // namespace seamflow

@@ -7,7 +7,7 @@
 
 #include "engine/measure/displacement_meter.h"
 #include "engine/measure/flow_report.h"
-#include "engine/state/flow_identity.h"
+#include "engine/options/flow_options.h"
 #include "partition/polygon_mesh.h"
 
 namespace seamflow {
@@ -52,7 +52,8 @@ class StepMemoryReader {
 /// Everything a flow needs to resume after a complete step as if it had never ended: see StepState::capture and
 /// FlowControl::resume. It belongs to the mesh as it was before the first step, and to the options.
 struct FlowState {
-    FlowIdentity identity;
+    /// See identify; 0: it was not needed.
+    std::uint64_t identity = 0;
     /// How its steps are taken.
     Approach approach = Approach::Sweep;
     /// Checksum of the cut.

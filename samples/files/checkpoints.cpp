@@ -1,6 +1,7 @@
 #include "samples/files/checkpoints.h"
 
 #include "engine/state/checkpoint.h"
+#include "engine/state/flow_identity.h"
 
 namespace seamflow {
 

@@ -45,16 +45,13 @@ void exchange(std::string& text, std::string_view word, std::string_view option)
 
 std::string in_words_of_options(std::string_view message)
 {
-    constexpr std::string_view another_flow = "another flow: ";
-    const auto found = message.find(another_flow);
-    const std::size_t begin = found == std::string_view::npos ? 0 : found + another_flow.size();
-    const std::string_view first = message.substr(begin, message.find(' ', begin) - begin);
+    const std::string_view first = message.substr(0, message.find(' '));
     std::string text(message);
     for (const OptionTraits& known : all_options()) {
         if (known.option.empty())
             continue;
         if (known.field == first)
-            text.replace(begin, first.size(), known.option);
+            text.replace(0, first.size(), known.option);
         if (known.field.find('_') != std::string_view::npos)
             exchange(text, known.field, known.option);
     }

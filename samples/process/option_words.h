@@ -7,8 +7,7 @@
 namespace seamflow {
 
 /// Replaces fields in a message of the library by the options that set them: "memory_limit is 3" becomes
-/// "--memory-limit is 3". A field of one word is only recognised where the message begins with it, or where it
-/// distinguishes flows ("another flow: sweep was …").
+/// "--memory-limit is 3". A field of one word is only recognised where the message begins with it.
 std::string in_words_of_options(std::string_view message);
 
 /// Replaces options in a message by keywords: "--time-step-edges" becomes "time_step_edges".

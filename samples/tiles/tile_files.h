@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "engine/state/archive.h"
-#include "engine/state/flow_identity.h"
 #include "partition/polygon_mesh.h"
 
 /// What a run over tiles keeps on the disk, so that it holds one tile at a time and can resume. A tile is one of
@@ -57,8 +56,8 @@ struct TileState {
 
 /// The run that the files belong to.
 struct TileRun {
-    /// Of the options, the names of the tiles and their meshes.
-    FlowIdentity identity;
+    /// See identify.
+    std::uint64_t identity = 0;
     /// How many vertices all borders have, and how many of these another tile has, too.
     std::int64_t n_border = 0;
     std::int64_t n_shared = 0;

@@ -4,9 +4,8 @@
 #include <optional>
 #include <utility>
 
-#include <fmt/format.h>
-
-#include "engine/state/checksum.h"
+#include "engine/state/archive.h"
+#include "engine/state/flow_identity.h"
 #include "partition/metrics/vertex_distance.h"
 #include "samples/files/mesh_results.h"
 #include "samples/tiles/tile_borders.h"
@@ -19,15 +18,6 @@ namespace {
 
 /// Vertices at one place may be a chain of pairs within the distance of --weld, of several files.
 constexpr double distances_of_chain = 8.0;
-
-std::uint64_t checksum_of(const PolygonMesh& mesh)
-{
-    Checksum checksum;
-    checksum.add_numbers(std::span<const double>(mesh.vertices.data(), static_cast<std::size_t>(mesh.vertices.size())));
-    checksum.add_numbers(std::span<const Index>(mesh.face_offsets));
-    checksum.add_numbers(std::span<const Index>(mesh.face_vertices));
-    return checksum.value();
-}
 
 /// The borders of a tile and of those within some distance of it, ascending by tile.
 std::vector<BorderOfTile> borders_near(const TileFolder& folder, std::span<const TileSummary> tiles, Index tile,
@@ -71,7 +61,7 @@ TileSummary summary_of(const std::filesystem::path& path, const PolygonMesh& mes
             .n_corners = mesh.n_corners(),
             .mean_edge = mean_edge_length(mesh, mesh.vertices, exec),
             .box = box_around(mesh.vertices),
-            .checksum = checksum_of(mesh)};
+            .checksum = checksum_of(mesh.vertices, mesh.face_offsets, mesh.face_vertices)};
 }
 
 MeshScale scale_of(std::span<const TileSummary> tiles)
@@ -114,15 +104,11 @@ void join_tiles(const TileFolder& folder, std::span<const TileSummary> tiles, st
     run.n_held = hold_unjoined(folder, boxes);
 }
 
-FlowIdentity identify(std::span<const TileSummary> tiles, const FlowOptions& options)
+std::uint64_t identify(std::span<const TileSummary> tiles, const FlowOptions& options)
 {
-    FlowIdentity identity = identify(PolygonMesh{}, options);
-    identity.entries.push_back({"steps", fmt::format("{}", options.steps)});
-    identity.entries.push_back({"the number of files", fmt::format("{}", tiles.size())});
+    std::uint64_t identity = checksum_of(identify(PolygonMesh{}, options), options.steps);
     for (const TileSummary& tile : tiles)
-        identity.entries.push_back(
-            {tile.path.filename().string(),
-             fmt::format("{} vertices and {} faces with checksum {:x}", tile.n_vertices, tile.n_faces, tile.checksum)});
+        identity = checksum_of(identity, tile.path.filename().string(), tile.checksum);
     return identity;
 }
 

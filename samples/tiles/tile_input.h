@@ -55,8 +55,8 @@ void keep_input(const TileFolder& folder, Index tile, PolygonMesh& mesh, const E
 void join_tiles(const TileFolder& folder, std::span<const TileSummary> tiles, std::optional<double> weld, TileRun& run,
                 const Executor& exec);
 
-/// What determines the result of a run.
+/// Checksum of all that determines the result of a run: its options, the names of the tiles and their meshes.
 /// @param options with the amount in length².
-FlowIdentity identify(std::span<const TileSummary> tiles, const FlowOptions& options);
+std::uint64_t identify(std::span<const TileSummary> tiles, const FlowOptions& options);
 
 }  // namespace seamflow

@@ -178,7 +178,7 @@ void TiledRun::read_all()
     for (const TileSummary& tile : tiles_)
         longest = std::max(longest, tile.mean_edge);
     width_ = width_of_bands(options_, longest);
-    const FlowIdentity identity = identify(tiles_, options_);
+    const std::uint64_t identity = identify(tiles_, options_);
     if (has_resumed_) {
         run_ = folder_.run();
         require_belongs(folder_.run_file(), run_.identity, identity, 0, options_.steps);

@@ -10,7 +10,6 @@
 
 #include "engine/flow.h"
 #include "engine/mean_curvature_flow.h"
-#include "engine/state/flow_identity.h"
 #include "engine/state/flow_state.h"
 #include "partition/errors.h"
 #include "partition/metrics/feathered.h"
@@ -422,20 +421,6 @@ TEST_CASE("what a region and a direction do not go with is refused by name")
     options.motion.direction.kind = MotionDirection::Kind::Normal;
     options.motion.rescale = Rescale::Volume;
     CHECK(refusal_of_region(options).starts_with("direction lets vertices move along lines alone"));
-}
-
-TEST_CASE("a state belongs to the region and the direction of its flow")
-{
-    const PolygonMesh mesh = make_triangles(100);
-    const FlowOptions options = region_options(mesh, Laplacian::Fujiwara);
-    FlowOptions weaker = options;
-    weaker.motion.strength[50] = 0.125;
-    FlowOptions directed = options;
-    directed.motion.direction.kind = MotionDirection::Kind::Normal;
-    const FlowIdentity identity = identify(mesh, options);
-    CHECK_NOTHROW(require_same(identity, identify(mesh, options)));
-    CHECK_THROWS_AS(require_same(identity, identify(mesh, weaker)), OptionError);
-    CHECK_THROWS_AS(require_same(identity, identify(mesh, directed)), OptionError);
 }
 
 TEST_CASE("a flow of a region resumes from its state, and holds and moves vertices between steps")

@@ -17,8 +17,6 @@ TEST_CASE("fields become options, where they are what a message is about and whe
     CHECK(
         in_words_of_options("rescale moves every vertex, but fixed_vertices are to stay; Filter::LowPass lets them") ==
         "--rescale moves every vertex, but --fix are to stay; --filter low-pass lets them");
-    CHECK(in_words_of_options("c: belongs to another flow: attachment was 0 then; sweep on") ==
-          "c: belongs to another flow: --attach was 0 then; sweep on");
     CHECK(in_words_of_options("attachment_weights: too few") == "--attach-weights: too few");
     for (const char* text : {"my_time_step.obj: cannot be read", "memory_limits are other things", "a/keep_edges/b",
                              "a/keep_edges is missing", "my_time_step 3", "keep_edges.txt is missing",

@@ -452,13 +452,14 @@ TEST_CASE("a signal ends a run over files with 130; other options and changed fi
         CHECK(w.said().find(reason) != std::string::npos);
         CHECK(w.said().find("remove it to start over") != std::string::npos);
     };
-    refused(arguments + " --laplacian uniform", 2, "--laplacian was fujiwara then and is uniform now");
-    refused(w.inputs() + "--time-step-edges 4 --steps 201 --out-dir out", 2, "--steps was 200 then and is 201 now");
-    refused("tile0.ply tile1.ply --time-step 1e-4 --steps 200 --out-dir out", 2, "then and is ");
+    const std::string another = "belongs to another input or to other options";
+    refused(arguments + " --laplacian uniform", 3, another);
+    refused(w.inputs() + "--time-step-edges 4 --steps 201 --out-dir out", 3, another);
+    refused("tile0.ply tile1.ply --time-step 1e-4 --steps 200 --out-dir out", 3, another);
     PolygonMesh changed = w.tiles()[3].mesh;
     changed.vertices(100, 2) += 1e-3;
     write_mesh(w.directory / "tile3.ply", changed, TiledWorkshop::binary_ply);
-    refused(w.inputs() + "--time-step 1e-4 --steps 200 --out-dir out", 2, "then and is ");
+    refused(w.inputs() + "--time-step 1e-4 --steps 200 --out-dir out", 3, another);
     std::filesystem::remove_all(w.directory / "out/.seamflow-tiles");
     CHECK(w.smooth(w.inputs() + "--time-step-edges 4 --out-dir out") == 0);
 }

@@ -2,9 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 #include <vector>
 
-#include "engine/state/flow_identity.h"
+#include <fmt/format.h>
+
+#include "engine/options/option_names.h"
+#include "engine/options/option_table.h"
 #include "engine/steppers/explicit_stepper.h"
 #include "partition/metrics/vertex_distance.h"
 #include "partition/topology.h"
@@ -134,6 +138,24 @@ FlowOptions random_options(const PolygonMesh& mesh, RandomNumbers& random)
     return options;
 }
 
+/// The number of values of an array.
+template <class Value>
+std::string text_of(const Value& value)
+{
+    if constexpr (std::is_same_v<Value, Laplacian>)
+        return std::string(name_of(value));
+    else if constexpr (std::is_enum_v<Value>)
+        return std::string(option_name(value));
+    else if constexpr (std::is_arithmetic_v<Value>)
+        return fmt::format("{}", value);
+    else if constexpr (requires { value.value(); })
+        return value ? text_of(*value) : "none";
+    else if constexpr (requires { value.size(); })
+        return fmt::format("({})", value.size());
+    else
+        return "set";
+}
+
 RandomFlow random_flow(std::uint32_t seed)
 {
     RandomNumbers random(seed);
@@ -147,13 +169,11 @@ std::string RandomFlow::description() const
     const auto is_sound = input.soundness == Soundness::Sound;
     std::string text = std::to_string(input.mesh.n_vertices()) + " vertices, " + std::to_string(input.mesh.n_faces()) +
                        " faces" + (is_sound ? "" : ", hard") + ": " + input.description + ";";
-    const FlowIdentity here = identify(input.mesh, options);
-    const FlowIdentity defaults = identify(input.mesh, FlowOptions{});
-    for (std::size_t i = 0; i < here.entries.size(); ++i)
-        if (here.entries[i].value != defaults.entries[i].value)
-            text += " " + here.entries[i].name + " " + here.entries[i].value;
-    return text + " steps " + std::to_string(options.steps) + (options.motion.strict ? " strict" : "") +
-           (options.report.keep_gaps ? " keep_gaps" : "");
+    for_each_option(options, FlowOptions{}, [&](const auto& row, const auto& by_default) {
+        if (*row.value != *by_default.value)
+            text += fmt::format(" {} {}", row.field, text_of(*row.value));
+    });
+    return text;
 }
 
 }  // namespace seamflow::test

@@ -217,7 +217,7 @@ TEST_CASE("a flow far away continues from a step before")
         if (state.step == 1)
             control.resume = std::make_shared<const FlowState>(state.capture());
     });
-    CHECK_NOTHROW(require_same(control.resume->identity, identify(mesh, options)));
+    CHECK(control.resume->identity == identify(mesh, options));
     PolygonMesh resumed = mesh;
     mean_curvature_flow(resumed, options, {}, control);
     CHECK(resumed.vertices == whole.vertices);
