@@ -10,7 +10,6 @@ set(SEAMFLOW_HEADERS
     engine/fields/geodesic_distance.h
     engine/flow.h
     engine/mean_curvature_flow.h
-    engine/measure/bounding_box.h
     engine/measure/displacement_meter.h
     engine/openmesh.h
     engine/options/flow_control.h
@@ -39,6 +38,7 @@ set(SEAMFLOW_HEADERS
     partition/index.h
     partition/io/fault_log.h
     partition/executor.h
+    partition/metrics/bounding_box.h
     partition/metrics/displacement.h
     partition/metrics/feathered.h
     partition/metrics/length_statistics.h

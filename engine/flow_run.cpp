@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <utility>
@@ -18,6 +19,7 @@
 #include "engine/tasks/parallel_executor.h"
 #include "engine/tasks/stopwatch.h"
 #include "partition/errors.h"
+#include "partition/metrics/bounding_box.h"
 #include "partition/metrics/surface_distance.h"
 
 namespace seamflow {
@@ -124,7 +126,7 @@ FlowRun::FlowRun(FlowingMesh& mesh, std::unique_ptr<PreparedFlow> prepared, Prog
     , report_(report)
     , setup_(setup)
     , curvature_before_(largest_curvature(prepared_->curvature))
-    , extent_before_(extent_of(mesh.mesh().vertices))
+    , extent_before_(box_of_faces(mesh.mesh(), run_in_parallel).diagonal())
     , resume_(control.resume.get())
     , ranks_(control.ranks)
 {
@@ -299,7 +301,7 @@ void FlowRun::tell(const StepObserver& on_step, int step, const StepReport& of_s
         mesh_.bring_back(separated_there.emplace(*separated));
         separated = &*separated_there;
     }
-    on_step({step, mesh_.given_positions(), of_step, separated, undecomposed, [&] { return capture(); }});
+    on_step({step, mesh_.given().vertices, of_step, separated, undecomposed, [&] { return capture(); }});
 }
 
 void FlowRun::measure(const Points& after, StepReport& of_step)
@@ -363,10 +365,10 @@ void FlowRun::take_step(const StepObserver& on_step)
 void FlowRun::complete(FlowReport& report) const
 {
     // It is about positions, which flows of fields do not move.
-    if (const std::string remark = tools_->remark(); !remark.empty() && !report_.steps.empty())
-        report.remarks.push_back(remark);
+    if (!report_.steps.empty())
+        std::ranges::copy(tools_->remarks(), std::back_inserter(report.remarks));
     remark_on_drift(options(), report);
-    remark_on_collapse(extent_before_, mesh_.mesh().vertices, report);
+    remark_on_collapse(extent_before_, box_of_faces(mesh_.mesh(), run_in_parallel).diagonal(), report);
     if (prepared_->meter)
         report.displacement = prepared_->meter->total();
     if (stepper_->separated() != nullptr)

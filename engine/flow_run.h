@@ -79,7 +79,7 @@ class FlowRun {
     std::unique_ptr<Stepper> stepper_;
     /// Of the undecomposed flow, with ReportOptions::reference.
     std::unique_ptr<Stepper> reference_;
-    /// Before the first step (see extent_of).
+    /// Before the first step (see box_of_faces).
     double extent_before_;
     const FlowState* resume_;
     /// Null where one process takes all steps.

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "engine/measure/component_limits.h"
 #include "engine/measure/displacement_bound.h"
@@ -59,17 +60,22 @@ struct StepTools {
     }
 
     /// Rescales the surface that the next step begins with, where steps begin with results.
-    void rescale(Stepper& stepper) const
+    void rescale(Stepper& stepper)
     {
         if (!is_scaled)
             return;
         Points rescaled = stepper.positions();
-        const Similarity similarity = rescaling.apply(rescaled);
+        const SimilarityOfComponents similarity = rescaling.apply(rescaled);
         stepper.continue_from(rescaled, similarity);
     }
 
-    /// Limits have their own remark on components that lose too much.
-    [[nodiscard]] std::string remark() const { return limited ? limited->remark() : vanishing.remark(); }
+    /// On components that lose too much; limits have their own. And on those that cannot be scaled back.
+    [[nodiscard]] std::vector<std::string> remarks() const
+    {
+        std::vector<std::string> all{limited ? limited->remark() : vanishing.remark(), rescaling.remark()};
+        std::erase(all, "");
+        return all;
+    }
 
     /// Whether a step begins with the rescaled result of the previous one, not with that itself. The weights of the
     /// conformalized flow do not depend on the size of the surface: it becomes a sphere instead of vanishing.

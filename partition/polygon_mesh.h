@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -46,6 +47,10 @@ struct PolygonMesh {
 /// that all coordinates are finite.
 /// @throws InputError naming the first offending face or vertex (numbered from 0).
 void require_valid(const PolygonMesh& mesh, const Executor& exec = run_serially);
+
+/// #V: 1 for each vertex that a face uses, 0 for the others.
+/// @pre every vertex named by a face exists.
+std::vector<std::uint8_t> used_by_faces(const PolygonMesh& mesh);
 
 /// Copies `from` to `to`.
 /// @param from, to #V by 3.

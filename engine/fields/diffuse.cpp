@@ -12,7 +12,9 @@
 #include "engine/fields/white_noise.h"
 #include "engine/flow.h"
 #include "engine/setup/smoothed_radius.h"
+#include "engine/tasks/parallel_executor.h"
 #include "partition/connected_components.h"
+#include "partition/metrics/bounding_box.h"
 #include "partition/weld.h"
 #include "solvers/laplacian/degenerate.h"
 #include "solvers/laplacian/laplacian.h"
@@ -151,8 +153,8 @@ FlowReport extend(const PolygonMesh& mesh, FieldGroup& group, const FlowOptions&
     own.motion.boundary = Boundary::Free;
     own.motion.junctions = Junctions::Flow;
     own.motion.fixed_vertices.clear();
-    own.time_step =
-        time_to_rest * (mesh.vertices.colwise().maxCoeff() - mesh.vertices.colwise().minCoeff()).squaredNorm();
+    const BoundingBox box = box_of_faces(mesh, run_in_parallel);
+    own.time_step = time_to_rest * (box.high - box.low).squaredNorm();
     for (Index v = 0; v < mesh.n_vertices(); ++v)
         if (group.lacks[v] == 0 || reached[v] == 0)
             own.motion.fixed_vertices.push_back(v);

@@ -21,6 +21,7 @@
 #include "engine/tasks/workers.h"
 #include "partition/decomposition/decomposition.h"
 #include "partition/errors.h"
+#include "partition/metrics/bounding_box.h"
 #include "partition/metrics/vertex_distance.h"
 #include "partition/topology.h"
 #include "partition/weld.h"
@@ -238,7 +239,7 @@ Eigen::VectorXd logarithm_of_heat(const PolygonMesh& mesh, Topology& topology, W
 Eigen::VectorXd distance_on(const PolygonMesh& mesh, std::span<const Index> from, const Progress& progress)
 {
     Topology topology = make_topology(mesh, progress.exec());
-    const double diagonal = (mesh.vertices.colwise().maxCoeff() - mesh.vertices.colwise().minCoeff()).norm();
+    const double diagonal = box_of_faces(mesh, run_in_parallel).diagonal();
     const double edge = mean_edge_length(mesh);
     const double length = std::max(edges_of_diffusion * edge, diagonal / most_diffusion_lengths);
     free_all(mesh, topology, progress.exec());

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/tasks/parallel_executor.h"
+
 namespace seamflow {
 
 namespace {
@@ -44,7 +46,7 @@ Point origin_offset(const PolygonMesh& mesh)
 {
     if (!may_lie_far(mesh) || !has_sound_corners(mesh) || !mesh.vertices.allFinite())
         return Point::Zero();
-    return origin_offset(box_of_faces(mesh));
+    return origin_offset(box_of_faces(mesh, run_in_parallel));
 }
 
 Point origin_offset(const BoundingBox& box)

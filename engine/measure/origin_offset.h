@@ -1,6 +1,6 @@
 #pragma once
 
-#include "engine/measure/bounding_box.h"
+#include "partition/metrics/bounding_box.h"
 #include "partition/polygon_mesh.h"
 #include "partition/vector_area.h"
 

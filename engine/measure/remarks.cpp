@@ -6,8 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "engine/measure/surface_measures.h"
-
 namespace seamflow {
 
 std::string remark_on_repeated_faces(std::int64_t n)
@@ -110,15 +108,14 @@ void remark_on_missed_tolerance(int iterations, const std::string& remedy, FlowR
     report.remarks.push_back(remark + (remedy.empty() ? "" : ": " + remedy) + ".");
 }
 
-void remark_on_collapse(double extent_before, const Points& after, FlowReport& report)
+void remark_on_collapse(double extent_before, double extent_after, FlowReport& report)
 {
     constexpr double next_to_nothing = 1e-3;
-    const double extent = extent_of(after);
-    if (extent >= next_to_nothing * extent_before)
+    if (extent_after >= next_to_nothing * extent_before)
         return;
     report.remarks.push_back(fmt::format("The surface has shrunk to {:.1g} of its extent: smaller or fewer steps leave "
                                          "more of it.",
-                                         extent / extent_before));
+                                         extent_after / extent_before));
 }
 
 }  // namespace seamflow

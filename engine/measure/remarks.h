@@ -52,7 +52,7 @@ void remark_on_factorisation(Factorisation asked, std::span<const Factorisation>
 void remark_on_missed_tolerance(int iterations, const std::string& remedy, FlowReport& report);
 
 /// Adds a remark if the flow has shrunk the surface to almost nothing, which is hardly what was wanted.
-/// @param extent_before see extent_of. @param after #V by 3.
-void remark_on_collapse(double extent_before, const Points& after, FlowReport& report);
+/// @param extent_before, extent_after the diagonals of the boxes around the faces.
+void remark_on_collapse(double extent_before, double extent_after, FlowReport& report);
 
 }  // namespace seamflow

@@ -1,5 +1,6 @@
 #include "engine/measure/rescaling.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <span>
@@ -64,7 +65,6 @@ Point mean_of(std::span<const Index> corners, const Points& positions, const Poi
 
 Rescaling::Rescaling(const PolygonMesh& mesh, const Topology& topology, Rescale kind)
     : mesh_(&mesh)
-    , topology_(&topology)
     , kind_(kind)
 {
     if (kind_ == Rescale::None)
@@ -72,21 +72,37 @@ Rescaling::Rescaling(const PolygonMesh& mesh, const Topology& topology, Rescale 
     if (kind_ == Rescale::Volume)
         require_closed(mesh, topology);
     require_movable(topology, mesh.n_vertices());
-    first_ = measure(mesh.vertices);
-    // A volume this small relative to the area is the rounding error of parts that cancel each other.
-    const double least = kind_ == Rescale::Volume ? 1e-12 * first_.area * std::sqrt(first_.area) : 0.0;
-    const bool sound = std::isnormal(first_.size) && std::abs(first_.size) > least && first_.centroid.allFinite();
-    if (mesh.n_faces() > 0 && !sound)
+    components_ = surface_components(mesh, run_in_parallel);
+    origins_.assign(at(components_.count()), -1);
+    for (Index v = 0; v < mesh.n_vertices(); ++v)
+        if (const Index c = components_.of_vertex[v]; c >= 0 && origins_[c] < 0)
+            origins_[c] = v;
+    for (Index c = 0; c < components_.count(); ++c)
+        first_.push_back(measure(c, mesh.vertices));
+    const auto is_sound = [&](const Extent& extent) { return has_size(extent); };
+    if (mesh.n_faces() > 0 && std::ranges::none_of(first_, is_sound))
         throw InputError(fmt::format("the surface has no {} above rounding: scale the mesh, or leave rescaling out",
                                      kind_ == Rescale::Area ? "area" : "volume"));
 }
 
-Rescaling::Extent Rescaling::measure(const Points& positions) const
+/// Whether its area or volume is more than rounding: that of parts that cancel each other is so small relative to the
+/// area.
+bool Rescaling::has_size(const Extent& extent) const
 {
-    const Point origin = positions.rows() > 0 ? Point(positions.row(0)) : Point::Zero();
+    const double least = kind_ == Rescale::Volume ? 1e-12 * extent.area * std::sqrt(extent.area) : 0.0;
+    return std::isnormal(extent.size) && std::abs(extent.size) > least && extent.centroid.allFinite();
+}
+
+Rescaling::Extent Rescaling::measure(Index component, const Points& positions) const
+{
+    const Point origin = positions.row(origins_[component]);
+    const std::span<const Index> faces = components_.faces[component];
+    const auto n = static_cast<Index>(faces.size());
+    // There may be very many small ones.
+    const Executor exec = n > block_size ? Executor(run_in_parallel) : Executor(run_serially);
     const auto add_up = [&](auto&& of_face) {
-        return sum(run_in_parallel, mesh_->n_faces(), [&](Index f) {
-            const auto corners = mesh_->face(f);
+        return sum(exec, n, [&](Index i) {
+            const auto corners = mesh_->face(faces[i]);
             return of_face(vector_area(corners, positions), mean_of(corners, positions, origin));
         });
     };
@@ -100,27 +116,51 @@ Rescaling::Extent Rescaling::measure(const Points& positions) const
     return {area, size, origin + centroid};
 }
 
-Similarity Rescaling::apply(Points& positions) const
+/// @returns a scale of 0 if too little is left.
+Similarity Rescaling::back(const Extent& first, const Extent& now) const
 {
-    if (kind_ == Rescale::None || mesh_->n_faces() == 0)
-        return {};
-    const Extent now = measure(positions);
-    const double ratio = first_.size / now.size;
+    const double ratio = first.size / now.size;
     // A surface that has fewer digits left would be dominated by rounding errors.
     constexpr double digits_wanted = 1e4;
     const double farthest = now.centroid.cwiseAbs().maxCoeff() + std::sqrt(now.area);
     const double rounding = std::numeric_limits<double>::epsilon() * farthest;
     const bool sound = std::isnormal(ratio) && ratio > 0.0 && now.centroid.allFinite();
-    if (!sound || !(std::sqrt(now.area) > digits_wanted * rounding))
+    if (!sound || !has_size(first) || !(std::sqrt(now.area) > digits_wanted * rounding))
+        return {.scale = 0.0};
+    return {now.centroid, kind_ == Rescale::Area ? std::sqrt(ratio) : std::cbrt(ratio), first.centroid};
+}
+
+SimilarityOfComponents Rescaling::apply(Points& positions)
+{
+    SimilarityOfComponents all{components_.of_vertex, {}};
+    if (kind_ == Rescale::None || mesh_->n_faces() == 0)
+        return all;
+    n_left_ = 0;
+    for (Index c = 0; c < components_.count(); ++c) {
+        Similarity similarity = back(first_[c], measure(c, positions));
+        if (similarity.scale == 0.0) {
+            ++n_left_;
+            similarity = {};
+        }
+        all.maps.push_back(similarity);
+    }
+    if (n_left_ == components_.count())
         throw ComputationError(
             "too little is left of the surface to scale it back to its size: use a smaller time step or fewer steps");
-    const Similarity similarity{now.centroid, kind_ == Rescale::Area ? std::sqrt(ratio) : std::cbrt(ratio),
-                                first_.centroid};
     for_each(run_in_parallel, mesh_->n_vertices(), [&](Index v) {
-        if (topology_->kind[v] != VertexKind::Isolated)
-            positions.row(v) = similarity(positions.row(v));
+        if (components_.of_vertex[v] >= 0)
+            positions.row(v) = all(v, positions.row(v));
     });
-    return similarity;
+    return all;
+}
+
+std::string Rescaling::remark() const
+{
+    if (n_left_ == 0)
+        return {};
+    return fmt::format("{} of {} components {} not scaled back: {} no {} above rounding, at first or in the end.",
+                       n_left_, components_.count(), n_left_ == 1 ? "was" : "were",
+                       n_left_ == 1 ? "it has" : "they have", kind_ == Rescale::Area ? "area" : "volume");
 }
 
 }  // namespace seamflow

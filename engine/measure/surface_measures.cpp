@@ -11,22 +11,6 @@ namespace seamflow {
 
 namespace {
 
-/// The box around position(0) … position(n - 1).
-template <class Position>
-BoundingBox box_of(Index n, Position&& position)
-{
-    if (n == 0)
-        return {};
-    const auto grow = [](BoundingBox& box, const auto& low, const auto& high) {
-        box.low = box.low.cwiseMin(low);
-        box.high = box.high.cwiseMax(high);
-    };
-    return reduce(
-        run_in_parallel, n, BoundingBox{position(0), position(0)},
-        [&](BoundingBox& box, Index i) { grow(box, position(i), position(i)); },
-        [&](BoundingBox& box, const BoundingBox& part) { grow(box, part.low, part.high); });
-}
-
 double curvature_at(const PolygonMesh& mesh, const Topology& topology, const Points& positions,
                     const ScaledLaplacian& laplacian, Index v)
 {
@@ -48,11 +32,6 @@ double largest_finite(Index n, Value&& value)
 }
 
 }  // namespace
-
-BoundingBox box_of_faces(const PolygonMesh& mesh)
-{
-    return box_of(mesh.n_corners(), [&](Index corner) { return mesh.vertices.row(mesh.face_vertices[corner]); });
-}
 
 double total_area(const PolygonMesh& mesh)
 {
@@ -85,12 +64,6 @@ MeshSize size_of(const PolygonMesh& mesh)
             .area = total_area(mesh),
             .mean_edge = mesh.n_corners() > 0 ? edges.length / mesh.n_corners() : 0.0,
             .has_lengths = edges.have_lengths};
-}
-
-double extent_of(const Points& positions)
-{
-    const BoundingBox box = box_of(static_cast<Index>(positions.rows()), [&](Index v) { return positions.row(v); });
-    return (box.high - box.low).norm();
 }
 
 std::vector<double> measure_curvature(const PolygonMesh& mesh, const Topology& topology, const Points& positions,

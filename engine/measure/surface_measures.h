@@ -2,7 +2,6 @@
 
 #include <vector>
 
-#include "engine/measure/bounding_box.h"
 #include "partition/polygon_mesh.h"
 #include "partition/topology.h"
 #include "partition/vector_area.h"
@@ -22,18 +21,11 @@ struct MeshSize {
     bool has_lengths = true;
 };
 
-/// The box around the vertices that have faces; others are ignored. A point where there are no faces.
-/// @pre every vertex named by a face exists.
-BoundingBox box_of_faces(const PolygonMesh& mesh);
-
 /// Of all faces (length²), whichever way they are oriented.
 double total_area(const PolygonMesh& mesh);
 
 /// @pre the mesh is valid (see require_valid).
 MeshSize size_of(const PolygonMesh& mesh);
-
-/// The diagonal of the bounding box, in units of length; 0 for no positions.
-double extent_of(const Points& positions);
 
 /// ‖ΔV‖ at every interior vertex that may move, 0 at the others, in 1/length; #V. On a free boundary ΔV is not the mean
 /// curvature. Runs in parallel.

@@ -8,9 +8,9 @@
 
 #include <fmt/format.h>
 
-#include "engine/measure/surface_measures.h"
 #include "engine/tasks/parallel_executor.h"
 #include "partition/errors.h"
+#include "partition/metrics/bounding_box.h"
 
 namespace seamflow {
 
@@ -50,7 +50,7 @@ Index farthest_mover(const Points& before, const Points& after, double unit)
 UpdateLimit::UpdateLimit(const PolygonMesh& mesh, double diagonals)
     : mesh_(mesh)
 {
-    const BoundingBox box = box_of_faces(mesh);
+    const BoundingBox box = box_of_faces(mesh, run_in_parallel);
     diagonal_ = (box.high - box.low).stableNorm();
     largest_ = diagonals * diagonal_;
 }

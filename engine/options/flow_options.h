@@ -205,7 +205,7 @@ struct AccuracyOptions {
     double largest_update = 1.0;
 };
 
-/// A length in units of the mesh, or a fraction of the diagonal of the bounding box of its vertices: {0.01, true} is
+/// A length in units of the mesh, or a fraction of the diagonal of the box around its faces: {0.01, true} is
 /// 1 % of it.
 struct LengthOnMesh {
     double value = 0.0;

@@ -173,7 +173,7 @@ const Points& RankStepper::positions() const
     return positions_;
 }
 
-void RankStepper::continue_from(const Points& image, const Similarity&)
+void RankStepper::continue_from(const Points& image, const SimilarityOfComponents&)
 {
     positions_ = image;
     are_current_ = true;

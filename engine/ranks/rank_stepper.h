@@ -37,7 +37,7 @@ class RankStepper final : public Stepper {
     /// @param before is what positions() are.
     void step(const Points& before) override;
     [[nodiscard]] const Points& positions() const override;
-    void continue_from(const Points& image, const Similarity& similarity) override;
+    void continue_from(const Points& image, const SimilarityOfComponents& similarity) override;
     void begin(const Points& data, DataSteps steps) override;
     void move(std::span<const Index> vertices, const Points& to) override;
     void save(StepMemory& memory) const override;

@@ -16,14 +16,6 @@ namespace seamflow {
 
 namespace {
 
-std::vector<Index> vertices_without_faces(const PolygonMesh& mesh)
-{
-    std::vector<std::uint8_t> has_face(mesh.n_vertices(), 0);
-    for (const Index v : mesh.face_vertices)
-        has_face[v] = 1;
-    return select(run_serially, mesh.n_vertices(), [&](Index v) { return has_face[v] == 0; });
-}
-
 /// Zeros of different sign differ.
 bool have_same_bits(const Point& a, const Point& b)
 {
@@ -38,10 +30,16 @@ FlowingMesh::FlowingMesh(PolygonMesh& given)
 {
     if (!is_shifted())
         return;
-    isolated_ = vertices_without_faces(given);
+    isolated_ = unused_vertices();
     of_isolated_ = given.vertices(isolated_, Eigen::all);
     copy_ = given;
     copy_->vertices.rowwise() -= offset_;
+}
+
+std::vector<Index> FlowingMesh::unused_vertices() const
+{
+    const std::vector<std::uint8_t> is_used = used_by_faces(*given_);
+    return select(run_in_parallel, given_->n_vertices(), [&](Index v) { return is_used[v] == 0; });
 }
 
 void FlowingMesh::weld_seams(Topology& topology, MotionOptions& motion, const Executor& exec)
@@ -92,7 +90,7 @@ void FlowingMesh::move_isolated(std::span<const Index> vertices, const Points& t
             of_isolated_.row(place - isolated_.begin()) = to.row(static_cast<Eigen::Index>(i));
 }
 
-Index FlowingMesh::leave_out_still_faces(std::span<const double> strength, Reach reach)
+bool FlowingMesh::leave_out_still_faces(std::span<const double> strength, Reach reach)
 {
     const PolygonMesh& all = mesh();
     const auto select_faces = [&](const std::vector<std::uint8_t>& has) {
@@ -114,7 +112,7 @@ Index FlowingMesh::leave_out_still_faces(std::span<const double> strength, Reach
         mark_corners();
     }
     if (std::ssize(faces) == all.n_faces())
-        return 0;
+        return false;
     std::vector<Index> number(at(all.n_faces()), -1);
     PolygonMesh left;
     for (const Index f : faces) {
@@ -123,9 +121,8 @@ Index FlowingMesh::leave_out_still_faces(std::span<const double> strength, Reach
     }
     left.vertices = all.vertices;
     renumber(std::move(number));
-    n_still_ = static_cast<Index>(std::ranges::count(is_near, 0));
     copy_ = std::move(left);
-    return n_still_;
+    return true;
 }
 
 /// @param number per face of mesh(), among those that stay; -1: the face is still.

@@ -33,6 +33,12 @@ class FlowingMesh {
     /// How many vertices of mesh() were joined to others before them, and no longer have faces.
     [[nodiscard]] Index n_copies() const { return static_cast<Index>(copies_.size()); }
 
+    /// As it was given, where it is now.
+    [[nodiscard]] const PolygonMesh& given() const { return *given_; }
+
+    /// The vertices of the given mesh that no face uses, ascending.
+    [[nodiscard]] std::vector<Index> unused_vertices() const;
+
     /// The vertex of mesh() that a vertex of the given mesh moves with.
     [[nodiscard]] Index moves_with(Index v) const { return first_.empty() ? v : first_[v]; }
 
@@ -45,8 +51,8 @@ class FlowingMesh {
 
     /// Leaves out the faces on which no row of a moving vertex depends. To be called at most once, first of all.
     /// @param strength see MotionOptions::strength: one per vertex of mesh(). @param reach of the Laplacian.
-    /// @returns how many vertices are left without faces by that.
-    Index leave_out_still_faces(std::span<const double> strength, Reach reach);
+    /// @returns whether there were any.
+    bool leave_out_still_faces(std::span<const double> strength, Reach reach);
 
     /// Leaves out faces that repeat others. A surface whose faces occur twice (to be seen from both sides, say) is
     /// manifold nowhere, but flows like the single one. To be called at most once, before anything refers to mesh().
@@ -60,9 +66,6 @@ class FlowingMesh {
     /// Moves the vertices.
     /// @param positions #V by 3, of mesh().
     void move_to(const Points& positions);
-
-    /// #V by 3: the positions of the given mesh.
-    [[nodiscard]] const Points& given_positions() const { return given_->vertices; }
 
     /// Whether positions of mesh() differ from those of the given mesh: they lie elsewhere, or vertices are joined.
     [[nodiscard]] bool is_elsewhere() const { return is_shifted() || !copies_.empty(); }
@@ -115,7 +118,6 @@ class FlowingMesh {
     /// Per face of the given mesh: its number, or that of the face that it repeats, among those that are left; -1 where
     /// nothing moves. Empty if none is left out.
     std::vector<Index> number_;
-    Index n_still_ = 0;
     Index n_repeated_ = 0;
 };
 

@@ -69,10 +69,8 @@ void examine(PreparedFlow& prepared, FlowingMesh& mesh, Progress& progress)
     std::vector<double>& strength = options.motion.strength;
     if (std::ranges::all_of(strength, [](double s) { return s == 1.0; }))
         strength.clear();
-    Index n_still = 0;
-    if (flows_alone(options) && strength.size() == at(mesh.mesh().n_vertices()))
-        n_still = mesh.leave_out_still_faces(strength, traits_of(options.laplacian).reach);
-    if (n_still > 0)
+    if (flows_alone(options) && strength.size() == at(mesh.mesh().n_vertices()) &&
+        mesh.leave_out_still_faces(strength, traits_of(options.laplacian).reach))
         prepared.choices.push_back(remark_on_still_faces(mesh.mesh().n_faces()));
     const auto look = [&] {
         // Part of the topology is made by one thread.
@@ -84,9 +82,11 @@ void examine(PreparedFlow& prepared, FlowingMesh& mesh, Progress& progress)
         // Vertices that are joined may have edges without length.
         const bool has_lengths = prepared.size.has_lengths && mesh.n_copies() == 0;
         constrain(topology, mesh.mesh(), options, has_lengths, progress.exec(), prepared.remarks);
-        prepared.size.vertices -= mesh.n_copies() + n_still;
+        prepared.size.vertices -= static_cast<Index>(std::ranges::count(topology.kind, VertexKind::Isolated));
     };
     look();
+    if (std::ranges::find(topology.kind, VertexKind::Isolated) != topology.kind.end())
+        prepared.unused_vertices = mesh.unused_vertices();
     mesh.weld_seams(topology, options.motion, progress.exec());
     constrain_it();
     // The sub-meshes as they are have all faces.
@@ -196,6 +196,7 @@ void describe(const PreparedFlow& prepared, const FlowingMesh& mesh, FlowReport&
             n += topology.kind[v] == kind && (strength.empty() || strength[v] >= MotionOptions::least_strength) ? 1 : 0;
         return n;
     };
+    report.mesh.unused_vertices = prepared.unused_vertices;
     report.mesh.non_manifold_vertices = count_in_region(VertexKind::NonManifold);
     report.mesh.junction_vertices = count_in_region(VertexKind::Junction);
     if (report.mesh.non_manifold_vertices > 0)

@@ -37,6 +37,8 @@ struct PreparedFlow {
     MeshSize size;
     /// Which vertices move, too.
     Topology topology;
+    /// Of the given mesh, without faces, ascending.
+    std::vector<Index> unused_vertices;
     /// See the function of this name.
     std::string_view need_of_junctions;
     /// The sub-mesh of every face.

@@ -6,9 +6,9 @@
 
 #include <fmt/format.h>
 
-#include "engine/measure/surface_measures.h"
 #include "engine/setup/smoothed_radius.h"
 #include "partition/errors.h"
+#include "partition/metrics/bounding_box.h"
 #include "partition/metrics/vertex_distance.h"
 #include "partition/topology.h"
 #include "partition/weld.h"
@@ -98,7 +98,7 @@ void choose_by_noise(const PolygonMesh& mesh, const std::optional<LengthOnMesh>&
     const PolygonMesh& flowing = welded ? welded->mesh : mesh;
     const Topology& joined = welded ? welded->topology : topology;
     const double mean_edge = mean_edge_length(mesh, mesh.vertices, exec);
-    const double diagonal = extent_of(mesh.vertices);
+    const double diagonal = box_of_faces(mesh, exec).diagonal();
     choice.noise = known ? length_of(*known, diagonal) : measure_noise(flowing, joined, exec).deviation;
     if (*choice.noise == 0.0)
         return smooth_nothing(choice, mean_edge,
@@ -163,12 +163,12 @@ void choose_amount(const PresetTraits& preset, const PolygonMesh& mesh, const st
     options.motion.limits = {.volume = most_volume_change};
     if (preset.time_step_edges) {
         const double mean_edge = mean_edge_length(mesh, mesh.vertices, exec);
-        const double reach = largest_reach * extent_of(mesh.vertices) / mean_edge;
+        const double reach = largest_reach * box_of_faces(mesh, exec).diagonal() / mean_edge;
         const double edges = std::min(*preset.time_step_edges, rounded(reach * reach));
         options.time_step = require_step(edges * mean_edge * mean_edge);
     } else if (preset.radius) {
-        options.time_step =
-            time_step_for_radius(*preset.radius, options.steps, extent_of(mesh.vertices), filter_of(options));
+        options.time_step = time_step_for_radius(*preset.radius, options.steps, box_of_faces(mesh, exec).diagonal(),
+                                                 filter_of(options));
     } else {
         choose_by_noise(mesh, noise, choice, exec);
     }
@@ -194,7 +194,7 @@ PresetChoice options_for(Preset preset, const PolygonMesh& mesh, const FlowOptio
     options.steps = traits.steps;
     options.radius.reset();
     if (traits.attach && !options.denoise)
-        options.motion.attachment = attachment_of(*traits.attach, extent_of(mesh.vertices));
+        options.motion.attachment = attachment_of(*traits.attach, box_of_faces(mesh, exec).diagonal());
     choose_amount(traits, mesh, noise, choice, exec);
     return choice;
 }

@@ -4,8 +4,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "engine/measure/surface_measures.h"
+#include "engine/tasks/parallel_executor.h"
 #include "partition/errors.h"
+#include "partition/metrics/bounding_box.h"
+#include "partition/metrics/vertex_distance.h"
 
 namespace seamflow {
 
@@ -46,9 +48,9 @@ double time_step_of(const FlowOptions& options, const PolygonMesh& mesh)
 {
     if (!options.radius)
         return options.time_step;
-    const double diagonal = options.radius->of_diagonal ? extent_of(mesh.vertices) : 1.0;
-    if (!std::isfinite(diagonal))
-        require_valid(mesh);
+    if (options.radius->of_diagonal)
+        require_valid(mesh, run_in_parallel);
+    const double diagonal = options.radius->of_diagonal ? box_of_faces(mesh, run_in_parallel).diagonal() : 1.0;
     try {
         return time_step_for_radius(*options.radius, options.steps, diagonal, filter_of(options));
     } catch (const InputError& error) {

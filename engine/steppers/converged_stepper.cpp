@@ -94,7 +94,7 @@ void ConvergedStepper::solve()
     seconds_.back().interface += watch.seconds();
 }
 
-void ConvergedStepper::continue_from(const Points& image, const Similarity&)
+void ConvergedStepper::continue_from(const Points& image, const SimilarityOfComponents&)
 {
     copy(run_in_parallel, image, positions_);
 }

@@ -20,7 +20,7 @@ class ConvergedStepper : public Stepper {
   public:
     void step(const Points& before) final;
     [[nodiscard]] const Points& positions() const final { return positions_; }
-    void continue_from(const Points& image, const Similarity&) final;
+    void continue_from(const Points& image, const SimilarityOfComponents&) final;
     void begin(const Points& data, DataSteps steps) override;
     void move(std::span<const Index> vertices, const Points& to) final { move_rows(vertices, to, positions_); }
     void save(StepMemory& memory) const override;

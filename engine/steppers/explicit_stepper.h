@@ -25,7 +25,7 @@ class ExplicitStepper final : public Stepper {
     ///         result is not finite.
     void step(const Points& before) override;
     [[nodiscard]] const Points& positions() const override { return positions_; }
-    void continue_from(const Points& image, const Similarity&) override { positions_ = image; }
+    void continue_from(const Points& image, const SimilarityOfComponents&) override { positions_ = image; }
     void move(std::span<const Index> vertices, const Points& to) override { move_rows(vertices, to, positions_); }
     void save(StepMemory& memory) const override;
     void restore(const StepMemory& memory) override;

@@ -43,8 +43,8 @@ class Stepper {
     /// Continues from an image of positions(), and of all positions that the next step needs. positions() are then the
     /// image, up to rounding. What is known of updates and errors stays: a step makes earlier errors smaller by about
     /// as much as its result is scaled back.
-    /// @param image #V by 3: positions() mapped by the similarity; vertices without faces stay.
-    virtual void continue_from(const Points& image, const Similarity& similarity) = 0;
+    /// @param image #V by 3: positions() mapped by the similarity of each component; vertices without faces stay.
+    virtual void continue_from(const Points& image, const SimilarityOfComponents& similarity) = 0;
 
     /// Continues from other data than positions, as flows with one matrix for all steps can: positions() are then the
     /// data. Nothing is known of updates and errors any more.

@@ -174,7 +174,7 @@ void SweepStepper::fetch_positions(SubMeshState& state)
 }
 
 /// Copies that differ are each mapped; their means are then those of the image up to rounding.
-void SweepStepper::continue_from(const Points& image, const Similarity& similarity)
+void SweepStepper::continue_from(const Points& image, const SimilarityOfComponents& similarity)
 {
     copy(run_in_parallel, image, positions_);
     for_each(run_in_parallel, static_cast<Index>(states_.size()), [&](Index s) {
@@ -182,7 +182,7 @@ void SweepStepper::continue_from(const Points& image, const Similarity& similari
         if (!has_copies())
             return fetch_positions(state);
         for (Index v = 0; v < state.sub_mesh->n_vertices; ++v)
-            state.position.row(v) = similarity(state.position.row(v));
+            state.position.row(v) = similarity(state.sub_mesh->local_to_global[v], state.position.row(v));
     });
     if (has_copies())
         join();

@@ -72,7 +72,7 @@ class SweepStepper final : public Stepper {
     void step(const Points& before) override;
     [[nodiscard]] const Points& positions() const override { return positions_; }
     [[nodiscard]] const PolygonMesh* separated() const override { return copies_ ? copies_->separated() : nullptr; }
-    void continue_from(const Points& image, const Similarity& similarity) override;
+    void continue_from(const Points& image, const SimilarityOfComponents& similarity) override;
     void move(std::span<const Index> vertices, const Points& to) override;
     void save(StepMemory& memory) const override;
     [[nodiscard]] std::vector<Index> saved_vertices() const override;

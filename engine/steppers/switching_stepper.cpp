@@ -81,7 +81,7 @@ void SwitchingStepper::step(const Points& before)
     iterations_.before = std::exchange(iterations_.last, *report.iterations);
 }
 
-void SwitchingStepper::continue_from(const Points& image, const Similarity& similarity)
+void SwitchingStepper::continue_from(const Points& image, const SimilarityOfComponents& similarity)
 {
     gradients_.continue_from(image, similarity);
 }

@@ -24,7 +24,7 @@ class SwitchingStepper final : public Stepper {
 
     void step(const Points& before) override;
     [[nodiscard]] const Points& positions() const override { return gradients_.positions(); }
-    void continue_from(const Points& image, const Similarity& similarity) override;
+    void continue_from(const Points& image, const SimilarityOfComponents& similarity) override;
     void begin(const Points& data, DataSteps steps) override { gradients_.begin(data, steps); }
     void move(std::span<const Index> vertices, const Points& to) override { gradients_.move(vertices, to); }
     void save(StepMemory& memory) const override;

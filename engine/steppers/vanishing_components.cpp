@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include "engine/tasks/parallel_executor.h"
+#include "partition/surface_components.h"
 #include "solvers/laplacian/laplacian.h"
 
 namespace seamflow {
@@ -65,22 +66,11 @@ IndexLists free_components(const PolygonMesh& mesh, const Topology& topology, st
 {
     const auto is_held = [&](Index v) { return !topology.moves(v) || is_weak(strength, v); };
     IndexLists free;
-    const IndexLists faces_at = make_lists(mesh.n_vertices(), [&](auto&& add) {
-        for (Index f = 0; f < mesh.n_faces(); ++f)
-            for (const Index v : mesh.face(f))
-                add(v, f);
-    });
-    const Components all = connected_components(mesh.n_vertices(), [&](Index v, auto&& visit) {
-        for (const Index f : faces_at[v])
-            for (const Index w : mesh.face(f))
-                visit(w);
-    });
-    for (Index c = 0; c < all.count(); ++c) {
-        const auto vertices = all.nodes[c];
-        if (vertices.size() == 1 || std::ranges::any_of(vertices, is_held))
+    const IndexLists all = surface_components(mesh, run_in_parallel).vertices();
+    for (Index c = 0; c < all.size(); ++c) {
+        if (std::ranges::any_of(all[c], is_held))
             continue;
-        free.values.insert(free.values.end(), vertices.begin(), vertices.end());
-        std::sort(free.values.end() - static_cast<std::ptrdiff_t>(vertices.size()), free.values.end());
+        free.values.insert(free.values.end(), all[c].begin(), all[c].end());
         free.close();
     }
     return free;

@@ -7,7 +7,6 @@
 
 #include "engine/options/flow_options.h"
 #include "engine/steppers/stepper.h"
-#include "partition/connected_components.h"
 #include "partition/index_lists.h"
 #include "partition/polygon_mesh.h"
 #include "partition/topology.h"

@@ -10,6 +10,7 @@
 
 #include "partition/connected_components.h"
 #include "partition/index_lists.h"
+#include "partition/metrics/bounding_box.h"
 #include "partition/vector_area.h"
 #include "partition/weld.h"
 
@@ -92,21 +93,13 @@ EdgeLengths measure_edges(const Surface& s)
     return found;
 }
 
-void measure_box(const PolygonMesh& mesh, MeshInspection& found)
+void measure_box(const PolygonMesh& mesh, const Executor& exec, MeshInspection& found)
 {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    Point low = Point::Constant(infinity);
-    Point high = Point::Constant(-infinity);
-    for (Index v = 0; v < mesh.n_vertices(); ++v)
-        if (mesh.vertices.row(v).allFinite()) {
-            low = low.cwiseMin(mesh.vertices.row(v));
-            high = high.cwiseMax(mesh.vertices.row(v));
-        }
-    if (low[0] > high[0])
-        return;
+    const BoundingBox box = box_of_faces(mesh, exec);
+    const auto& [low, high] = box;
     const Point middle = low + (high - low) / 2.0;
     found.box.middle = {middle[0], middle[1], middle[2]};
-    found.box.diagonal = (high - low).norm();
+    found.box.diagonal = box.diagonal();
     const double farthest = std::max(low.cwiseAbs().maxCoeff(), high.cwiseAbs().maxCoeff());
     if (std::isnormal(found.edge_lengths.mean) && farthest > found.edge_lengths.mean)
         found.bits_for_detail = std::max(0, 53 - (std::ilogb(farthest) - std::ilogb(found.edge_lengths.mean)));
@@ -238,7 +231,7 @@ MeshInspection inspect(const PolygonMesh& mesh, const Topology& topology, const 
         found.counts.seam_vertices = welded->n_vertices;
     }
     found.edge_lengths = measure_edges(surface);
-    measure_box(mesh, found);
+    measure_box(mesh, exec, found);
     found.defects.vertices_not_finite =
         select(exec, mesh.n_vertices(), [&](Index v) { return !mesh.vertices.row(v).allFinite(); });
     const auto of_kind = [&](VertexKind kind) {
@@ -246,6 +239,7 @@ MeshInspection inspect(const PolygonMesh& mesh, const Topology& topology, const 
     };
     found.defects.non_manifold_vertices = of_kind(VertexKind::NonManifold);
     found.defects.isolated_vertices = of_kind(VertexKind::Isolated);
+    found.defects.far_vertices = far_from_faces(mesh, found.defects.isolated_vertices, exec);
     found.orientable = is_orientable(surface);
     found.defects.duplicate_faces = duplicate_faces(mesh);
     found.defects.faces_without_area = select(exec, mesh.n_faces(), [&](Index f) { return lacks_area(mesh, f); });

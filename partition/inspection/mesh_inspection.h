@@ -34,7 +34,7 @@ struct EdgeLengths {
     double longest = 0.0;
 };
 
-/// The bounding box of all vertices: its middle, and the length of its diagonal.
+/// The box around the vertices that faces use: its middle, and the length of its diagonal.
 struct MeshBox {
     std::array<double, 3> middle{};
     double diagonal = 0.0;
@@ -61,6 +61,8 @@ struct MeshDefects {
     std::vector<Index> coincident_vertices;
     /// Vertices without faces.
     std::vector<Index> isolated_vertices;
+    /// Those of them that lie further from the box around the faces than it is large.
+    std::vector<Index> far_vertices;
     /// Faces that cross each other (see self_intersections).
     std::vector<FacePair> self_intersections;
 };

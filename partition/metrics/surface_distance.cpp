@@ -178,11 +178,9 @@ LengthStatistics surface_distance(const PolygonMesh& from, const PolygonMesh& to
     if (from.n_faces() == 0)
         throw InputError("there are no faces, and so no vertices of a surface to measure distances of");
     std::vector<double> distances = SurfaceDistance(to)(from.vertices);
-    std::vector<bool> used(distances.size(), false);
-    for (const Index v : from.face_vertices)
-        used[v] = true;
+    const std::vector<std::uint8_t> is_used = used_by_faces(from);
     for (std::size_t v = 0; v < distances.size(); ++v)
-        if (!used[v])
+        if (is_used[v] == 0)
             distances[v] = std::numeric_limits<double>::quiet_NaN();
     return length_statistics(distances);
 }

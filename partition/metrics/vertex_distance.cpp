@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <string>
 
 #include <fmt/format.h>
@@ -42,13 +43,18 @@ VertexDistance vertex_distance(const PolygonMesh& mesh, const Points& reference,
         return distance;
     double sum = 0.0;
     double sum_of_squares = 0.0;
-    for (Eigen::Index v = 0; v < reference.rows(); ++v) {
+    const std::vector<std::uint8_t> is_used = used_by_faces(mesh);
+    Index n_used = 0;
+    for (Index v = 0; v < mesh.n_vertices(); ++v) {
+        if (is_used[v] == 0 && mesh.n_faces() > 0)
+            continue;
+        ++n_used;
         const double squared = (candidate.row(v) - reference.row(v)).squaredNorm();
         sum += std::sqrt(squared);
         sum_of_squares += squared;
         distance.max = std::max(distance.max, std::sqrt(squared));
     }
-    const auto count = static_cast<double>(reference.rows());
+    const auto count = static_cast<double>(n_used);
     distance.mean = sum / count;
     distance.rms = std::sqrt(sum_of_squares / count);
     return distance;

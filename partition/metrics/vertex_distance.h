@@ -21,7 +21,8 @@ double mean_edge_length(const PolygonMesh& mesh);
 /// As above for positions other than the mesh's own, #V by 3.
 double mean_edge_length(const PolygonMesh& mesh, const Points& positions, const Executor& exec = run_serially);
 
-/// Distances between `candidate` and `reference`, #V by 3 each, over all vertices; `mesh` gives the faces.
+/// Distances between `candidate` and `reference`, #V by 3 each, over all vertices that faces use, and over
+/// all where there are no faces; `mesh` gives the faces.
 /// @throws InputError if the numbers of vertices differ, those of `mesh` included.
 VertexDistance vertex_distance(const PolygonMesh& mesh, const Points& reference, const Points& candidate);
 

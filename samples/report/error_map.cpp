@@ -1,5 +1,7 @@
 #include "samples/report/error_map.h"
 
+#include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "partition/errors.h"
@@ -25,8 +27,14 @@ Values vertex_distances(const PolygonMesh& reference, const PolygonMesh& candida
 /// The values to show come first.
 std::vector<VertexValues> measure(const PolygonMesh& reference, const PolygonMesh& candidate, Shown shown)
 {
-    if (shown == Shown::SurfaceDistance)
-        return {{"distance", SurfaceDistance(reference)(candidate.vertices)}};
+    if (shown == Shown::SurfaceDistance) {
+        VertexValues distance{"distance", SurfaceDistance(reference)(candidate.vertices)};
+        const std::vector<std::uint8_t> is_used = used_by_faces(candidate);
+        for (std::size_t v = 0; v < is_used.size(); ++v)
+            if (is_used[v] == 0)
+                distance.values[v] = std::numeric_limits<double>::quiet_NaN();
+        return {distance};
+    }
     const VertexValues distance{"distance", vertex_distances(reference, candidate)};
     if (shown == Shown::VertexDistance)
         return {distance};

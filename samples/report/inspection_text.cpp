@@ -132,6 +132,8 @@ void print_inspection(std::ostream& out, const std::string& file, const FaultLog
     printer.print(found.defects.coincident_vertices, "vertices at the same place as an earlier vertex",
                   "smooth moves those along seams as one, and each of the others with its own faces");
     printer.print(found.defects.isolated_vertices, "vertices without faces", "they stay where they are");
+    printer.print(found.defects.far_vertices, "of these, vertices further from the surface than it is large",
+                  "they count in no length of smooth; other programs may take them for a part of the surface");
     printer.print(found.defects.self_intersections,
                   found.defects.self_intersections.size() < most_self_intersections
                       ? "pairs of faces that cross each other"

@@ -276,6 +276,7 @@ std::string inspection_json(const std::string& file, const FaultLog& faults, con
         {"edges_without_length", defects.edges_without_length},
         {"coincident_vertices", defects.coincident_vertices},
         {"isolated_vertices", defects.isolated_vertices},
+        {"far_vertices", defects.far_vertices},
         {"self_intersections", defects.self_intersections},
     };
     return text_of(json);

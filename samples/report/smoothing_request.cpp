@@ -3,8 +3,8 @@
 #include <cmath>
 #include <string>
 
-#include "engine/measure/surface_measures.h"
 #include "partition/errors.h"
+#include "partition/metrics/bounding_box.h"
 #include "partition/metrics/vertex_distance.h"
 
 namespace seamflow {
@@ -22,7 +22,7 @@ double require_step(double time_step, const char* option)
 
 MeshScale measure_scale(const PolygonMesh& mesh, const Executor& exec)
 {
-    return {.mean_edge = mean_edge_length(mesh, mesh.vertices, exec), .diagonal = extent_of(mesh.vertices)};
+    return {.mean_edge = mean_edge_length(mesh, mesh.vertices, exec), .diagonal = box_of_faces(mesh, exec).diagonal()};
 }
 
 double time_step_of(const SmoothingRequest& request, const MeshScale& scale, int steps, const StepFilter& filter)

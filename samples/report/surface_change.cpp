@@ -111,7 +111,8 @@ SurfaceChange SurfaceChangeMeter::measure(const PolygonMesh& mesh, const MeshRep
     std::vector<LengthSums> of_block(at(mesh.n_vertices() / block_size) + 1);
     for_each_block(exec, mesh.n_vertices(), [&](Index block, Index begin, Index end) {
         for (Index v = begin; v < end; ++v)
-            of_block[block].add((mesh.vertices.row(v) - positions_.row(v)).norm());
+            if (!std::ranges::binary_search(report.unused_vertices, v))
+                of_block[block].add((mesh.vertices.row(v) - positions_.row(v)).norm());
     });
     LengthSums moved;
     for (const LengthSums& sums : of_block)

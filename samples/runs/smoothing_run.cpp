@@ -1,6 +1,7 @@
 #include "samples/runs/smoothing_run.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <utility>
@@ -12,6 +13,7 @@
 #include "partition/errors.h"
 #include "partition/formats/index_files.h"
 #include "partition/io/input_position.h"
+#include "partition/metrics/bounding_box.h"
 #include "partition/metrics/feathered.h"
 #include "samples/command/parse_smooth_command.h"
 #include "samples/command/presets.h"
@@ -100,9 +102,37 @@ double seam_distance_of(const SmoothCommand& command)
     return command.options.motion.weld.value_or(0.0);
 }
 
+namespace {
+
+/// On vertices without faces far from all faces.
+/// @param vertices at least one, ascending.
+std::string remark_on_far_vertices(const std::vector<Index>& vertices)
+{
+    const bool is_one = vertices.size() == 1;
+    return fmt::format(
+        "{} no face and lie{} further from the surface than it is large: {}; remove {} where other programs mind.",
+        is_one ? fmt::format("Vertex {} (numbered from 0) has", vertices.front())
+               : fmt::format("{} vertices, the first of which is {} (numbered from 0), have", vertices.size(),
+                             vertices.front()),
+        is_one ? "s" : "",
+        is_one ? "it stays there, and counts in no length" : "they stay there, and count in no length",
+        is_one ? "it" : "them");
+}
+
+}  // namespace
+
+void remark_on_vertices(const PolygonMesh& mesh, const Executor& exec, std::vector<std::string>& remarks)
+{
+    const std::vector<std::uint8_t> is_used = used_by_faces(mesh);
+    const auto unused = select(exec, mesh.n_vertices(), [&](Index v) { return is_used[v] == 0; });
+    if (const std::vector<Index> far = far_from_faces(mesh, unused, exec); !far.empty())
+        remarks.push_back(remark_on_far_vertices(far));
+}
+
 void resolve_amount(SmoothCommand& command, const PolygonMesh& mesh, const Executor& exec, RunRecord& run)
 {
     run.scale = measure_scale(mesh, exec);
+    remark_on_vertices(mesh, exec, run.remarks);
     resolve_lengths(command, run);
     if (command.chooses_amount)
         choose_amount(command, mesh, exec, run);

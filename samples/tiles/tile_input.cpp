@@ -60,7 +60,7 @@ TileSummary summary_of(const std::filesystem::path& path, const PolygonMesh& mes
             .n_faces = mesh.n_faces(),
             .n_corners = mesh.n_corners(),
             .mean_edge = mean_edge_length(mesh, mesh.vertices, exec),
-            .box = box_around(mesh.vertices),
+            .box = box_of_faces(mesh, exec),
             .checksum = checksum_of(mesh.vertices, mesh.face_offsets, mesh.face_vertices)};
 }
 
@@ -75,7 +75,7 @@ MeshScale scale_of(std::span<const TileSummary> tiles)
         box.low = box.low.cwiseMin(tile.box.low);
         box.high = box.high.cwiseMax(tile.box.high);
     }
-    return {.mean_edge = sum_of_edges / static_cast<double>(n_corners), .diagonal = (box.high - box.low).norm()};
+    return {.mean_edge = sum_of_edges / static_cast<double>(n_corners), .diagonal = box.diagonal()};
 }
 
 void keep_input(const TileFolder& folder, Index tile, PolygonMesh& mesh, const Executor& exec)

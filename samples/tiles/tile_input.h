@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "engine/measure/surface_measures.h"
 #include "partition/executor.h"
 #include "partition/formats/mesh_io.h"
 #include "partition/io/fault_log.h"
+#include "partition/metrics/bounding_box.h"
 #include "samples/report/smoothing_request.h"
 #include "samples/tiles/tile_files.h"
 
@@ -24,7 +24,7 @@ struct TileSummary {
     std::int64_t n_corners = 0;
     /// See mean_edge_length; in length.
     double mean_edge = 0.0;
-    /// Around all vertices.
+    /// Around the vertices that faces use.
     BoundingBox box;
     /// Of positions and faces.
     std::uint64_t checksum = 0;

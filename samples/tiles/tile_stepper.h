@@ -3,9 +3,9 @@
 #include <span>
 
 #include "engine/measure/flow_report.h"
-#include "engine/measure/surface_measures.h"
 #include "engine/options/flow_control.h"
 #include "engine/options/flow_options.h"
+#include "partition/metrics/bounding_box.h"
 #include "samples/tiles/tile_files.h"
 
 namespace seamflow {

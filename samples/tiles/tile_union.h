@@ -5,8 +5,8 @@
 #include <unordered_map>
 #include <vector>
 
-#include "engine/measure/surface_measures.h"
 #include "partition/executor.h"
+#include "partition/metrics/bounding_box.h"
 #include "partition/point_numbers.h"
 #include "partition/polygon_mesh.h"
 #include "samples/tiles/tile_files.h"

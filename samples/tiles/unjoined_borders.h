@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <span>
 
-#include "engine/measure/surface_measures.h"
+#include "partition/metrics/bounding_box.h"
 #include "samples/tiles/tile_files.h"
 
 namespace seamflow {

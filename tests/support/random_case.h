@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/measure/surface_measures.h"
+#include "partition/metrics/bounding_box.h"
 #include "tests/support/outcome.h"
 #include "tests/support/random_flows.h"
 
@@ -35,7 +35,7 @@ struct Case {
             complaints.push_back(what);
     }
     [[nodiscard]] const PolygonMesh& mesh() const { return flow.input.mesh; }
-    [[nodiscard]] double extent() const { return extent_of(mesh().vertices); }
+    [[nodiscard]] double extent() const { return box_of_faces(mesh()).diagonal(); }
     [[nodiscard]] bool is_sound() const { return flow.input.soundness == Soundness::Sound; }
 };
 

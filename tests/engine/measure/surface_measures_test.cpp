@@ -29,23 +29,3 @@ TEST_CASE("a mesh is as large as its faces together, and its edges as long as th
     CHECK(nothing.area == 0.0);
     CHECK(nothing.mean_edge == 0.0);
 }
-
-TEST_CASE("the box around a surface is that of the vertices that have faces")
-{
-    PolygonMesh mesh = make_quads(100);
-    const Points before = mesh.vertices;
-    mesh.vertices.conservativeResize(before.rows() + 2, 3);
-    mesh.vertices.bottomRows(2) << 1e9, -1e9, 0.0, 1.0, 2.0, 1e9;
-    const BoundingBox box = box_of_faces(mesh);
-    CHECK(box.low == Eigen::RowVector3d(before.colwise().minCoeff()));
-    CHECK(box.high == Eigen::RowVector3d(before.colwise().maxCoeff()));
-    CHECK(box_of_faces(PolygonMesh{}).high == box_of_faces(PolygonMesh{}).low);
-}
-
-TEST_CASE("the extent is the diagonal of the box")
-{
-    CHECK(extent_of(Points(0, 3)) == 0.0);
-    Points positions(3, 3);
-    positions << 1, 1, 1, 4, 5, 1, 2, 2, 1;
-    CHECK(extent_of(positions) == 5.0);
-}

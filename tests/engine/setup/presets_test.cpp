@@ -6,11 +6,11 @@
 #include <doctest/doctest.h>
 
 #include "engine/mean_curvature_flow.h"
-#include "engine/measure/surface_measures.h"
 #include "engine/setup/presets.h"
 #include "engine/setup/smoothed_radius.h"
 #include "engine/tasks/parallel_executor.h"
 #include "partition/errors.h"
+#include "partition/metrics/bounding_box.h"
 #include "partition/metrics/flipped_faces.h"
 #include "partition/metrics/vertex_distance.h"
 #include "partition/metrics/vertex_normals.h"
@@ -204,7 +204,7 @@ TEST_CASE("clean parts are fixed points where edges are kept, whatever the amoun
         const double edge = mean_edge_length(mesh, mesh.vertices);
         const auto check = [&](const FlowOptions& options) {
             const Points moved = flowed(mesh, options);
-            CHECK((moved - mesh.vertices).rowwise().norm().maxCoeff() <= 1e-6 * extent_of(mesh.vertices));
+            CHECK((moved - mesh.vertices).rowwise().norm().maxCoeff() <= 1e-6 * box_of_faces(mesh).diagonal());
             CHECK(folded_faces(mesh, mesh.vertices, moved, flipped_faces(mesh, mesh.vertices, moved)).empty());
         };
         check(options_for(Preset::Cad, mesh).options);
@@ -244,7 +244,7 @@ TEST_CASE("the amount of the cad preset is in mean edges, and reaches no further
     };
     CHECK(edges_of(make_box(3000)) == relative(32.0, 1e-5));
     const PolygonMesh coarse = make_box(400);
-    const double reach = 0.2 * extent_of(coarse.vertices) / mean_edge_length(coarse, coarse.vertices);
+    const double reach = 0.2 * box_of_faces(coarse).diagonal() / mean_edge_length(coarse, coarse.vertices);
     REQUIRE(reach * reach < 20.0);
     CHECK(edges_of(coarse) == relative(reach * reach, 0.005));
 }
@@ -259,7 +259,7 @@ TEST_CASE("noise that is said is believed, and no more is taken than it")
     CHECK(choice.options.motion.limits.move == known);
     CHECK(choice.options.motion.limits.slide == 4.0 * known);
     const PresetChoice by_diagonal =
-        options_for(Preset::Scan, c.noisy, {}, LengthOnMesh{known / extent_of(c.noisy.vertices), true});
+        options_for(Preset::Scan, c.noisy, {}, LengthOnMesh{known / box_of_faces(c.noisy).diagonal(), true});
     CHECK(std::abs(by_diagonal.options.time_step / choice.options.time_step - 1.0) < 0.01);
     PolygonMesh result = c.noisy;
     mean_curvature_flow(result, choice.options);

@@ -1,0 +1,46 @@
+#include "partition/surface_components.h"
+
+#include <tuple>
+#include <utility>
+
+#include "partition/disjoint_sets.h"
+
+namespace seamflow {
+
+IndexLists SurfaceComponents::vertices() const
+{
+    return make_lists(count(), [&](auto&& add) {
+        for (Index v = 0; v < static_cast<Index>(of_vertex.size()); ++v)
+            if (of_vertex[v] >= 0)
+                add(of_vertex[v], v);
+    });
+}
+
+SurfaceComponents surface_components(const PolygonMesh& mesh, const Executor& exec)
+{
+    DisjointSets sets(mesh.n_vertices(), exec);
+    for_each(exec, mesh.n_faces(), [&](Index f) {
+        for (const Index v : mesh.face(f))
+            sets.join(mesh.face(f).front(), v);
+    });
+    std::vector<Index> set_of;
+    Index n_sets = 0;
+    std::tie(set_of, n_sets) = sets.numbered(exec);
+    // A vertex without faces is a set without faces.
+    std::vector<Index> number(at(n_sets), -1);
+    for (Index f = 0; f < mesh.n_faces(); ++f)
+        number[set_of[mesh.face(f).front()]] = 0;
+    Index n = 0;
+    for (Index& one : number)
+        one = one < 0 ? -1 : n++;
+    SurfaceComponents found;
+    found.faces = make_lists(n, [&](auto&& add) {
+        for (Index f = 0; f < mesh.n_faces(); ++f)
+            add(number[set_of[mesh.face(f).front()]], f);
+    });
+    for_each(exec, mesh.n_vertices(), [&](Index v) { set_of[v] = number[set_of[v]]; });
+    found.of_vertex = std::move(set_of);
+    return found;
+}
+
+}  // namespace seamflow

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <vector>
+
+#include "partition/executor.h"
+#include "partition/index_lists.h"
+#include "partition/polygon_mesh.h"
+
+namespace seamflow {
+
+/// The bodies of a surface: its components, connected by shared vertices, numbered by their lowest vertices.
+struct SurfaceComponents {
+    /// #V: -1 for vertices without faces.
+    std::vector<Index> of_vertex;
+    /// Per component, ascending.
+    IndexLists faces;
+
+    [[nodiscard]] Index count() const { return faces.size(); }
+
+    /// Per component, ascending.
+    [[nodiscard]] IndexLists vertices() const;
+};
+
+/// @pre every vertex named by a face exists.
+SurfaceComponents surface_components(const PolygonMesh& mesh, const Executor& exec = run_serially);
+
+}  // namespace seamflow
