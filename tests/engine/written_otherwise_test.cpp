@@ -239,6 +239,25 @@ TEST_CASE("whatever the option, however the surface is written, the result is th
     }
 }
 
+TEST_CASE("however the surface is written, reported distances are those of the positions that an observer sees")
+{
+    for (const PolygonMesh& original : {creased_sheet(), rimmed_ball()})
+        for (const SimpleChange& change : simple_changes()) {
+            CAPTURE(change.name);
+            const double edge = mean_edge_length(original);
+            FlowOptions options = options_without_cases(edge);
+            option_case("reference yes").set(options, original, edge);
+            const Writing w = Change{{change}}(original);
+            PolygonMesh mesh = w.mesh;
+            const PolygonMesh given = w.mesh;
+            mean_curvature_flow(mesh, w.options(options), [&](const StepState& state) {
+                const VertexDistance seen = vertex_distance(given, *state.reference_positions, state.positions);
+                CHECK(std::abs(state.report.distance->mean - seen.mean) <= 1e-6 * seen.mean);
+                CHECK(std::abs(state.report.distance->max - seen.max) <= 1e-6 * seen.max);
+            });
+        }
+}
+
 TEST_CASE("whatever the pair of changes, the result is the same")
 {
     for (const PolygonMesh& mesh : {creased_sheet(), rimmed_ball()})

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <optional>
@@ -145,7 +146,7 @@ void repeat_faces(Writing& w)
 {
     LooseMesh loose = loosened(w.mesh);
     const auto n_faces = loose.faces.size();
-    for (std::size_t f = 0; f < n_faces; f += 1) {
+    for (std::size_t f = 0; f < n_faces; ++f) {
         loose.faces.emplace_back(loose.faces[f].rbegin(), loose.faces[f].rend());
         w.face_from.push_back(w.face_from[f]);
     }
@@ -178,12 +179,13 @@ void add_body(Writing& w)
     w.has_other_faces = true;
 }
 
-/// The corners at the ends of an edge of face f that is at the boundary or not; a hole's edges are left alone.
+/// The edge of a face that begins at one of its corners.
 struct EdgeOfFace {
     std::size_t face;
     std::size_t corner;
 };
 
+/// Some edge of the boundary, or one between vertices that move; nothing if there is none.
 std::optional<EdgeOfFace> some_edge(const PolygonMesh& mesh, bool at_boundary)
 {
     const Topology topology = make_topology(mesh);

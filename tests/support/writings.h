@@ -19,7 +19,7 @@ struct Writing {
     PolygonMesh mesh;
     /// #V of `mesh`: the vertex of the original; -1 for one that the original lacks.
     std::vector<Index> vertex_from;
-    /// #F of `mesh`: the face of the original; -1 for one that it lacks.
+    /// #F of `mesh`: the face of the original, or one beside it whose label it shares; -1 for a face of another body.
     std::vector<Index> face_from;
     /// Vertices of the original that would move only in `mesh`.
     std::vector<Index> held = {};
