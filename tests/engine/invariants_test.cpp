@@ -1,15 +1,12 @@
 #include <cmath>
 
-#include <Eigen/Geometry>
 #include <doctest/doctest.h>
 
 #include "engine/mean_curvature_flow.h"
 #include "partition/metrics/vertex_distance.h"
 #include "partition/topology.h"
 #include "samples/meshes/meshes.h"
-#include "solvers/laplacian/geometry.h"
 #include "tests/support/flows.h"
-#include "tests/support/random_meshes.h"
 #include "tests/support/relative.h"
 
 using namespace seamflow;
@@ -24,18 +21,6 @@ PolygonMesh flat(PolygonMesh mesh)
 {
     mesh.vertices.col(2).setZero();
     return mesh;
-}
-
-/// Bricks, three of which meet at their corners.
-std::vector<Index> labels_of_tiles(const PolygonMesh& mesh)
-{
-    std::vector<Index> labels;
-    for (Index f = 0; f < mesh.n_faces(); ++f) {
-        const Point middle = centroid(mesh.face(f), mesh.vertices);
-        const auto row = static_cast<Index>(3.0 * middle.y());
-        labels.push_back(4 * row + static_cast<Index>(3.0 * middle.x() + 0.5 * (row % 2)));
-    }
-    return labels;
 }
 
 FlowOptions sweep_options(Laplacian laplacian, Index subdomains)
@@ -71,62 +56,6 @@ TEST_CASE("with Alexa-Wardetzky a flat mesh of triangles does not move at all wi
         FlowOptions options = sweep_options(Laplacian::AlexaWardetzky, subdomains);
         options.interface.correction = Correction::None;
         CHECK(largest_difference(flowed(mesh, options), mesh.vertices) <= 1e-12);
-    }
-}
-
-TEST_CASE("moving the input rigidly moves the result alike")
-{
-    const Eigen::Matrix3d rotation =
-        Eigen::AngleAxisd(0.7, Eigen::Vector3d(1.0, 2.0, -0.5).normalized()).toRotationMatrix();
-    const Eigen::RowVector3d shift(3.0, -1.0, 2.0);
-    const auto moved = [&](const Points& points) { return Points((points * rotation.transpose()).rowwise() + shift); };
-    for (const PolygonMesh& mesh : height_fields())
-        for (const Laplacian laplacian : all_laplacians) {
-            CAPTURE(name_of(laplacian));
-            const FlowOptions options = sweep_options(laplacian, 6);
-            PolygonMesh moved_mesh = mesh;
-            moved_mesh.vertices = moved(mesh.vertices);
-            CHECK(largest_difference(flowed(moved_mesh, options), moved(flowed(mesh, options))) <= 1e-9);
-        }
-}
-
-TEST_CASE("scaling by s, with dt s² and p / s, scales the result")
-{
-    for (const double s : {1e-3, 7.0, 1e4})
-        for (const PolygonMesh& mesh : height_fields())
-            for (const Laplacian laplacian : all_laplacians) {
-                CAPTURE(name_of(laplacian));
-                CAPTURE(s);
-                FlowOptions options = sweep_options(laplacian, 6);
-                options.interface.p = 20.0;
-                const Points expected = s * flowed(mesh, options);
-                PolygonMesh scaled = mesh;
-                scaled.vertices *= s;
-                options.time_step *= s * s;
-                options.interface.p = 20.0 / s;
-                CHECK(largest_difference(flowed(scaled, options), expected) <= 1e-9 * s);
-            }
-}
-
-TEST_CASE("other numbers of the vertices and faces move the result by rounding alone where the cut is given")
-{
-    RandomNumbers random(7);
-    for (const PolygonMesh& mesh : height_fields()) {
-        const auto new_vertex = test::random_permutation(mesh.n_vertices(), random);
-        const auto old_face = test::random_permutation(mesh.n_faces(), random);
-        for (const Laplacian laplacian : all_laplacians) {
-            CAPTURE(name_of(laplacian));
-            FlowOptions options = sweep_options(laplacian, 0);
-            options.interface.colouring = Colouring::Label;
-            options.cut.labels = labels_of_tiles(mesh);
-            const Points result = flowed(mesh, options);
-            std::vector<Index> labels;
-            for (const Index f : old_face)
-                labels.push_back(options.cut.labels[f]);
-            options.cut.labels = labels;
-            const Points renumbered = flowed(test::renumbered(mesh, new_vertex, old_face), options);
-            CHECK(largest_difference(renumbered(new_vertex, Eigen::all), result) <= 1e-11);
-        }
     }
 }
 

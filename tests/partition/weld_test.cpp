@@ -172,6 +172,13 @@ TEST_CASE("places that are near count as equal, and what is joined comes to thei
     const auto joined = welded(parts, 2e-3);
     REQUIRE(joined);
     CHECK(joined->mesh.face_vertices == whole.face_vertices);
+    // Whatever the unit of length.
+    for (const double unit : {0x1p-20, 0x1p20}) {
+        PolygonMesh scaled = parts;
+        scaled.vertices *= unit;
+        CHECK(welded(scaled, 2e-3 * unit)->mesh.face_vertices == whole.face_vertices);
+        CHECK_FALSE(welded(scaled, 1e-6 * unit));
+    }
     for (Index v = 0; v < whole.n_vertices(); ++v) {
         Point middle = Point::Zero();
         int n = 0;

@@ -103,6 +103,18 @@ TEST_CASE("where sweeps err little, what the corrections of the interface have d
         }
 }
 
+TEST_CASE("with an attachment, which pulls towards the first positions in every step")
+{
+    const PolygonMesh mesh = make_triangles(1600);
+    const double edge = mean_edge_length(mesh);
+    for (const double pull : {0.3, 3.0}) {
+        CAPTURE(pull);
+        FlowOptions options = estimated_options(mesh, Laplacian::AlexaWardetzky, 5.0, 6);
+        options.motion.attachment = pull / (edge * edge);
+        require_within(3.0, report_of(mesh, options));
+    }
+}
+
 TEST_CASE("undecomposed the estimate is zero")
 {
     for (const Laplacian laplacian : test::all_laplacians)

@@ -187,10 +187,12 @@ TEST_CASE("STL: a mesh that it cannot hold is refused before anything is written
 TEST_CASE("STL: single precision is refused where it is not enough")
 {
     auto mesh = make_triangle();
-    mesh.vertices(1, 0) = 1e39;
-    CHECK(complaint_of_writing(mesh, "a.stl", text_stl).empty());
-    CHECK(contains(complaint_of_writing(mesh, "a.stl", binary_stl),
-                   "vertex 1 (numbered from 0) has a coordinate too large"));
+    for (const double x : {1e39, -1e39}) {
+        mesh.vertices(1, 0) = x;
+        CHECK(complaint_of_writing(mesh, "a.stl", text_stl).empty());
+        CHECK(contains(complaint_of_writing(mesh, "a.stl", binary_stl),
+                       "vertex 1 (numbered from 0) has a coordinate too large"));
+    }
     mesh.vertices(1, 0) = 1e-300;
     const test::TemporaryDirectory folder;
     CHECK(write_mesh(folder / "a.stl", mesh, text_stl).empty());

@@ -10,6 +10,7 @@
 #include "partition/cut/refine.h"
 #include "partition/labels.h"
 #include "partition/repair/repair.h"
+#include "samples/meshes/meshes.h"
 #include "tests/support/cut_checks.h"
 #include "tests/support/random_meshes.h"
 #include "tests/support/test_meshes.h"
@@ -96,6 +97,21 @@ TEST_CASE("repair mends random labels on every mesh")
                 CAPTURE(seed);
                 checked_repair(m.mesh, m.topology, random_labels(m.mesh.n_faces(), k, seed));
             }
+    }
+}
+
+TEST_CASE("repair mends parts of sheets that meet, where a face that moves may pinch another vertex")
+{
+    for (const char* kind : {"foam", "foam-quads"}) {
+        CAPTURE(kind);
+        const PolygonMesh mesh = make_mesh(kind, 1000);
+        Topology topology = make_topology(mesh);
+        free_junctions(mesh, topology);
+        RandomNumbers random(5);
+        for (int cut = 0; cut < 80; ++cut) {
+            CAPTURE(cut);
+            checked_repair(mesh, topology, random_cut(mesh, 2 + random.below(30), random));
+        }
     }
 }
 
