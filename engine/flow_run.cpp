@@ -174,12 +174,14 @@ void FlowRun::make_steppers()
         filter_of(options()).is_plain())
         stepper_ =
             std::make_unique<SwitchingStepper>(mesh, prepared_->topology, options(), *prepared_->costs, progress_);
-    else if (ranks_ != nullptr && can_share(*ranks_, prepared_->cut, options()))
+    else if (ranks_ != nullptr && !prepared_->stiffness && can_share(*ranks_, prepared_->cut, options()))
         stepper_ = std::make_unique<RankStepper>(*ranks_, mesh, prepared_->topology, prepared_->cut, options(),
                                                  std::move(prepared_->curvature), progress_);
     else
         stepper_ = make_stepper(mesh, prepared_->topology, prepared_->cut, options(), std::move(prepared_->curvature),
                                 progress_);
+    if (prepared_->stiffness)
+        stepper_->give(*prepared_->stiffness);
     report_.cut.labels = std::move(prepared_->cut.labels);
     report_.seconds.analyse = watch.lap();
     report_.seconds.total = report_.seconds.cut + report_.seconds.analyse;
