@@ -198,12 +198,14 @@ void FlowRun::make_stepper_of_flow()
         filter_of(options()).is_plain())
         stepper_ =
             std::make_unique<SwitchingStepper>(mesh, prepared_->topology, options(), *prepared_->costs, progress_);
-    else if (ranks_ != nullptr && can_share(*ranks_, prepared_->cut, options()))
+    else if (ranks_ != nullptr && !prepared_->stiffness && can_share(*ranks_, prepared_->cut, options()))
         stepper_ = std::make_unique<RankStepper>(*ranks_, mesh, prepared_->topology, prepared_->cut, options(),
                                                  std::move(prepared_->curvature), progress_);
     else
         stepper_ = make_stepper(mesh, prepared_->topology, prepared_->cut, options(), std::move(prepared_->curvature),
                                 progress_);
+    if (prepared_->stiffness)
+        stepper_->give(*prepared_->stiffness);
 }
 
 /// Restores everything to its state after a step.

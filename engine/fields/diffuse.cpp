@@ -7,6 +7,8 @@
 #include <string>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "engine/fields/field_columns.h"
 #include "engine/fields/thin_faces.h"
 #include "engine/fields/white_noise.h"
@@ -14,6 +16,7 @@
 #include "engine/setup/smoothed_radius.h"
 #include "engine/tasks/parallel_executor.h"
 #include "partition/connected_components.h"
+#include "partition/io/input_position.h"
 #include "partition/metrics/bounding_box.h"
 #include "partition/weld.h"
 #include "solvers/laplacian/degenerate.h"
@@ -162,6 +165,7 @@ FlowReport extend(const PolygonMesh& mesh, FieldGroup& group, const FlowOptions&
     const Eigen::RowVectorXd means = means_of(fields, group);
     Eigen::MatrixXd extended = fields.rowwise() - means;
     Flow flow(surface, own, {}, control);
+    const std::vector<ValueRange> ranges = ranges_of(fields, group);
     ScaledFields scaled(extended, group, ranges_of(extended, group), own.time_step);
     flow.diffuse(scaled.values());
     const std::vector<std::uint8_t> lacked = group.lacks;
@@ -172,6 +176,8 @@ FlowReport extend(const PolygonMesh& mesh, FieldGroup& group, const FlowOptions&
         for (const Eigen::Index c : group.columns)
             if (group.lacks[v] == 0)
                 fields(v, c) = extended(v, c) + means[c];
+    if (own.weights != Weights::OfLaplacian)
+        keep_within(ranges, group, fields);
     for (Index v = 0; v < mesh.n_vertices(); ++v)
         if (lacked_first[v] != 0 && !std::isnan(fields(v, group.columns.front())))
             filled[v] = 1;
@@ -187,6 +193,16 @@ void add_filling(const FlowReport& of_fill, FlowReport& of_group, std::vector<st
     for (const std::string& remark : of_fill.remarks)
         if (std::ranges::find(of_group.remarks, remark) == of_group.remarks.end())
             remarks.push_back("Filling: " + remark);
+}
+
+/// Says how many vertices of a column are without data at the end.
+void remark_on_unfilled(const Eigen::VectorXd& filled, std::vector<std::string>& remarks)
+{
+    if (const auto n = filled.array().isNaN().count(); n > 0)
+        remarks.push_back(fmt::format("Filling: {} {} without data, because faces connect {} with no vertex that has "
+                                      "any.",
+                                      counted(static_cast<std::uint64_t>(n), "vertex", "vertices"),
+                                      n == 1 ? "stays" : "stay", n == 1 ? "it" : "them"));
 }
 
 }  // namespace
@@ -217,7 +233,8 @@ FieldReport diffuse(const PolygonMesh& mesh, Eigen::MatrixXd& fields, const Flow
         const bool measures = field_options.fwhm && !report.fwhm && options.steps > 0;
         own.steps = options.steps * (n_blocks(std::ssize(group.columns)) + (measures ? 1 : 0));
         Flow flow(surface, own, {}, own_control);
-        ScaledFields scaled(fields, group, ranges_of(fields, group), own.time_step);
+        const std::vector<ValueRange> ranges = ranges_of(fields, group);
+        ScaledFields scaled(fields, group, ranges, own.time_step);
         if (field_options.keep_edges)
             for (int step = 0; step < options.steps; ++step) {
                 flow.keep_field_edges(scaled.in_units(), *field_options.keep_edges);
@@ -226,6 +243,8 @@ FieldReport diffuse(const PolygonMesh& mesh, Eigen::MatrixXd& fields, const Flow
         else
             flow.diffuse(scaled.values(), options.steps);
         scaled.write(group, results);
+        if (filter_of(own).is_plain() && own.weights != Weights::OfLaplacian)
+            keep_within(ranges, group, results);
         // Steps that noise is measured with are none of the fields.
         FlowReport of_group = flow.report();
         if (measures) {
@@ -239,6 +258,8 @@ FieldReport diffuse(const PolygonMesh& mesh, Eigen::MatrixXd& fields, const Flow
             const FlowReport of_fill = extend(mesh, group, of_flow, control, results, filled);
             add_filling(of_fill, of_group, remarks.back());
         }
+        if (field_options.fill)
+            remark_on_unfilled(results.col(group.columns.front()), remarks.back());
         add_up(report.flow, of_group);
         report.flow = std::move(of_group);
     }

@@ -33,7 +33,8 @@ struct FieldReport {
 
 /// Lets fields on a surface diffuse by its heat equation, (M + dt K) Xᵏ⁺¹ = M Xᵏ in each step; the surface stays. The
 /// matrix is factorised once for all steps and columns, but for FieldOptions::keep_edges. The integral Σ M X of each
-/// column stays, with a free boundary and without fixed vertices.
+/// column stays, with a free boundary and without fixed vertices. With a plain filter no value leaves the range that
+/// its column has at first: weights of K are at least 0 (see FieldOptions::weights; those of Δ_F and Δ_U always are).
 /// @param fields #V by n: values at the vertices; NaN is no data. Vertices without data take no part: the surface of a
 ///        column is that of the faces whose vertices all have data, but for faces without area. Vertices that are
 ///        fixed, have no such face, or no row in the Laplacian, keep their values; those joined along seams get one

@@ -116,6 +116,14 @@ void ScaledFields::write(const FieldGroup& group, Eigen::MatrixXd& fields) const
             fields(v, group.columns[c]) = finite(results(v, static_cast<Eigen::Index>(c)), group.columns[c]);
 }
 
+void keep_within(std::span<const ValueRange> ranges, const FieldGroup& group, Eigen::MatrixXd& fields)
+{
+    for (std::size_t c = 0; c < group.columns.size(); ++c)
+        for (Eigen::Index v = 0; v < fields.rows(); ++v)
+            if (group.lacks[static_cast<std::size_t>(v)] == 0)
+                fields(v, group.columns[c]) = std::clamp(fields(v, group.columns[c]), ranges[c].least, ranges[c].most);
+}
+
 int n_blocks(Eigen::Index n_columns)
 {
     return static_cast<int>((n_columns + 2) / 3);

@@ -67,6 +67,10 @@ class ScaledFields {
     Eigen::VectorXd units_;
 };
 
+/// Moves values that are out of the range of their column into it: rounding errors, and those of a solution to a
+/// tolerance.
+void keep_within(std::span<const ValueRange> ranges, const FieldGroup& group, Eigen::MatrixXd& fields);
+
 /// How many times the steps of the flow are taken: once for each three columns.
 int n_blocks(Eigen::Index n_columns);
 

@@ -65,6 +65,8 @@ FlowOptions flow_for_fields(const FlowOptions& options, const FieldOptions& of_f
     FlowOptions own = options;
     own.flow = FlowEquation::Linear;
     own.laplacian = of_fields.laplacian;
+    own.weights = of_fields.weights == Weights::AtLeastZero && of_fields.keep_edges ? Weights::AtLeastZeroInFaces
+                                                                                    : of_fields.weights;
     own.motion.boundary = of_fields.boundary;
     own.report = {.record_schedule = options.report.record_schedule, .measures = false};
     if (of_fields.fwhm)

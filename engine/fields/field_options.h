@@ -26,6 +26,9 @@ struct FieldOptions {
     /// any faces, so that time and width of a kernel mean what they say. Those of Δ_F and Δ_U depend on the faces: on
     /// regular triangles Δ_F smooths √1.5 times as wide.
     Laplacian laplacian = Laplacian::VirtualRefinement;
+    /// In place of FlowOptions::weights: AtLeastZero, also in faces with keep_edges, or those of the Laplacian, with
+    /// which values may leave their range beside obtuse angles.
+    Weights weights = Weights::AtLeastZero;
     /// Free: no heat flows across the boundary. Fixed: values there stay, bit for bit.
     Boundary boundary = Boundary::Free;
     /// Of the columns, for remarks; empty: they are called by their numbers, from 0.

@@ -68,8 +68,8 @@ template <class Options>
 auto option_table(Options& options)
 {
     using namespace concern;
-    auto& [laplacian, flow, filter, order, time_step, radius, uniform_edge, steps, scheme, keep_edges, denoise, cut,
-           interface, accuracy, motion, resources, report] = options;
+    auto& [laplacian, flow, filter, order, time_step, radius, uniform_edge, weights, steps, scheme, keep_edges, denoise,
+           cut, interface, accuracy, motion, resources, report] = options;
     auto& [subdomains, labels] = cut;
     auto& [conditions, transmission, p, p_rule, p_edge, q, overlap, colouring, sweep, correction] = interface;
     auto& [tolerance, approach, converge_iterations, largest_update] = accuracy;
@@ -98,6 +98,7 @@ auto option_table(Options& options)
             positive("positive and finite (a length, or a part of the bounding box's diagonal)")),
         row("uniform_edge", "", 0, uniform_edge,
             not_negative("at least 0 and finite (a length; 0: the mean edge length of the mesh)")),
+        row("weights", "", 0, weights),
         row("steps", "--steps", no_result, steps,
             Limits{0.0, FlowOptions::most_steps, false, false, "at least 0 and at most 1000000000"}),
         row("subdomains", "--subdomains", sub_meshes, subdomains, at_least(0, "at least 0 (0: chosen)")),

@@ -223,6 +223,9 @@ void require_valid_flow(const FlowOptions& options)
 {
     require_valid_filter(options);
     require_valid_attachment(options.motion);
+    if (options.weights != Weights::OfLaplacian && options.flow != FlowEquation::Linear)
+        throw OptionError("weights of at least 0 are for data that diffuse on a surface that stays: ask for a linear "
+                          "flow, or leave weights out");
     if (is_plain_flow(options))
         return;
     const std::string asked = further_flow(options);

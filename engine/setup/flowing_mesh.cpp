@@ -167,14 +167,27 @@ bool FlowingMesh::leave_out_repeated_faces(const Topology& topology)
     return true;
 }
 
+void FlowingMesh::replace_faces(PolygonMesh triangles, std::span<const Index> face_of)
+{
+    std::vector<Index> number(at(mesh().n_faces()));
+    for (std::size_t t = face_of.size(); t-- > 0;)
+        number[face_of[t]] = static_cast<Index>(t);
+    renumber(std::move(number));
+    copy_ = std::move(triangles);
+}
+
 std::vector<Index> FlowingMesh::of_faces_left(const std::vector<Index>& labels) const
 {
     if (number_.empty() || labels.size() != number_.size())
         return labels;
     std::vector<Index> left;
+    // Behind its first triangle a polygon has others.
     for (std::size_t f = 0; f < labels.size(); ++f)
-        if (number_[f] >= 0 && at(number_[f]) == left.size())
+        if (number_[f] >= std::ssize(left)) {
+            left.resize(at(number_[f]), left.empty() ? 0 : left.back());
             left.push_back(labels[f]);
+        }
+    left.resize(at(mesh().n_faces()), left.empty() ? 0 : left.back());
     return left;
 }
 

@@ -60,6 +60,11 @@ class FlowingMesh {
     /// @returns whether there were any.
     bool leave_out_repeated_faces(const Topology& topology);
 
+    /// Takes triangles in place of faces. To be called at most once, after all else has left out or joined any, and
+    /// before anything refers to mesh().
+    /// @param face_of per triangle, ascending: the face of mesh() that it came from, each at least once.
+    void replace_faces(PolygonMesh triangles, std::span<const Index> face_of);
+
     /// The labels of the faces that are left. A list of wrong length stays as it is.
     [[nodiscard]] std::vector<Index> of_faces_left(const std::vector<Index>& labels) const;
 

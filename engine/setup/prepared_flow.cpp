@@ -13,6 +13,7 @@
 #include "engine/state/flow_identity.h"
 #include "engine/tasks/parallel_executor.h"
 #include "partition/errors.h"
+#include "solvers/laplacian/delaunay_stiffness.h"
 #include "solvers/laplacian/laplacian.h"
 
 namespace seamflow {
@@ -94,6 +95,17 @@ void examine(PreparedFlow& prepared, FlowingMesh& mesh, Progress& progress)
         look();
         constrain_it();
     }
+    if (options.weights != Weights::OfLaplacian)
+        if (std::optional<DelaunaySurface> surface =
+                make_delaunay(mesh.mesh(), topology, options.laplacian, options.weights == Weights::AtLeastZeroInFaces,
+                              progress.exec())) {
+            mesh.replace_faces(std::move(surface->mesh), surface->face_of);
+            prepared.stiffness = std::move(surface->stiffness);
+            prepared.choices.emplace_back("Edges opposite to obtuse angles are flipped within the surface, so that "
+                                          "values stay in their range.");
+            look();
+            constrain_it();
+        }
     options.cut.labels = mesh.of_faces_left(options.cut.labels);
 }
 

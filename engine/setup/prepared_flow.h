@@ -18,6 +18,7 @@
 #include "engine/tasks/progress.h"
 #include "partition/cut/cut.h"
 #include "partition/topology.h"
+#include "solvers/laplacian/given_stiffness.h"
 
 namespace seamflow {
 
@@ -41,6 +42,8 @@ struct PreparedFlow {
     std::vector<Index> unused_vertices;
     /// See the function of this name.
     std::string_view need_of_junctions;
+    /// K and M, where the weights of the Laplacian were not as FlowOptions::weights says.
+    std::optional<GivenStiffness> stiffness;
     /// The sub-mesh of every face.
     Cut cut;
     /// #V: ‖ΔV⁰‖, in 1/length; empty if it is not needed per vertex.

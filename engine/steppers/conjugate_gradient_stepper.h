@@ -18,6 +18,8 @@ class ConjugateGradientStepper final : public ConvergedStepper {
     /// until the step has been taken.
     void begin_with(const Points* guess) { guess_ = guess; }
 
+    void give(const GivenStiffness& given) override { system_.give(given); }
+
     using ConvergedStepper::describe;
     void describe(FlowReport& report) const override;
 

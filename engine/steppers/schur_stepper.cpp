@@ -375,6 +375,14 @@ void SchurStepper::attach(std::span<const Index> vertices, std::span<const doubl
            [&](std::size_t i, CondensedSubMesh& sub_mesh, Index v) { sub_mesh.system().attach(v, weights[i]); });
 }
 
+void SchurStepper::give(const GivenStiffness& given)
+{
+    for_each(run_in_parallel, static_cast<Index>(sub_meshes_.size()), [&](Index s) {
+        if (is_own(s))
+            sub_meshes_[s]->system().give(given, sub_meshes_[s]->vertices().local_to_global);
+    });
+}
+
 void SchurStepper::weigh(const std::function<double(Index v, Index w)>& squared_difference)
 {
     std::ranges::fill(changed_, 1);

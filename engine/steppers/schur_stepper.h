@@ -59,6 +59,7 @@ class SchurStepper final : public ConvergedStepper {
     [[nodiscard]] bool can_change() const override { return true; }
     void hold(std::span<const Index> vertices, bool is_held) override;
     void attach(std::span<const Index> vertices, std::span<const double> weights) override;
+    void give(const GivenStiffness& given) override;
     void weigh(const std::function<double(Index v, Index w)>& squared_difference) override;
     void move_first(std::span<const Index> vertices, const Points& to) override;
     void save(StepMemory& memory) const override;

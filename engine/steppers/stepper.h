@@ -12,6 +12,7 @@
 #include "engine/tasks/progress.h"
 #include "partition/cut/cut.h"
 #include "partition/topology.h"
+#include "solvers/laplacian/given_stiffness.h"
 
 namespace seamflow {
 
@@ -64,6 +65,10 @@ class Stepper {
 
     /// Sets w of the attachment of vertices, in 1/length², one for each. Only for flows that attach.
     virtual void attach(std::span<const Index>, std::span<const double>) {}
+
+    /// Takes K and M of other origin, which must outlive the stepper, before the first step. Only for symmetric
+    /// Laplacians that are sums over faces, with one matrix for all steps.
+    virtual void give(const GivenStiffness&) {}
 
     /// Weighs the K of all faces, or edges of Laplacians that are sums over these, from now on by 1 / (1 + d²), where
     /// d² is the largest squared_difference(v, w) of two of its vertices: it lessens with differences of a field

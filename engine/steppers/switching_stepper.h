@@ -27,6 +27,11 @@ class SwitchingStepper final : public Stepper {
     void continue_from(const Points& image, const SimilarityOfComponents& similarity) override;
     void begin(const Points& data, DataSteps steps) override { gradients_.begin(data, steps); }
     void move(std::span<const Index> vertices, const Points& to) override { gradients_.move(vertices, to); }
+    void give(const GivenStiffness& given) override
+    {
+        given_ = &given;
+        gradients_.give(given);
+    }
     void save(StepMemory& memory) const override;
     void restore(const StepMemory& memory) override;
     void add_seconds(PhaseSeconds& seconds) const override;
@@ -44,6 +49,7 @@ class SwitchingStepper final : public Stepper {
     const FlowOptions* options_;
     FlowSize size_;
     Progress* progress_;
+    const GivenStiffness* given_ = nullptr;
     ConjugateGradientStepper gradients_;
     /// For factors.
     Topology complete_;

@@ -57,6 +57,12 @@ FileFields find_fields(const TextScanner& scanner, const std::filesystem::path& 
     FileFields fields{
         names_of_fields(path, names, [&](std::string_view name) { return vertices.property(name) != nullptr; })};
     for (const std::string& name : fields.names) {
+        if (const PlyElement* const faces = header.element("face");
+            vertices.property(name) == nullptr && faces != nullptr && faces->property(name) != nullptr)
+            throw InputError(
+                path.string() + ": " + in_quotes(name) +
+                " is a property of the faces, but fields are of the vertices: give each vertex the mean of "
+                "its faces, or name a property of the vertices");
         require_number(scanner, vertices, name);
         const PlyType type = vertices.property(name)->type;
         fields.whole.push_back(whole_range_of(type));

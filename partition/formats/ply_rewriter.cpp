@@ -105,12 +105,21 @@ std::vector<std::string> add_fields(std::vector<Change>& changes, const PlyEleme
                                     const std::filesystem::path& target)
 {
     std::vector<std::string> remarks;
-    for (Index column = 0; column < static_cast<Index>(fields.names.size()); ++column)
-        if (const PlyProperty* const property = vertices.property(fields.names[column]))
-            changes[property - vertices.properties.data()] =
-                change_of_field(*property, column, fields, target, remarks);
-        else
+    std::string rounded;
+    for (Index column = 0; column < static_cast<Index>(fields.names.size()); ++column) {
+        const PlyProperty* const property = vertices.property(fields.names[column]);
+        if (property == nullptr) {
             changes.push_back({first_field + column, PlyType::Float64});
+            continue;
+        }
+        changes[property - vertices.properties.data()] = change_of_field(*property, column, fields, target, remarks);
+        const auto values = fields.values.col(column);
+        if (is_integer(property->type) && (values.array() != values.array().round()).any())
+            rounded += (rounded.empty() ? "" : ", ") + in_quotes(property->name);
+    }
+    if (!rounded.empty())
+        remarks.push_back("the values of " + rounded +
+                          " are rounded to the nearest whole numbers, as which the file holds them");
     return remarks;
 }
 

@@ -267,26 +267,30 @@ py::tuple diffuse_arrays(const Array<double>& positions, const Array<Integer>& c
 }
 
 template <class Integer>
-py::array_t<double> distance_arrays(const Array<double>& positions, const Array<Integer>& corners,
-                                    const Array<std::int64_t>& offsets, const Array<Index>& from, int threads)
+std::unique_ptr<Geodesics> begin_geodesics(const Array<double>& positions, const Array<Integer>& corners,
+                                           const Array<std::int64_t>& offsets, int threads)
 {
     const PolygonMesh mesh = make_mesh(positions, corners, offsets);
+    const py::gil_scoped_release release;
+    return std::make_unique<Geodesics>(mesh, ResourceOptions{.threads = threads});
+}
+
+py::array_t<double> distance(Geodesics& geodesics, const Array<Index>& from)
+{
     const std::vector<Index> sources = to_vector(from);
-    const auto work = [&](const FlowControl& control) {
-        return geodesic_distance(mesh, sources, {.threads = threads}, control);
-    };
+    const auto work = [&](const FlowControl& control) { return geodesics.distance(sources, control); };
     const Eigen::VectorXd distance = run_interruptibly(work, py::none());
     return py::array_t<double>(static_cast<py::ssize_t>(distance.size()), distance.data());
 }
 
 template <class Integer>
-void define_fields(py::module_& module)
+void define_fields(py::module_& module, py::class_<Geodesics>& geodesics)
 {
     module.def("diffuse", &diffuse_arrays<Integer>, py::arg("positions").noconvert(), py::arg("corners").noconvert(),
                py::arg("offsets").noconvert(), py::arg("words"), py::arg("fixed"), py::arg("labels"), py::arg("fields"),
                py::arg("of_fields"));
-    module.def("geodesic_distance", &distance_arrays<Integer>, py::arg("positions").noconvert(),
-               py::arg("corners").noconvert(), py::arg("offsets").noconvert(), py::arg("from"), py::arg("threads"));
+    geodesics.def(py::init(&begin_geodesics<Integer>), py::arg("positions").noconvert(), py::arg("corners").noconvert(),
+                  py::arg("offsets").noconvert(), py::arg("threads"));
 }
 
 std::vector<Index> vertices_of(const Array<Index>& vertices)
@@ -342,8 +346,10 @@ PYBIND11_MODULE(_core, module)
     define_run<std::int32_t>(module, flow);
     define_run<std::int64_t>(module, flow);
     define_changes(flow);
-    define_fields<std::int32_t>(module);
-    define_fields<std::int64_t>(module);
+    py::class_<Geodesics> geodesics(module, "Geodesics");
+    define_fields<std::int32_t>(module, geodesics);
+    define_fields<std::int64_t>(module, geodesics);
+    geodesics.def("distance", &distance, py::arg("from"));
     flow.def("step", &FlowCall::step, py::call_guard<py::gil_scoped_release>())
         .def("n_steps", &FlowCall::n_steps, py::call_guard<py::gil_scoped_release>())
         .def("positions",

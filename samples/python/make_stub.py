@@ -68,7 +68,8 @@ lines += ["    def step(self, n: int = 1) -> None: ...", "    @property", "    d
           "    def hold(self, vertices: npt.ArrayLike) -> None: ...",
           "    def release(self, vertices: npt.ArrayLike) -> None: ...",
           "    def move(self, vertices: npt.ArrayLike, to: npt.ArrayLike) -> None: ...",
-          "    def attach(self, vertices: npt.ArrayLike, weights: npt.ArrayLike) -> None: ...", ""]
+          "    def attach(self, vertices: npt.ArrayLike, weights: npt.ArrayLike) -> None: ...",
+          '    def __enter__(self) -> "Flow": ...', "    def __exit__(self, *_: object) -> None: ...", ""]
 MESH = ARGUMENTS[:2]
 lines += function("diffuse", [*MESH, "fields: npt.ArrayLike | None = None", "*", "fwhm: float | str | None = None",
                               "keep_edges: float | None = None", "fill: bool = False",
@@ -78,5 +79,7 @@ lines += function("diffuse", [*MESH, "fields: npt.ArrayLike | None = None", "*",
                                   ("keep_edges", "boundary", "preset", "noise", "direction", "feather", "strict",
                                    "self_intersections")))],
                   f"tuple[{ARRAY}, dict[str, Any]]")
+lines += ["class Geodesics:", *function("__init__", ["self", *MESH, "*", "threads: int = 0"], "None", "    "),
+          f"    def distance(self, sources: npt.ArrayLike) -> {ARRAY}: ...", ""]
 lines += function("geodesic_distance", [*MESH, "sources: npt.ArrayLike | None = None", "*", "threads: int = 0"], ARRAY)
 (folder / "__init__.pyi").write_text(HEAD + "\n".join(lines) + "\n")

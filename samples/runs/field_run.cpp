@@ -1,9 +1,11 @@
 #include "samples/runs/field_run.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iostream>
 #include <limits>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -51,6 +53,31 @@ void complete_options(SmoothCommand& command, const MeshFile& file, const FaultL
     about_file(command.input, [&] { resolve_field_amount(command, file.mesh, exec, run); });
 }
 
+/// A sentence on numbers that may be names of things: few different whole ones. Of two neighbours rounding makes no
+/// third.
+void remark_on_labels(const FileFields& fields, std::vector<std::string>& remarks)
+{
+    constexpr std::size_t most_labels = 32;
+    constexpr Eigen::Index least_vertices_of_each = 10;
+    constexpr std::array colours{"red", "green", "blue", "alpha"};
+    for (Eigen::Index c = 0; c < fields.values.cols(); ++c) {
+        const std::string& name = fields.names[static_cast<std::size_t>(c)];
+        if (!fields.whole[static_cast<std::size_t>(c)] || std::ranges::find(colours, name) != colours.end())
+            continue;
+        std::set<double> labels;
+        for (Eigen::Index v = 0; v < fields.values.rows() && labels.size() <= most_labels; ++v)
+            labels.insert(fields.values(v, c));
+        const auto n = static_cast<Eigen::Index>(labels.size());
+        if (labels.size() <= most_labels && n * least_vertices_of_each <= fields.values.rows() && !labels.empty() &&
+            *labels.rbegin() - *labels.begin() > 1.0)
+            remarks.push_back(
+                fmt::format("{} has {} different whole numbers: if they are labels, they are averaged like "
+                            "measurements, which makes numbers between them; smooth a property of each "
+                            "label, 1 on it and 0 elsewhere.",
+                            in_quotes(name), n));
+    }
+}
+
 /// @returns the fields after all steps.
 FileFields diffused(SmoothCommand& command, const MeshFile& file, const FileFields& before, const FlowControl& control,
                     FieldSummary& summary)
@@ -66,6 +93,7 @@ FileFields diffused(SmoothCommand& command, const MeshFile& file, const FileFiel
     of_fields.names = fields.names;
     summary.report = diffuse(file.mesh, fields.values, options, of_fields, control);
     renormalise(fields, before.values);
+    remark_on_labels(before, summary.report.remarks);
     return fields;
 }
 

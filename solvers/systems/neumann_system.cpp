@@ -110,6 +110,11 @@ void NeumannSystem::hold(Index v, bool is_held)
     is_held_[v] = is_held ? 1 : 0;
 }
 
+void NeumannSystem::give(const GivenStiffness& given, std::span<const Index> local_to_global)
+{
+    matrix_.laplacian = with_stiffness(std::move(matrix_.laplacian), given, local_to_global);
+}
+
 void NeumannSystem::keep(const Points& first)
 {
     matrix_.laplacian->keep(first);

@@ -14,6 +14,7 @@
 #include "solvers/direct/ldl_solver.h"
 #include "solvers/direct/solver_workspace.h"
 #include "solvers/laplacian/flow_terms.h"
+#include "solvers/laplacian/given_stiffness.h"
 #include "solvers/systems/symmetric_matrix.h"
 
 namespace seamflow {
@@ -103,6 +104,10 @@ class NeumannSystem {
 
     /// Sets w of the attachment of an own vertex, in 1/length². Only with an attachment.
     void attach(Index v, double weight) { matrix_.screening.weights[v] = weight; }
+
+    /// Takes K and M of other origin from now on (see with_stiffness).
+    /// @param local_to_global all own vertices in the whole mesh.
+    void give(const GivenStiffness& given, std::span<const Index> local_to_global);
 
     /// Weighs a kept K (see SymmetricLaplacian::weigh).
     void weigh(const SquaredDifference& squared_difference) { matrix_.laplacian->weigh(squared_difference); }

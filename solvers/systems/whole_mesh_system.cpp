@@ -21,6 +21,8 @@ struct RowGeometry {
     const Points& of_rows;
     const WholeMeshRows& rows;
     BlockRowMatrix& matrix;
+    /// Null: those of the Laplacian.
+    const GivenStiffness* given;
 };
 
 /// Calls entry(value, j, K_ij) for a row i, value() being the entry of the matrix, possibly several times for one j;
@@ -54,6 +56,16 @@ double visit_matrix_row(Kernel kernel, const RowGeometry& g, const BlockRowMatri
 template <class Action>
 void with_rows(const ScaledLaplacian& laplacian, const RowGeometry& geometry, Action&& action)
 {
+    if (geometry.given != nullptr)
+        return action([&](const BlockRowMatrix::Place& place, auto&& entry) {
+            const GivenStiffness& given = *geometry.given;
+            const Index v = geometry.rows.vertices.values[place.row];
+            for (Index i = given.neighbours.offsets[v]; i < given.neighbours.offsets[v + 1]; ++i) {
+                const Index j = geometry.rows.row_of[given.neighbours.values[i]];
+                entry([&]() -> float& { return geometry.matrix.entry(place, j); }, j, -given.weights[i]);
+            }
+            return given.mass[v];
+        });
     with_kernel(laplacian, [&]<class Kernel>(Kernel kernel) {
         if constexpr (EdgeKernel<Kernel> || FaceKernel<Kernel>)
             action([&](const BlockRowMatrix::Place& place, auto&& entry) {
@@ -116,7 +128,7 @@ WholeMeshSystem::WholeMeshSystem(const PolygonMesh& mesh, const Topology& topolo
 /// @param of_rows V, by rows.
 WholeMeshSystem::Sizes WholeMeshSystem::assemble(const Points& of_rows, const Executor& exec)
 {
-    const RowGeometry geometry{*mesh_, *topology_, *before_, of_rows, rows_, matrix_};
+    const RowGeometry geometry{*mesh_, *topology_, *before_, of_rows, rows_, matrix_, given_};
     using Sums = Eigen::Array<double, 8, 1>;
     Sums sums;
     with_rows(laplacian_, geometry, [&](auto&& visit) {
@@ -169,7 +181,7 @@ WholeMeshSystem::Sizes WholeMeshSystem::assemble(const Points& of_rows, const Ex
 /// @returns the sum of its squares, each over the diagonal.
 double WholeMeshSystem::measure(const Points& of_rows, const Points& data, bool is_pulled, const Executor& exec)
 {
-    const RowGeometry geometry{*mesh_, *topology_, *before_, of_rows, rows_, matrix_};
+    const RowGeometry geometry{*mesh_, *topology_, *before_, of_rows, rows_, matrix_, given_};
     using Sum = Eigen::Array<double, 1, 1>;
     Sum squared;
     with_rows(laplacian_, geometry, [&](auto&& visit) {

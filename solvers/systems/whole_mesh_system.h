@@ -10,6 +10,7 @@
 #include "partition/topology.h"
 #include "solvers/krylov/stopping_criterion.h"
 #include "solvers/laplacian/flow_terms.h"
+#include "solvers/laplacian/given_stiffness.h"
 #include "solvers/laplacian/laplacian.h"
 #include "solvers/systems/block_row_matrix.h"
 #include "solvers/systems/whole_mesh_rows.h"
@@ -32,6 +33,9 @@ class WholeMeshSystem {
                     const FlowTerms& terms, const Executor& exec, bool is_applied_again = false);
     WholeMeshSystem(const WholeMeshSystem&) = delete;
     WholeMeshSystem& operator=(const WholeMeshSystem&) = delete;
+
+    /// Takes K and M of other origin, which must outlive the system, before the first step. Only where terms keep M.
+    void give(const GivenStiffness& given) { given_ = &given; }
 
     /// How a step ended.
     struct Result : IterationResult {
@@ -108,6 +112,8 @@ class WholeMeshSystem {
     const PolygonMesh* mesh_;
     const Topology* topology_;
     ScaledLaplacian laplacian_;
+    /// Null: those of the Laplacian.
+    const GivenStiffness* given_ = nullptr;
     /// Those of this step.
     Units units_;
     double time_step_ = 0.0;

@@ -162,6 +162,32 @@ TEST_CASE("fields are filled, keep their edges, and stay on a boundary that is f
     CHECK(held(400, 0) != (400 * 37) % 10);
 }
 
+TEST_CASE("labels and other whole numbers are averaged and rounded with a remark, and faces have no fields")
+{
+    const Workshop w;
+    const PolygonMesh mesh = make_triangles(400);
+    std::string text = fmt::format("ply\nformat ascii 1.0\nelement vertex {}\nproperty float x\nproperty float y\n"
+                                   "property float z\nproperty int label\nproperty int half\nproperty uchar red\n"
+                                   "element face {}\nproperty list uchar int vertex_indices\nproperty float quality\n"
+                                   "end_header\n",
+                                   mesh.n_vertices(), mesh.n_faces());
+    for (Index v = 0; v < mesh.n_vertices(); ++v)
+        text += fmt::format("{} {} 0 {} {} {}\n", mesh.vertices(v, 0), mesh.vertices(v, 1), v % 3 == 0 ? 1 : v % 2 + 4,
+                            v % 2, 80 * (v % 3));
+    for (Index f = 0; f < mesh.n_faces(); ++f)
+        text += fmt::format("3 {} 0.5\n", fmt::join(mesh.face(f), " "));
+    (void)w.directory.with("in.ply", text);
+    REQUIRE(w.smooth("in.ply out.ply --fields label,half,red --fwhm 10% --report report.json") == 0);
+    const std::vector<std::string> remarks = w.json("report.json")["remarks"];
+    REQUIRE(remarks.size() == 2);
+    CHECK(remarks[0].starts_with("'label' has 3 different whole numbers: if they are labels, they are averaged like"));
+    CHECK(remarks[1] ==
+          "the values of 'label', 'half', 'red' are rounded to the nearest whole numbers, as which the file "
+          "holds them");
+    CHECK(w.smooth("in.ply out.ply --fields quality --fwhm 2") == 3);
+    CHECK(w.said().find("'quality' is a property of the faces, but fields are of the vertices") != std::string::npos);
+}
+
 TEST_CASE("--fwhm is a length or a part of the diagonal, over any number of steps")
 {
     const FieldWorkshop w;

@@ -118,6 +118,19 @@ class Fields(unittest.TestCase):
         mask[0] = True
         np.testing.assert_array_equal(seamflow.geodesic_distance(self.V, self.F, mask, threads=1), distance)
         np.testing.assert_array_equal(seamflow.geodesic_distance(self.V, self.F, 0), distance)
+        geodesics = seamflow.Geodesics(self.V, self.F, threads=2)
+        for sources in ([400], [0], mask.astype(int), [7, 800]):
+            np.testing.assert_array_equal(geodesics.distance(sources),
+                                          seamflow.geodesic_distance(self.V, self.F, sources))
+        np.testing.assert_array_equal(geodesics.distance(mask.astype(int)), distance)
+
+    def test_range(self):
+        V = self.V * [1, 0.1, 0]
+        share = (np.arange(900) % 7 == 0).astype(float)
+        for steps in (1, 20):
+            smooth, _ = seamflow.diffuse(V, self.F, share, fwhm=0.02, steps=steps)
+            self.assertGreaterEqual(smooth.min(), 0)
+            self.assertLessEqual(smooth.max(), 1)
 
     def test_refusals(self):
         for keywords, words in (
@@ -228,6 +241,11 @@ class SameBits(WithFolder):
             seamflow.Flow(V, F, radius="1%", progress=print)
         with self.assertRaisesRegex(TypeError, "did you mean radius"):
             seamflow.Flow(V, F, radios="1%")
+        with seamflow.Flow(V, F, time_step_edges=1) as flow:
+            flow.step()
+            self.assertEqual(flow.n_steps, 1)
+        with self.assertRaisesRegex(ValueError, "ended with its with block"):
+            flow.step()
         flow = seamflow.Flow(V, F, time_step_edges=30, converge=1e-100, subdomains=20)
         flow.step()
         with self.assertWarnsRegex(RuntimeWarning, "the tolerance 1e-100 was missed in 1 step"):
@@ -262,7 +280,7 @@ class SameBits(WithFolder):
         for wrong, message in (
             (lambda: flow.hold([len(V)]), f"vertices names vertex {len(V)}, but the mesh has {len(V)}"),
             (lambda: flow.hold([0.5]), "mask or numbers of vertices"),
-            (lambda: flow.hold(mask[:5]), f"a mask of {len(V)}"),
+            (lambda: flow.hold(mask[:5]), rf"mask or numbers of vertices, \({len(V)},\), but is bool, \(5,\)"),
             (lambda: flow.move(region, to[:5]), "to has to be real numbers"),
             (lambda: flow.attach(region, 1.0), "only a flow with an attachment"),
             (lambda: attached.attach(region, -1.0), "must be at least 0"),
@@ -366,6 +384,8 @@ class WrongInput(unittest.TestCase):
             (ValueError, r"attach_weights\[2\] is nan", (V, SIDES), {"attach_weights": [0, 1, np.nan, 0, 0, 0, 0, 0]}),
             (ValueError, r"V has to be real numbers, \(#V, 3\), but is float64, \(8, 2\)", (V[:, :2], SIDES), {}),
             (ValueError, "mesh: vertex 5 .* not a finite number", (nan, SIDES), {}),
+            (ValueError, "F has no faces", (V, []), {}),
+            (ValueError, "fixed has 0 or 7 for each vertex: give a mask as fixed.astype", (V, SIDES), {"fixed": [0, 7] * 4}),
             (ValueError, "mesh: has no vertices", (np.zeros((0, 3)), []), {}),
             (ValueError, "mesh: face 1 .* names vertex 8, but the mesh has 8", (V, [[0, 1, 2], [0, 8, 1]]), {}),
             (ValueError, f"mesh: face 1 .* names vertex {2**40}", (V, np.array([[0, 1, 2], [0, 1, 2**40]])), {}),

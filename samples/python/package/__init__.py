@@ -11,7 +11,7 @@ import numpy as np
 
 from . import _core
 
-__all__ = ["Flow", "Progress", "diffuse", "geodesic_distance", "smooth"]
+__all__ = ["Flow", "Geodesics", "Progress", "diffuse", "geodesic_distance", "smooth"]
 __version__ = _core.version
 
 _OPTIONS = {name.replace("-", "_"): (name, kind.split(":")[0], *rest) for name, kind, *rest in _core.options()}
@@ -38,7 +38,7 @@ def smooth(V, F=None, *, fixed=None, labels=None, edges=None, attach_weights=Non
     V: positions, (#V, 3), of which a copy is smoothed; or, without F, a mesh that has .vertices and .faces (trimesh) or
         .points and .cells (meshio).
     F: faces, (#F, 3) or (#F, 4) and so on, with the vertices of each numbered from 0; or a list of polygons.
-    fixed: vertices that stay where they are, as a mask (#V, bool or uint8) or by their numbers.
+    fixed: vertices that stay where they are, as a mask (#V, bool; or whole numbers, 0 and 1 alone) or by their numbers.
     labels: the sub-mesh of every face, (#F,), at least 0.
     edges: edges that are kept, however little they bend, by their vertices, (#E, 2); with keep_edges or preset="cad".
     attach_weights: how strongly each vertex is pulled back to where it was, (#V,), in 1/length².
@@ -76,7 +76,7 @@ class Flow:
     Between steps it keeps what the next one can use: with flow="linear" the factorisation, so that a step after the
     first is one solution. After `steps` steps the positions have the same bits as those of smooth(). The arguments are
     those of smooth() except progress; more steps than `steps` may be taken. Ctrl-C raises KeyboardInterrupt after the
-    steps that are being taken.
+    steps that are being taken. `with seamflow.Flow(...) as flow:` frees its memory at the end of the block.
     """
 
     def __init__(self, V, F=None, *, fixed=None, labels=None, edges=None, attach_weights=None, region=None,
@@ -84,8 +84,20 @@ class Flow:
         if "progress" in options:
             raise TypeError("Flow has no progress: take its steps one by one")
         mesh, self._single = _arguments(V, F, options, fixed, labels, edges, attach_weights, region)
-        self._flow = _core.Flow(*mesh)
+        self._begun = _core.Flow(*mesh)
         self._count = len(mesh[0])
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self._begun = None
+
+    @property
+    def _flow(self):
+        if self._begun is None:
+            raise ValueError("the flow has ended with its with block: begin a new one")
+        return self._begun
 
     def step(self, n=1):
         """Takes n steps. After an error no further step can be taken."""
@@ -118,19 +130,7 @@ class Flow:
         self._flow.attach(numbers, np.ascontiguousarray(weights))
 
     def _numbers(self, vertices):
-        array = np.asarray(vertices)
-        if array.dtype.kind == "b":
-            if array.shape != (self._count,):
-                raise ValueError(f"vertices has to be a mask of {self._count}, but is {array.shape}")
-            array = np.flatnonzero(array)
-        if array.size == 0:
-            return np.zeros(0, dtype=np.int32)
-        if array.ndim != 1 or array.dtype.kind not in "iu":
-            raise ValueError(f"vertices has to be a mask or numbers of vertices, but is {array.dtype}, {array.shape}")
-        wrong = array[(array < 0) | (array >= self._count)]
-        if wrong.size > 0:
-            raise ValueError(f"vertices names vertex {wrong[0]}, but the mesh has {self._count} vertices")
-        return np.ascontiguousarray(array, dtype=np.int32)
+        return _vertex_numbers("vertices", vertices, self._count)
 
     @property
     def n_steps(self):
@@ -203,17 +203,33 @@ def diffuse(V, F=None, fields=None, *, fwhm=None, keep_edges=None, fill=False, b
     return result.reshape(values.shape).astype(np.float32 if values.dtype == np.float32 else np.float64), report
 
 
-def geodesic_distance(V, F=None, sources=None, *, threads=0):
-    """Distances along the surface from some vertices, (#V,), by the heat method: infinite where it does not lead.
+class Geodesics:
+    """Distances along a surface by the heat method, from one set of vertices after the other with one factorisation:
+
+        geodesics = seamflow.Geodesics(V, F)
+        distances = [geodesics.distance(v) for v in landmarks]
 
     V, F: as for smooth(); with a mesh in place of V, F is None.
-    sources: vertices to measure from, as a mask or by their numbers.
     """
+
+    def __init__(self, V, F=None, *, threads=0):
+        (V, corners, offsets, _, _), _ = _arguments(V, F, {}, None, None, None, None, None)
+        self._geodesics = _core.Geodesics(V, corners, offsets, threads)
+        self._count = len(V)
+
+    def distance(self, sources):
+        """The distance of each vertex from the nearest source, (#V,): infinite where the surface does not lead.
+
+        sources: vertices to measure from, as a mask or by their numbers.
+        """
+        return self._geodesics.distance(_vertex_numbers("sources", np.atleast_1d(sources), self._count))
+
+
+def geodesic_distance(V, F=None, sources=None, *, threads=0):
+    """Geodesics(V, F, threads=threads).distance(sources), for one set of vertices alone."""
     if sources is None:
         raise ValueError("geodesic_distance needs sources: the vertices to measure from")
-    (V, corners, offsets, _, _), _ = _arguments(V, F, {}, None, None, None, None, None)
-    sources = _vertex_set("sources", np.atleast_1d(sources), len(V))
-    return _core.geodesic_distance(V, corners, offsets, np.ascontiguousarray(sources, dtype=np.int32), threads)
+    return Geodesics(V, F, threads=threads).distance(sources)
 
 
 def _report(text, parts):
@@ -232,6 +248,8 @@ def _arguments(V, F, options, fixed, labels, edges, attach_weights, region):
     if V.ndim != 2 or V.shape[1] != 3 or V.dtype.kind not in "fiu":
         raise ValueError(f"V has to be real numbers, (#V, 3), but is {V.dtype}, {V.shape}")
     corners, offsets = _faces(F)
+    if len(offsets) == 1 and len(V) > 0:
+        raise ValueError("F has no faces: give one at least")
     if "fix" in options:
         if fixed is not None:
             raise TypeError("fixed and fix are the same: leave one of them out")
@@ -239,7 +257,7 @@ def _arguments(V, F, options, fixed, labels, edges, attach_weights, region):
     words = [word for name, value in options.items() for word in _words(name, value)]
     arrays = []
     for name, convert, kind, value, count in (
-        ("fix", _fixed, np.int32, fixed, len(V)),
+        ("fix", lambda value, count: np.unique(_vertex_numbers("fixed", value, count)), np.int32, fixed, len(V)),
         ("labels", _labels, np.int32, labels, len(offsets) - 1),
         ("edges", _edges, np.int32, edges, len(V)),
         ("attach-weights", _weights, np.float64, attach_weights, len(V)),
@@ -336,25 +354,25 @@ def _edges(value, count):
     return array.reshape(-1)
 
 
-def _fixed(value, count):
-    return _vertex_set("fixed", value, count)
-
-
-def _vertex_set(name, value, count):
-    """The numbers of vertices that are given so, or as a mask, each once."""
+def _vertex_numbers(name, value, count):
+    """The numbers of vertices that are given so, in their order, or as a mask."""
     array = np.asarray(value)
     if array.dtype.kind == "b":
-        return np.flatnonzero(_array_of(name, array, count, "b", "a mask or numbers of vertices"))
-    if array.dtype == np.uint8 and array.shape == (count,) and (count == 0 or array.max() <= 1):
-        return np.flatnonzero(array)
+        array = np.flatnonzero(_array_of(name, array, count, "b", "a mask or numbers of vertices"))
     if array.size == 0:
-        return []
+        return np.zeros(0, dtype=np.int32)
     if array.ndim != 1 or array.dtype.kind not in "iu":
         raise ValueError(f"{name} has to be a mask or numbers of vertices, but is {array.dtype}, {array.shape}")
+    if len(array) == count and (count > 2 or array.dtype == np.uint8) and np.all((array == 0) | (array == 1)):
+        # Numbers would be those of two vertices, again and again.
+        array = np.flatnonzero(array)
+    elif len(array) == count > 2 and array.min() == 0 and np.all((array == 0) | (array == array.max())):
+        raise ValueError(f"{name} has 0 or {array.max()} for each vertex: give a mask as {name}.astype(bool), or the "
+                         "number of each vertex once")
     wrong = array[(array < 0) | (array >= count)]
     if wrong.size > 0:
         raise ValueError(f"{name} names vertex {wrong[0]}, but the mesh has {count} vertices")
-    return np.unique(array)
+    return np.ascontiguousarray(array, dtype=np.int32)
 
 
 def _labels(value, count):

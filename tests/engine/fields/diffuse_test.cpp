@@ -131,7 +131,7 @@ TEST_CASE("fields diffuse as by a dense matrix of cotangents, however steps are 
             for (int step = 0; step < 3; ++step)
                 expected = one_step(of, expected, options.time_step);
             Eigen::MatrixXd fields = before;
-            const FieldReport report = diffuse(mesh, fields, options);
+            const FieldReport report = diffuse(mesh, fields, options, {.weights = Weights::OfLaplacian});
             CHECK(largest_difference(fields, expected) < 1e-8);
             CHECK(report.without_data == 0);
             const Eigen::RowVectorXd kept = of.mass.transpose() * before;
@@ -188,7 +188,7 @@ TEST_CASE("constant fields stay, bit for bit, and so do held vertices and a fixe
 
         const Topology topology = make_topology(mesh);
         fields = before;
-        diffuse(mesh, fields, options, {.boundary = Boundary::Fixed});
+        diffuse(mesh, fields, options, {.weights = Weights::OfLaplacian, .boundary = Boundary::Fixed});
         CotangentMatrices of = by_cotangents(mesh);
         for (Index v = 0; v < mesh.n_vertices(); ++v)
             if (topology.kind[v] == VertexKind::Boundary || v == 17 || v == 400 || v == 401) {
@@ -216,7 +216,7 @@ TEST_CASE("vertices without data take no part, and stay without, or get the harm
         before(v, 0) = before(v, 4) = no_data;
     const FlowOptions options = steps_of(mesh, 10.0, 2, Approach::Automatic, 0);
     Eigen::MatrixXd fields = before;
-    const FieldReport report = diffuse(mesh, fields, options);
+    const FieldReport report = diffuse(mesh, fields, options, {.weights = Weights::OfLaplacian});
     CHECK(report.without_data == std::ssize(lacking));
     CHECK(report.filled == 0);
 
@@ -233,7 +233,7 @@ TEST_CASE("vertices without data take no part, and stay without, or get the harm
     for (int step = 0; step < 2; ++step)
         expected = one_step(of, expected, options.time_step);
     Eigen::MatrixXd whole = complete;
-    diffuse(mesh, whole, options);
+    diffuse(mesh, whole, options, {.weights = Weights::OfLaplacian});
     for (Index v = 0; v < mesh.n_vertices(); ++v) {
         CHECK(std::isnan(fields(v, 0)) == std::isnan(before(v, 0)));
         CHECK(std::isnan(fields(v, 4)) == std::isnan(before(v, 4)));
@@ -243,17 +243,17 @@ TEST_CASE("vertices without data take no part, and stay without, or get the harm
     CHECK(largest_difference(fields.middleCols(1, 3), whole.middleCols(1, 3)) < 1e-8);
 
     Eigen::MatrixXd filled = before;
-    const FieldReport of_filling = diffuse(mesh, filled, options, {.fill = true});
+    const FieldReport of_filling = diffuse(mesh, filled, options, {.fill = true, .weights = Weights::OfLaplacian});
     CHECK(of_filling.filled == std::ssize(lacking));
     CHECK(filled.allFinite());
     // Vertices count once, however many columns lack data there.
     filled = before;
     filled(0, 2) = filled(lacking[0], 2) = no_data;
-    const FieldReport of_three = diffuse(mesh, filled, options, {.fill = true});
+    const FieldReport of_three = diffuse(mesh, filled, options, {.fill = true, .weights = Weights::OfLaplacian});
     CHECK(of_three.without_data == std::ssize(lacking) + 1);
     CHECK(of_three.filled == std::ssize(lacking) + 1);
     filled = before;
-    diffuse(mesh, filled, options, {.fill = true});
+    diffuse(mesh, filled, options, {.fill = true, .weights = Weights::OfLaplacian});
     const CotangentMatrices of_mesh = by_cotangents(mesh);
     for (Index v = 0; v < mesh.n_vertices(); ++v)
         if (std::isnan(before(v, 0)))
@@ -276,7 +276,7 @@ TEST_CASE("fields on sheets that meet, with holes in the data, are those of the 
                 reference.options.cut.subdomains = subdomains;
                 reference.options.steps = static_cast<int>(step) + 1;
                 Eigen::MatrixXd fields = reference.fields;
-                diffuse(reference.mesh, fields, reference.options);
+                diffuse(reference.mesh, fields, reference.options, {.weights = Weights::OfLaplacian});
                 const Eigen::MatrixXd& expected = reference.fields_after_step[step];
                 for (Eigen::Index c = 0; c < fields.cols(); ++c)
                     for (Eigen::Index v = 0; v < fields.rows(); ++v)
@@ -438,6 +438,13 @@ TEST_CASE("a column without any data, and a component without any, stay so")
     CHECK(fields.col(0).tail(mesh.n_vertices() - 36).array().isNaN().all());
     CHECK(fields.col(0).head(36).allFinite());
     CHECK(report.filled == 1);
+    const auto says = [&](const char* words) {
+        return std::ranges::any_of(report.remarks,
+                                   [&](const std::string& remark) { return remark.find(words) != remark.npos; });
+    };
+    CHECK(says("For column 0 (numbered from 0): Filling: 25 vertices stay without data, because faces connect them "
+               "with no vertex that has any."));
+    CHECK(says("For column 1 (numbered from 0): Filling: 61 vertices stay without data"));
     // Of two columns that lack data at different vertices.
     fields.setOnes();
     fields(7, 0) = fields(8, 1) = fields(9, 1) = no_data;
@@ -465,7 +472,7 @@ TEST_CASE("edges of fields stay by the diffusivity of Perona and Malik")
         expected = one_step(by_cotangents(mesh, diffusivity), expected, options.time_step);
     }
     Eigen::MatrixXd fields = before;
-    diffuse(mesh, fields, options, {.keep_edges = 15.0});
+    diffuse(mesh, fields, options, {.keep_edges = 15.0, .weights = Weights::OfLaplacian});
     CHECK((fields - expected).cwiseAbs().maxCoeff() < 1e-6);
     // The edge stays, and what is beside it becomes smooth.
     Eigen::MatrixXd plain = before;

@@ -144,6 +144,10 @@ TEST_CASE("geodesic distances scale with the mesh, and do not depend on threads 
         scaled.vertices = mesh.vertices * unit;
         CHECK(geodesic_distance(scaled, from) / unit == distance);
     }
+    for (const double unit : {1e-150, 1e150}) {
+        scaled.vertices = mesh.vertices * unit;
+        CHECK((geodesic_distance(scaled, from) / unit - distance).cwiseAbs().maxCoeff() < 1e-9);
+    }
     scaled.vertices = mesh.vertices * 0x1p1023;
     CHECK_THROWS_WITH_AS(geodesic_distance(scaled, from),
                          "distances are larger than numbers can be: give the coordinates in a larger unit", InputError);
@@ -240,4 +244,37 @@ TEST_CASE("geodesic distances bear meshes without faces, faces without area, and
     CHECK(std::isinf(distance[n]));
     CHECK(std::isfinite(distance[n + 1]));
     CHECK(distance[n + 4] == relative(std::sqrt(2.0) * 1e-6, 1e-6));
+}
+
+TEST_CASE("distances from one vertex after the other are those of one call each, also from the boundary")
+{
+    PolygonMesh open = make_triangles(1200);
+    const Topology topology = make_topology(open);
+    const Index on_boundary =
+        static_cast<Index>(std::ranges::find(topology.kind, VertexKind::Boundary) - topology.kind.begin());
+    for (const PolygonMesh& mesh : {open, make_noisy_sphere(1000)}) {
+        Geodesics geodesics(mesh);
+        for (const std::vector<Index>& from :
+             {std::vector<Index>{600}, {on_boundary, 601}, {7, 7, 333}, {on_boundary}, {42}})
+            CHECK(geodesics.distance(from) == geodesic_distance(mesh, from));
+    }
+}
+
+TEST_CASE("faces that repeat others count once in distances")
+{
+    const PolygonMesh mesh = make_noisy_sphere(600);
+    PolygonMesh repeated = mesh;
+    for (int n = 0; n < 3; ++n)
+        for (Index f = 0; f < mesh.n_faces(); f += 2)
+            repeated.add_face(mesh.face(f));
+    const std::array<Index, 1> from{77};
+    CHECK(geodesic_distance(repeated, from) == geodesic_distance(mesh, from));
+}
+
+TEST_CASE("where the lengths of edges differ too much for distances, the vertex is named")
+{
+    PolygonMesh mesh = make_noisy_sphere(600);
+    mesh.vertices.row(123) *= 1e8;
+    CHECK_THROWS_WITH_AS(geodesic_distance(mesh, std::array<Index, 1>{5}),
+                         doctest::Contains("vertex 123 (numbered from 0) is"), InputError);
 }

@@ -34,6 +34,7 @@ std::vector<Change> all_changes()
          }},
         {"order", [](FlowOptions& o) { o.order = 3; }},
         {"uniform_edge", [](FlowOptions& o) { o.uniform_edge = 0.25; }},
+        {"weights", [](FlowOptions& o) { o.weights = Weights::AtLeastZero; }},
         {"time_step", [](FlowOptions& o) { o.time_step = 1e-3 * (1.0 + 1e-15); }},
         {"subdomains", [](FlowOptions& o) { o.cut.subdomains = 7; }},
         {"labels", [](FlowOptions& o) { o.cut.labels.back() += 1; }},

@@ -230,14 +230,18 @@ TEST_CASE("fields of whole numbers are rounded once and kept within the range of
     };
     CHECK(red({7.4, 9.5, 254.5}).content == with(scalar_ply, "007", "7"));
     CHECK(red({7, 9.49, 255.49}).content == with(scalar_ply, " 10 ", " 9 "));
-    CHECK(red({7.4, 9.49, 255.49}).remarks.empty());
+    CHECK(red({7, 9, 255}).remarks.empty());
+    CHECK(red({7.4, 9.49, 255.49}).remarks ==
+          std::vector<std::string>{
+              "the values of 'red' are rounded to the nearest whole numbers, as which the file holds "
+              "them"});
     const Rewritten clamped = red({-3, 0.4999, 1e300});
     CHECK(clamped.content == with(with(scalar_ply, "007", "0"), " 10 ", " 0 "));
     FileFields as_written = one_field("red", {-3, 0.4999, 1e300});
     as_written.whole = {WholeRange{0.0, 255.0}};
     round_as_written(as_written, as_written.values, run_serially);
     CHECK(as_written.values == Eigen::Vector3d(0.0, 0.0, 255.0));
-    REQUIRE(clamped.remarks.size() == 1);
+    REQUIRE(clamped.remarks.size() == 2);
     CHECK(clamped.remarks[0] == "some values of 'red' are beyond the range of uchar and are written as its least or "
                                 "largest number");
     for (const Encoding encoding : {Encoding::Ascii, Encoding::BinaryBigEndian}) {

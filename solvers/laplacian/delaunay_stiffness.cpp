@@ -1,0 +1,216 @@
+#include "solvers/laplacian/delaunay_stiffness.h"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+#include <span>
+#include <tuple>
+#include <utility>
+
+#include "partition/metrics/triangulation.h"
+#include "solvers/laplacian/intrinsic_triangles.h"
+#include "solvers/laplacian/vertex_row.h"
+
+namespace seamflow {
+
+namespace {
+
+/// Weights are cotangents, without a unit: nearer to 0 they are rounding errors of positions.
+constexpr double negligible_weight = 1e-8;
+
+/// Whether an entry of a row of K is positive, off the diagonal.
+/// @param entries of the row, in any order.
+bool has_negative_weight(std::vector<std::pair<Index, double>>& entries, bool in_faces)
+{
+    if (in_faces && std::ranges::any_of(entries, [](const auto& e) { return e.second > negligible_weight; }))
+        return true;
+    std::ranges::sort(entries);
+    for (auto entry = entries.begin(); entry != entries.end();) {
+        double sum = 0.0;
+        const Index w = entry->first;
+        for (; entry != entries.end() && entry->first == w; ++entry)
+            sum += entry->second;
+        if (sum > negligible_weight)
+            return true;
+    }
+    return false;
+}
+
+bool has_negative_weights(const PolygonMesh& mesh, const Topology& topology, Laplacian laplacian, bool in_faces,
+                          const Executor& exec)
+{
+    return with_kernel(laplacian, [&]<class Kernel>(Kernel kernel) {
+        if constexpr (FaceKernel<Kernel>) {
+            const double n = reduce(
+                exec, mesh.n_vertices(), 0.0,
+                [&](double& found, Index v) {
+                    if (found > 0.0 || !topology.moves(v) || topology.corners_at(v).empty())
+                        return;
+                    thread_local std::vector<std::pair<Index, double>> entries;
+                    entries.clear();
+                    visit_row(kernel, mesh, topology, mesh.vertices, v,
+                              [&](Index w, double k) { entries.emplace_back(w, k); });
+                    found += has_negative_weight(entries, in_faces) ? 1.0 : 0.0;
+                },
+                [](double& found, double part) { found += part; });
+            return n > 0.0;
+        } else
+            return false;
+    });
+}
+
+/// Half-edges that share their edges, the longest edges first.
+Lists<Index> edges_by_length(const IntrinsicTriangles& triangles)
+{
+    struct Place {
+        double length;
+        Index least;
+        Index most;
+        Index halfedge;
+    };
+    std::vector<Place> places;
+    for (Index h = 0; h < 3 * triangles.n_triangles(); ++h) {
+        const Index twin = triangles.twin(h);
+        if (twin >= 0 && twin < h)
+            continue;
+        const auto [least, most] = std::minmax({triangles.start(h), triangles.end(h)});
+        places.push_back({triangles.length(h), least, most, h});
+    }
+    // An edge of three triangles has no twins. Its lengths may differ by rounding.
+    std::ranges::sort(places, {}, [](const Place& p) { return std::tuple(p.least, p.most, p.halfedge); });
+    Lists<Place> edges;
+    for (const Place& place : places) {
+        const auto& before = edges.values;
+        const bool is_new = before.empty() || triangles.twin(place.halfedge) >= 0 ||
+                            triangles.twin(before.back().halfedge) >= 0 || before.back().least != place.least ||
+                            before.back().most != place.most;
+        if (is_new && !before.empty())
+            edges.close();
+        edges.values.push_back(place);
+    }
+    edges.close();
+    std::vector<Index> order(at(edges.size()));
+    std::iota(order.begin(), order.end(), 0);
+    std::ranges::stable_sort(order,
+                             [&](Index a, Index b) { return edges[a].front().length > edges[b].front().length; });
+    Lists<Index> sorted;
+    for (const Index e : order) {
+        for (const Place& place : edges[e]) {
+            sorted.values.push_back(place.halfedge);
+            if (const Index twin = triangles.twin(place.halfedge); twin >= 0)
+                sorted.values.push_back(twin);
+        }
+        sorted.close();
+    }
+    return sorted;
+}
+
+Index next_of(Index h)
+{
+    return h % 3 == 2 ? h - 2 : h + 1;
+}
+
+/// Makes the weight of one half-edge of an obtuse triangle, opposite to the obtuse angle, nearer to 0. With the weights
+/// w of this edge and x, y of the others, 4 (x y + w x + w y) = 1, K of the triangle is that of the slope along this
+/// edge, 1 / 4 (x + y), and of the bend across it: w = 1 / 4 (x + y) - b x y / (x + y) with b = 1.
+void soften(Index h, double weight, std::vector<double>& weights)
+{
+    double& x = weights[next_of(h)];
+    double& y = weights[next_of(next_of(h))];
+    const double bend = std::max(0.25 - weight * (x + y), 0.0) / (x * y);
+    weights[h] = weight;
+    x *= bend;
+    y *= bend;
+}
+
+/// The weights of edges, none below 0. A triangle is softened across its longest edge, which changes the others.
+/// @returns per half-edge: the share of it in the weight of its edge.
+std::vector<double> softened_weights(const IntrinsicTriangles& triangles, const Topology& topology)
+{
+    std::vector<double> weights(3 * at(triangles.n_triangles()));
+    for (Index h = 0; h < 3 * triangles.n_triangles(); ++h)
+        weights[h] = triangles.half_cotangent(h);
+    const Lists<Index> edges = edges_by_length(triangles);
+    for (Index e = 0; e < edges.size(); ++e) {
+        const Index v = triangles.start(edges[e].front());
+        const Index w = triangles.end(edges[e].front());
+        double above = 0.0;
+        double below = 0.0;
+        for (const Index h : edges[e])
+            (weights[h] > 0.0 ? above : below) += weights[h];
+        if (above + below < 0.0 && (topology.moves(v) || topology.moves(w)))
+            for (const Index h : edges[e])
+                if (weights[h] < 0.0)
+                    soften(h, above / -below * weights[h], weights);
+        double sum = 0.0;
+        for (const Index h : edges[e])
+            sum += weights[h];
+        for (const Index h : edges[e])
+            weights[h] = std::max(sum, 0.0) / static_cast<double>(edges[e].size());
+    }
+    return weights;
+}
+
+GivenStiffness stiffness_of(const IntrinsicTriangles& triangles, const std::vector<double>& weights, Index n_vertices)
+{
+    struct Entry {
+        Index other;
+        double weight;
+    };
+    Lists<Entry> entries = make_lists<Entry>(n_vertices, [&](auto&& add) {
+        for (Index h = 0; h < 3 * triangles.n_triangles(); ++h) {
+            add(triangles.start(h), Entry{triangles.end(h), weights[h]});
+            add(triangles.end(h), Entry{triangles.start(h), weights[h]});
+        }
+    });
+    GivenStiffness of;
+    of.mass.assign(at(n_vertices), 0.0);
+    for (Index t = 0; t < triangles.n_triangles(); ++t)
+        for (const Index v : triangles.corners(t))
+            of.mass[v] += triangles.area(t) / 3.0;
+    for (Index v = 0; v < n_vertices; ++v) {
+        const auto row = std::span(entries.values).subspan(at(entries.offsets[v]), entries[v].size());
+        std::ranges::stable_sort(row, {}, &Entry::other);
+        for (const Entry& entry : row) {
+            if (std::ssize(of.neighbours.values) == of.neighbours.offsets.back() ||
+                of.neighbours.values.back() != entry.other) {
+                of.neighbours.values.push_back(entry.other);
+                of.weights.push_back(0.0);
+                of.n_faces.push_back(0);
+            }
+            of.weights.back() += entry.weight;
+            ++of.n_faces.back();
+        }
+        of.neighbours.close();
+    }
+    return of;
+}
+
+}  // namespace
+
+std::optional<DelaunaySurface> make_delaunay(const PolygonMesh& mesh, const Topology& topology, Laplacian laplacian,
+                                             bool in_faces, const Executor& exec)
+{
+    if (!has_negative_weights(mesh, topology, laplacian, in_faces, exec))
+        return std::nullopt;
+    PolygonMesh cut;
+    cut.vertices = mesh.vertices;
+    DelaunaySurface surface;
+    std::vector<Triangle> of_face;
+    for (Index f = 0; f < mesh.n_faces(); ++f) {
+        of_face.clear();
+        triangulate(mesh.face(f), mesh.vertices, of_face);
+        for (const Triangle& triangle : of_face)
+            cut.add_face(triangle);
+        surface.face_of.resize(at(cut.n_faces()), f);
+    }
+    IntrinsicTriangles triangles(cut, make_topology(cut, exec));
+    triangles.flip_to_delaunay(cut.vertices);
+    surface.mesh.vertices = std::move(cut.vertices);
+    for (Index t = 0; t < triangles.n_triangles(); ++t)
+        surface.mesh.add_face(triangles.corners(t));
+    surface.stiffness = stiffness_of(triangles, softened_weights(triangles, topology), mesh.n_vertices());
+    return surface;
+}
+
+}  // namespace seamflow
