@@ -286,7 +286,7 @@ void FlowRun::compare_with_reference(int step, StepReport& of_step)
     mesh_.take_along(undecomposed.vertices);
     mesh_.take_along(decomposed.vertices);
     of_step.distance = vertex_distance(undecomposed, undecomposed.vertices, decomposed.vertices);
-    of_step.surface_distance = surface_distance(undecomposed, decomposed);
+    of_step.surface_distance = surface_distance(undecomposed, decomposed, run_in_parallel);
 }
 
 /// An observer sees everything where the given mesh lies.

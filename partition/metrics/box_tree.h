@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <cstdint>
 #include <limits>
+#include <span>
 #include <utility>
 #include <vector>
 
+#include "partition/executor.h"
 #include "partition/index.h"
 #include "partition/vector_area.h"
 
@@ -37,28 +38,32 @@ struct Box {
     }
 };
 
-/// The centre of a box in 2²¹ steps along each side of another, the bits of all three interleaved: numbers that are
-/// close belong to boxes that are close, too (Morton, A Computer Oriented Geodetic Data Base, 1966).
-inline std::uint64_t place_on_curve(const Box& box, const Box& whole)
+inline Point centre_of(const Box& box)
 {
-    constexpr int n_bits = 21;
-    std::uint64_t place = 0;
-    for (int c = 0; c < 3; ++c) {
-        // Halved, because sums of large numbers overflow.
-        const double side = 0.5 * whole.high[c] - 0.5 * whole.low[c];
-        const double offset = 0.5 * (0.5 * box.low[c] + 0.5 * box.high[c] - whole.low[c]);
-        const double part = side > 0.0 ? std::clamp(offset / side, 0.0, 1.0) : 0.0;
-        const auto step = static_cast<std::uint64_t>(part * ((1U << n_bits) - 1U));
-        for (int bit = 0; bit < n_bits; ++bit)
-            place |= (step >> bit & 1U) << (3 * bit + c);
-    }
-    return place;
+    return 0.5 * box.low + 0.5 * box.high;
 }
+
+/// The squared distance of a point from a box, 0 within it.
+inline double squared_distance(const Box& box, const Point& p)
+{
+    return (box.low - p).cwiseMax(p - box.high).cwiseMax(0.0).squaredNorm();
+}
+
+/// The numbers of points, neighbours together: halved again and again across the longest side of their box, where the
+/// nodes of a BoxTree begin (Bentley, Multidimensional Binary Search Trees, 1975).
+/// @param points finite.
+std::vector<Index> order_of_neighbours(std::span<const Point> points, const Executor& exec = run_serially);
 
 /// A binary tree over boxes in an order that keeps neighbours together. Node k of a level spans the nodes 2k and 2k + 1
 /// of the level below, as far as these exist.
 class BoxTree {
   public:
+    /// A node of a level; leaves have level 0.
+    struct Node {
+        int level;
+        Index number;
+    };
+
     explicit BoxTree(std::vector<Box> leaves)
     {
         levels_.push_back(std::move(leaves));
@@ -68,19 +73,26 @@ class BoxTree {
 
     [[nodiscard]] Index size() const { return static_cast<Index>(levels_.front().size()); }
     [[nodiscard]] const Box& leaf(Index i) const { return levels_.front()[i]; }
+    [[nodiscard]] Node root() const { return {static_cast<int>(levels_.size()) - 1, 0}; }
+    [[nodiscard]] const Box& box(Node node) const { return levels_[node.level][node.number]; }
+
+    /// Calls visit(child) for the one or two children of a node that is no leaf.
+    template <class Visit>
+    void for_each_child(Node node, Visit&& visit) const
+    {
+        const Index last = std::min(2 * node.number + 1, static_cast<Index>(levels_[node.level - 1].size()) - 1);
+        for (Index k = 2 * node.number; k <= last; ++k)
+            visit(Node{node.level - 1, k});
+    }
 
     /// Calls visit(i) for the leaves i ≥ first that meet the box, ascending.
     template <class Visit>
     void for_each_meeting(const Box& box, Index first, Visit&& visit) const
     {
-        struct Node {
-            int level;
-            Index number;
-        };
         std::array<Node, 64> waiting;
         std::size_t n_waiting = 0;
         if (size() > 0)
-            waiting[n_waiting++] = {static_cast<int>(levels_.size()) - 1, 0};
+            waiting[n_waiting++] = root();
         while (n_waiting > 0) {
             const auto [level, k] = waiting[--n_waiting];
             if ((k + 1) * (std::size_t{1} << level) <= at(first) || !levels_[level][k].meets(box))
@@ -92,6 +104,38 @@ class BoxTree {
             if (at(2 * k + 1) < levels_[level - 1].size())
                 waiting[n_waiting++] = {level - 1, 2 * k + 1};
             waiting[n_waiting++] = {level - 1, 2 * k};
+        }
+    }
+
+    /// Calls visit(i) for the leaves of a node whose squared distance from p is less than a bound, near ones first.
+    /// @param bound visits may lower it.
+    template <class Visit>
+    void for_each_nearer(const Point& p, Node from, const double& bound, Visit&& visit) const
+    {
+        struct Waiting {
+            double squared;
+            Node node;
+        };
+        const auto waiting_at = [&](Node node) { return Waiting{squared_distance(box(node), p), node}; };
+        std::array<Waiting, 64> waiting;
+        std::size_t n_waiting = 0;
+        waiting[n_waiting++] = waiting_at(from);
+        while (n_waiting > 0) {
+            Waiting next = waiting[--n_waiting];
+            while (next.node.level > 0 && next.squared < bound) {
+                const Node left{next.node.level - 1, 2 * next.node.number};
+                const Node right{left.level, left.number + 1};
+                next = waiting_at(left);
+                if (at(right.number) == levels_[left.level].size())
+                    continue;
+                Waiting other = waiting_at(right);
+                if (other.squared < next.squared)
+                    std::swap(next, other);
+                if (other.squared < bound)
+                    waiting[n_waiting++] = other;
+            }
+            if (next.squared < bound)
+                visit(next.node.number);
         }
     }
 

@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <limits>
-#include <tuple>
+#include <span>
 #include <utility>
 
 #include "partition/index_lists.h"
 #include "partition/metrics/box_tree.h"
-#include "partition/metrics/edge_fans.h"
+#include "partition/metrics/crowded_fans.h"
 #include "partition/metrics/triangle_crossing.h"
 #include "partition/metrics/triangulation.h"
 
@@ -26,15 +25,15 @@ constexpr Index tasks_of_round = 64;
 struct Piece {
     Triangle vertices;
     Index face;
-    /// The number of its edge fan, no_fan for most.
+    /// The number of its crowded fan, no_fan for most.
     Index fan;
 };
 
 constexpr Index no_fan = std::numeric_limits<Index>::max();
 
-/// The pieces from `begin` to before `end` share an edge.
+/// A crowded fan, and where its triangles are among the sorted pieces.
 struct PiecesOfFan {
-    Edge edge;
+    CrowdedFan fan;
     Index begin;
     Index end;
 };
@@ -124,27 +123,32 @@ std::vector<PiecesOfFan> CrossingSearch::mark_fans()
         triangles.push_back(piece.vertices);
     std::vector<PiecesOfFan> fans;
     Index begin = 0;
-    for (const EdgeFan& fan : edge_fans_of(triangles, static_cast<Index>(positions_.rows()))) {
+    for (CrowdedFan& fan : crowded_fans_of(triangles, static_cast<Index>(positions_.rows()))) {
         for (const Index i : fan.triangles)
             pieces_[i].fan = static_cast<Index>(fans.size());
-        fans.push_back({fan.edge, begin, begin + static_cast<Index>(fan.triangles.size())});
-        begin = fans.back().end;
+        const Index end = begin + static_cast<Index>(fan.triangles.size());
+        fans.push_back({std::move(fan), begin, end});
+        begin = end;
     }
     return fans;
 }
 
-/// PiecesOfFan by fan and along the curve, those at one place in their previous order.
+/// Fan by fan, then all others; neighbours together in each.
 void CrossingSearch::sort_pieces(const Executor& exec)
 {
     const auto n = static_cast<Index>(pieces_.size());
-    Box whole;
-    for (const Piece& piece : pieces_)
-        whole.add(box(piece));
-    std::vector<std::tuple<Index, std::uint64_t, Index>> order(pieces_.size());
-    for_each(exec, n, [&](Index i) { order[i] = {pieces_[i].fan, place_on_curve(box(pieces_[i]), whole), i}; });
-    std::sort(order.begin(), order.end());
-    std::vector<Piece> sorted(pieces_.size());
-    for_each(exec, n, [&](Index i) { sorted[i] = pieces_[std::get<2>(order[i])]; });
+    std::ranges::stable_sort(pieces_, {}, &Piece::fan);
+    std::vector<Point> centres(pieces_.size());
+    for_each(exec, n, [&](Index i) { centres[i] = centre_of(box(pieces_[i])); });
+    std::vector<Piece> sorted;
+    sorted.reserve(pieces_.size());
+    const auto add = [&](Index begin, Index end) {
+        for (const Index i : order_of_neighbours(std::span(centres).subspan(begin, end - begin), exec))
+            sorted.push_back(pieces_[begin + i]);
+    };
+    for (const PiecesOfFan& fan : fans_)
+        add(fan.begin, fan.end);
+    add(fans_.empty() ? 0 : fans_.back().end, n);
     pieces_ = std::move(sorted);
 }
 
@@ -182,12 +186,10 @@ void CrossingSearch::add_if_crossing(const Piece& one, const Piece& other, std::
 
 void CrossingSearch::search_within(const PiecesOfFan& fan, std::vector<FacePair>& found) const
 {
-    std::vector<Point> third;
+    std::vector<Triangle> corners;
     for (Index i = fan.begin; i < fan.end; ++i)
-        third.push_back(positions_.row(
-            *std::ranges::find_if(pieces_[i].vertices, [&](Index v) { return v != fan.edge[0] && v != fan.edge[1]; })));
-    const std::array<Point, 2> edge{positions_.row(fan.edge[0]), positions_.row(fan.edge[1])};
-    for_each_pair_in_one_plane(edge, third, [&](Index i, Index j) {
+        corners.push_back(pieces_[i].vertices);
+    for_each_pair_in_one_direction(fan.fan, corners, positions_, [&](Index i, Index j) {
         add_if_crossing(pieces_[fan.begin + i], pieces_[fan.begin + j], found);
         return found.size() < most_self_intersections;
     });

@@ -21,8 +21,8 @@ inline constexpr std::size_t most_self_intersections = 1'000'000;
 /// on each other with all their corners cross. Triangles without area cross nothing, nor do those with a corner that is
 /// not finite.
 ///
-/// Nearly linear in the size of the mesh if faces are about as large as their neighbours, however many share an edge;
-/// quadratic in the number of faces at one vertex. The same pairs for every executor.
+/// Nearly linear in the size of the mesh if faces are about as large as their neighbours, however many share an edge or
+/// a vertex. The same pairs for every executor.
 /// @param positions #V by 3, not necessarily those of the mesh; need not be finite.
 /// @returns ascending; at most most_self_intersections pairs.
 std::vector<FacePair> self_intersections(const PolygonMesh& mesh, const Points& positions,

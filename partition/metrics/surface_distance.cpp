@@ -4,60 +4,21 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <utility>
 
-#include <CGAL/AABB_traits.h>
-#include <CGAL/AABB_tree.h>
-#include <CGAL/AABB_triangle_primitive.h>
-#include <CGAL/Simple_cartesian.h>
-
 #include "partition/errors.h"
+#include "partition/metrics/box_tree.h"
 #include "partition/metrics/triangulation.h"
 
 namespace seamflow {
 
 namespace {
 
-// No predicate or construction of the kernel determines a distance: it only holds the triangles and their boxes.
-using Kernel = CGAL::Simple_cartesian<double>;
-using Triangles = std::vector<Kernel::Triangle_3>;
-using Primitive = CGAL::AABB_triangle_primitive<Kernel, Triangles::const_iterator>;
-using Traits = CGAL::AABB_traits<Kernel, Primitive>;
+const Point nowhere = Point::Constant(std::numeric_limits<double>::infinity());
 
-Kernel::Point_3 corner(const Points& positions, Index v)
-{
-    return {positions(v, 0), positions(v, 1), positions(v, 2)};
-}
-
-Triangles triangles_of(const PolygonMesh& surface)
-{
-    if (surface.n_faces() == 0)
-        throw InputError("there are no faces, and so no surface to measure distances from");
-    Triangles triangles;
-    triangles.reserve(surface.n_corners());
-    for (const Triangle& t : triangulate(surface))
-        triangles.emplace_back(corner(surface.vertices, t[0]), corner(surface.vertices, t[1]),
-                               corner(surface.vertices, t[2]));
-    return triangles;
-}
-
-Point relative_to(const Point& origin, const Kernel::Point_3& p)
-{
-    return Point(p.x(), p.y(), p.z()) - origin;
-}
-
-double squared_distance_to_box(const Point& p, const CGAL::Bbox_3& box)
-{
-    double sum = 0.0;
-    for (int k = 0; k < 3; ++k) {
-        const double outside = std::max({box.min(k) - p(k), p(k) - box.max(k), 0.0});
-        sum += outside * outside;
-    }
-    return sum;
-}
-
-/// Squared distance of the origin from its foot in the plane of the triangle, infinite if that lies outside.
-double squared_distance_to_inside(const Point& a, const Point& b, const Point& c)
+/// The foot of the origin in the plane of the triangle, nowhere if that lies outside.
+Point foot_inside(const Point& a, const Point& b, const Point& c)
 {
     const Point u = b - a;
     const Point w = c - a;
@@ -76,88 +37,276 @@ double squared_distance_to_inside(const Point& a, const Point& b, const Point& c
     }
     // Not a number for a triangle without area: that is not inside either.
     const bool inside = s >= 0.0 && t >= 0.0 && s + t <= 1.0;
-    return inside ? foot.squaredNorm() : std::numeric_limits<double>::infinity();
+    return inside ? foot : nowhere;
 }
 
-/// Squared distance of the origin from the segment between a and b, which may be one point.
-double squared_distance_to_segment(const Point& a, const Point& b)
+/// A point and its squared distance from the origin.
+struct Foot {
+    Point point;
+    double squared;
+
+    void use_if_closer(const Point& other)
+    {
+        if (const double s = other.squaredNorm(); s < squared) {
+            point = other;
+            squared = s;
+        }
+    }
+
+    /// The closest point of the segment between a and b, which may be one point.
+    void use_if_closer(const Point& a, const Point& b)
+    {
+        const Point u = b - a;
+        const double uu = u.squaredNorm();
+        use_if_closer(b);
+        use_if_closer(uu > 0.0 ? Point(a + std::clamp(-a.dot(u) / uu, 0.0, 1.0) * u) : a);
+    }
+};
+
+/// The point of a triangle that is closest to the origin.
+Foot foot_on(const TriangleCorners& t)
 {
-    const Point u = b - a;
-    const double uu = u.squaredNorm();
-    if (!(uu > 0.0))
-        return std::min(a.squaredNorm(), b.squaredNorm());
-    const double s = std::clamp(-a.dot(u) / uu, 0.0, 1.0);
-    return std::min(b.squaredNorm(), (a + s * u).squaredNorm());
+    Foot foot{nowhere, std::numeric_limits<double>::infinity()};
+    foot.use_if_closer(t[0], t[1]);
+    foot.use_if_closer(t[1], t[2]);
+    foot.use_if_closer(t[2], t[0]);
+    foot.use_if_closer(foot_inside(t[0], t[1], t[2]));
+    return foot;
 }
 
 }  // namespace
 
 double squared_distance_to_triangle(const Point& a, const Point& b, const Point& c)
 {
-    return std::min({squared_distance_to_segment(a, b), squared_distance_to_segment(b, c),
-                     squared_distance_to_segment(c, a), squared_distance_to_inside(a, b, c)});
+    return foot_on({a, b, c}).squared;
 }
 
 namespace {
 
-/// Descends the tree, nearer boxes first, and keeps the smallest squared distance. CGAL's trees require these names.
-class NearestSearch {
-  public:
-    using Priority = double;
+/// As many candidates are examined for a point without complaint.
+constexpr std::size_t few_candidates = 256;
 
-    [[nodiscard]] double squared() const { return squared_; }
-    [[nodiscard]] bool go_further() const { return squared_ > 0.0; }
+Box box_of(const TriangleCorners& t)
+{
+    Box box;
+    for (const Point& p : t)
+        box.add(p);
+    return box;
+}
 
-    void intersection(const Point& p, const Primitive& primitive)
-    {
-        const Kernel::Triangle_3& t = *primitive.id();
-        squared_ = std::min(
-            squared_, squared_distance_to_triangle(relative_to(p, t[0]), relative_to(p, t[1]), relative_to(p, t[2])));
-    }
+/// In an order of neighbours.
+std::vector<TriangleCorners> triangles_of(const PolygonMesh& surface, const Executor& exec)
+{
+    if (surface.n_faces() == 0)
+        throw InputError("there are no faces, and so no surface to measure distances from");
+    const std::vector<Triangle> triangles = triangulate(surface);
+    const auto corners = [&](Index i) -> TriangleCorners {
+        const auto& [a, b, c] = triangles[i];
+        return {surface.vertices.row(a), surface.vertices.row(b), surface.vertices.row(c)};
+    };
+    const auto n = static_cast<Index>(triangles.size());
+    std::vector<Point> centres(triangles.size());
+    for_each(exec, n, [&](Index i) { centres[i] = centre_of(box_of(corners(i))); });
+    const std::vector<Index> order = order_of_neighbours(centres, exec);
+    std::vector<TriangleCorners> sorted(triangles.size());
+    for_each(exec, n, [&](Index i) { sorted[i] = corners(order[i]); });
+    return sorted;
+}
 
-    template <class Node>
-    [[nodiscard]] bool do_intersect(const Point& p, const Node& node) const
-    {
-        return squared_distance_to_box(p, node.bbox()) < squared_;
-    }
+std::vector<Box> boxes_of(const std::vector<TriangleCorners>& triangles)
+{
+    std::vector<Box> boxes(triangles.size());
+    std::ranges::transform(triangles, boxes.begin(), box_of);
+    return boxes;
+}
 
-    template <class Node>
-    [[nodiscard]] std::pair<bool, Priority> do_intersect_with_priority(const Point& p, const Node& node) const
-    {
-        const double squared = squared_distance_to_box(p, node.bbox());
-        return {squared < squared_, -squared};
-    }
+TriangleCorners relative_to(const Point& origin, const TriangleCorners& t)
+{
+    return {t[0] - origin, t[1] - origin, t[2] - origin};
+}
 
-  private:
-    double squared_ = std::numeric_limits<double>::infinity();
-};
+/// Whether the plane of a triangle is certainly further from the origin than a bound, squared.
+bool is_plane_beyond(const TriangleCorners& t, double squared_bound)
+{
+    // Rounding tilts the planes of thinner triangles, and those of tiny ones.
+    constexpr double least_squared_sine = 1e-6;
+    constexpr double underflow = 1e-250;
+    constexpr double plane_rounding = 1e-11;
+    const Point u = t[1] - t[0];
+    const Point w = t[2] - t[0];
+    const Point normal = u.cross(w);
+    const double squared = normal.squaredNorm();
+    const double height = normal.dot(t[0]);
+    return squared > least_squared_sine * u.squaredNorm() * w.squaredNorm() + underflow &&
+           height * height > (squared_bound + plane_rounding * t[0].squaredNorm()) * squared;
+}
 
 }  // namespace
 
 class SurfaceDistance::Tree {
   public:
-    explicit Tree(const PolygonMesh& surface)
-        : triangles_(triangles_of(surface))
-        , tree_(triangles_.begin(), triangles_.end())
+    Tree(const PolygonMesh& surface, const Executor& exec)
+        : triangles_(triangles_of(surface, exec))
+        , tree_(boxes_of(triangles_))
     {
-        tree_.do_not_accelerate_distance_queries();
-        tree_.build();
     }
 
-    [[nodiscard]] double distance(const Point& p) const
+    [[nodiscard]] std::vector<double> distances(std::span<const Point> points, const Executor& exec) const
     {
-        NearestSearch search;
-        tree_.traversal_with_priority(p, search);
-        return std::sqrt(search.squared());
+        const std::vector<Index> order = order_of_neighbours(points, exec);
+        std::vector<double> distances(points.size());
+        const Candidates all{{}, {{0.0, tree_.root()}}};
+        for_each_block(exec, static_cast<Index>(points.size()), [&](Index, Index begin, Index end) {
+            Index closest = 0;
+            measure(points, std::span(order).subspan(begin, end - begin), all, closest, distances);
+        });
+        return distances;
     }
 
   private:
-    Triangles triangles_;
-    CGAL::AABB_tree<Traits> tree_;
+    /// Points within a radius around a centre.
+    struct Group {
+        Point centre = Point::Zero();
+        double radius = 0.0;
+        /// The point of the surface that is closest to the centre, relative to it, and its distance.
+        Point foot = Point::Zero();
+        double distance = 0.0;
+
+        /// No point is further from the surface than the centre and the radius: what is further from the centre than
+        /// this is not the closest for any.
+        [[nodiscard]] double reach() const { return distance + 2.0 * radius; }
+
+        /// The same for triangles in a plane in this direction from the centre. Seen from the point at p from the
+        /// centre, the foot is at most distance - p·foot/distance + p²/(2 distance) away, and the plane nearer by
+        /// p·direction than from the centre.
+        [[nodiscard]] double reach(const Point& direction) const
+        {
+            const double bound =
+                distance + radius * (direction - foot / distance).norm() + radius * radius / (2.0 * distance);
+            // Not a number on the surface.
+            return bound < reach() ? bound : reach();
+        }
+    };
+
+    /// A node of the tree, and a lower bound of its distance from the centre of a group.
+    struct Candidate {
+        double distance;
+        BoxTree::Node node;
+    };
+
+    /// The nodes that may hold the closest points of all points of a group.
+    struct Candidates {
+        Group group;
+        std::vector<Candidate> nodes;
+    };
+
+    struct Answer {
+        double distance;
+        /// How many candidates were examined.
+        std::size_t n_examined;
+    };
+
+    Answer distance(const Point& p, const Candidates& candidates, Index& closest) const;
+    void add_within_reach(BoxTree::Node node, Candidates& found) const;
+    Candidates narrowed(std::span<const Point> points, std::span<const Index> group, const Candidates& candidates,
+                        Index& closest) const;
+    void measure(std::span<const Point> points, std::span<const Index> group, const Candidates& candidates,
+                 Index& closest, std::vector<double>& distances) const;
+
+    std::vector<TriangleCorners> triangles_;
+    BoxTree tree_;
 };
 
-SurfaceDistance::SurfaceDistance(const PolygonMesh& surface)
-    : tree_(std::make_unique<const Tree>(surface))
+/// @param closest the triangle to begin with, then the closest one.
+SurfaceDistance::Tree::Answer SurfaceDistance::Tree::distance(const Point& p, const Candidates& candidates,
+                                                              Index& closest) const
+{
+    const double offset = (p - candidates.group.centre).norm();
+    double squared = foot_on(relative_to(p, triangles_[closest])).squared;
+    double reach = std::sqrt(squared) + offset;
+    std::size_t n_examined = candidates.nodes.size();
+    const auto examine = [&](Index i) {
+        ++n_examined;
+        const TriangleCorners triangle = relative_to(p, triangles_[i]);
+        if (is_plane_beyond(triangle, squared))
+            return;
+        if (const double s = foot_on(triangle).squared; s < squared) {
+            squared = s;
+            reach = std::sqrt(s) + offset;
+            closest = i;
+        }
+    };
+    for (const Candidate& candidate : candidates.nodes)
+        if (candidate.distance <= reach)
+            tree_.for_each_nearer(p, candidate.node, squared, examine);
+    return {std::sqrt(squared), n_examined};
+}
+
+/// Adds the parts of a node within reach of the group that are triangles or no larger than the group.
+void SurfaceDistance::Tree::add_within_reach(BoxTree::Node node, Candidates& found) const
+{
+    const Group& group = found.group;
+    const double reach = group.reach();
+    const Box& box = tree_.box(node);
+    double squared = squared_distance(box, group.centre);
+    if (squared > reach * reach)
+        return;
+    if (node.level > 0 && (box.high - box.low).norm() > 2.0 * group.radius) {
+        tree_.for_each_child(node, [&](BoxTree::Node child) { add_within_reach(child, found); });
+        return;
+    }
+    if (node.level == 0) {
+        const TriangleCorners triangle = relative_to(group.centre, triangles_[node.number]);
+        const Point normal = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]).normalized();
+        const double bound = group.reach(normal.dot(triangle[0]) < 0.0 ? Point(-normal) : normal);
+        if (is_plane_beyond(triangle, bound * bound))
+            return;
+        squared = foot_on(triangle).squared;
+    }
+    if (squared <= reach * reach)
+        found.nodes.push_back({std::sqrt(squared), node});
+}
+
+SurfaceDistance::Tree::Candidates SurfaceDistance::Tree::narrowed(std::span<const Point> points,
+                                                                  std::span<const Index> group,
+                                                                  const Candidates& candidates, Index& closest) const
+{
+    Box box;
+    for (const Index v : group)
+        box.add(points[v]);
+    Candidates found;
+    found.group.centre = centre_of(box);
+    for (const Index v : group)
+        found.group.radius = std::max(found.group.radius, (points[v] - found.group.centre).norm());
+    found.group.distance = distance(found.group.centre, candidates, closest).distance;
+    found.group.foot = foot_on(relative_to(found.group.centre, triangles_[closest])).point;
+    const double reach = found.group.reach() + (found.group.centre - candidates.group.centre).norm();
+    for (const Candidate& candidate : candidates.nodes)
+        if (candidate.distance <= reach)
+            add_within_reach(candidate.node, found);
+    return found;
+}
+
+/// Point by point, each beginning with the closest triangle of the one before, as long as this is fast. Where it is
+/// not, because many triangles are about as far away, halves of the group first find out in common what is too far.
+void SurfaceDistance::Tree::measure(std::span<const Point> points, std::span<const Index> group,
+                                    const Candidates& candidates, Index& closest, std::vector<double>& distances) const
+{
+    for (std::size_t k = 0; k < group.size(); ++k) {
+        const Answer answer = distance(points[group[k]], candidates, closest);
+        distances[group[k]] = answer.distance;
+        if (answer.n_examined <= few_candidates)
+            continue;
+        const auto rest = group.subspan(k + 1);
+        for (const auto half : {rest.first(rest.size() / 2), rest.subspan(rest.size() / 2)})
+            if (!half.empty())
+                measure(points, half, narrowed(points, half, candidates, closest), closest, distances);
+        return;
+    }
+}
+
+SurfaceDistance::SurfaceDistance(const PolygonMesh& surface, const Executor& exec)
+    : tree_(std::make_unique<const Tree>(surface, exec))
 {
 }
 
@@ -165,19 +314,20 @@ SurfaceDistance::~SurfaceDistance() = default;
 SurfaceDistance::SurfaceDistance(SurfaceDistance&&) noexcept = default;
 SurfaceDistance& SurfaceDistance::operator=(SurfaceDistance&&) noexcept = default;
 
-std::vector<double> SurfaceDistance::operator()(const Points& points) const
+std::vector<double> SurfaceDistance::operator()(const Points& points, const Executor& exec) const
 {
-    std::vector<double> distances(static_cast<std::size_t>(points.rows()));
-    for (Eigen::Index v = 0; v < points.rows(); ++v)
-        distances[static_cast<std::size_t>(v)] = tree_->distance(points.row(v));
-    return distances;
+    std::vector<Point> rows;
+    rows.reserve(static_cast<std::size_t>(points.rows()));
+    for (const auto& row : points.rowwise())
+        rows.emplace_back(row);
+    return tree_->distances(rows, exec);
 }
 
-LengthStatistics surface_distance(const PolygonMesh& from, const PolygonMesh& to)
+LengthStatistics surface_distance(const PolygonMesh& from, const PolygonMesh& to, const Executor& exec)
 {
     if (from.n_faces() == 0)
         throw InputError("there are no faces, and so no vertices of a surface to measure distances of");
-    std::vector<double> distances = SurfaceDistance(to)(from.vertices);
+    std::vector<double> distances = SurfaceDistance(to, exec)(from.vertices, exec);
     const std::vector<std::uint8_t> is_used = used_by_faces(from);
     for (std::size_t v = 0; v < distances.size(); ++v)
         if (is_used[v] == 0)

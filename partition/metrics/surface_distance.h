@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "partition/executor.h"
 #include "partition/metrics/length_statistics.h"
 #include "partition/polygon_mesh.h"
 #include "partition/vector_area.h"
@@ -15,21 +16,23 @@ namespace seamflow {
 double squared_distance_to_triangle(const Point& a, const Point& b, const Point& c);
 
 /// Distances from points to the surface of a mesh, whose polygons are triangulated (see triangulation.h); triangles
-/// without area count as the segments or points that they are. A spatial tree makes them fast: the time for a point
-/// grows with the logarithm of the number of faces where the point is near the surface.
+/// without area count as the segments or points that they are. A tree of boxes makes them fast: the time for a point
+/// grows with the logarithm of the number of faces, also where many faces are about as far away, as from the middle of
+/// a sphere, if points are close together there.
 class SurfaceDistance {
   public:
     /// Builds the tree. The mesh is not needed afterwards.
     /// @throws InputError for a mesh without faces.
-    explicit SurfaceDistance(const PolygonMesh& surface);
+    explicit SurfaceDistance(const PolygonMesh& surface, const Executor& exec = run_serially);
     ~SurfaceDistance();
     SurfaceDistance(SurfaceDistance&&) noexcept;
     SurfaceDistance& operator=(SurfaceDistance&&) noexcept;
 
     /// The distance of every point from the closest point of the surface, in units of length; one entry per row. Exact
-    /// to rounding, wherever the origin is: a point and a triangle are taken relative to each other. Thread-safe.
+    /// to rounding, wherever the origin is: a point and a triangle are taken relative to each other. The same bits for
+    /// every executor. Thread-safe.
     /// @param points finite, one a row.
-    [[nodiscard]] std::vector<double> operator()(const Points& points) const;
+    [[nodiscard]] std::vector<double> operator()(const Points& points, const Executor& exec = run_serially) const;
 
   private:
     class Tree;
@@ -40,7 +43,7 @@ class SurfaceDistance {
 /// `from` to the closest points of the surface of `to`. Vertices of `from` without faces are not part of its surface
 /// and not counted: a mesh has distance 0 from itself.
 /// @throws InputError if one of the meshes has no faces.
-LengthStatistics surface_distance(const PolygonMesh& from, const PolygonMesh& to);
+LengthStatistics surface_distance(const PolygonMesh& from, const PolygonMesh& to, const Executor& exec = run_serially);
 
 /// The larger of each pair of numbers. Of H in both directions, this is the measure that is symmetric in the two
 /// meshes.

@@ -18,22 +18,23 @@ std::string difference(const char* what, Index reference, Index candidate)
     return fmt::format("REFERENCE has {} {}, CANDIDATE {}", reference, what, candidate);
 }
 
-void measure_surfaces(const PolygonMesh& reference, const PolygonMesh& candidate, Comparison& comparison)
+void measure_surfaces(const PolygonMesh& reference, const PolygonMesh& candidate, Comparison& comparison,
+                      const Executor& exec)
 {
     switch (comparison.direction) {
     case Direction::ReferenceToCandidate:
-        comparison.surface_distance = surface_distance(reference, candidate);
+        comparison.surface_distance = surface_distance(reference, candidate, exec);
         break;
     case Direction::CandidateToReference:
-        comparison.surface_distance = surface_distance(candidate, reference);
+        comparison.surface_distance = surface_distance(candidate, reference, exec);
         break;
     case Direction::Both:
-        comparison.surface_distance = surface_distance(reference, candidate);
-        comparison.surface_distance_back = surface_distance(candidate, reference);
+        comparison.surface_distance = surface_distance(reference, candidate, exec);
+        comparison.surface_distance_back = surface_distance(candidate, reference, exec);
         break;
     case Direction::Symmetric:
         comparison.surface_distance =
-            larger_of(surface_distance(reference, candidate), surface_distance(candidate, reference));
+            larger_of(surface_distance(reference, candidate, exec), surface_distance(candidate, reference, exec));
         break;
     }
 }
@@ -97,7 +98,7 @@ Comparison compare_meshes(const PolygonMesh& reference, const PolygonMesh& candi
         comparison.remarks.push_back(
             "V_ and displacements are left out, because the vertices do not correspond: " + mismatch + ".");
     if (reference.n_faces() > 0 && candidate.n_faces() > 0)
-        measure_surfaces(reference, candidate, comparison);
+        measure_surfaces(reference, candidate, comparison, exec);
     else if (mismatch.empty())
         comparison.remarks.push_back("H_ is left out, because without faces there is no surface.");
     else

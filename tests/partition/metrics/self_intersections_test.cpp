@@ -195,6 +195,50 @@ TEST_CASE("a hundred thousand faces around one edge are searched in seconds, and
     CHECK(self_intersections(mesh, mesh.vertices).size() == most_self_intersections);
 }
 
+namespace {
+
+/// Triangles in a closed ring around a vertex at this height over their middle.
+PolygonMesh wheel(Index n, double height)
+{
+    PolygonMesh mesh;
+    mesh.vertices.resize(n + 1, 3);
+    for (Index i = 0; i < n; ++i) {
+        const double angle = 2.0 * std::numbers::pi * i / n;
+        mesh.vertices.row(i) = Point(std::cos(angle), std::sin(angle), 0.0);
+        mesh.add_face(std::array<Index, 3>{n, i, (i + 1) % n});
+    }
+    mesh.vertices.row(n) = Point(0.0, 0.0, height);
+    return mesh;
+}
+
+}  // namespace
+
+TEST_CASE("many faces around a vertex cross as each pair of them does")
+{
+    RandomNumbers random(4);
+    // The last ones turn by wide angles.
+    for (const auto& [height, noise, stride] :
+         {std::tuple(0.5, 0.2, 1), std::tuple(0.0, 0.01, 1), std::tuple(0.0, 0.0, 1), std::tuple(0.3, 0.1, 311)}) {
+        const Index n = 900;
+        PolygonMesh mesh = wheel(n, height);
+        for (Index i = 0; i < n; ++i)
+            mesh.vertices.row(i) += noise * Point(random.symmetric(), random.symmetric(), random.symmetric());
+        for (Index corner = 2; corner < mesh.n_corners(); corner += 3)
+            mesh.face_vertices[corner] = (mesh.face_vertices[corner - 1] + stride) % n;
+        const Pairs pairs = self_intersections(mesh, mesh.vertices);
+        CHECK(pairs == brute_force(mesh));
+        CHECK(pairs.empty() == (noise == 0.0));
+    }
+}
+
+TEST_CASE("a hundred thousand faces around one vertex are searched in seconds")
+{
+    PolygonMesh mesh = wheel(100000, 0.0);
+    CHECK(self_intersections(mesh, mesh.vertices).empty());
+    mesh.vertices.row(100000) = Point(0.99, 0.0, 0.1);
+    CHECK(self_intersections(mesh, mesh.vertices).empty());
+}
+
 TEST_CASE("a noisy surface crosses itself as each pair of its faces does")
 {
     for (const PolygonMesh& mesh : {make_noisy_sphere(700, {.noise = 1.0}), make_cylinder(400, {.noise = 0.8})}) {

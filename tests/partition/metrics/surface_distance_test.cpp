@@ -1,10 +1,12 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <random>
 
 #include <doctest/doctest.h>
 
+#include "engine/tasks/parallel_executor.h"
 #include "partition/errors.h"
 #include "partition/metrics/surface_distance.h"
 #include "partition/metrics/triangulation.h"
@@ -245,4 +247,30 @@ TEST_CASE("a point in the middle of a sliver lies on it")
         const Point middle = (a + b + c) / 3.0;
         CHECK(squared_distance_to_triangle(a - middle, b - middle, c - middle) < 1e-30);
     }
+}
+
+TEST_CASE("points from which all faces are about as far away")
+{
+    const PolygonMesh sphere = make_noisy_sphere(350, {.noise = 0.0});
+    const PolygonMesh rings = make_cylinder(350, {.noise = 0.0});
+    for (const PolygonMesh& surface : {sphere, rings})
+        for (const double scale : {0.3, 0.01, 0.0}) {
+            const Point middle = surface.vertices.colwise().mean();
+            Points points = scale * (surface.vertices.rowwise() - middle);
+            points.rowwise() += middle;
+            check_against_brute_force(surface, points);
+            CHECK(SurfaceDistance(surface)(points, run_in_parallel) == SurfaceDistance(surface)(points));
+        }
+}
+
+TEST_CASE("faces that all meet in one vertex, and points between them")
+{
+    std::mt19937 random(6);
+    PolygonMesh fan;
+    constexpr Index n = 700;
+    fan.vertices = random_points(n + 1, random);
+    fan.vertices.col(2) *= 1e-3;
+    for (Index i = 0; i + 1 < n; ++i)
+        fan.add_face(std::array<Index, 3>{n, i, i + 1});
+    check_against_brute_force(fan, random_points(300, random));
 }
