@@ -1,7 +1,9 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
+#include <limits>
 #include <span>
 
 #include <Eigen/Core>
@@ -28,6 +30,33 @@ inline Point vector_area(std::span<const Index> corners, const Points& positions
     for (std::size_t k = 1; k + 1 < corners.size(); ++k)
         sum += (positions.row(corners[k]) - origin).cross(positions.row(corners[k + 1]) - origin);
     return 0.5 * sum;
+}
+
+/// Length of the vector area, in length²; 0 where it is no more than rounding, or not a normal double.
+///
+/// A face has an area if it exceeds 16 ε n Σ|e|² over its n edges e, with ε = 2⁻⁵²: 1.6 to 2.2e-14 of the squared
+/// longest edge of a triangle. Differences and products in the vector area round to less than ε (Σ|e|)² ≤ ε n Σ|e|²,
+/// and coordinates of up to some ten edges round to as much. What is more, K of a face without area would be rounding:
+/// its entries grow with Σ|e|² / area, and their rounding errors move vertices by up to ε times that, in edges, which
+/// is a hundredth here. The distance from the origin does not count. Far away, where corners in a row rarely stay so
+/// when they are rounded, the triangles that remain are exact and thick enough for K.
+inline double area_above_rounding(std::span<const Index> corners, const Points& positions)
+{
+    constexpr double rounding = 16.0 * std::numeric_limits<double>::epsilon();
+    const double area = vector_area(corners, positions).norm();
+    double squares = 0.0;
+    Index before = corners.back();
+    for (const Index v : corners) {
+        squares += (positions.row(v) - positions.row(before)).squaredNorm();
+        before = v;
+    }
+    return std::isnormal(area) && area > rounding * static_cast<double>(corners.size()) * squares ? area : 0.0;
+}
+
+/// Whether a face has an area (see area_above_rounding): a normal, and a K.
+inline bool has_area(std::span<const Index> corners, const Points& positions)
+{
+    return area_above_rounding(corners, positions) > 0.0;
 }
 
 }  // namespace seamflow

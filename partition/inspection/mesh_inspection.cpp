@@ -18,8 +18,6 @@ namespace seamflow {
 
 namespace {
 
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
-
 /// A mesh and its connectivity.
 struct Surface {
     const PolygonMesh& mesh;
@@ -105,20 +103,10 @@ void measure_box(const PolygonMesh& mesh, const Executor& exec, MeshInspection& 
         found.bits_for_detail = std::max(0, 53 - (std::ilogb(farthest) - std::ilogb(found.edge_lengths.mean)));
 }
 
-/// The largest of the face's coordinates bounds the rounding error of its area.
 bool lacks_area(const PolygonMesh& mesh, Index f)
 {
-    const double area = vector_area(mesh.face(f), mesh.vertices).norm();
-    double farthest = 0.0;
-    double longest = 0.0;
-    const Point origin = mesh.vertices.row(mesh.face(f).front());
-    for (const Index v : mesh.face(f)) {
-        if (!mesh.vertices.row(v).allFinite())
-            return false;
-        farthest = std::max(farthest, mesh.vertices.row(v).cwiseAbs().maxCoeff());
-        longest = std::max(longest, (mesh.vertices.row(v) - origin).norm());
-    }
-    return !std::isnormal(area) || area <= epsilon * farthest * longest;
+    const auto is_finite = [&](Index v) { return mesh.vertices.row(v).allFinite(); };
+    return !has_area(mesh.face(f), mesh.vertices) && std::ranges::all_of(mesh.face(f), is_finite);
 }
 
 /// The elements that equal an earlier one, each with the first of these, ascending.

@@ -53,7 +53,7 @@ struct MeshDefects {
     std::vector<Edge> inconsistent_edges;
     /// Faces that have the same vertices as an earlier face, in any order.
     std::vector<Index> duplicate_faces;
-    /// Faces whose vector area is not a normal double, or within the rounding of their coordinates.
+    /// Faces without area, up to rounding (see area_above_rounding).
     std::vector<Index> faces_without_area;
     /// Edges whose length is no normal double.
     std::vector<Edge> edges_without_length;

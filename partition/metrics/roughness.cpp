@@ -28,7 +28,9 @@ std::vector<double> angles(const PolygonMesh& triangles)
     std::vector<Point> areas;
     areas.reserve(triangles.n_faces());
     for (Index f = 0; f < triangles.n_faces(); ++f)
-        areas.push_back(vector_area(triangles.face(f), triangles.vertices));
+        areas.push_back(has_area(triangles.face(f), triangles.vertices)
+                            ? vector_area(triangles.face(f), triangles.vertices)
+                            : Point(Point::Zero()));
     std::vector<double> angles;
     for (Index h = 0; h < triangles.n_corners(); ++h) {
         const Index twin = topology.twin[h];

@@ -28,20 +28,6 @@ inline float decay(float x)
     return fraction * std::bit_cast<float>((bias - whole) << mantissa_bits);
 }
 
-/// Of the corners of a face that has no area to the precision of its coordinates.
-constexpr double least_height = 1e-12;
-
-double area_or_none(std::span<const Index> corners, const Points& positions)
-{
-    const double size = area(corners, positions);
-    double longest = 0.0;
-    for (std::size_t k = 0; k < corners.size(); ++k)
-        longest = std::max(
-            longest,
-            (positions.row(corners[k]) - positions.row(corners[k == 0 ? corners.size() - 1 : k - 1])).squaredNorm());
-    return size > least_height * longest ? size : 0.0;
-}
-
 IndexLists neighbours_of_vertices(const PolygonMesh& mesh, const Topology& topology)
 {
     IndexLists lists;
@@ -73,7 +59,7 @@ void FaceAverages::measure(const Points& positions, const Executor& exec)
     Points centroids(n, 3);
     std::vector<double> areas(at(n));
     for_each(exec, n, [&](Index f) {
-        areas[f] = area_or_none(mesh_->face(f), positions);
+        areas[f] = area_above_rounding(mesh_->face(f), positions);
         centroids.row(f) = centroid(mesh_->face(f), positions);
     });
     const double mean_area = sum(exec, n, [&](Index f) { return areas[f]; }) / std::max(n, Index{1});
@@ -101,12 +87,18 @@ void FaceAverages::measure_normals(const Points& positions, FaceVectors& normals
     normals.resize(n_faces(), 4);
     for_each(exec, n_faces(), [&](Index f) {
         Point normal = vector_area(mesh_->face(f), positions);
-        const double length = normal.norm();
-        normal *= length > 0.0 && area_or_none(mesh_->face(f), positions) > 0.0
-                      ? (signs_.empty() ? 1.0 : signs_[f]) / length
-                      : 0.0;
+        const double length = area_above_rounding(mesh_->face(f), positions);
+        normal *= length > 0.0 ? (signs_.empty() ? 1.0 : signs_[f]) / length : 0.0;
         normals.row(f) << normal.cast<float>(), 0.0F;
     });
+    const std::vector<Index> without = select(exec, n_faces(), [&](Index f) { return normals.row(f).isZero(); });
+    FaceVectors around = FaceVectors::Zero(std::ssize(without), 4);
+    for (std::size_t i = 0; i < without.size(); ++i)
+        for (std::size_t k = neighbours_.offsets[without[i]]; k < neighbours_.offsets[without[i] + 1]; ++k)
+            around.row(static_cast<Index>(i)) += near_[k] * normals.row(neighbours_.faces[k]);
+    normalise(around, exec);
+    for (std::size_t i = 0; i < without.size(); ++i)
+        normals.row(without[i]) = around.row(static_cast<Index>(i));
 }
 
 void FaceAverages::weigh(AverageWeights& weights, const Executor& exec) const

@@ -42,8 +42,8 @@ class FaceAverages {
     /// Takes areas and centroids from these positions, #V by 3, from now on.
     void measure(const Points& positions, const Executor& exec = run_serially);
 
-    /// Unit normals in these positions, on the same side of the surface where faces share an edge; 0 for faces without
-    /// area.
+    /// Unit normals in these positions, on the same side of the surface where faces share an edge. A face without area
+    /// has the direction of the mean around it, weighed as without a guide; 0 if there is none.
     void measure_normals(const Points& positions, FaceVectors& normals, const Executor& exec = run_serially) const;
 
     /// 1 or -1 for the faces whose normals are turned; empty: none is.

@@ -26,9 +26,8 @@ constexpr double noise_by_motion = 1.045;
 double mean_chord(const PolygonMesh& mesh, const Points& positions, const Points& wanted, const Executor& exec)
 {
     const double total = sum(exec, mesh.n_faces(), [&](Index f) {
-        const Point normal = vector_area(mesh.face(f), positions);
-        const double length = normal.norm();
-        return length > 0.0 ? (normal / length - wanted.row(f)).norm() : 0.0;
+        const double length = area_above_rounding(mesh.face(f), positions);
+        return length > 0.0 ? (vector_area(mesh.face(f), positions) / length - wanted.row(f)).norm() : 0.0;
     });
     return total / std::max(mesh.n_faces(), Index{1});
 }

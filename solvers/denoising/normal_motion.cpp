@@ -39,7 +39,7 @@ class FoldedFaces {
         std::vector<double> found(at(mesh_.n_faces()));
         for_each(exec_, mesh_.n_faces(), [&](Index f) {
             const Point normal = vector_area(mesh_.face(f), positions);
-            const double length = normal.norm();
+            const double length = area_above_rounding(mesh_.face(f), positions);
             found[f] = wanted_.row(f).isZero() ? 1.0 : length > 0.0 ? normal.dot(wanted_.row(f)) / length : 0.0;
         });
         return found;

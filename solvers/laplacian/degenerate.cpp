@@ -61,11 +61,6 @@ bool area_matters(const PolygonMesh& mesh, const Topology& topology, Laplacian l
                        [&](Index twin) { return twin >= 0 && may_move(mesh, topology, topology.face_of[twin]); });
 }
 
-bool has_area(const PolygonMesh& mesh, const Topology& topology, Laplacian laplacian, Index f)
-{
-    return std::isnormal(area(mesh.face(f), mesh.vertices)) || !area_matters(mesh, topology, laplacian, f);
-}
-
 bool divides_by_lengths(Laplacian laplacian)
 {
     return traits_of(laplacian).divisor == Divisor::EdgeLengths;
@@ -78,8 +73,9 @@ std::vector<Index> degenerate_faces(const PolygonMesh& mesh, const Topology& top
     if (traits_of(laplacian).divisor == Divisor::Nothing)
         return {};
     return select(exec, mesh.n_faces(), [&](Index f) {
-        return divides_by_lengths(laplacian) ? edge_without_length(mesh, topology, f) >= 0
-                                             : !has_area(mesh, topology, laplacian, f);
+        return divides_by_lengths(laplacian)
+                   ? edge_without_length(mesh, topology, f) >= 0
+                   : !has_area(mesh.face(f), mesh.vertices) && area_matters(mesh, topology, laplacian, f);
     });
 }
 
@@ -136,7 +132,7 @@ void require_sound_geometry(const PolygonMesh& mesh, const Topology& topology, L
     if (divides_by_lengths(laplacian))
         refuse_edge(mesh, bad.front(), edge_without_length(mesh, topology, bad.front()));
     throw InputError("face " + std::to_string(bad.front()) +
-                     " (numbered from 0) has no area that is a normal double: remove it, move one of its vertices, "
+                     " (numbered from 0) has no area, up to rounding: remove it, move one of its vertices, "
                      "or use the Laplacian fujiwara, which does not divide by areas");
 }
 
