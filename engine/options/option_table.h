@@ -6,56 +6,12 @@
 #include <tuple>
 
 #include "engine/options/flow_options.h"
+#include "engine/options/option_traits.h"
 
 /// The table of all options of a flow. What is said of options elsewhere comes from here: the limits of numbers, which
-/// options exclude others, what determines the result of a flow, and the options of
-/// command lines. A further field of FlowOptions has one line here; the compiler asks for it.
+/// options exclude others, what determines the result of a flow, and the options of command lines with their texts. A
+/// further field of FlowOptions has one row here; the compiler asks for it.
 namespace seamflow {
-
-/// What an option concerns, so that others exclude or imply it.
-namespace concern {
-constexpr unsigned sub_meshes = 1U;
-constexpr unsigned sweeps = 2U;
-/// Sweeps are taken because of it.
-constexpr unsigned implies_sweeps = 4U;
-/// The method: no preset can go with it.
-constexpr unsigned method = 8U;
-/// Factorisations of sub-meshes.
-constexpr unsigned factors = 16U;
-constexpr unsigned converged_steps = 32U;
-/// How the equations are solved, in any other way.
-constexpr unsigned solution = 64U;
-/// All these: the equations of a step, which steps that keep edges do not have.
-constexpr unsigned equations = (solution << 1U) - 1U;
-/// The result of a step does not depend on it.
-constexpr unsigned no_result = 128U;
-}  // namespace concern
-
-/// The limits of a number.
-struct Limits {
-    double least = -std::numeric_limits<double>::infinity();
-    double most = std::numeric_limits<double>::infinity();
-    /// Whether the limits themselves are refused.
-    bool above_least = false;
-    bool below_most = true;
-    /// For messages: what a number must be, and its unit. Empty: the limits depend on other options (see
-    /// require_valid).
-    std::string_view text = {};
-
-    [[nodiscard]] bool hold(double value) const
-    {
-        return (above_least ? value > least : value >= least) && (below_most ? value < most : value <= most);
-    }
-};
-
-struct OptionTraits {
-    /// Its name in FlowOptions.
-    std::string_view field;
-    /// That of programs; empty: they do not have it.
-    std::string_view option;
-    unsigned concerns = 0;
-    Limits limits = {};
-};
 
 template <class Value>
 struct OptionRow : OptionTraits {
@@ -78,9 +34,9 @@ auto option_table(Options& options)
     auto& [volume, move, slide] = limits;
     auto& [threads, tune_for, memory_limit, factorisation, precision] = resources;
     auto& [reference, record_schedule, keep_gaps, measures] = report;
-    const auto row = []<class Value>(std::string_view field, std::string_view option, unsigned concerns, Value& value,
-                                     const Limits& of_number = {}) {
-        return OptionRow<Value>{{field, option, concerns, of_number}, &value};
+    namespace group = option_group;
+    const auto row = []<class Value>(Value& value, const OptionTraits& traits) {
+        return OptionRow<Value>{traits, &value};
     };
     constexpr double infinite = std::numeric_limits<double>::infinity();
     const auto positive = [&](std::string_view text) { return Limits{0.0, infinite, true, true, text}; };
@@ -89,68 +45,164 @@ auto option_table(Options& options)
         return Limits{static_cast<double>(least), infinite, false, true, text};
     };
     return std::tuple{
-        row("laplacian", "--laplacian", 0, laplacian),
-        row("flow", "--flow", 0, flow),
-        row("filter", "--filter", 0, filter),
-        row("order", "--order", 0, order, at_least(1, "")),
-        row("time_step", "--time-step", 0, time_step, positive("positive and finite (length²)")),
-        row("radius", "--radius", no_result, radius,
-            positive("positive and finite (a length, or a part of the bounding box's diagonal)")),
-        row("uniform_edge", "", 0, uniform_edge,
-            not_negative("at least 0 and finite (a length; 0: the mean edge length of the mesh)")),
-        row("weights", "", 0, weights),
-        row("steps", "--steps", no_result, steps,
-            Limits{0.0, FlowOptions::most_steps, false, false, "at least 0 and at most 1000000000"}),
-        row("subdomains", "--subdomains", sub_meshes, subdomains, at_least(0, "at least 0 (0: chosen)")),
-        row("labels", "--labels", sub_meshes, labels),
-        row("scheme", "--scheme", method, scheme),
-        row("conditions", "--conditions", sweeps | implies_sweeps | method, conditions),
-        row("transmission", "--transmission", sweeps | implies_sweeps | method, transmission),
-        row("p", "--p", sweeps | method, p, positive("positive and finite (1/length)")),
-        row("p_rule", "--p-rule", sweeps | implies_sweeps | method, p_rule),
-        row("p_edge", "--p-edge", sweeps | implies_sweeps | method, p_edge),
-        row("q", "--q", sweeps | method, q, not_negative("at least 0 and finite")),
-        row("overlap", "--overlap", sweeps | method, overlap, at_least(1, "at least 1 (layers of faces)")),
-        row("correction", "--no-correction", sweeps | method, correction),
-        row("sweep", "--sweep", sweeps, sweep),
-        row("colouring", "--coloring", sweeps | implies_sweeps, colouring),
-        row("keep_gaps", "--keep-gaps", sweeps | method | no_result, keep_gaps),
-        row("tolerance", "--converge", solution, tolerance,
-            Limits{0.0, 1.0, true, true, "positive and below 1 (residual against that at the beginning of a step)"}),
-        row("converge_iterations", "--converge-iterations", converged_steps, converge_iterations,
-            at_least(0, "at least 0")),
-        row("approach", "--approach", solution, approach),
-        row("memory_limit", "--memory-limit", no_result, memory_limit, at_least(1, "at least 1 (byte)")),
-        row("factorisation", "--factorisation", factors, factorisation),
-        row("precision", "--precision", factors | converged_steps, precision),
-        row("tune_for", "--tune-for", solution, tune_for,
-            Limits{1.0, ResourceOptions::most_threads, false, false, "at least 1 and at most 1024 (cores)"}),
-        row("reference", "--reference", solution, reference),
-        row("keep_edges", "--keep-edges", 0, keep_edges,
-            Limits{0.0, 180.0, true, true, "above 0 and below 180 (degrees)"}),
-        row("denoise", "", 0, denoise),
-        row("feature_edges", "--edges", 0, feature_edges),
-        row("boundary", "--boundary", 0, boundary),
-        row("junctions", "--junctions", 0, junctions),
-        row("fixed_vertices", "--fix", 0, fixed_vertices),
-        row("attachment", "--attach", 0, attachment, not_negative("at least 0 and finite (1/length²)")),
-        row("attachment_weights", "--attach-weights", 0, attachment_weights),
-        row("strength", "--region", 0, strength),
-        row("direction", "--direction", 0, direction),
-        row("weld", "--weld", 0, weld, not_negative("at least 0 and finite (a length; empty: never)")),
-        row("strict", "--strict", no_result, strict),
-        row("rescale", "--rescale", 0, rescale),
-        row("within", "--within", 0, within, positive("above 0 and finite (a length; empty: no bound)")),
-        row("limit_of_volume", "", 0, volume),
-        row("limit_of_move", "", 0, move),
-        row("limit_of_slide", "", 0, slide),
-        row("largest_update", "", no_result, largest_update,
-            Limits{0.0, infinite, true, false, "positive (diagonals of the mesh's bounding box; infinite: no limit)"}),
-        row("threads", "--threads", no_result, threads,
-            Limits{0.0, ResourceOptions::most_threads, false, false,
-                   "at least 0 and at most 1024 (0: as many as the calling TBB arena has)"}),
-        row("measures", "", 0, measures),
-        row("record_schedule", "", no_result, record_schedule),
+        row(laplacian, {"laplacian", "--laplacian", group::kind, equation,
+                        "discrete Laplacian [fujiwara; of fields virtual-refinement]"}),
+        row(flow, {"flow", "--flow", group::kind, equation,
+                   "conformalized keeps the weights of the Laplacian; necks do not pinch [mean-curvature]\n"
+                   "It turns closed surfaces without handles into spheres, but not with fujiwara. linear keeps all "
+                   "of the Laplacian, and so one factorisation for all steps: the heat equation on the input, "
+                   "applied to its coordinates."}),
+        row(filter, {"filter", "--filter", group::kind, equation,
+                     "low-pass: large features hardly shrink [diffusion]\n"
+                     "With λ = dt times an eigenvalue, the factor of diffusion is 1/(1 + λᵏ), that of low-pass "
+                     "1 - (λ/(1 + λ))ᵐ."}),
+        row(order, {"order", "--order", group::kind, equation,
+                    "order of the filter, diffusion 1 to 3, low-pass 2 to 8: higher orders shrink large features "
+                    "less [1, low-pass 2]\n"
+                    "It is k of the filter diffusion and m of low-pass. A step takes 8 solutions for k = 2, 11 for "
+                    "k = 3, m for low-pass.",
+                    at_least(1, "")}),
+        row(radius, {"radius", "--radius", group::amount, amount | no_result,
+                     "bumps of this radius lose half their height, smaller ones more, over all steps together",
+                     positive("positive and finite (a length, or a part of the bounding box's diagonal)")}),
+        row(time_step, {"time_step", "--time-step", group::amount, amount, "time step, in length²",
+                        positive("positive and finite (length²)")}),
+        row(uniform_edge,
+            {.field = "uniform_edge",
+             .limits = not_negative("at least 0 and finite (a length; 0: the mean edge length of the mesh)")}),
+        row(weights, {"weights"}),
+        row(steps, {"steps", "--steps", group::amount, no_result, "number of steps [1]",
+                    Limits{0.0, FlowOptions::most_steps, false, false, "at least 0 and at most 1000000000"}}),
+        row(within, {"within", "--within", group::amount, concern::motion,
+                     "no vertex ends further than this from where it was\n"
+                     "Vertices beyond it are moved back to it, and their neighbours follow smoothly.",
+                     positive("above 0 and finite (a length; empty: no bound)")}),
+        row(rescale, {"rescale", "--rescale", group::amount, equation | concern::motion | whole_surface,
+                      "scale the result to the area or volume of the input [none]\n"
+                      "The centroid stays. Not with fixed vertices; open surfaces therefore need --boundary free."}),
+        row(keep_edges,
+            {"keep_edges", "--keep-edges", group::kept, concern::motion | whole_surface,
+             "keep edges sharper than this angle between faces, in degrees, and their corners; 20 to 40 suit "
+             "most meshes\n"
+             "The surface between them is smoothed; --time-step-edges 32 suits most noise. On the whole mesh.",
+             Limits{0.0, 180.0, true, true, "above 0 and below 180 (degrees)"}}),
+        row(denoise, {"denoise"}),
+        row(feature_edges, {"feature_edges", "--edges", group::kept, concern::motion | numbers,
+                            "further edges to keep: two vertex numbers per line, from 0, or an .obj or .ply with them\n"
+                            "They are kept whatever their angle. An .obj has polylines, a .ply elements edge. With "
+                            "--keep-edges or --preset cad."}),
+        row(boundary, {"boundary", "--boundary", group::kept, 0,
+                       "boundary conditions: the boundary of an open surface stays, or shrinks freely [fixed]"}),
+        row(junctions, {"junctions", "--junctions", group::kept, 0,
+                        "edges of three faces or more, where sheets meet: they move with all sheets, or stay [flow]"}),
+        row(fixed_vertices, {"fixed_vertices", "--fix", group::kept, numbers,
+                             "fixed vertices: their numbers from 0, one a line, or a .ply that marks them\n"
+                             "The .ply has as many vertices, and a property that is not 0 at fixed ones."}),
+        row(attachment, {"attachment", "--attach", group::kept, equation | concern::motion,
+                         "pull every vertex towards where it was: features larger than this stay",
+                         not_negative("at least 0 and finite (1/length²)")}),
+        row(attachment_weights,
+            {"attachment_weights", "--attach-weights", group::kept, equation | concern::motion | numbers,
+             "how strongly each vertex is pulled back, in 1/length²: one number per line, or a .ply\n"
+             "The .ply has as many vertices, and a property with the weight."}),
+        row(strength, {"strength", "--region", group::kept, concern::motion | numbers,
+                       "smooth only there: vertex numbers from 0, one a line, or a .ply that has the strength of each\n"
+                       "The strength, from 0 to 1, scales the time step at its vertex; 0 holds it. A name that is no "
+                       "file is that of a property of INPUT, a .ply. Not for sweeps."}),
+        row(direction, {"direction", "--direction", group::kept, concern::motion,
+                        "vertices move along this direction only; with z, x and y of a terrain stay bit for bit\n"
+                        "normal is that of each vertex before the step."}),
+        row(weld, {"weld", "--weld", group::kept, 0,
+                   "copies of vertices along seams, at most this far apart, move as one [at equal places]\n"
+                   "A seam is where edges of one face each coincide, for example along those of a texture.",
+                   not_negative("at least 0 and finite (a length; empty: never)")}),
+        row(strict, {"strict", "--strict", group::kept, no_result | concern::motion,
+                     "refuse meshes that are not manifold or have edges or faces of size 0\n"
+                     "Without it, such vertices stay fixed, and unusable faces are left out."}),
+        row(subdomains,
+            {"subdomains", "--subdomains", group::sub_meshes, sub_meshes,
+             "number of sub-meshes; 1: undecomposed, 0: chosen [0]", at_least(0, "at least 0 (0: chosen)")}),
+        row(labels, {"labels", "--labels", group::sub_meshes, sub_meshes | numbers,
+                     "file with the sub-mesh of every face, one a line"}),
+        row(scheme, {"scheme", "--scheme", group::accuracy, method | concern::motion,
+                     "backward or explicit Euler steps [implicit]\n"
+                     "Explicit steps are undecomposed, and stable for small time steps only."}),
+        row(conditions, {"conditions", "--conditions", group::sub_meshes, sweeps | implies_sweeps | method,
+                         "conditions between sub-meshes [adapted-robin]"}),
+        row(colouring, {"colouring", "--coloring", group::sub_meshes, sweeps | implies_sweeps,
+                        "colouring of the sub-meshes, which sets the order in which they solve [greedy]"}),
+        row(sweep, {"sweep", "--sweep", group::sub_meshes, sweeps,
+                    "order of the colours from step to step [fixed for two sub-meshes, else alternating]"}),
+        row(transmission, {"transmission", "--transmission", group::sub_meshes, sweeps | implies_sweeps | method,
+                           "how the first sub-mesh at the interface takes account of the others [predicted]"}),
+        row(p, {"p", "--p", group::sub_meshes, sweeps | method, "Robin parameter, in 1/length [p* of each sub-mesh]",
+                positive("positive and finite (1/length)")}),
+        row(p_rule,
+            {"p_rule", "--p-rule", group::sub_meshes, sweeps | implies_sweeps | method, "η in p*: 1 or 1/dt [paper]"}),
+        row(p_edge, {"p_edge", "--p-edge", group::sub_meshes, sweeps | implies_sweeps | method,
+                     "edge in p*: the shortest, the 5th percentile, or the mean [auto; with --paper min]\n"
+                     "auto: the shortest unless it is a sliver's, then the percentile."}),
+        row(q, {"q", "--q", group::sub_meshes, sweeps | method, "Ventcell parameter, for adapted-ventcell and ventcell",
+                not_negative("at least 0 and finite")}),
+        row(overlap, {"overlap", "--overlap", group::sub_meshes, sweeps | method,
+                      "layers of faces by which sub-meshes overlap with schwarz [1]",
+                      at_least(1, "at least 1 (layers of faces)")}),
+        row(correction, {"correction", "--no-correction", group::sub_meshes, sweeps | method,
+                         "do not correct the vertices of the interface after a step"}),
+        row(keep_gaps,
+            {"keep_gaps", "--keep-gaps", group::sub_meshes, sweeps | method | no_result | concern::motion | files,
+             "write the sub-meshes separately, each with its own copy of the interface; for robin and "
+             "ventcell"}),
+        row(tolerance,
+            {"tolerance", "--converge", group::accuracy, solution,
+             "converge to the undecomposed step, to this relative residual; never: one sweep a step [auto]\n"
+             "auto: to a loose tolerance where --approach needs one or sweeps would drift, unless another "
+             "option concerns sweeps.",
+             Limits{0.0, 1.0, true, true, "positive and below 1 (residual against that at the beginning of a step)"}}),
+        row(converge_iterations,
+            {"converge_iterations", "--converge-iterations", group::accuracy, converged_steps,
+             "largest number of iterations of a converged step [1000]", at_least(0, "at least 0")}),
+        row(approach, {"approach", "--approach", group::accuracy, solution,
+                       "the solver [auto: the fastest]\n"
+                       "sweep: one sweep over the sub-meshes; converged: sub-meshes converge to the undecomposed step; "
+                       "decomposed: one of the two; cg: conjugate gradients on the whole mesh, with hardly any set-up; "
+                       "undecomposed: one factorisation of the whole mesh; auto: the fastest, in sub-meshes if another "
+                       "option concerns them."}),
+        row(tune_for,
+            {"tune_for", "--tune-for", group::accuracy, solution,
+             "the number of cores for which --approach auto is the fastest [2]\n"
+             "It is not that of the machine, so that the result is the same on all of them.",
+             Limits{1.0, ResourceOptions::most_threads, false, false, "at least 1 and at most 1024 (cores)"}}),
+        row(precision, {"precision", "--precision", group::accuracy, factors | converged_steps,
+                        "precision of the factorisations of converged steps [auto]\n"
+                        "Steps are refined to the tolerance in any case. auto: single where that loses few digits."}),
+        row(factorisation,
+            {"factorisation", "--factorisation", group::accuracy, factors,
+             "the direct solver of sub-meshes [auto: the fastest]\n"
+             "cholmod: UMFPACK where they are not symmetric. With either, symmetric Laplacians take sweeps."}),
+        row(memory_limit,
+            {"memory_limit", "--memory-limit", group::machine, no_result,
+             "limit for all factorisations at any time: 500M, 2GiB [as much as is fast]\n"
+             "In bytes or with K, M, G, T, KiB, MiB, GiB, TiB. Converged steps recompute the factors that they cannot "
+             "keep; what still does not fit is solved by conjugate gradients, which factorise nothing, unless another "
+             "option asks for sub-meshes. By default sweeps take as little as keeps all threads busy, and converged "
+             "steps have no limit.",
+             at_least(1, "at least 1 (byte)")}),
+        row(threads, {"threads", "--threads", group::machine, no_result,
+                      "number of threads, at most 1024; 0: all cores that the control group allows [0]",
+                      Limits{0.0, ResourceOptions::most_threads, false, false,
+                             "at least 0 and at most 1024 (0: as many as the calling TBB arena has)"}}),
+        row(reference, {"reference", "--reference", group::written, solution | concern::motion | whole_surface,
+                        "also run the undecomposed flow, and print the distances to it (V_ and H_)"}),
+        row(volume, {"limit_of_volume"}),
+        row(move, {"limit_of_move"}),
+        row(slide, {"limit_of_slide"}),
+        row(largest_update, {.field = "largest_update",
+                             .concerns = no_result,
+                             .limits = Limits{0.0, infinite, true, false,
+                                              "positive (diagonals of the mesh's bounding box; infinite: no limit)"}}),
+        row(measures, {"measures"}),
+        row(record_schedule, {.field = "record_schedule", .concerns = no_result}),
     };
 }
 

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/options/option_traits.h"
 #include "partition/formats/mesh_io.h"
 #include "partition/version.h"
 
@@ -15,9 +16,11 @@ namespace seamflow {
 
 namespace {
 
-constexpr std::array groups{option_group::amount,     option_group::kind,    option_group::kept,
-                            option_group::fields,     option_group::written, option_group::accuracy,
-                            option_group::sub_meshes, option_group::machine, "Options"};
+/// In the order of --help; options of no group come last.
+constexpr std::array<std::string_view, 9> groups{
+    option_group::amount,     option_group::kind,    option_group::kept,
+    option_group::fields,     option_group::written, option_group::accuracy,
+    option_group::sub_meshes, option_group::machine, "Options"};
 
 std::vector<const CLI::Option*> positionals_of(const CLI::App& app)
 {
@@ -179,16 +182,16 @@ std::string in_zsh(std::string_view text)
     return result;
 }
 
-}  // namespace
-
 std::vector<const CLI::Option*> options_by_groups(const CLI::App& app)
 {
     std::vector<const CLI::Option*> list;
-    for (const char* const group : groups)
+    for (const std::string_view group : groups)
         for (const CLI::Option* option : options_of_group(app, group))
             list.push_back(option);
     return list;
 }
+
+}  // namespace
 
 std::string help_text(const CLI::App& app)
 {
@@ -196,7 +199,7 @@ std::string help_text(const CLI::App& app)
     for (const CLI::Option* positional : positionals_of(app))
         text += line_of(positional->get_name(), first_line(*positional));
     text += fmt::format("\nExamples:\n{}", with_indent(app.get_footer()));
-    for (const char* const group : groups) {
+    for (const std::string_view group : groups) {
         const auto options = options_of_group(app, group);
         if (options.empty())
             continue;
@@ -226,7 +229,7 @@ std::string man_page(const CLI::App& app)
     page += ".SH OPTIONS\n";
     if (speaks_of_lengths(app))
         page += roff(about_lengths) + "\n";
-    for (const char* const group : groups)
+    for (const std::string_view group : groups)
         if (const auto options = options_of_group(app, group); !options.empty()) {
             page += fmt::format(".SS {}\n", group);
             for (const CLI::Option* option : options)

@@ -8,8 +8,6 @@
 /// itself stays.
 namespace seamflow {
 
-void add_fields(CLI::App& app, SmoothCommand& command);
-
 /// To be called when the command line was parsed, if it names fields or vertices to measure distances from.
 /// @throws OptionError for options that move the surface, and without an amount for fields.
 void require_fields(const CLI::App& app, SmoothCommand& command);

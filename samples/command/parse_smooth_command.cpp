@@ -7,7 +7,6 @@
 #include "partition/errors.h"
 #include "partition/formats/mesh_io.h"
 #include "partition/io/input_file.h"
-#include "samples/command/command_help.h"
 #include "samples/command/command_line.h"
 #include "samples/command/field_options.h"
 #include "samples/command/settled_options.h"
@@ -93,10 +92,12 @@ std::optional<ExitStatus> parse_smooth_command(int argc, char** argv, SmoothComm
                                                const SmoothProgram& program)
 {
     CLI::App app(program.description, program.name);
-    std::string every_step;
-    add_flow_options(app, command);
-    add_fields(app, command);
-    add_files(app, command, every_step);
+    app.add_option("INPUT", command.input,
+                   "mesh: " + extensions_of() + ", optionally followed by .gz; - for standard input")
+        ->required()
+        ->type_name("");
+    app.add_option("OUTPUT", command.output, "smoothed mesh; - for standard output")->required()->type_name("");
+    add_options(app, command);
     if (names_tiles({argv, static_cast<std::size_t>(argc)}))
         take_tiles(app, command);
     app.footer(program.examples.empty() ? smooth_examples() : program.examples);
@@ -120,8 +121,6 @@ std::optional<ExitStatus> parse_smooth_command(int argc, char** argv, SmoothComm
                                       !command.html.empty() || !command.checkpoint.empty();
     command.self_intersections = command.self_intersections || !command.report.empty();
     command.options.report.record_schedule = !command.trace.empty() || !command.task_graph.empty();
-    if (!every_step.empty())
-        command.every_step.emplace(every_step);
     require_usable_results(command);
     require_usable_files(command);
     return std::nullopt;
@@ -130,16 +129,20 @@ std::optional<ExitStatus> parse_smooth_command(int argc, char** argv, SmoothComm
 std::vector<FlowOptionText> flow_options()
 {
     CLI::App app;
-    app.set_help_flag();
     SmoothCommand command;
-    add_flow_options(app, command);
+    add_options(app, command);
     std::vector<FlowOptionText> list;
-    for (const CLI::Option* option : options_by_groups(app))
+    for (const OptionTraits& traits : smooth_options()) {
+        if ((traits.concerns & (concern::files | concern::numbers)) != 0)
+            continue;
+        const CLI::Option* const option = app.get_option(std::string(traits.option));
         for (const std::string& name : option->get_lnames())
             list.push_back({.name = name,
                             .type = option->get_type_name(),
                             .description = option->get_description(),
-                            .is_flag = option->get_items_expected_max() == 0});
+                            .is_flag = option->get_items_expected_max() == 0,
+                            .moves_surface = (traits.concerns & concern::motion) != 0});
+    }
     return list;
 }
 
@@ -148,7 +151,7 @@ SmoothCommand parse_flow_options(const std::vector<std::string>& words)
     CLI::App app;
     app.set_help_flag();
     SmoothCommand command;
-    add_flow_options(app, command);
+    add_options(app, command);
     // CLI11 expects reverse order.
     std::vector<std::string> reversed(words.rbegin(), words.rend());
     try {

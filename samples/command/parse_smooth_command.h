@@ -36,9 +36,11 @@ struct FlowOptionText {
     std::string description;
     /// Whether it takes no value.
     bool is_flag = false;
+    /// Whether it is about where the surface goes, so that fields have no such option.
+    bool moves_surface = false;
 };
 
-/// All of them in the order of --help, one with two names twice.
+/// All of them, one with two names twice.
 std::vector<FlowOptionText> flow_options();
 
 /// Parses only these options, for a mesh that is not in a file: `labels`, `fix` and `attach_weights` are those in

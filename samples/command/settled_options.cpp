@@ -1,52 +1,20 @@
 #include "samples/command/settled_options.h"
 
-#include <algorithm>
-#include <initializer_list>
-#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
 
-#include "engine/options/option_table.h"
 #include "partition/errors.h"
 #include "partition/formats/mesh_io.h"
 #include "samples/command/presets.h"
+#include "samples/command/smooth_options.h"
 #include "samples/process/cpu_quota.h"
 
 namespace seamflow {
 
 namespace {
-
-/// Options of the program that are no fields of FlowOptions (see option_table.h).
-constexpr OptionTraits options_of_program[] = {
-    {"", "--parts", concern::sub_meshes},
-    {"", "--task-graph", concern::sub_meshes},
-    {"", "--trace", concern::sub_meshes},
-    {"", "--paper", concern::sweeps | concern::method},
-};
-
-/// The first of these options that was given; empty if none.
-std::string first_given(const CLI::App& app, std::initializer_list<std::string_view> names)
-{
-    for (const std::string_view name : names)
-        if (const CLI::Option* option = app.get_option_no_throw(std::string(name));
-            option != nullptr && option->count() > 0)
-            return std::string(name);
-    return {};
-}
-
-/// The same for options with one of these concerns.
-std::string first_given(const CLI::App& app, unsigned concerns)
-{
-    for (const std::span<const OptionTraits> list : {std::span<const OptionTraits>(options_of_program), all_options()})
-        for (const OptionTraits& one : list)
-            if ((one.concerns & concerns) != 0)
-                if (std::string found = first_given(app, {one.option}); !found.empty())
-                    return found;
-    return {};
-}
 
 /// Refuses options that mean nothing to steps that keep edges.
 void require_room_for_edges(const CLI::App& app, const SmoothCommand& command)
@@ -149,10 +117,7 @@ bool is_said(const CLI::App& app, const SmoothCommand& command, std::string_view
 /// Whether options are about the equation of a flow.
 bool wants_equation(const CLI::App& app)
 {
-    return !first_given(app, concern::equations).empty() ||
-           !first_given(app, {"--laplacian", "--flow", "--filter", "--order", "--attach", "--attach-weights", "--noise",
-                              "--rescale"})
-                .empty();
+    return !first_given(app, concern::equations | concern::equation).empty();
 }
 
 /// The preset without an amount.
@@ -169,13 +134,12 @@ void apply_preset(const CLI::App& app, SmoothCommand& command)
     // Amounts of fields are checked with them.
     if (command.fields.exists())
         return;
-    const bool has_amount = !first_given(app, {"--time-step", "--time-step-edges", "--radius"}).empty();
+    const std::string amount = first_given(app, concern::amount);
+    const bool has_amount = !amount.empty();
     if (app.count("--time-step") + app.count("--time-step-edges") + app.count("--radius") > 1)
         throw OptionError("--time-step, --time-step-edges and --radius all say how much to smooth: give one of them");
     if (has_amount && command.noise)
-        throw OptionError("--noise sets how much a preset smooths, and " +
-                          first_given(app, {"--time-step", "--time-step-edges", "--radius"}) +
-                          " does so too: give one of them");
+        throw OptionError("--noise sets how much a preset smooths, and " + amount + " does so too: give one of them");
     if (command.preset.empty() && has_amount)
         return;
     if (const std::string other = first_given(app, concern::method); !other.empty())
@@ -205,6 +169,17 @@ void apply_preset(const CLI::App& app, SmoothCommand& command)
         command.remarks.push_back(fmt::format("--preset {} leaves out {}, which --laplacian {} does not support.",
                                               command.preset, left_out, name_of(command.options.laplacian)));
     command.chooses_amount = !has_amount;
+}
+
+/// Options for the derivatives of the paper alone select these.
+void take_derivatives(const CLI::App& app, InterfaceOptions& interface)
+{
+    const std::string option = first_given(app, {"--p", "--p-rule", "--p-edge"});
+    if (option.empty())
+        return;
+    if (app.count("--transmission") > 0 && interface.transmission == Transmission::Predicted)
+        throw OptionError(option + " is for the derivatives of the paper; --transmission predicted has none");
+    interface.transmission = Transmission::Derivative;
 }
 
 void require_consistent(const CLI::App& app, const SmoothCommand& command)
@@ -246,6 +221,7 @@ void require_consistent(const CLI::App& app, const SmoothCommand& command)
 
 void settle(const CLI::App& app, SmoothCommand& command)
 {
+    take_derivatives(app, command.options.interface);
     command.chooses_threads = command.options.resources.threads == 0;
     if (command.chooses_threads)
         command.options.resources.threads = threads_within_quota();

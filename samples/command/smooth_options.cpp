@@ -1,10 +1,17 @@
 #include "samples/command/smooth_options.h"
 
+#include <algorithm>
+#include <functional>
+#include <map>
+#include <optional>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
 #include <fmt/format.h>
 
+#include "engine/options/option_table.h"
 #include "partition/errors.h"
-#include "partition/formats/mesh_io.h"
-#include "samples/command/command_help.h"
 #include "samples/command/command_line.h"
 #include "samples/command/flow_choices.h"
 #include "samples/command/presets.h"
@@ -13,10 +20,28 @@ namespace seamflow {
 
 namespace {
 
+using Add = std::function<CLI::Option*(CLI::App& app, const OptionTraits& traits)>;
+
+struct Entry {
+    OptionTraits traits;
+    Add add;
+    /// An option without which it is refused.
+    const char* needs = "";
+};
+
+/// Pairs that are refused together.
+constexpr std::pair<const char*, const char*> exclusions[] = {{"--labels", "--subdomains"},
+                                                              {"--edges-from-file", "--edges"},
+                                                              {"--attach-weights", "--attach"},
+                                                              {"--from", "--fields"},
+                                                              {"--verbose", "--quiet"}};
+
 /// "scan: what it is for (--steps 3)", one preset per line.
 std::string describe_presets()
 {
-    std::string text;
+    std::string text = "options for a kind of mesh [automatic if no amount is given]\n"
+                       "Without an amount, options about equations choose scan, and edges choose cad. Options on the "
+                       "command line override those of the preset.";
     for (const PresetTraits& preset : all_presets()) {
         text += fmt::format("\n{}: {} (", preset.name, preset.purpose);
         for (const PresetOption& option : options_of(preset, preset.denoise))
@@ -29,299 +54,279 @@ std::string describe_presets()
     return text;
 }
 
-void add_amount(CLI::App& app, SmoothCommand& command)
+/// An option that stores its value.
+template <class Value>
+Add to(Value& value, std::string type = {})
 {
-    app.option_defaults()->group(option_group::amount);
-    FlowOptions& options = command.options;
-    add_length(app, "--noise", command.noise,
-               "noise of the vertices, if it is known [measured]\n"
-               "The standard deviation along the normals. A preset derives the amount from it.");
-    add_length(app, "--radius", command.amount.radius,
-               "bumps of this radius lose half their height, smaller ones more, over all steps together");
-    add_real(app, "--time-step", command.amount.time_step, positive(), "time step, in length²");
-    add_real(app, "--time-step-edges", command.amount.time_step_edges, positive(),
-             "time step, in squared mean edge lengths");
-    add_field(app, options, "--steps", "number of steps [1]");
-    add_length(app, "--within", command.within,
-               "no vertex ends further than this from where it was\n"
-               "Vertices beyond it are moved back to it, and their neighbours follow smoothly.");
-    add_field(app, options, "--rescale",
-              "scale the result to the area or volume of the input [none]\n"
-              "The centroid stays. Not with fixed vertices; open surfaces therefore need --boundary free.");
-}
-
-void add_kind(CLI::App& app, SmoothCommand& command)
-{
-    app.option_defaults()->group(option_group::kind);
-    FlowOptions& options = command.options;
-    std::vector<std::string> names;
-    for (const PresetTraits& preset : all_presets())
-        names.emplace_back(preset.name);
-    app.add_option(
-           "--preset", command.preset,
-           "options for a kind of mesh [automatic if no amount is given]\n"
-           "Without an amount, options about equations choose scan, and edges choose cad. Options on the command "
-           "line override those of the preset." +
-               describe_presets())
-        ->check(CLI::IsMember(names).description(""))
-        ->type_name("automatic|scan|cad|terrain|fair");
-    add_field(app, options, "--laplacian", "discrete Laplacian [fujiwara; of fields virtual-refinement]");
-    add_field(app, options, "--flow",
-              "conformalized keeps the weights of the Laplacian; necks do not pinch [mean-curvature]\n"
-              "It turns closed surfaces without handles into spheres, but not with fujiwara. linear keeps all of the "
-              "Laplacian, and so one "
-              "factorisation for all steps: the heat equation on the input, applied to its coordinates.");
-    add_field(app, options, "--filter",
-              "low-pass: large features hardly shrink [diffusion]\n"
-              "With λ = dt times an eigenvalue, the factor of diffusion is 1/(1 + λᵏ), that of low-pass "
-              "1 - (λ/(1 + λ))ᵐ.");
-    add_field(app, options, "--order",
-              "order of the filter, diffusion 1 to 3, low-pass 2 to 8: higher orders shrink large features less [1, "
-              "low-pass 2]\n"
-              "It is k of the filter diffusion and m of low-pass. A step takes 8 solutions for k = 2, 11 for k = 3, "
-              "m for low-pass.");
-}
-
-void add_feature_edges(CLI::App& app, SmoothCommand& command)
-{
-    add_field(
-        app, command.options, "--keep-edges",
-        "keep edges sharper than this angle between faces, in degrees, and their corners; 20 to 40 suit most meshes\n"
-        "The surface between them is smoothed; --time-step-edges 32 suits most noise. On the whole mesh.");
-    auto* edges =
-        app.add_option("--edges", command.edges,
-                       "further edges to keep: two vertex numbers per line, from 0, or an .obj or .ply "
-                       "with them\n"
-                       "They are kept whatever their angle. An .obj has polylines, a .ply elements edge. With "
-                       "--keep-edges or --preset cad.")
-            ->type_name("FILE");
-    app.add_flag("--edges-from-file", command.edges_from_file, "keep the polylines (.obj) or edges (.ply) of INPUT")
-        ->excludes(edges);
-}
-
-/// Where vertices move, and along which lines.
-void add_region(CLI::App& app, SmoothCommand& command)
-{
-    auto* region =
-        app.add_option("--region", command.region,
-                       "smooth only there: vertex numbers from 0, one a line, or a .ply that has the strength of each\n"
-                       "The strength, from 0 to 1, scales the time step at its vertex; 0 holds it. A name that is no "
-                       "file is that of a property of INPUT, a .ply. Not for sweeps.")
-            ->type_name("FILE|PROPERTY");
-    app.add_option("--region-property", command.region_property,
-                   "the name of the property of the .ply with the strength [region]")
-        ->needs(region)
-        ->type_name("NAME");
-    add_length(app, "--feather", command.feather,
-               "the strength of the region rises from 0 at its rim over this distance, so that no crease appears\n"
-               "The boundary of the surface is no rim.");
-    add_parsed(app, "--direction", command.options.motion.direction, parse_direction, "x|y|z|normal|X,Y,Z",
-               "vertices move along this direction only; with z, x and y of a terrain stay bit for bit\n"
-               "normal is that of each vertex before the step.");
-}
-
-void add_what_stays(CLI::App& app, SmoothCommand& command)
-{
-    app.option_defaults()->group(option_group::kept);
-    FlowOptions& options = command.options;
-    add_feature_edges(app, command);
-    add_field(app, options, "--boundary",
-              "boundary conditions: the boundary of an open surface stays, or shrinks freely [fixed]");
-    add_field(app, options, "--junctions",
-              "edges of three faces or more, where sheets meet: they move with all sheets, or stay [flow]");
-    auto* fix = app.add_option("--fix", command.fix,
-                               "fixed vertices: their numbers from 0, one a line, or a .ply that marks them\n"
-                               "The .ply has as many vertices, and a property that is not 0 at fixed ones.")
-                    ->type_name("FILE");
-    app.add_option("--fix-property", command.fix_property, "the name of the property that marks them [fixed]")
-        ->needs(fix)
-        ->type_name("NAME");
-    auto* attach = add_length(app, "--attach", command.attach,
-                              "pull every vertex towards where it was: features larger than this stay");
-    auto* weights =
-        app.add_option("--attach-weights", command.attach_weights,
-                       "how strongly each vertex is pulled back, in 1/length²: one number per line, or a .ply\n"
-                       "The .ply has as many vertices, and a property with the weight.")
-            ->excludes(attach)
-            ->type_name("FILE");
-    app.add_option("--attach-property", command.attach_property, "the name of the property with the weight [weight]")
-        ->needs(weights)
-        ->type_name("NAME");
-    add_region(app, command);
-    const auto parse = [](const std::string& text) -> std::optional<LengthOnMesh> {
-        try {
-            return text == "never" ? std::nullopt : std::optional(parse_length(text));
-        } catch (const OptionError& error) {
-            throw OptionError(std::string(error.what()) + ", nor never");
-        }
+    return [&value, type = std::move(type)](CLI::App& app, const OptionTraits& traits) {
+        CLI::Option* const option = add_value(app, traits, value);
+        return type.empty() ? option : option->type_name(type);
     };
-    add_parsed(app, "--weld", command.weld, parse, "never|LENGTH",
-               "copies of vertices along seams, at most this far apart, move as one [at equal places]\n"
-               "A seam is where edges of one face each coincide, for example along those of a texture.");
-    add_field(app, options, "--strict",
-              "refuse meshes that are not manifold or have edges or faces of size 0\n"
-              "Without it, such vertices stay fixed, and unusable faces are left out.");
 }
 
-void add_accuracy(CLI::App& app, FlowOptions& options)
+/// One whose text is read by parse(text).
+template <class Value, class Parse>
+Add to(Value& value, Parse parse, std::string type)
 {
-    app.option_defaults()->group(option_group::accuracy);
-    add_converge(app, options,
-                 "converge to the undecomposed step, to this relative residual; never: one sweep a step [auto]\n"
-                 "auto: to a loose tolerance where --approach needs one or sweeps would drift, unless another option "
-                 "concerns sweeps.");
-    add_field(app, options, "--converge-iterations", "largest number of iterations of a converged step [1000]");
-    add_field(app, options, "--approach",
-              "the solver [auto: the fastest]\n"
-              "sweep: one sweep over the sub-meshes; converged: sub-meshes converge to the undecomposed step; "
-              "decomposed: one of the two; cg: conjugate gradients on the whole mesh, with hardly any set-up; "
-              "undecomposed: one factorisation of the whole mesh; auto: the fastest, in sub-meshes if another option "
-              "concerns them.");
-    add_field(app, options, "--tune-for",
-              "the number of cores for which --approach auto is the fastest [2]\n"
-              "It is not that of the machine, so that the result is the same on all of them.");
-    add_field(app, options, "--precision",
-              "precision of the factorisations of converged steps [auto]\n"
-              "Steps are refined to the tolerance in any case. auto: single where that loses few digits.");
-    add_field(app, options, "--factorisation",
-              "the direct solver of sub-meshes [auto: the fastest]\n"
-              "cholmod: UMFPACK where they are not symmetric. With either, symmetric Laplacians take sweeps.");
-    add_field(app, options, "--scheme",
-              "backward or explicit Euler steps [implicit]\n"
-              "Explicit steps are undecomposed, and stable for small time steps only.");
+    return [&value, parse, type = std::move(type)](CLI::App& app, const OptionTraits& traits) {
+        return add_parsed(app, std::string(traits.option), value, parse, type, std::string(traits.text));
+    };
 }
 
-/// Options only for the derivatives of the paper, which they therefore select.
-void add_parameters(CLI::App& app, FlowOptions& options)
+/// A flag that calls action().
+template <class Action>
+Add flag(std::string names, Action action)
 {
-    std::vector<CLI::Option*> of_derivatives;
-    of_derivatives.push_back(add_field(app, options, "--p", "Robin parameter, in 1/length [p* of each sub-mesh]"));
-    of_derivatives.push_back(add_field(app, options, "--p-rule", "η in p*: 1 or 1/dt [paper]"));
-    of_derivatives.push_back(
-        add_field(app, options, "--p-edge",
-                  "edge in p*: the shortest, the 5th percentile, or the mean [auto; with --paper min]\n"
-                  "auto: the shortest unless it is a sliver's, then the percentile."));
-    add_field(app, options, "--q", "Ventcell parameter, for adapted-ventcell and ventcell");
-    app.callback([of_derivatives, &app, &interface = options.interface] {
-        for (const CLI::Option* option : of_derivatives) {
-            if (option->count() == 0)
-                continue;
-            if (app.count("--transmission") > 0 && interface.transmission == Transmission::Predicted)
-                throw OptionError(option->get_name() +
-                                  " is for the derivatives of the paper; --transmission predicted has none");
-            interface.transmission = Transmission::Derivative;
-        }
+    return [names = std::move(names), action](CLI::App& app, const OptionTraits& traits) {
+        return app.add_flag_callback(names, action, std::string(traits.text));
+    };
+}
+
+std::optional<LengthOnMesh> parse_weld(const std::string& text)
+{
+    try {
+        return text == "never" ? std::nullopt : std::optional(parse_length(text));
+    } catch (const OptionError& error) {
+        throw OptionError(std::string(error.what()) + ", nor never");
+    }
+}
+
+/// The fields whose values need more than a text: a mesh, a file, or another field.
+std::map<std::string_view, Add> fields_of_command(SmoothCommand& command)
+{
+    FlowOptions& options = command.options;
+    const auto converge = [&options](CLI::App& app, const OptionTraits& traits) {
+        return add_converge(app, options, std::string(traits.text));
+    };
+    return {{"radius", to(command.amount.radius)},
+            {"time_step", to(command.amount.time_step)},
+            {"within", to(command.within)},
+            {"feature_edges", to(command.edges)},
+            {"fixed_vertices", to(command.fix)},
+            {"attachment", to(command.attach)},
+            {"attachment_weights", to(command.attach_weights)},
+            {"strength", to(command.region, "FILE|PROPERTY")},
+            {"direction", to(options.motion.direction, parse_direction, "x|y|z|normal|X,Y,Z")},
+            {"weld", to(command.weld, parse_weld, "never|LENGTH")},
+            {"labels", to(command.labels)},
+            {"tolerance", converge},
+            {"correction", flag("--no-correction", [&options] { options.interface.correction = Correction::None; })}};
+}
+
+/// The options of programs, in the order of --help within each group.
+class Entries {
+  public:
+    explicit Entries(SmoothCommand& command)
+        : command_(command)
+    {
+        add_of_flow();
+        add_about_flow();
+        add_fields();
+        add_results();
+        add_of_run();
+    }
+
+    [[nodiscard]] const std::vector<Entry>& list() const { return list_; }
+
+  private:
+    void add(const OptionTraits& traits, Add how, const char* needs = "")
+    {
+        list_.push_back({traits, std::move(how), needs});
+    }
+
+    /// Behind another one.
+    void add_behind(std::string_view other, const OptionTraits& traits, Add how, const char* needs = "")
+    {
+        const auto place = std::ranges::find(list_, other, [](const Entry& entry) { return entry.traits.option; });
+        list_.insert(place + 1, {traits, std::move(how), needs});
+    }
+
+    void add_of_flow();
+    void add_about_flow();
+    void add_fields();
+    void add_results();
+    void add_of_run();
+
+    SmoothCommand& command_;
+    std::vector<Entry> list_;
+};
+
+void Entries::add_of_flow()
+{
+    using namespace concern;
+    SmoothCommand& c = command_;
+    static const std::string presets = describe_presets();
+    std::vector<std::pair<std::string, std::string>> names;
+    for (const PresetTraits& preset : all_presets())
+        names.emplace_back(preset.name, preset.name);
+    // First, so that the others refine it.
+    add({"", "--paper", option_group::sub_meshes, sweeps | method,
+         "the paper's method for any number of sub-meshes: a fixed sweep, derivatives at the old positions"},
+        flag("--paper,--plain", [&options = c.options] { options = FlowOptions::plain(); }));
+    add({"", "--noise", option_group::amount, motion | equation | whole_surface,
+         "noise of the vertices, if it is known [measured]\n"
+         "The standard deviation along the normals. A preset derives the amount from it."},
+        to(c.noise));
+    add({"", "--preset", option_group::kind, motion | whole_surface, presets},
+        [&preset = c.preset, names](CLI::App& app, const OptionTraits& traits) {
+            return add_choice(app, "--preset", preset, names, std::string(traits.text));
+        });
+    const std::map<std::string_view, Add> other = fields_of_command(c);
+    for_each_option(c.options, [&](const auto& row) {
+        if (const auto found = other.find(row.field); found != other.end())
+            add(row, found->second);
+        else if constexpr (IsReadable<std::remove_reference_t<decltype(*row.value)>>)
+            if (!row.option.empty())
+                add(row, to(*row.value));
     });
 }
 
-void add_sub_meshes(CLI::App& app, SmoothCommand& command)
+void Entries::add_about_flow()
 {
-    app.option_defaults()->group(option_group::sub_meshes);
-    FlowOptions& options = command.options;
-    auto* subdomains = add_field(app, options, "--subdomains", "number of sub-meshes; 1: undecomposed, 0: chosen [0]");
-    app.add_option("--labels", command.labels, "file with the sub-mesh of every face, one a line")
-        ->excludes(subdomains)
-        ->type_name("FILE");
-    add_field(app, options, "--conditions", "conditions between sub-meshes [adapted-robin]");
-    add_field(app, options, "--coloring",
-              "colouring of the sub-meshes, which sets the order in which they solve [greedy]");
-    add_field(app, options, "--sweep",
-              "order of the colours from step to step [fixed for two sub-meshes, else alternating]");
-    add_field(app, options, "--transmission",
-              "how the first sub-mesh at the interface takes account of the others [predicted]");
-    add_parameters(app, options);
-    add_field(app, options, "--overlap", "layers of faces by which sub-meshes overlap with schwarz [1]");
-    app.add_flag_callback(
-        "--no-correction", [&options] { options.interface.correction = Correction::None; },
-        "do not correct the vertices of the interface after a step");
-    add_field(app, options, "--keep-gaps",
-              "write the sub-meshes separately, each with its own copy of the interface; for robin and ventcell");
+    using namespace concern;
+    SmoothCommand& c = command_;
+    add_behind(
+        "--time-step",
+        {"", "--time-step-edges", option_group::amount, amount, "time step, in squared mean edge lengths", positive()},
+        to(c.amount.time_step_edges));
+    add_behind("--edges",
+               {"", "--edges-from-file", option_group::kept, motion | numbers,
+                "keep the polylines (.obj) or edges (.ply) of INPUT"},
+               to(c.edges_from_file));
+    add_behind("--fix",
+               {"", "--fix-property", option_group::kept, numbers, "the name of the property that marks them [fixed]"},
+               to(c.fix_property), "--fix");
+    add_behind(
+        "--attach-weights",
+        {"", "--attach-property", option_group::kept, numbers, "the name of the property with the weight [weight]"},
+        to(c.attach_property), "--attach-weights");
+    add_behind("--region",
+               {"", "--region-property", option_group::kept, motion | numbers,
+                "the name of the property of the .ply with the strength [region]"},
+               to(c.region_property), "--region");
+    add_behind("--region-property",
+               {"", "--feather", option_group::kept, motion | whole_surface,
+                "the strength of the region rises from 0 at its rim over this distance, so that "
+                "no crease appears\n"
+                "The boundary of the surface is no rim."},
+               to(c.feather));
+    add({"", "--self-intersections", option_group::written, motion | whole_surface,
+         "count the pairs of faces that cross each other, before and after; implied by --report"},
+        to(c.self_intersections));
 }
 
-void add_machine(CLI::App& app, FlowOptions& options)
+void Entries::add_fields()
 {
-    app.option_defaults()->group(option_group::machine);
-    add_field(app, options, "--threads",
-              "number of threads, at most 1024; 0: all cores that the control group allows [0]");
-    add_field(
-        app, options, "--memory-limit",
-        "limit for all factorisations at any time: 500M, 2GiB [as much as is fast]\n"
-        "In bytes or with K, M, G, T, KiB, MiB, GiB, TiB. Converged steps recompute the factors that they cannot keep; "
-        "what still does not fit is solved by conjugate gradients, which factorise nothing, unless another option asks "
-        "for sub-meshes. By default sweeps take as little as keeps all threads busy, and converged steps have no "
-        "limit.");
+    using namespace concern;
+    FieldRequest& fields = command_.fields;
+    add({"", "--fields", option_group::fields, files,
+         "smooth these numbers of the vertices instead of the surface, which stays\n"
+         "Properties of PLY files; red, green and blue of OBJ and OFF files; normal, colour. They diffuse by the heat "
+         "equation on the surface, with --fwhm, --radius or --time-step. NaN is no data: such vertices take no part."},
+        to(fields.names));
+    add({"", "--fwhm", option_group::fields, files | amount,
+         "full width at half maximum of the smoothing, over all steps together; 10 steps unless told otherwise"},
+        to(fields.fwhm), "--fields");
+    add({"", "--fill", option_group::fields, files, "give vertices without data the harmonic extension of the others"},
+        to(fields.options.fill), "--fields");
+    add({"", "--keep-field-edges", option_group::fields, files,
+         "differences of fields well above this stay (Perona and Malik)", positive()},
+        to(fields.options.keep_edges), "--fields");
+    add({"", "--from", option_group::fields, files,
+         "write geodesic distances from vertices as the field distance; the surface stays\n"
+         "Their numbers from 0, one a line. By the heat method; NaN where the surface does not lead."},
+        to(fields.from));
 }
 
-void add_what_is_printed(CLI::App& app, SmoothCommand& command)
+void Entries::add_results()
 {
-    auto* quiet = app.add_flag("--quiet", command.quiet, "print nothing but errors");
-    app.add_flag("--verbose", command.verbose, "also print each step, the cut, and the time in tasks")->excludes(quiet);
+    using namespace concern;
+    SmoothCommand& c = command_;
+    const auto add_result = [&](const char* option, unsigned concerns, const char* text, Add how) {
+        add({"", option, option_group::written, files | concerns, text}, std::move(how));
+    };
+    const auto parse_pattern = [](const std::string& text) { return std::optional(StepPattern(text)); };
+    add_result("--out-dir", 0,
+               "several files whose borders coincide are one surface: smooth INPUT… --out-dir FOLDER\n"
+               "One file at a time is in memory. The results have the names of the inputs, and equal borders. --weld "
+               "says how far apart borders may be. The same command resumes where it was stopped.",
+               to(c.out_dir, "FOLDER"));
+    add_result("--report", one_mesh,
+               "the report: times, sizes and distances, or the reason of a failure; - for standard output",
+               to(c.report, "REPORT.json"));
+    add_result("--csv", motion | one_mesh, "the values of every step, one step a row", to(c.csv, "STEPS.csv"));
+    add_result("--html", one_mesh, "a page for the browser with the surface step by step, and plots",
+               to(c.html, "PAGE.html"));
+    add_result("--every-step", motion | one_mesh, "also write the mesh after every step; %d is its number",
+               to(c.every_step, parse_pattern, "PATTERN"));
+    add_result("--parts", sub_meshes | motion | one_mesh, "the cut: faces with colours and labels",
+               to(c.parts, "PARTS.ply"));
+    add_result("--trace", sub_meshes | motion | one_mesh, "which task ran when in which thread, for ui.perfetto.dev",
+               to(c.trace, "TRACE.json"));
+    add_result("--task-graph", sub_meshes | motion | one_mesh,
+               "the tasks of a step and their dependencies, for Graphviz", to(c.task_graph, "GRAPH.dot"));
 }
 
-/// Options for flows that take long.
-void add_checkpoints(CLI::App& app, SmoothCommand& command)
+void Entries::add_of_run()
 {
-    auto* checkpoint =
-        app.add_option("--checkpoint", command.checkpoint,
-                       "save there all that the run needs to resume after its last complete step\n"
-                       "The same command then resumes, with the same result. The folder remains at the end, so that "
-                       "more --steps can follow.")
-            ->type_name("FOLDER");
-    add_parsed(app, "--checkpoint-every", command.checkpoint_period, parse_checkpoint_period, "STEPS|TIME",
-               "how often, in steps (10) or time (30s, 5min, 1h), and at the end [at most a tenth of the time]")
-        ->needs(checkpoint);
+    using namespace concern;
+    SmoothCommand& c = command_;
+    add({"", "--checkpoint", option_group::written, files | motion,
+         "save there all that the run needs to resume after its last complete step\n"
+         "The same command then resumes, with the same result. The folder remains at the end, so that more --steps can "
+         "follow."},
+        to(c.checkpoint, "FOLDER"));
+    add({"", "--checkpoint-every", option_group::written, files,
+         "how often, in steps (10) or time (30s, 5min, 1h), and at the end [at most a tenth of the time]"},
+        to(c.checkpoint_period, parse_checkpoint_period, "STEPS|TIME"), "--checkpoint");
+    add({"", "--quiet", option_group::written, files, "print nothing but errors"}, to(c.quiet));
+    add({"", "--verbose", option_group::written, files, "also print each step, the cut, and the time in tasks"},
+        to(c.verbose));
 }
 
 }  // namespace
 
-void add_flow_options(CLI::App& app, SmoothCommand& command)
+void add_options(CLI::App& app, SmoothCommand& command)
 {
-    FlowOptions& options = command.options;
-    // First, so that the others refine it.
-    app.option_defaults()->group(option_group::sub_meshes);
-    app.add_flag_callback(
-        "--paper,--plain", [&options] { options = FlowOptions::plain(); },
-        "the paper's method for any number of sub-meshes: a fixed sweep, derivatives at the old positions");
-    add_amount(app, command);
-    add_kind(app, command);
-    add_what_stays(app, command);
-    add_sub_meshes(app, command);
-    add_accuracy(app, options);
-    add_machine(app, options);
-    app.option_defaults()->group(option_group::written);
-    add_field(app, options, "--reference", "also run the undecomposed flow, and print the distances to it (V_ and H_)");
-    app.add_flag("--self-intersections", command.self_intersections,
-                 "count the pairs of faces that cross each other, before and after; implied by --report");
+    const Entries entries(command);
+    for (const Entry& entry : entries.list()) {
+        app.option_defaults()->group(std::string(entry.traits.group));
+        entry.add(app, entry.traits);
+    }
+    for (const Entry& entry : entries.list())
+        if (*entry.needs != '\0')
+            app.get_option(std::string(entry.traits.option))->needs(app.get_option(entry.needs));
+    for (const auto& [one, other] : exclusions)
+        app.get_option(one)->excludes(app.get_option(other));
 }
 
-void add_files(CLI::App& app, SmoothCommand& command, std::string& every_step)
+std::span<const OptionTraits> smooth_options()
 {
-    app.option_defaults()->group(option_group::written);
-    app.add_option("INPUT", command.input,
-                   "mesh: " + extensions_of() + ", optionally followed by .gz; - for standard input")
-        ->required()
-        ->type_name("");
-    app.add_option("OUTPUT", command.output, "smoothed mesh; - for standard output")->required()->type_name("");
-    app.add_option("--out-dir", command.out_dir,
-                   "several files whose borders coincide are one surface: smooth INPUT… --out-dir FOLDER\n"
-                   "One file at a time is in memory. The results have the names of the inputs, and equal borders. "
-                   "--weld says how far apart borders may be. The same command resumes where it was stopped.")
-        ->type_name("FOLDER");
-    app.add_option("--report", command.report,
-                   "the report: times, sizes and distances, or the reason of a failure; - for standard output")
-        ->type_name("REPORT.json");
-    app.add_option("--csv", command.csv, "the values of every step, one step a row")->type_name("STEPS.csv");
-    app.add_option("--html", command.html, "a page for the browser with the surface step by step, and plots")
-        ->type_name("PAGE.html");
-    app.add_option("--every-step", every_step, "also write the mesh after every step; %d is its number")
-        ->type_name("PATTERN");
-    app.add_option("--parts", command.parts, "the cut: faces with colours and labels")->type_name("PARTS.ply");
-    app.add_option("--trace", command.trace, "which task ran when in which thread, for ui.perfetto.dev")
-        ->type_name("TRACE.json");
-    app.add_option("--task-graph", command.task_graph, "the tasks of a step and their dependencies, for Graphviz")
-        ->type_name("GRAPH.dot");
-    add_checkpoints(app, command);
-    add_what_is_printed(app, command);
+    static const std::vector<OptionTraits> list = [] {
+        SmoothCommand command;
+        const Entries entries(command);
+        std::vector<OptionTraits> traits;
+        for (const Entry& entry : entries.list())
+            traits.push_back(entry.traits);
+        return traits;
+    }();
+    return list;
+}
+
+std::string first_given(const CLI::App& app, std::initializer_list<std::string_view> names)
+{
+    for (const std::string_view name : names)
+        if (app.count(std::string(name)) > 0)
+            return std::string(name);
+    return {};
+}
+
+std::string first_given(const CLI::App& app, unsigned concerns)
+{
+    for (const OptionTraits& one : smooth_options())
+        if ((one.concerns & concerns) != 0 && app.count(std::string(one.option)) > 0)
+            return std::string(one.option);
+    return {};
 }
 
 std::string smooth_examples()

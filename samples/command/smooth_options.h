@@ -1,21 +1,29 @@
 #pragma once
 
+#include <initializer_list>
+#include <span>
 #include <string>
-#include <vector>
+#include <string_view>
 
 #include <CLI/App.hpp>
 
+#include "engine/options/option_traits.h"
 #include "samples/command/smooth_command.h"
 
 namespace seamflow {
 
-/// Adds the options of `smooth` about the flow, which Python has as well. They take effect in the order in which they
-/// are added, whatever the order on the command line; --help lists them by groups (see command_help.h).
-void add_flow_options(CLI::App& app, SmoothCommand& command);
+/// Adds the options of `smooth`: those of a flow (see option_table.h), and its own. They take effect in the order in
+/// which they are added, whatever the order on the command line; --help lists them by groups (see command_help.h).
+void add_options(CLI::App& app, SmoothCommand& command);
 
-/// Adds INPUT, OUTPUT and the options about further files and printed text.
-/// @param every_step gets the pattern of --every-step.
-void add_files(CLI::App& app, SmoothCommand& command, std::string& every_step);
+/// All of them, in the order in which they are added.
+std::span<const OptionTraits> smooth_options();
+
+/// The first of these options that was given; empty if none.
+std::string first_given(const CLI::App& app, std::initializer_list<std::string_view> names);
+
+/// The same for options with one of these concerns.
+std::string first_given(const CLI::App& app, unsigned concerns);
 
 /// Three command lines that show what `smooth` is for, as --help prints them.
 std::string smooth_examples();

@@ -11,6 +11,7 @@
 #include "partition/errors.h"
 #include "partition/formats/mesh_file.h"
 #include "partition/io/input_file.h"
+#include "samples/command/smooth_options.h"
 #include "samples/files/output_files.h"
 
 namespace seamflow {
@@ -24,46 +25,37 @@ struct Refusal {
     const char* reason;
 };
 
-constexpr const char* whole_mesh = "it needs the whole surface at once";
-constexpr const char* numbers = "it numbers vertices or faces of one mesh";
-constexpr const char* one_run = "it shows the steps of one mesh";
-
+/// Those for which none of the reasons below is right.
 constexpr std::array refusals = {
     Refusal{"--preset", "it may measure the whole surface; give its options instead"},
     Refusal{"--noise", "it measures the whole surface; give --time-step, --time-step-edges or --radius"},
-    Refusal{"--keep-edges", whole_mesh},
-    Refusal{"--edges", numbers},
-    Refusal{"--edges-from-file", whole_mesh},
-    Refusal{"--fix", numbers},
-    Refusal{"--region", numbers},
-    Refusal{"--region-property", numbers},
-    Refusal{"--feather", whole_mesh},
-    Refusal{"--attach-weights", numbers},
-    Refusal{"--labels", numbers},
-    Refusal{"--rescale", whole_mesh},
     Refusal{"--strict", "faces are missing where a file ends; inspect lists what is wrong with one"},
-    Refusal{"--reference", whole_mesh},
-    Refusal{"--self-intersections", whole_mesh},
     Refusal{"--keep-gaps", "each result has the form of its input"},
-    Refusal{"--report", one_run},
-    Refusal{"--csv", one_run},
-    Refusal{"--html", one_run},
-    Refusal{"--every-step", one_run},
-    Refusal{"--parts", one_run},
-    Refusal{"--trace", one_run},
-    Refusal{"--task-graph", one_run},
     Refusal{"--checkpoint", "such a run keeps its own state in that folder, and the same command resumes"},
 };
+
+/// Why options that concern this are refused.
+constexpr std::array<std::pair<unsigned, const char*>, 3> reasons = {
+    {{concern::whole_surface, "it needs the whole surface at once"},
+     {concern::numbers, "it numbers vertices or faces of one mesh"},
+     {concern::one_mesh, "it shows the steps of one mesh"}}};
 
 /// Options that refer to the first positions, which further steps do not have.
 constexpr std::array<const char*, 3> of_first_positions = {"--attach", "--within", "--flow"};
 
+void refuse(std::string_view option, const char* reason)
+{
+    if (!option.empty())
+        throw OptionError(fmt::format("--out-dir cannot be combined with {}: {}", option, reason));
+}
+
 void require_options(const CLI::App& app, const SmoothCommand& command)
 {
     for (const auto& [option, reason] : refusals)
-        if (app.count(option) > 0)
-            throw OptionError(fmt::format("--out-dir cannot be combined with {}: {}", option, reason));
-    if (app.count("--time-step") + app.count("--time-step-edges") + app.count("--radius") == 0)
+        refuse(first_given(app, {option}), reason);
+    for (const auto& [concerns, reason] : reasons)
+        refuse(first_given(app, concerns), reason);
+    if (first_given(app, concern::amount).empty())
         throw OptionError("--out-dir needs an amount, because no preset can measure all files at once: give "
                           "--time-step, --time-step-edges or --radius");
     if (command.options.steps == 0)

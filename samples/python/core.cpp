@@ -180,21 +180,12 @@ void define_run(py::module_& module, py::class_<FlowCall>& flow)
              py::arg("offsets").noconvert(), py::arg("words"), py::arg("arrays"));
 }
 
-/// Options that are arrays here, or that concern files.
-bool is_of_files(const FlowOptionText& option)
-{
-    constexpr std::array names{"fix",       "fix-property", "labels",          "attach-weights", "attach-property",
-                               "keep-gaps", "edges",        "edges-from-file", "region",         "region-property"};
-    return std::ranges::find(names, option.name) != names.end();
-}
-
 py::list options()
 {
     py::list list;
     for (const FlowOptionText& option : flow_options())
-        if (!is_of_files(option))
-            list.append(
-                py::make_tuple(option.name, option.type, in_words_of_keywords(option.description), option.is_flag));
+        list.append(py::make_tuple(option.name, option.type, in_words_of_keywords(option.description), option.is_flag,
+                                   option.moves_surface));
     return list;
 }
 
@@ -369,6 +360,8 @@ PYBIND11_MODULE(_core, module)
             }
             return to_tuple(std::move(result));
         });
-    module.def("options", &options, "Name, type, description and whether it is a flag, of each keyword of smooth().");
+    module.def(
+        "options", &options,
+        "Name, type, description, whether it is a flag and whether it moves the surface, of each keyword of smooth().");
     module.attr("version") = std::string(version);
 }

@@ -51,8 +51,9 @@ ARGUMENTS = ["V: npt.ArrayLike | Any", "F: npt.ArrayLike | Iterable[Sequence[int
              "fixed: npt.ArrayLike | None = None", "labels: npt.ArrayLike | None = None",
              "edges: npt.ArrayLike | None = None", "attach_weights: npt.ArrayLike | None = None",
              "region: npt.ArrayLike | None = None"]
-OPTIONS = [f"{name.replace('-', '_')}: {type_of(kind, is_flag)} | None = None"
-           for name, kind, _, is_flag in load_core().options()]
+KEYWORDS = [(f"{name.replace('-', '_')}: {type_of(kind, is_flag)} | None = None", moves_surface)
+            for name, kind, _, is_flag, moves_surface in load_core().options()]
+OPTIONS = [keyword for keyword, _ in KEYWORDS]
 
 
 def function(name, arguments, result, indent=""):
@@ -75,9 +76,8 @@ lines += function("diffuse", [*MESH, "fields: npt.ArrayLike | None = None", "*",
                               "keep_edges: float | None = None", "fill: bool = False",
                               'boundary: Literal["free", "fixed"] = "free"', "fixed: npt.ArrayLike | None = None",
                               "labels: npt.ArrayLike | None = None",
-                              *(option for option in OPTIONS if not option.startswith(
-                                  ("keep_edges", "boundary", "preset", "noise", "direction", "feather", "strict",
-                                   "self_intersections")))],
+                              *(keyword for keyword, moves_surface in KEYWORDS
+                                if not moves_surface and not keyword.startswith("boundary"))],
                   f"tuple[{ARRAY}, dict[str, Any]]")
 lines += ["class Geodesics:", *function("__init__", ["self", *MESH, "*", "threads: int = 0"], "None", "    "),
           f"    def distance(self, sources: npt.ArrayLike) -> {ARRAY}: ...", ""]

@@ -1,9 +1,13 @@
+#include <algorithm>
 #include <limits>
+#include <string>
 
 #include <doctest/doctest.h>
 
+#include "engine/options/option_table.h"
 #include "partition/errors.h"
 #include "samples/command/command_line.h"
+#include "samples/command/smooth_options.h"
 
 using namespace seamflow;
 
@@ -46,4 +50,22 @@ TEST_CASE("lengths are read strictly, in units of length or of the diagonal")
     CHECK(parse_length("2%").of_diagonal);
     for (const char* text : {"", "%", "0", "0%", "-1%", "2 %", "2%%", "2mm", "nan%", "inf"})
         CHECK_THROWS_AS(parse_length(text), OptionError);
+}
+
+TEST_CASE("smooth has each option of the table once, with the text and the group of its row")
+{
+    CLI::App app;
+    SmoothCommand command;
+    add_options(app, command);
+    for (const OptionTraits& row : all_options()) {
+        if (row.option.empty())
+            continue;
+        CAPTURE(row.option);
+        CHECK(std::ranges::count(smooth_options(), row.option, &OptionTraits::option) == 1);
+        const CLI::Option* const option = app.get_option_no_throw(std::string(row.option));
+        REQUIRE(option != nullptr);
+        CHECK(option->get_group() == row.group);
+        CHECK(option->get_description() == row.text);
+        CHECK_FALSE(row.text.empty());
+    }
 }

@@ -137,6 +137,7 @@ class Fields(unittest.TestCase):
             ({}, "needs one amount"),
             ({"fwhm": 1, "radius": 1}, "needs one amount"),
             ({"fwhm": 1, "preset": "scan"}, "no preset"),
+            ({"fwhm": 1, "within": 0.1}, "no within"),
             ({"fwhm": 1, "region": np.ones(900)}, "no region"),
             ({"fwhm": 1, "progress": print}, "no progress"),
             ({"fwhm": 1, "keep_edges": 0}, "keep_edges is 0, but"),

@@ -177,9 +177,9 @@ def diffuse(V, F=None, fields=None, *, fwhm=None, keep_edges=None, fill=False, b
         raise ValueError(f"boundary is free or fixed, not {boundary!r}")
     if keep_edges is not None and not keep_edges > 0:
         raise ValueError(f"keep_edges is {keep_edges!r}, but has to be a positive difference of fields")
-    for name in ("preset", "noise", "direction", "region", "feather", "strict", "self_intersections", "edges",
-                 "attach_weights", "progress"):
-        if options.get(name) is not None:
+    for name, value in options.items():
+        moves_surface = name in _OPTIONS and _OPTIONS[name][-1]
+        if value is not None and (moves_surface or name in ("region", "edges", "attach_weights", "progress")):
             raise ValueError(f"diffuse has no {name}: the surface stays")
     amounts = [fwhm, *(options.get(name) for name in ("radius", "time_step", "time_step_edges"))]
     if sum(amount is not None for amount in amounts) != 1:
@@ -275,7 +275,7 @@ def _arguments(V, F, options, fixed, labels, edges, attach_weights, region):
 
 def _describe_options():
     lines = []
-    for keyword, (_, kind, text, is_flag) in _OPTIONS.items():
+    for keyword, (_, kind, text, is_flag, _) in _OPTIONS.items():
         told = text.replace("\n", "\n        ")
         lines.append(f"    {keyword}: {'bool' if is_flag else kind}\n        {told}")
     return "\n".join(lines)
@@ -406,7 +406,7 @@ def _words(keyword, value):
         nearest = difflib.get_close_matches(keyword, known, 1)
         meant = f", did you mean {nearest[0]}?" if nearest else f"; there are {', '.join(known)}"
         raise TypeError(f"there is no keyword {keyword}{meant}")
-    name, _, _, is_flag = _OPTIONS[keyword]
+    name, _, _, is_flag, _ = _OPTIONS[keyword]
     if is_flag:
         if value is not None and not isinstance(value, (bool, np.bool_)):
             raise TypeError(f"{keyword} is True or False, not {value!r}")
