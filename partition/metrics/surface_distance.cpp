@@ -83,7 +83,7 @@ double squared_distance_to_triangle(const Point& a, const Point& b, const Point&
 
 namespace {
 
-/// As many candidates are examined for a point without complaint.
+/// A search that examines more triangles and nodes for one point is slow.
 constexpr std::size_t few_candidates = 256;
 
 Box box_of(const TriangleCorners& t)
