@@ -1,7 +1,10 @@
 #include "partition/surface_components.h"
 
+#include <algorithm>
 #include <tuple>
 #include <utility>
+
+#include <Eigen/Geometry>
 
 #include "partition/disjoint_sets.h"
 
@@ -41,6 +44,19 @@ SurfaceComponents surface_components(const PolygonMesh& mesh, const Executor& ex
     for_each(exec, mesh.n_vertices(), [&](Index v) { set_of[v] = number[set_of[v]]; });
     found.of_vertex = std::move(set_of);
     return found;
+}
+
+double largest_diagonal(const PolygonMesh& mesh, const Executor& exec)
+{
+    const SurfaceComponents components = surface_components(mesh, exec);
+    std::vector<Eigen::AlignedBox3d> boxes(at(components.count()));
+    for (Index v = 0; v < mesh.n_vertices(); ++v)
+        if (const Index c = components.of_vertex[v]; c >= 0)
+            boxes[c].extend(mesh.vertices.row(v).transpose());
+    double largest = 0.0;
+    for (const Eigen::AlignedBox3d& box : boxes)
+        largest = std::max(largest, box.diagonal().norm());
+    return largest;
 }
 
 }  // namespace seamflow

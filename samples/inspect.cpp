@@ -1,6 +1,7 @@
 // Reports the elements of a mesh and its defects, element by element.
 
 #include <iostream>
+#include <optional>
 
 #include "engine/tasks/workers.h"
 #include "partition/formats/mesh_io.h"
@@ -9,6 +10,7 @@
 #include "samples/files/mesh_results.h"
 #include "samples/report/inspection_text.h"
 #include "samples/report/report_json.h"
+#include "solvers/denoising/mesh_denoiser.h"
 
 using namespace seamflow;
 
@@ -36,11 +38,17 @@ ExitStatus inspect_file(int argc, char** argv)
     Workers workers(0);
     const Executor exec = workers.exec();
     const PolygonMesh mesh = read_faulty_mesh(input, faults, exec).mesh;
-    const MeshInspection found = inspect(mesh, make_topology(mesh, exec), exec);
+    const Topology topology = make_topology(mesh, exec);
+    const MeshInspection found = inspect(mesh, topology, exec);
+    std::optional<SurfaceNoise> noise;
+    // Where sides lie on each other, or cracks are open, the faces as they are say nothing of the noise.
+    if (mesh.n_faces() > 0 && found.defects.vertices_not_finite.empty() && found.defects.duplicate_faces.empty() &&
+        !found.cracks)
+        workers.execute([&] { noise = measure_noise(mesh, topology, exec); });
     if (as_json)
-        std::cout << inspection_json(input.string(), faults, found);
+        std::cout << inspection_json(input.string(), faults, found, noise);
     else
-        print_inspection(std::cout, input.string(), faults, found, most_listed);
+        print_inspection(std::cout, input.string(), faults, found, most_listed, noise);
     require_faces(input, mesh.n_faces(), faults);
     return faults.count == faults.n_harmless ? ExitStatus::Success : ExitStatus::UnusableInput;
 }

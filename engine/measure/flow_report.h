@@ -92,6 +92,8 @@ struct MeshReport {
     std::int64_t non_manifold_vertices = 0;
     /// Those of kind Junction, which move unless they are held for another reason (see Junctions).
     std::int64_t junction_vertices = 0;
+    /// The faces that have the same vertices as an earlier one and took no part in the flow, ascending.
+    std::vector<Index> repeated_faces;
     /// Those that no face uses, ascending: they stay, and count in no box and no mean.
     std::vector<Index> unused_vertices;
     /// #V: the lowest of the vertices joined with each along seams (see MotionOptions::weld), its own number if there

@@ -76,8 +76,6 @@ void constrain(Topology& topology, const PolygonMesh& mesh, const FlowOptions& o
         remarks.push_back(remark_on_undefined_vertices(static_cast<std::int64_t>(undefined.size()), undefined.front(),
                                                        options.laplacian));
     hold(topology, undefined);
-    if (count_moving(topology) == 0 && mesh.n_faces() > 0)
-        remarks.push_back(remark_on_unmoving_mesh(options.motion.boundary));
 }
 
 std::vector<Index> moving_rim(const PolygonMesh& mesh, const Topology& topology)

@@ -161,7 +161,6 @@ bool FlowingMesh::leave_out_repeated_faces(const Topology& topology)
         left.add_face(mesh().face(f));
     }
     left.vertices = mesh().vertices;
-    n_repeated_ = static_cast<Index>(repeated.size());
     renumber(std::move(number));
     copy_ = std::move(left);
     return true;
@@ -189,6 +188,19 @@ std::vector<Index> FlowingMesh::of_faces_left(const std::vector<Index>& labels) 
         }
     left.resize(at(mesh().n_faces()), left.empty() ? 0 : left.back());
     return left;
+}
+
+/// Those of the given mesh: all others that are left have numbers of their own, in this order.
+std::vector<Index> FlowingMesh::repeated_faces() const
+{
+    std::vector<Index> repeated;
+    Index n_left = 0;
+    for (Index f = 0; f < static_cast<Index>(number_.size()); ++f)
+        if (number_[f] == n_left)
+            ++n_left;
+        else if (number_[f] >= 0)
+            repeated.push_back(f);
+    return repeated;
 }
 
 void FlowingMesh::move_to(const Points& positions)
@@ -270,8 +282,9 @@ void FlowingMesh::complete(FlowReport& report) const
     std::transform(number_.begin(), number_.end(), labels.begin(),
                    [&](Index number) { return number < 0 ? of_still : report.cut.labels[number]; });
     report.cut.labels = std::move(labels);
-    if (n_repeated_ > 0)
-        report.remarks.push_back(remark_on_repeated_faces(n_repeated_));
+    report.mesh.repeated_faces = repeated_faces();
+    if (!report.mesh.repeated_faces.empty())
+        report.remarks.push_back(remark_on_repeated_faces(std::ssize(report.mesh.repeated_faces)));
 }
 
 }  // namespace seamflow

@@ -107,6 +107,7 @@ class FlowingMesh {
     /// Whether the given mesh lies elsewhere.
     [[nodiscard]] bool is_shifted() const { return !offset_.isZero(0.0); }
     void shift_back(Points& positions) const;
+    [[nodiscard]] std::vector<Index> repeated_faces() const;
     void renumber(std::vector<Index> number);
 
     PolygonMesh* given_;
@@ -123,7 +124,6 @@ class FlowingMesh {
     /// Per face of the given mesh: its number, or that of the face that it repeats, among those that are left; -1 where
     /// nothing moves. Empty if none is left out.
     std::vector<Index> number_;
-    Index n_repeated_ = 0;
 };
 
 }  // namespace seamflow

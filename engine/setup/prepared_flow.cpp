@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <functional>
 #include <iterator>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -12,6 +13,7 @@
 #include "engine/setup/constraints.h"
 #include "engine/state/flow_identity.h"
 #include "engine/tasks/parallel_executor.h"
+#include "partition/cracks.h"
 #include "partition/errors.h"
 #include "solvers/laplacian/delaunay_stiffness.h"
 #include "solvers/laplacian/laplacian.h"
@@ -90,6 +92,9 @@ void examine(PreparedFlow& prepared, FlowingMesh& mesh, Progress& progress)
         prepared.unused_vertices = mesh.unused_vertices();
     mesh.weld_seams(topology, options.motion, progress.exec());
     constrain_it();
+    std::optional<Cracks> cracks;
+    if (options.motion.weld && !options.report.keep_gaps)
+        cracks = find_cracks(mesh.mesh(), topology, progress.exec());
     // The sub-meshes as they are have all faces.
     if (!options.report.keep_gaps && mesh.leave_out_repeated_faces(topology)) {
         look();
@@ -107,6 +112,11 @@ void examine(PreparedFlow& prepared, FlowingMesh& mesh, Progress& progress)
             constrain_it();
         }
     options.cut.labels = mesh.of_faces_left(options.cut.labels);
+    // A free boundary would open cracks.
+    if (std::ranges::find(topology.fixed, 0) == topology.fixed.end() && mesh.mesh().n_faces() > 0)
+        prepared.remarks.push_back(remark_on_unmoving_mesh(cracks ? Boundary::Free : options.motion.boundary));
+    if (cracks)
+        prepared.remarks.push_back(remark_on_cracks(*cracks));
 }
 
 /// METIS has one thread: the others measure in the meantime; if it has nothing to do, measuring comes afterwards.

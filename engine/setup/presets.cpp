@@ -9,7 +9,9 @@
 #include "engine/setup/smoothed_radius.h"
 #include "partition/errors.h"
 #include "partition/metrics/bounding_box.h"
+#include "partition/metrics/spikes.h"
 #include "partition/metrics/vertex_distance.h"
+#include "partition/surface_components.h"
 #include "partition/topology.h"
 #include "partition/weld.h"
 #include "solvers/denoising/denoising_amount.h"
@@ -49,7 +51,8 @@ constexpr std::array table{
                  .attach = LengthOnMesh{0.05, true}},
     PresetTraits{.preset = Preset::Fair,
                  .name = "fair",
-                 .purpose = "makes a fair surface: bumps of up to 3 % of the diagonal lose about half their height or more",
+                 .purpose =
+                     "makes a fair surface: bumps of up to 3 % of the diagonal lose about half their height or more",
                  .laplacian = Laplacian::VirtualRefinement,
                  .flow = FlowEquation::Conformalized,
                  .steps = 5,
@@ -62,10 +65,11 @@ constexpr double most_volume_change = 0.02;
 constexpr double more_than_measured = 1.15;
 /// How far vertices move along the surface at most, in standard deviations of the noise, which also moved them there.
 constexpr double most_slide = 4.0;
-/// Steps given in mean edges reach no further than this fraction of the diagonal: the shape of coarse parts is not much
+/// Steps given in mean edges reach no further than this fraction of the diagonal of the largest component: the
+/// shape of coarse parts is not much
 /// larger.
 constexpr double largest_reach = 0.2;
-/// Larger bumps, as a fraction of the diagonal, are not noise.
+/// Larger bumps, as a fraction of the diagonal of the largest component, are not noise.
 constexpr double largest_radius = 0.1;
 
 /// Three digits, so that an amount is printed in full.
@@ -88,6 +92,26 @@ void smooth_nothing(PresetChoice& choice, double mean_edge, std::string remark)
     choice.remark = std::move(remark);
 }
 
+/// Puts spikes among their neighbours, so that they count neither as noise nor as shape. The flow is to hold them, and
+/// their neighbours, which they would drag along: unless all vertices have to move.
+/// @returns nothing if there are none.
+std::optional<PolygonMesh> without_spikes(const PolygonMesh& mesh, const Topology& topology,
+                                          const std::vector<Spike>& spikes, MotionOptions& motion)
+{
+    if (spikes.empty())
+        return {};
+    std::optional<PolygonMesh> without = mesh;
+    for (const Spike& spike : spikes) {
+        const std::vector<Index> around = neighbours_of(mesh, topology, spike.vertex);
+        without->vertices.row(spike.vertex) = mesh.vertices(around, Eigen::all).colwise().mean();
+        if (motion.rescale != Rescale::None)
+            continue;
+        motion.fixed_vertices.push_back(spike.vertex);
+        motion.fixed_vertices.insert(motion.fixed_vertices.end(), around.begin(), around.end());
+    }
+    return without;
+}
+
 /// Chooses by the noise of the mesh that flows.
 void choose_by_noise(const PolygonMesh& mesh, const std::optional<LengthOnMesh>& known, PresetChoice& choice,
                      const Executor& exec)
@@ -95,7 +119,11 @@ void choose_by_noise(const PolygonMesh& mesh, const std::optional<LengthOnMesh>&
     const Topology topology = make_topology(mesh, exec);
     const std::optional<double> within = choice.options.motion.weld;
     const std::optional<Weld> welded = within ? weld(mesh, topology, *within, exec) : std::nullopt;
-    const PolygonMesh& flowing = welded ? welded->mesh : mesh;
+    const PolygonMesh* const joined_mesh = welded ? &welded->mesh : &mesh;
+    const std::vector<Spike> spikes = find_spikes(*joined_mesh, joined_mesh->vertices, exec);
+    const std::optional<PolygonMesh> without =
+        without_spikes(*joined_mesh, welded ? welded->topology : topology, spikes, choice.options.motion);
+    const PolygonMesh& flowing = without ? *without : *joined_mesh;
     const Topology& joined = welded ? welded->topology : topology;
     const double mean_edge = mean_edge_length(mesh, mesh.vertices, exec);
     const double diagonal = box_of_faces(mesh, exec).diagonal();
@@ -107,11 +135,16 @@ void choose_by_noise(const PolygonMesh& mesh, const std::optional<LengthOnMesh>&
     const double t = denoising_amount(flowing, joined, *choice.noise, exec).amount;
     // Of Δ_U, dt h²/4 of whose rows of the mean of differences are t.
     const double radius = smoothed_radius(0.25 * t * mean_edge * mean_edge, 1, {.order = denoising_order});
-    if (!(radius > 0.0) || !(radius <= largest_radius * diagonal))
+    if (!(radius > 0.0) || !(radius <= largest_radius * largest_diagonal(mesh, exec)))
         return smooth_nothing(
             choice, mean_edge,
-            "The noise of the mesh cannot be told from its shape well enough for smoothing to bring it nearer to the "
-            "true surface: nothing is smoothed. Use --radius to smooth anyway, or --keep-edges to keep edges.");
+            known ? fmt::format(
+                        "With noise of {:.3g}, no amount is expected to bring the mesh nearer to the true surface: "
+                        "nothing is smoothed. Use --radius to smooth anyway.",
+                        *choice.noise)
+                  : "The noise of the mesh cannot be told from its shape well enough for smoothing to bring it nearer "
+                    "to the true surface: nothing is smoothed. Use --radius to smooth anyway, or --keep-edges to keep "
+                    "edges.");
     const double edges = time_step_for_radius(radius, std::max(choice.options.steps, 1), filter_of(choice.options)) /
                          (mean_edge * mean_edge);
     choice.options.time_step = require_step(rounded(edges) * mean_edge * mean_edge);
@@ -163,7 +196,7 @@ void choose_amount(const PresetTraits& preset, const PolygonMesh& mesh, const st
     options.motion.limits = {.volume = most_volume_change};
     if (preset.time_step_edges) {
         const double mean_edge = mean_edge_length(mesh, mesh.vertices, exec);
-        const double reach = largest_reach * box_of_faces(mesh, exec).diagonal() / mean_edge;
+        const double reach = largest_reach * largest_diagonal(mesh, exec) / mean_edge;
         const double edges = std::min(*preset.time_step_edges, rounded(reach * reach));
         options.time_step = require_step(edges * mean_edge * mean_edge);
     } else if (preset.radius) {

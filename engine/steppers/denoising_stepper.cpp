@@ -56,15 +56,8 @@ void DenoisingStepper::describe(FlowReport& report) const
     if (!noise_)
         return;
     report.noise = {noise_->edge > 0.0 ? noise_->deviation / noise_->edge : 0.0, noise_->part};
-    const std::vector<Index>& spikes = denoiser_.spikes();
-    if (!spikes.empty())
-        report.remarks.push_back(fmt::format(
-            "{} far from all neighbours, more than ten times the lengths of the edges there, and {}: remove {}, "
-            "or give {} the right position.",
-            spikes.size() == 1 ? fmt::format("Vertex {} is", spikes[0])
-                               : fmt::format("{} vertices, the first of which is {}, are", spikes.size(), spikes[0]),
-            spikes.size() == 1 ? "stays" : "stay", spikes.size() == 1 ? "it" : "them",
-            spikes.size() == 1 ? "it" : "them"));
+    if (!denoiser_.spikes().empty())
+        report.remarks.push_back(remark_on_spikes(denoiser_.spikes()));
     if (noise_->part == 0.0) {
         report.remarks.emplace_back("No noise was found: nothing is smoothed. Use --radius to smooth anyway.");
         return;

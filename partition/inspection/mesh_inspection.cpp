@@ -6,11 +6,13 @@
 #include <limits>
 #include <numeric>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "partition/connected_components.h"
 #include "partition/index_lists.h"
 #include "partition/metrics/bounding_box.h"
+#include "partition/metrics/spikes.h"
 #include "partition/vector_area.h"
 #include "partition/weld.h"
 
@@ -144,14 +146,32 @@ std::vector<Index> coincident_vertices(const Points& positions)
     return vertices;
 }
 
-std::vector<Index> duplicate_faces(const PolygonMesh& mesh)
+/// Whether two faces with the same vertices run around them in opposite senses.
+bool run_opposite(std::span<const Index> face, std::span<const Index> other)
 {
-    std::vector<Index> faces(mesh.n_faces());
+    const auto begin = static_cast<std::size_t>(std::ranges::find(other, face.front()) - other.begin());
+    return other[(begin + 1) % other.size()] != face[1];
+}
+
+/// Also counts components, as they are without duplicates.
+void inspect_duplicates(const Surface& s, const Executor& exec, MeshInspection& found)
+{
+    std::vector<Index> faces(s.mesh.n_faces());
     std::iota(faces.begin(), faces.end(), 0);
-    const std::vector<RepeatedFace> repeated = find_repeated_faces(mesh, faces);
-    faces.resize(repeated.size());
-    std::ranges::transform(repeated, faces.begin(), &RepeatedFace::face);
-    return faces;
+    const std::vector<RepeatedFace> repeated = find_repeated_faces(s.mesh, faces);
+    for (const auto& [face, first] : repeated) {
+        found.defects.duplicate_faces.push_back(face);
+        found.defects.n_turned_round += run_opposite(s.mesh.face(face), s.mesh.face(first)) ? 1 : 0;
+    }
+    if (repeated.empty()) {
+        found.counts.components = face_components(s.mesh, s.topology).count();
+        return;
+    }
+    PolygonMesh single{.vertices = s.mesh.vertices, .face_offsets = {0}, .face_vertices = {}};
+    for (const Index f : faces)
+        if (!std::ranges::binary_search(found.defects.duplicate_faces, f))
+            single.add_face(s.mesh.face(f));
+    found.counts.components = face_components(single, make_topology(single, exec)).count();
 }
 
 /// Orients faces one after the other consistently with those before; whether all are consistent in the end.
@@ -212,11 +232,13 @@ MeshInspection inspect(const PolygonMesh& mesh, const Topology& topology, const 
     found.counts.faces = mesh.n_faces();
     for (Index f = 0; f < mesh.n_faces(); ++f)
         ++found.counts.faces_by_sides[std::min(mesh.face(f).size() - 3, found.counts.faces_by_sides.size() - 1)];
-    found.counts.components = face_components(mesh, topology).count();
     inspect_edges(surface, exec, found);
     if (const std::optional<Weld> welded = weld(mesh, topology, 0.0, exec)) {
         found.counts.seam_edges = welded->n_edges;
         found.counts.seam_vertices = welded->n_vertices;
+        found.cracks = find_cracks(welded->mesh, welded->topology, exec);
+    } else {
+        found.cracks = find_cracks(mesh, topology, exec);
     }
     found.edge_lengths = measure_edges(surface);
     measure_box(mesh, exec, found);
@@ -229,7 +251,9 @@ MeshInspection inspect(const PolygonMesh& mesh, const Topology& topology, const 
     found.defects.isolated_vertices = of_kind(VertexKind::Isolated);
     found.defects.far_vertices = far_from_faces(mesh, found.defects.isolated_vertices, exec);
     found.orientable = is_orientable(surface);
-    found.defects.duplicate_faces = duplicate_faces(mesh);
+    inspect_duplicates(surface, exec, found);
+    for (const Spike& spike : find_spikes(mesh, mesh.vertices, exec))
+        found.defects.spikes.push_back(spike.vertex);
     found.defects.faces_without_area = select(exec, mesh.n_faces(), [&](Index f) { return lacks_area(mesh, f); });
     found.defects.coincident_vertices = coincident_vertices(mesh.vertices);
     found.defects.self_intersections = self_intersections(mesh, mesh.vertices, exec);

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "partition/cracks.h"
 #include "partition/executor.h"
 #include "partition/metrics/self_intersections.h"
 #include "partition/polygon_mesh.h"
@@ -18,7 +20,7 @@ struct ElementCounts {
     Index edges = 0;
     /// How many faces have 3, 4, 5, 6 and more sides.
     std::array<Index, 5> faces_by_sides{};
-    /// Connected through edges of two faces.
+    /// Connected through edges of two faces; those that lie on each other count once.
     Index components = 0;
     /// Edges of one face.
     Index boundary_edges = 0;
@@ -51,8 +53,10 @@ struct MeshDefects {
     std::vector<Index> non_manifold_vertices;
     /// Edges whose two faces run along them in the same direction: they are oriented against each other.
     std::vector<Edge> inconsistent_edges;
-    /// Faces that have the same vertices as an earlier face, in any order.
+    /// Faces that have the same vertices as an earlier face, in any order; how many of them run around it in the other
+    /// sense, as on surfaces with two sides.
     std::vector<Index> duplicate_faces;
+    Index n_turned_round = 0;
     /// Faces without area, up to rounding (see area_above_rounding).
     std::vector<Index> faces_without_area;
     /// Edges whose length is no normal double.
@@ -63,6 +67,8 @@ struct MeshDefects {
     std::vector<Index> isolated_vertices;
     /// Those of them that lie further from the box around the faces than it is large.
     std::vector<Index> far_vertices;
+    /// Vertices far from all of their neighbours (see find_spikes).
+    std::vector<Index> spikes;
     /// Faces that cross each other (see self_intersections).
     std::vector<FacePair> self_intersections;
 };
@@ -73,6 +79,8 @@ struct MeshInspection {
     EdgeLengths edge_lengths;
     MeshBox box;
     MeshDefects defects;
+    /// Where the surface is open by a small fraction of an edge.
+    std::optional<Cracks> cracks;
     /// Whether the faces can be oriented consistently; those of a Möbius band cannot.
     bool orientable = true;
     /// How many of the 53 bits of a double are left for detail of the size of the mean edge at the mesh's distance from

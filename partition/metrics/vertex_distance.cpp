@@ -3,13 +3,52 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <span>
 #include <string>
 
 #include <fmt/format.h>
 
 #include "partition/errors.h"
+#include "partition/metrics/spikes.h"
 
 namespace seamflow {
+
+namespace {
+
+struct LengthsOfEdges {
+    double total = 0.0;
+    double longest = 0.0;
+    Index n = 0;
+};
+
+/// @param is_left_out #V, or empty: vertices whose edges do not count.
+LengthsOfEdges measure_edges(const PolygonMesh& mesh, const Points& positions,
+                             std::span<const std::uint8_t> is_left_out, const Executor& exec)
+{
+    const auto add_face = [&](LengthsOfEdges& lengths, Index f) {
+        const auto corners = mesh.face(f);
+        double around = 0.0;
+        for (std::size_t k = 0; k < corners.size(); ++k) {
+            const Index from = corners[k];
+            const Index to = corners[k + 1 < corners.size() ? k + 1 : 0];
+            if (!is_left_out.empty() && (is_left_out[from] != 0 || is_left_out[to] != 0))
+                continue;
+            const double length = (positions.row(to) - positions.row(from)).norm();
+            around += length;
+            lengths.longest = std::max(lengths.longest, length);
+            ++lengths.n;
+        }
+        lengths.total += around;
+    };
+    return reduce(exec, mesh.n_faces(), LengthsOfEdges{}, add_face,
+                  [](LengthsOfEdges& all, const LengthsOfEdges& part) {
+                      all.total += part.total;
+                      all.longest = std::max(all.longest, part.longest);
+                      all.n += part.n;
+                  });
+}
+
+}  // namespace
 
 double mean_edge_length(const PolygonMesh& mesh)
 {
@@ -18,14 +57,19 @@ double mean_edge_length(const PolygonMesh& mesh)
 
 double mean_edge_length(const PolygonMesh& mesh, const Points& positions, const Executor& exec)
 {
-    const double total = sum(exec, mesh.n_faces(), [&](Index f) {
-        const auto corners = mesh.face(f);
-        double around = 0.0;
-        for (std::size_t k = 0; k < corners.size(); ++k)
-            around += (positions.row(corners[k + 1 < corners.size() ? k + 1 : 0]) - positions.row(corners[k])).norm();
-        return around;
-    });
-    return mesh.n_corners() > 0 ? total / mesh.n_corners() : 0.0;
+    const LengthsOfEdges all = measure_edges(mesh, positions, {}, exec);
+    const double mean = all.n > 0 ? all.total / all.n : 0.0;
+    constexpr double long_in_means = 4.0;
+    if (!(all.longest > long_in_means * mean))
+        return mean;
+    const std::vector<Spike> spikes = find_spikes(mesh, positions, exec);
+    if (spikes.empty())
+        return mean;
+    std::vector<std::uint8_t> is_spike(at(mesh.n_vertices()), 0);
+    for (const Spike& spike : spikes)
+        is_spike[spike.vertex] = 1;
+    const LengthsOfEdges others = measure_edges(mesh, positions, is_spike, exec);
+    return others.n > 0 ? others.total / others.n : mean;
 }
 
 VertexDistance vertex_distance(const PolygonMesh& mesh, const Points& reference, const Points& candidate)

@@ -15,7 +15,9 @@ struct VertexDistance {
     double mean_edge = 0.0;
 };
 
-/// Mean length over the half-edges of a mesh, so that an interior edge counts twice; 0 without faces.
+/// Mean length over the half-edges of a mesh, so that an interior edge counts twice; 0 without faces. Edges of spikes
+/// (see find_spikes) are left out where one is longer than four times the mean: one height that stands for no data
+/// would make all others short.
 double mean_edge_length(const PolygonMesh& mesh);
 
 /// As above for positions other than the mesh's own, #V by 3.

@@ -20,22 +20,32 @@ XXH64_hash_t hash_of_half_edge(Index from, Index to)
     return from < to ? hash : XXH64_hash_t{0} - hash;
 }
 
+XXH64_hash_t hash_of_face(std::span<const Index> corners)
+{
+    XXH64_hash_t of_face = 0;
+    Index from = corners.back();
+    for (const Index to : corners) {
+        of_face += hash_of_half_edge(from, to);
+        from = to;
+    }
+    return of_face;
+}
+
 }  // namespace
 
 /// Half-edges and their opposites cancel each other: the sum of their hashes is then 0, and hardly ever otherwise.
 bool encloses_volume(const PolygonMesh& mesh, const Executor& exec)
 {
-    const auto hash_of_face = [&](Index f) {
-        const std::span<const Index> corners = mesh.face(f);
-        XXH64_hash_t of_face = 0;
-        Index from = corners.back();
-        for (const Index to : corners) {
-            of_face += hash_of_half_edge(from, to);
-            from = to;
-        }
-        return of_face;
-    };
-    return mesh.n_faces() > 0 && sum(exec, mesh.n_faces(), hash_of_face, XXH64_hash_t{0}) == 0;
+    const auto hash_of = [&](Index f) { return hash_of_face(mesh.face(f)); };
+    return mesh.n_faces() > 0 && sum(exec, mesh.n_faces(), hash_of, XXH64_hash_t{0}) == 0;
+}
+
+bool encloses_volume(const PolygonMesh& mesh, std::span<const Index> faces)
+{
+    XXH64_hash_t all = 0;
+    for (const Index f : faces)
+        all += hash_of_face(mesh.face(f));
+    return !faces.empty() && all == 0;
 }
 
 double volume_of_cones(const PolygonMesh& mesh, const Points& positions, const Point& origin, const Executor& exec)

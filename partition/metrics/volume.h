@@ -27,4 +27,7 @@ double volume_of_cones(const PolygonMesh& mesh, const Points& positions, const P
 /// faces are not oriented alike. False without faces.
 bool encloses_volume(const PolygonMesh& mesh, const Executor& exec);
 
+/// The same for some of the faces.
+bool encloses_volume(const PolygonMesh& mesh, std::span<const Index> faces);
+
 }  // namespace seamflow

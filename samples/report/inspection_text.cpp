@@ -12,6 +12,9 @@ namespace seamflow {
 
 namespace {
 
+/// A part of the vertices that is as good as all.
+constexpr double all_but_few = 0.95;
+
 std::string digits_of(double value)
 {
     return fmt::format("{:.6g}", value);
@@ -82,7 +85,8 @@ class FindingsPrinter {
     bool any_ = false;
 };
 
-void print_sizes(std::ostream& out, const std::string& file, const MeshInspection& found)
+void print_sizes(std::ostream& out, const std::string& file, const MeshInspection& found,
+                 const std::optional<SurfaceNoise>& noise)
 {
     out << file << '\n'
         << "vertices   " << found.counts.vertices << '\n'
@@ -103,14 +107,20 @@ void print_sizes(std::ostream& out, const std::string& file, const MeshInspectio
         << "box        " << digits_of(found.box.diagonal) << " from corner to corner, around ("
         << digits_of(found.box.middle[0]) << ", " << digits_of(found.box.middle[1]) << ", "
         << digits_of(found.box.middle[2]) << ")\n";
+    if (noise && noise->part > 0.0)
+        out << fmt::format("noise      {:.2g} edge lengths ({:.2g}) on {:.0f}% of the vertices{}\n",
+                           noise->deviation / noise->edge, noise->deviation, 100.0 * noise->part,
+                           noise->part < all_but_few ? ", none that can be told from the shape on the others" : "");
+    else if (noise)
+        out << "noise      none that can be told from the shape\n";
 }
 
 }  // namespace
 
 void print_inspection(std::ostream& out, const std::string& file, const FaultLog& faults, const MeshInspection& found,
-                      int most_listed)
+                      int most_listed, const std::optional<SurfaceNoise>& noise)
 {
-    print_sizes(out, file, found);
+    print_sizes(out, file, found, noise);
     FindingsPrinter printer(out, most_listed);
     printer.print(faults);
     printer.print(found.defects.vertices_not_finite, "vertices with coordinates that are not finite numbers",
@@ -122,9 +132,19 @@ void print_inspection(std::ostream& out, const std::string& file, const FaultLog
     printer.print(found.defects.inconsistent_edges, "edges whose faces are oriented against each other",
                   found.orientable ? "smooth does not mind; normals that it writes do"
                                    : "smooth does not mind; no orientation fits all faces, as on a Möbius band");
+    if (found.cracks)
+        printer.print((remark_on_cracks(*found.cracks) + " It is an option of smooth.").c_str());
+    printer.print(found.defects.spikes, "vertices far from all of their neighbours",
+                  "remove them, or give them the right positions; without an amount smooth holds them");
     printer.print(
         found.defects.duplicate_faces, "faces with the same vertices as an earlier face",
         "where they make the mesh not manifold smooth leaves them out of the flow, and keeps them in the file");
+    if (found.defects.n_turned_round > 0)
+        printer.print(
+            fmt::format("    {} of them are turned round, as on surfaces with two sides: smooth lets one side "
+                        "flow, and moves both",
+                        found.defects.n_turned_round)
+                .c_str());
     printer.print(found.defects.faces_without_area, "faces without area",
                   "with any Laplacian but fujiwara smooth cannot move their vertices");
     printer.print(found.defects.edges_without_length, "edges without length",

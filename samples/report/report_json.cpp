@@ -159,14 +159,15 @@ std::string smooth_report_json(const RunRecord& run, const FlowReport& report)
     json["rescale"] = option_name(run.rescale);
     if (run.keep_edges)
         json["keep_edges"] = json_number(*run.keep_edges);
-    // Where normals are smoothed there is no equation, and where noise is removed there is no amount.
-    if (!report.noise) {
+    // Where normals are smoothed there is no equation, and where noise is removed, or nothing is, there is no amount.
+    const bool has_amount = !report.noise && !report.steps.empty();
+    if (has_amount) {
         json["time_step"] = json_number(report.time_step);
         json["time_step_edges"] = json_number(report.time_step / (run.scale.mean_edge * run.scale.mean_edge));
-        json["radius"] = json_number(smoothed_radius(
-            report.time_step, static_cast<int>(std::max<std::size_t>(report.steps.size(), 1)), run.filter));
+        json["radius"] =
+            json_number(smoothed_radius(report.time_step, static_cast<int>(report.steps.size()), run.filter));
     }
-    if (!run.keep_edges && !report.noise)
+    if (!run.keep_edges && has_amount)
         json["approach"] = option_name(report.convergence.approach);
     add_convergence(json, report.convergence);
     json["threads"] = report.resources.threads;
@@ -244,11 +245,12 @@ std::string compare_report_json(const Comparison& comparison)
     return text_of(json);
 }
 
-std::string inspection_json(const std::string& file, const FaultLog& faults, const MeshInspection& found)
+std::string inspection_json(const std::string& file, const FaultLog& faults, const MeshInspection& found,
+                            const std::optional<SurfaceNoise>& noise)
 {
     const auto& sides = found.counts.faces_by_sides;
     const MeshDefects& defects = found.defects;
-    const Json json{
+    Json json{
         {"file", file},
         {"vertices", found.counts.vertices},
         {"edges", found.counts.edges},
@@ -277,8 +279,17 @@ std::string inspection_json(const std::string& file, const FaultLog& faults, con
         {"coincident_vertices", defects.coincident_vertices},
         {"isolated_vertices", defects.isolated_vertices},
         {"far_vertices", defects.far_vertices},
+        {"spikes", defects.spikes},
+        {"faces_turned_round", defects.n_turned_round},
+        {"crack_vertices", found.cracks ? found.cracks->n_vertices : 0},
+        {"crack_width", found.cracks ? found.cracks->width : 0.0},
+        {"weld_distance", found.cracks ? found.cracks->weld_distance : 0.0},
         {"self_intersections", defects.self_intersections},
     };
+    if (noise) {
+        json["noise"] = json_number(noise->edge > 0.0 ? noise->deviation / noise->edge : 0.0);
+        json["noisy_part"] = json_number(noise->part);
+    }
     return text_of(json);
 }
 

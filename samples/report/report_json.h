@@ -9,6 +9,7 @@
 #include "samples/process/exit_status.h"
 #include "samples/report/comparison.h"
 #include "samples/report/run_record.h"
+#include "solvers/denoising/mesh_denoiser.h"
 
 namespace seamflow {
 
@@ -29,6 +30,8 @@ std::string smooth_failure_json(const RunRecord& run, const Failure& failure);
 std::string compare_report_json(const Comparison& comparison);
 
 /// All findings of `inspect`, as it prints them with --json.
-std::string inspection_json(const std::string& file, const FaultLog& faults, const MeshInspection& found);
+/// @param noise empty if it is not measured: then it has no keys.
+std::string inspection_json(const std::string& file, const FaultLog& faults, const MeshInspection& found,
+                            const std::optional<SurfaceNoise>& noise);
 
 }  // namespace seamflow

@@ -195,7 +195,7 @@ void print_details(std::ostream& out, const RunRecord& run, const FlowReport& re
         out << ", attached by weights";
     if (run.rescale != Rescale::None)
         out << ", " << option_name(run.rescale) << " kept";
-    if (!report.noise)
+    if (!report.noise && !report.steps.empty())
         out << ", time step " << digits(report.time_step, 10);
     out << '\n';
     print_cut(out, report);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <span>
 #include <utility>
 
 #include "partition/index_lists.h"
@@ -9,6 +11,7 @@
 #include "partition/metrics/flipped_faces.h"
 #include "partition/metrics/self_intersections.h"
 #include "partition/metrics/volume.h"
+#include "partition/surface_components.h"
 #include "partition/vector_area.h"
 #include "samples/meshes/surface_sample.h"
 
@@ -22,8 +25,12 @@ class Surface {
     Surface(const PolygonMesh& mesh, const Executor& exec)
         : mesh_(mesh)
         , exec_(exec)
+        , bodies_(surface_components(mesh, exec))
         , has_volume_(encloses_volume(mesh, exec))
     {
+        for (Index c = 0; c < bodies_.count() && bodies_.count() > 1; ++c)
+            is_closed_.push_back(has_volume_ || encloses_volume(mesh, bodies_.faces[c]) ? 1 : 0);
+
         std::vector<char> is_in_sample(at(mesh.n_vertices()));
         for_each(exec, mesh.n_vertices(), [&](Index v) { is_in_sample[v] = is_sampled(v, mesh.n_vertices()) ? 1 : 0; });
         const std::vector<Index> faces = select(exec, mesh.n_faces(), [&](Index f) {
@@ -62,18 +69,61 @@ class Surface {
             look.cell_volumes = volumes_of(*cells_, mesh_, positions, exec_);
         if (has_volume_)
             look.volume = std::abs(volume_of_cones(mesh_, positions, positions.row(mesh_.face(0).front()), exec_));
+        for (Index c = 0; c < std::ssize(is_closed_); ++c)
+            look.bodies.push_back(size_of(c, positions));
         return look;
     }
 
+    /// This look, and those to come, have no volume where this one has none above rounding.
+    void leave_out_rounding(SurfaceLook& look)
+    {
+        const auto leave_out = [](std::optional<double>& volume, double area) {
+            if (volume && !(*volume > 1e-12 * area * std::sqrt(area)))
+                volume.reset();
+            return !volume.has_value();
+        };
+        has_volume_ = !leave_out(look.volume, look.area);
+        for (std::size_t c = 0; c < look.bodies.size(); ++c)
+            is_closed_[c] = leave_out(look.bodies[c].volume, look.bodies[c].area) ? 0 : 1;
+    }
+
   private:
+    [[nodiscard]] BodySize size_of(Index body, const Points& positions) const
+    {
+        const std::span<const Index> faces = bodies_.faces[body];
+        const Point origin = positions.row(mesh_.face(faces.front()).front());
+        const auto n = static_cast<Index>(faces.size());
+        BodySize size{
+            .area = sum(run_serially, n, [&](Index i) { return vector_area(mesh_.face(faces[i]), positions).norm(); }),
+            .volume = std::nullopt};
+        if (is_closed_[at(body)] != 0)
+            size.volume = std::abs(
+                sum(run_serially, n, [&](Index i) { return cone_volume(mesh_.face(faces[i]), positions, origin); }));
+        return size;
+    }
+
     const PolygonMesh& mesh_;
     const Executor& exec_;
+    SurfaceComponents bodies_;
+    /// Per body, if there are several: whether it encloses a volume.
+    std::vector<std::uint8_t> is_closed_;
     /// Some of the faces, and their vertices in the mesh.
     PolygonMesh sample_;
     std::vector<Index> sampled_vertices_;
     bool has_volume_;
     std::optional<EnclosedCells> cells_;
 };
+
+/// The faces that flow.
+/// @param repeated see MeshReport; not empty.
+PolygonMesh without(const std::vector<Index>& repeated, const PolygonMesh& mesh)
+{
+    PolygonMesh faces{.vertices = mesh.vertices, .face_offsets = {0}, .face_vertices = {}};
+    for (Index f = 0; f < mesh.n_faces(); ++f)
+        if (!std::ranges::binary_search(repeated, f))
+            faces.add_face(mesh.face(f));
+    return faces;
+}
 
 /// The faces alone.
 /// @param moved_with see MeshReport; not empty.
@@ -117,23 +167,28 @@ SurfaceChange SurfaceChangeMeter::measure(const PolygonMesh& mesh, const MeshRep
     LengthSums moved;
     for (const LengthSums& sums : of_block)
         moved.add(sums);
+    std::optional<PolygonMesh> single;
+    if (!report.repeated_faces.empty())
+        single = without(report.repeated_faces, mesh);
+    const PolygonMesh& flowing = single ? *single : mesh;
     std::optional<PolygonMesh> welded;
     if (!report.moved_with.empty())
-        welded = joined(mesh, report.moved_with, exec);
-    const PolygonMesh& faces = welded ? *welded : mesh;
+        welded = joined(flowing, report.moved_with, exec);
+    const PolygonMesh& faces = welded ? *welded : flowing;
     Surface surface(faces, exec);
     const bool has_sheets = report.junction_vertices + report.non_manifold_vertices > 0;
     SurfaceChange change;
     if (has_sheets)
         surface.find_cells(positions_, change);
     change.before = surface.look(positions_);
+    surface.leave_out_rounding(change.before);
     change.after = surface.look(mesh.vertices);
     change.moved = moved.statistics();
     const std::vector<Index> flipped = flipped_faces(faces, positions_, mesh.vertices, exec);
     change.flipped_faces = flipped.size();
     change.folded_faces = flipped.empty() ? 0 : folded_faces(faces, positions_, mesh.vertices, flipped).size();
     if (finds_crossings)
-        find_crossings(mesh, positions_, change, exec);
+        find_crossings(flowing, positions_, change, exec);
     return change;
 }
 

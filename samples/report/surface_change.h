@@ -12,15 +12,25 @@
 
 namespace seamflow {
 
-/// The visible properties of a surface.
+/// The size of one body of a surface (see SurfaceComponents).
+struct BodySize {
+    /// Length².
+    double area = 0.0;
+    /// Length³; empty if it encloses none.
+    std::optional<double> volume;
+};
+
+/// The visible properties of a surface: of the faces that flow, those that lie on each other once.
 struct SurfaceLook {
     /// Of all faces, length².
     double area = 0.0;
-    /// Length³; empty if the surface encloses none (see encloses_volume).
+    /// Length³; empty if the surface encloses none (see encloses_volume), or none above rounding.
     std::optional<double> volume;
     /// Where sheets meet: of each cell that they enclose, length³ (see EnclosedCells), the one that was largest before
     /// first.
     std::vector<double> cell_volumes = {};
+    /// Of each body, if there are several.
+    std::vector<BodySize> bodies = {};
     /// Of large meshes, from a sample of their faces.
     std::optional<Roughness> roughness;
     /// The number of pairs of faces that cross each other (see self_intersections), if requested.

@@ -15,6 +15,7 @@
 #include "partition/io/input_position.h"
 #include "partition/metrics/bounding_box.h"
 #include "partition/metrics/feathered.h"
+#include "partition/metrics/spikes.h"
 #include "samples/command/parse_smooth_command.h"
 #include "samples/command/presets.h"
 
@@ -139,6 +140,10 @@ void resolve_amount(SmoothCommand& command, const PolygonMesh& mesh, const Execu
     else
         command.options.time_step =
             time_step_of(command.amount, run.scale, command.options.steps, filter_of(command.options));
+    // What removes noise names them itself.
+    const bool looks = !command.options.denoise;
+    if (const auto spikes = looks ? find_spikes(mesh, mesh.vertices, exec) : std::vector<Spike>(); !spikes.empty())
+        run.remarks.push_back(remark_on_spikes(spikes));
     feather(command, mesh, exec, run, command.options.motion.strength);
     // As the identity of checkpoints has it.
     command.options.uniform_edge = uniform_edge_of(command.options, mesh);
@@ -161,28 +166,64 @@ void remark_on_lost_cells(const std::vector<double>& before, const std::vector<d
                         n_small == 1 ? "has" : "have", 100.0 * much, n_small == 1 ? "its" : "their"));
 }
 
+/// The loss of a body or of the whole surface that is worth a remark, as a fraction of its volume, or of its area where
+/// it has no volume; 0 if it is small.
+/// @param before, after with `volume` and `area`: BodySize or SurfaceLook.
+template <class Size>
+double large_loss(const Size& before, const Size& after)
+{
+    constexpr double much = 0.2;
+    constexpr double most = 0.5;  // of the area: noise alone may have much of it
+    const bool has_volume = before.volume && after.volume;
+    const double lost = has_volume ? 1.0 - *after.volume / *before.volume : 1.0 - after.area / before.area;
+    return lost > (has_volume ? much : most) ? lost : 0.0;
+}
+
+/// What helps, after a colon.
+std::string remedies_of_loss(const FlowOptions& options, const SurfaceChange& change)
+{
+    std::string remedies = "less smoothing is gentler";
+    if (!change.before.volume)
+        return remedies;
+    const MotionOptions& motion = options.motion;
+    const bool has_equation = !options.denoise && !options.keep_edges && options.scheme == Scheme::BackwardEuler;
+    if (options.filter != Filter::LowPass && has_equation)
+        remedies += ", --filter low-pass loses less";
+    const bool moves_all =
+        motion.fixed_vertices.empty() && motion.strength.empty() && motion.direction.kind == MotionDirection::Kind::Any;
+    if (change.before.cell_volumes.empty() && moves_all)
+        remedies += change.before.bodies.empty() ? ", --rescale volume scales it back"
+                                                 : ", --rescale volume scales each component back";
+    return remedies;
+}
+
 }  // namespace
 
 void remark_on_loss(const FlowOptions& options, const SurfaceChange& change, std::vector<std::string>& remarks)
 {
-    constexpr double much = 0.2;
-    constexpr double most = 0.5;  // of the area: noise alone may have much of it
     if (options.motion.rescale != Rescale::None)
         return;
     if (!change.before.cell_volumes.empty())
         remark_on_lost_cells(change.before.cell_volumes, change.after.cell_volumes, remarks);
-    if (!change.before.volume || !change.after.volume) {
-        if (change.after.area < most * change.before.area)
-            remarks.push_back(fmt::format("The surface has lost {:.0f}% of its area: less smoothing is gentler.",
-                                          100.0 * (1.0 - change.after.area / change.before.area)));
+    const std::string remedies = remedies_of_loss(options, change);
+    const std::vector<BodySize>& before = change.before.bodies;
+    std::size_t n_bodies = 0;
+    double most = 0.0;
+    for (std::size_t c = 0; c < before.size(); ++c)
+        if (const double lost = large_loss(before[c], change.after.bodies[c]); lost > 0.0) {
+            ++n_bodies;
+            most = std::max(most, lost);
+        }
+    if (n_bodies > 0 && n_bodies < before.size()) {
+        remarks.push_back(fmt::format("{} of {} components {} lost much, up to {:.0f}% of {} volume, or of the area of "
+                                      "an open one: {}.",
+                                      n_bodies, before.size(), n_bodies == 1 ? "has" : "have", 100.0 * most,
+                                      n_bodies == 1 ? "its" : "their", remedies));
         return;
     }
-    const double lost = 1.0 - *change.after.volume / *change.before.volume;
-    if (lost > much)
-        remarks.push_back(fmt::format("The surface has lost {:.0f}% of its volume: less smoothing is gentler{}{}.",
-                                      100.0 * lost,
-                                      options.filter == Filter::LowPass ? "" : ", --filter low-pass loses less",
-                                      change.before.cell_volumes.empty() ? ", --rescale volume scales it back" : ""));
+    if (const double lost = large_loss(change.before, change.after); lost > 0.0)
+        remarks.push_back(fmt::format("The surface has lost {:.0f}% of its {}: {}.", 100.0 * lost,
+                                      change.before.volume && change.after.volume ? "volume" : "area", remedies));
 }
 
 void remark_on_folds(const FlowOptions& options, const SurfaceChange& change, std::vector<std::string>& remarks)

@@ -9,7 +9,6 @@
 #include "partition/vector_area.h"
 #include "solvers/denoising/filter_sample.h"
 #include "solvers/denoising/normal_motion.h"
-#include "solvers/denoising/spikes.h"
 #include "solvers/normals/vertex_fit.h"
 
 namespace seamflow {
@@ -73,13 +72,14 @@ MeshDenoiser::cut_polygons(const PolygonMesh& mesh, const Topology& topology, co
 
 Points MeshDenoiser::denoise(const Points& before, std::span<const double> strengths, const Executor& exec)
 {
-    spikes_ = find_spikes(*polygons_, *polygon_topology_, before, exec);
+    spikes_ = find_spikes(*polygons_, before, exec);
     Points positions = before;
-    for (const Index v : spikes_)
-        positions.row(v) = before(neighbours_of(*polygons_, *polygon_topology_, v), Eigen::all).colwise().mean();
+    for (const Spike& spike : spikes_)
+        positions.row(spike.vertex) =
+            before(neighbours_of(*polygons_, *polygon_topology_, spike.vertex), Eigen::all).colwise().mean();
     positions = without_noise(positions, strengths, exec);
-    for (const Index v : spikes_)
-        positions.row(v) = before.row(v);
+    for (const Spike& spike : spikes_)
+        positions.row(spike.vertex) = before.row(spike.vertex);
     return positions;
 }
 

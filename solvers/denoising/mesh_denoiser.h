@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "partition/executor.h"
+#include "partition/metrics/spikes.h"
 #include "partition/polygon_mesh.h"
 #include "partition/topology.h"
 #include "solvers/denoising/denoised_normals.h"
@@ -42,7 +43,7 @@ class MeshDenoiser {
     [[nodiscard]] const SurfaceNoise& noise() const { return noise_; }
 
     /// The vertices that stayed then as spikes, ascending (see find_spikes).
-    [[nodiscard]] const std::vector<Index>& spikes() const { return spikes_; }
+    [[nodiscard]] const std::vector<Spike>& spikes() const { return spikes_; }
 
   private:
     struct Triangles {
@@ -71,7 +72,7 @@ class MeshDenoiser {
     NoisyPlaces places_;
     RimFilter rims_;
     SurfaceNoise noise_;
-    std::vector<Index> spikes_;
+    std::vector<Spike> spikes_;
 };
 
 /// The noise of a mesh, or of patches spread all over it if it is large (see take_filter_sample).

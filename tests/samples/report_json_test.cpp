@@ -55,6 +55,9 @@ TEST_CASE("a report is valid JSON whatever happened")
 {
     FlowReport report;
     report.time_step = std::numeric_limits<double>::quiet_NaN();
+    // Where nothing was smoothed there is no amount.
+    CHECK_FALSE(Json::parse(smooth_report_json(RunRecord{}, report)).contains("time_step"));
+    report.steps = {StepReport{}};
     report.cut.sub_meshes = {{.p = std::numeric_limits<double>::infinity()}};
     RunRecord run;
     run.input = "\xff.obj";

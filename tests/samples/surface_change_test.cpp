@@ -100,6 +100,60 @@ TEST_CASE("a loss of much of the volume is remarked on, or of most of the area w
     CHECK(remark(0.75, 0.9, Rescale::None, Filter::LowPass).find("--filter") == std::string::npos);
 }
 
+TEST_CASE("a surface with two sides is measured once, and a volume that is rounding is none")
+{
+    const PolygonMesh sphere = make_noisy_sphere(500);
+    PolygonMesh both = sphere;
+    std::vector<Index> turned;
+    for (Index f = 0; f < sphere.n_faces(); ++f) {
+        turned.assign(sphere.face(f).rbegin(), sphere.face(f).rend());
+        both.add_face(turned);
+    }
+    const auto changed = [](PolygonMesh mesh, MeshReport report) {
+        const SurfaceChangeMeter meter(mesh, run_serially);
+        mesh.vertices *= 0.9;
+        return meter.measure(mesh, report, true, run_serially);
+    };
+    MeshReport report;
+    for (Index f = sphere.n_faces(); f < both.n_faces(); ++f)
+        report.repeated_faces.push_back(f);
+    const SurfaceChange one = changed(sphere, {});
+    const SurfaceChange two = changed(both, report);
+    CHECK(two.before.area == one.before.area);
+    CHECK(two.after.volume == one.after.volume);
+    CHECK(two.before.roughness->rms == one.before.roughness->rms);
+    CHECK(two.before.self_intersections == one.before.self_intersections);
+    // As if both sides flowed.
+    const SurfaceChange as_volume = changed(both, {});
+    CHECK_FALSE(as_volume.before.volume);
+    CHECK_FALSE(as_volume.after.volume);
+}
+
+TEST_CASE("what one of several bodies has lost is remarked on, however small it is and however far away")
+{
+    PolygonMesh small = make_noisy_sphere(300);
+    small.vertices *= 0.01;
+    small.vertices.rowwise() += Point(1e4, 0.0, 0.0);
+    PolygonMesh both = together({make_noisy_sphere(500), small});
+    const SurfaceChangeMeter meter(both, run_serially);
+    auto of_small = both.vertices.bottomRows(small.n_vertices());
+    const Point centre = of_small.colwise().mean();
+    of_small = ((of_small.rowwise() - centre) * 0.5).rowwise() + centre;
+    const SurfaceChange change = meter.measure(both, {}, false, run_serially);
+    REQUIRE(change.before.bodies.size() == 2);
+    CHECK(*change.after.bodies[1].volume == relative(*change.before.bodies[1].volume / 8.0, 1e-5));
+    std::vector<std::string> remarks;
+    remark_on_loss({}, change, remarks);
+    REQUIRE(remarks.size() == 1);
+    CHECK(remarks[0].starts_with("1 of 2 components has lost much, up to 8"));
+    CHECK(remarks[0].find("--rescale volume scales each component back") != std::string::npos);
+    FlowOptions held;
+    held.motion.fixed_vertices = {0};
+    remarks.clear();
+    remark_on_loss(held, change, remarks);
+    CHECK(remarks[0].find("--rescale") == std::string::npos);
+}
+
 TEST_CASE("volumes of cells are left out where sheets with different faces lie on each other, with a remark")
 {
     PolygonMesh mesh = touching_balls(10);

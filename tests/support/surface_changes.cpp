@@ -7,7 +7,7 @@
 
 #include <Eigen/Geometry>
 
-#include "engine/measure/surface_measures.h"
+#include "partition/metrics/bounding_box.h"
 #include "partition/topology.h"
 #include "samples/meshes/meshes.h"
 #include "solvers/laplacian/geometry.h"
@@ -165,7 +165,7 @@ void add_unused_vertex(Writing& w)
 /// A flat grid, which stays as it is.
 void add_body(Writing& w)
 {
-    const double size = extent_of(w.mesh.vertices);
+    const double size = box_of_faces(w.mesh).diagonal();
     PolygonMesh other = quad_grid(8, 7);
     other.vertices *= 4.0 * size;
     other.vertices.rowwise() += Point(0.0, 300.0 * size, 100.0 * size);

@@ -47,11 +47,22 @@ const fieldWords = (report) =>
         ? ["distances along the surface"]
         : [nameOf(report), `${counted(report.steps, "step", "steps")} of ${digits(report.time_step)} length²`, ...(report.fwhm ? [`${digits(report.fwhm)} wide at half maximum`] : [])];
 
+/** How much a flow smoothed. */
+function amountOf(report) {
+    if (report.steps.length === 0)
+        return "nothing was smoothed";
+    if (report.time_step === undefined)
+        return report.noise > 0 ? "noise removed" : "no noise found";
+    return `${counted(report.steps.length, "step", "steps")} of ${digits(report.time_step)} length²`;
+}
+
 /** One line about a flow. */
 export function summary(mesh, report) {
     const size = `${counted(mesh.vertices, "vertex", "vertices")}, ${counted(mesh.faces, "face", "faces")}`;
     if (report.fields)
         return [size, ...fieldWords(report)].join(" · ");
+    if (report.time_step === undefined)
+        return [size, amountOf(report)].join(" · ");
     return [
         size,
         keepsEdges(report) ? `edges sharper than ${digits(report.keep_edges)}° kept` : nameOf(report),
@@ -60,7 +71,7 @@ export function summary(mesh, report) {
         ...(report.attachment ? [`attached, ${digits(report.attachment)} / length²`] : []),
         ...(report.attachment_weights ? ["attached by weights"] : []),
         ...(report.rescale && report.rescale !== "none" ? [`${report.rescale} kept`] : []),
-        `${counted(report.steps.length, "step", "steps")} of ${digits(report.time_step)} length²`,
+        amountOf(report),
         ...(keepsEdges(report) ? [] : [report.subdomains > 1 ? `${digits(report.subdomains)} sub-meshes${report.colours > 1 ? ` in ${report.colours} colours` : ""}` : "undecomposed"]),
     ].join(" · ");
 }
@@ -119,9 +130,11 @@ export const placesMeasured = (report) => `${report.region ? ", around the regio
 function rowsOfFlow(report, last) {
     const list = [
         ["Mean edge", `${digits(report.mean_edge)} (length)`],
-        ["Time step", `${digits(report.time_step)} length² = ${digits(report.time_step / report.mean_edge ** 2)} squared mean edges`],
+        ["Amount", amountOf(report)],
     ];
-    if (!keepsEdges(report))
+    if (report.time_step !== undefined)
+        list.push(["Time step", `${digits(report.time_step)} length² = ${digits(report.time_step / report.mean_edge ** 2)} squared mean edges`]);
+    if (!keepsEdges(report) && report.time_step !== undefined)
         list.push(["Sub-meshes", report.subdomains === 1 ? "none: steps on the whole mesh" : `${digits(report.subdomains)}${report.colours > 1 ? ` in ${report.colours} colours` : ""}, ${counted(report.interface_vertices, "vertex", "vertices")} on Γ`]);
     if (report.tolerance !== undefined)
         list.push(["Steps", `converged to ${digits(report.tolerance)}; iterations ${report.steps.map((step) => step.iterations ?? "–").join(", ")}`]);

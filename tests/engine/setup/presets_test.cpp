@@ -269,6 +269,65 @@ TEST_CASE("noise that is said is believed, and no more is taken than it")
     CHECK(more.options.time_step > choice.options.time_step);
 }
 
+TEST_CASE("one vertex that stands for missing data does not keep a filter from removing noise, measured or known")
+{
+    const PolygonMesh truth = test::triangle_grid(45, 45);
+    const double edge = mean_edge_length(truth);
+    const PolygonMesh plain = test::with_gaussian_noise(truth, 0.15, 1);
+    const double known = 0.15 * edge / std::sqrt(3.0);
+    for (const double height : {30.0, 1e4, 1e7}) {
+        PolygonMesh outlier = plain;
+        const Index spike = 1000;
+        outlier.vertices(spike, 2) -= height * edge;
+        CAPTURE(height);
+        for (const auto& noise : {std::optional<LengthOnMesh>(), std::optional(LengthOnMesh{known, false})}) {
+            const PresetChoice own = options_for(Preset::Scan, plain, {}, noise);
+            const PresetChoice choice = options_for(Preset::Scan, outlier, {}, noise);
+            CHECK(choice.remark.empty());
+            CHECK(std::abs(choice.options.time_step / own.options.time_step - 1.0) < 0.1);
+            PolygonMesh result = outlier;
+            mean_curvature_flow(result, choice.options);
+            CHECK(result.vertices(spike, 2) == outlier.vertices(spike, 2));
+            result.vertices.row(spike) = plain.vertices.row(spike);
+            PolygonMesh expected = plain;
+            mean_curvature_flow(expected, own.options);
+            CHECK(angle_to_truth(truth, result) < 1.2 * angle_to_truth(truth, expected));
+        }
+    }
+}
+
+TEST_CASE("known noise that cannot be removed is not said to be unknown")
+{
+    const PolygonMesh sphere = make_noisy_sphere(500);
+    const PresetChoice choice = options_for(Preset::Scan, sphere, {}, LengthOnMesh{1e3, false});
+    CHECK(choice.options.steps == 0);
+    CHECK(choice.remark.starts_with("With noise of 1e+03, no amount is expected"));
+}
+
+TEST_CASE("an unused vertex changes no preset, and no result, however far it is")
+{
+    const Case c = bumpy_sphere(0.1);
+    PolygonMesh more = c.noisy;
+    more.vertices.conservativeResize(c.noisy.n_vertices() + 1, 3);
+    more.vertices.bottomRows(1).setConstant(1e6);
+    const auto with_radius = [](const PolygonMesh& mesh) {
+        FlowOptions options;
+        options.radius = LengthOnMesh{0.02, true};
+        PolygonMesh result = mesh;
+        const FlowReport report = mean_curvature_flow(result, options);
+        return std::pair(result.vertices, report);
+    };
+    const auto [alone, report_alone] = with_radius(c.noisy);
+    const auto [together, report] = with_radius(more);
+    CHECK(together.topRows(alone.rows()) == alone);
+    CHECK(report.time_step == report_alone.time_step);
+    CHECK(report.mesh.unused_vertices == std::vector<Index>{c.noisy.n_vertices()});
+    for (const Preset preset : {Preset::Automatic, Preset::Scan, Preset::Cad, Preset::Terrain, Preset::Fair}) {
+        CAPTURE(static_cast<int>(preset));
+        CHECK(smoothed(more, preset).vertices.topRows(alone.rows()) == smoothed(c.noisy, preset).vertices);
+    }
+}
+
 TEST_CASE("a preset does the same to a mesh that is larger, further away, renumbered or beside another of its kind")
 {
     const Case c = bumpy_sphere(0.2);
