@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "engine/flow_run.h"
-#include "engine/step_tools.h"
+#include "engine/step_constraints.h"
 #include "partition/errors.h"
 #include "solvers/laplacian/degenerate.h"
 
@@ -17,7 +17,7 @@ namespace seamflow {
 std::vector<Index> FlowRun::require_changeable(std::string_view what, std::span<const Index> vertices,
                                                bool needs_stepper) const
 {
-    if (reference_ || tools_->has_results_apart() || tools_->is_scaled)
+    if (reference_ || constraints_->has_results_apart() || constraints_->is_scaled)
         throw OptionError(fmt::format("a flow with a reference, rescale, within or limits does not {} vertices between "
                                       "steps: begin a new flow",
                                       what));
@@ -50,7 +50,7 @@ void FlowRun::hold(std::span<const Index> vertices, bool is_held)
     stepper_->hold(flowing, is_held);
     for (const Index v : flowing)
         topology.fixed[v] = is_held_[v] = is_held ? 1 : 0;
-    tools_->vanishing.look_again(find_small_components(mesh_.mesh(), topology, options().motion.strength));
+    constraints_->vanishing.look_again(find_small_components(mesh_.mesh(), topology, options().motion.strength));
     was_changed_ = true;
 }
 
@@ -68,7 +68,7 @@ void FlowRun::attach(std::span<const Index> vertices, std::span<const double> we
             throw OptionError(
                 fmt::format("an attachment weight is {}, but must be at least 0 and finite (1/length²)", weight));
     stepper_->attach(flowing, weights);
-    tools_->vanishing.attach(flowing, weights);
+    constraints_->vanishing.attach(flowing, weights);
     was_changed_ = true;
 }
 
@@ -82,11 +82,11 @@ void FlowRun::move(std::span<const Index> vertices, const Points& to)
     const Points there = mesh_.to_flowing(to);
     require_rows(flowing, there);
     mesh_.move_isolated(vertices, to);
-    stepper_->move(flowing, there);
-    stepper_->move_first(flowing, there);
-    tools_->vanishing.move_first(flowing, there);
+    stepper_->set_vertices(flowing, there);
+    stepper_->set_reference_vertices(flowing, there);
+    constraints_->vanishing.set_reference_vertices(flowing, there);
     mesh_.move_to(stepper_->positions());
-    tools_->limit.emplace(mesh_.mesh(), options().accuracy.largest_update);
+    constraints_->limit.emplace(mesh_.mesh(), options().accuracy.largest_update);
     was_changed_ = true;
 }
 

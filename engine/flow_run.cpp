@@ -13,7 +13,7 @@
 #include "engine/measure/surface_measures.h"
 #include "engine/ranks/rank_stepper.h"
 #include "engine/state/archive.h"
-#include "engine/step_tools.h"
+#include "engine/step_constraints.h"
 #include "engine/steppers/make_stepper.h"
 #include "engine/steppers/switching_stepper.h"
 #include "engine/tasks/parallel_executor.h"
@@ -131,7 +131,7 @@ FlowRun::FlowRun(FlowingMesh& mesh, std::unique_ptr<PreparedFlow> prepared, Prog
     , ranks_(control.ranks)
 {
     make_steppers();
-    tools_ = std::make_unique<StepTools>(mesh.mesh(), prepared_->topology, options());
+    constraints_ = std::make_unique<StepConstraints>(mesh.mesh(), prepared_->topology, options());
     free_topology();
     if (resume_ != nullptr)
         restore(*resume_);
@@ -139,7 +139,7 @@ FlowRun::FlowRun(FlowingMesh& mesh, std::unique_ptr<PreparedFlow> prepared, Prog
     if (n_taken > 0)
         curvature_before_ = report.steps.back().max_mean_curvature_after;
     fractions_ = std::make_unique<StepFractions>(setup, std::max(options().steps - n_taken, 1), reference_ != nullptr);
-    if (tools_->has_results_apart())
+    if (constraints_->has_results_apart())
         of_flow_ = stepper_->positions();
 }
 
@@ -158,7 +158,7 @@ void FlowRun::free_topology()
     const bool is_whole = smooths_normals(options()) || options().scheme == Scheme::ExplicitEuler ||
                           takes_whole_mesh(options().accuracy.approach);
     const bool needs_normals = options().motion.direction.kind != MotionDirection::Kind::Any;
-    if (is_whole || options().report.measures || tools_->limited || needs_normals)
+    if (is_whole || options().report.measures || constraints_->limited || needs_normals)
         return;
     topology.vertex_offsets = std::vector<Index>();
     topology.vertex_corners = std::vector<Index>();
@@ -180,7 +180,7 @@ void FlowRun::make_steppers()
         leave_factors(*prepared_, mesh, progress_.exec());
         make_stepper_of_flow();
     }
-    describe(*prepared_, mesh_, report_);
+    report_to(*prepared_, mesh_, report_);
     report_.cut.labels = std::move(prepared_->cut.labels);
     report_.seconds.analyse = watch.lap();
     report_.seconds.total = report_.seconds.cut + report_.seconds.analyse;
@@ -223,7 +223,7 @@ void FlowRun::restore(const FlowState& state)
     if (reference_)
         reference_->restore(*state.reference);
     Points positions = stepper_->positions();
-    tools_->make_result(positions);
+    constraints_->make_result(positions);
     mesh_.move_to(positions);
     if (prepared_->meter)
         prepared_->meter->restore(state.displacement, mesh_.mesh().vertices);
@@ -235,7 +235,7 @@ void FlowRun::restore(const FlowState& state)
 void FlowRun::diffuse(Points& data, int n, DataSteps steps)
 {
     mesh_.join(data);
-    stepper_->begin(data, steps);
+    stepper_->set_data(data, steps);
     for (int step = 1; step <= n; ++step) {
         progress_.enter(FlowPhase::Step, fractions_->number(), fractions_->begin(), fractions_->end());
         Stopwatch watch;
@@ -274,9 +274,9 @@ void FlowRun::compare_with_reference(int step, StepReport& of_step)
     Stopwatch watch;
     const Points before = reference_->positions();
     named("step " + std::to_string(step) + " of the undecomposed flow", [&] {
-        tools_->vanishing.step(*reference_, before);
-        tools_->direct(*reference_, before);
-        tools_->rescale(*reference_);
+        constraints_->vanishing.step(*reference_, before);
+        constraints_->direct(*reference_, before);
+        constraints_->rescale(*reference_);
     });
     of_step.reference_seconds = watch.lap();
     PolygonMesh undecomposed = mesh_.mesh();
@@ -290,7 +290,8 @@ void FlowRun::compare_with_reference(int step, StepReport& of_step)
 }
 
 /// An observer sees everything where the given mesh lies.
-void FlowRun::tell(const StepObserver& on_step, int step, const StepReport& of_step, const Points* undecomposed) const
+void FlowRun::notify_observer(const StepObserver& on_step, int step, const StepReport& of_step,
+                              const Points* undecomposed) const
 {
     const PolygonMesh* separated = stepper_->separated();
     std::optional<Points> undecomposed_there;
@@ -319,27 +320,27 @@ void FlowRun::measure(const Points& after, StepReport& of_step)
 void FlowRun::take_step(const StepObserver& on_step)
 {
     const PolygonMesh& mesh = mesh_.mesh();
-    const bool is_apart = tools_->has_results_apart();
+    const bool is_apart = constraints_->has_results_apart();
     const Points& before = is_apart ? of_flow_ : mesh.vertices;
     const int step = static_cast<int>(report_.steps.size()) + 1;
     const std::string name = "step " + std::to_string(step);
     progress_.enter(FlowPhase::Step, step, fractions_->begin(), fractions_->end_of_tasks());
     Stopwatch watch;
     named(name, [&] {
-        tools_->vanishing.step(*stepper_, before);
-        tools_->direct(*stepper_, before);
+        constraints_->vanishing.step(*stepper_, before);
+        constraints_->direct(*stepper_, before);
     });
     StepReport of_step;
     of_step.seconds = watch.lap();
-    stepper_->describe(of_step);
+    stepper_->report_to(of_step);
     in_mean_edges(of_step.estimated_v_max, mesh, stepper_->positions());
     // Scaling could hide that vertices have been thrown away, or shrink what is left too much.
     named(name, [&] {
-        tools_->limit->require(before, stepper_->positions(), report_.cut.labels);
-        tools_->rescale(*stepper_);
+        constraints_->limit->require(before, stepper_->positions(), report_.cut.labels);
+        constraints_->rescale(*stepper_);
         if (is_apart) {
             of_flow_ = result_ = stepper_->positions();
-            tools_->make_result(result_);
+            constraints_->make_result(result_);
         }
     });
     const Points& after = is_apart ? result_ : stepper_->positions();
@@ -347,7 +348,7 @@ void FlowRun::take_step(const StepObserver& on_step)
     if (reference_) {
         compare_with_reference(step, of_step);
         undecomposed_ = reference_->positions();
-        named(name + " of the undecomposed flow", [&] { tools_->make_result(undecomposed_); });
+        named(name + " of the undecomposed flow", [&] { constraints_->make_result(undecomposed_); });
     }
     // What is measured adds up: only of complete steps.
     watch.lap();
@@ -361,21 +362,21 @@ void FlowRun::take_step(const StepObserver& on_step)
     report_.seconds.total += of_step.seconds + measuring;
     mesh_.move_to(after);
     if (on_step)
-        tell(on_step, step, of_step, reference_ ? &undecomposed_ : nullptr);
+        notify_observer(on_step, step, of_step, reference_ ? &undecomposed_ : nullptr);
 }
 
 void FlowRun::complete(FlowReport& report) const
 {
     // It is about positions, which flows of fields do not move.
     if (!report_.steps.empty())
-        std::ranges::copy(tools_->remarks(), std::back_inserter(report.remarks));
+        std::ranges::copy(constraints_->remarks(), std::back_inserter(report.remarks));
     remark_on_drift(options(), report);
     remark_on_collapse(extent_before_, box_of_faces(mesh_.mesh(), run_in_parallel).diagonal(), report);
     if (prepared_->meter)
         report.displacement = prepared_->meter->total();
     if (stepper_->separated() != nullptr)
         report.separated = *stepper_->separated();
-    stepper_->describe(report);
+    stepper_->report_to(report);
     if (resume_ != nullptr)
         report.seconds.add_tasks(resume_->seconds);
     mesh_.complete(report);

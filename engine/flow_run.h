@@ -16,7 +16,7 @@
 
 namespace seamflow {
 
-struct StepTools;
+struct StepConstraints;
 
 /// Takes the steps of a prepared flow, measures each, and reports it.
 class FlowRun {
@@ -67,7 +67,8 @@ class FlowRun {
     [[nodiscard]] FlowState capture() const;
     void compare_with_reference(int step, StepReport& of_step);
     void measure(const Points& after, StepReport& of_step);
-    void tell(const StepObserver& on_step, int step, const StepReport& of_step, const Points* undecomposed) const;
+    void notify_observer(const StepObserver& on_step, int step, const StepReport& of_step,
+                         const Points* undecomposed) const;
 
     FlowingMesh& mesh_;
     std::unique_ptr<PreparedFlow> prepared_;
@@ -88,7 +89,7 @@ class FlowRun {
     bool was_changed_ = false;
     /// #V: those held between steps.
     std::vector<std::uint8_t> is_held_;
-    std::unique_ptr<StepTools> tools_;
+    std::unique_ptr<StepConstraints> constraints_;
     std::unique_ptr<StepFractions> fractions_;
     /// #V by 3. The flow continues from its own positions: empty if they are its results, too.
     Points of_flow_ = Points(0, 3);

@@ -14,7 +14,7 @@ class DisjointSets {
   public:
     /// At first each number is a set of its own.
     DisjointSets(Index n, const Executor& exec)
-        : towards_lowest_(at(n))
+        : towards_lowest_(usize(n))
     {
         for_each(exec, n, [&](Index i) { towards_lowest_[i].store(i, std::memory_order_relaxed); });
     }

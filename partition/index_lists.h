@@ -22,8 +22,8 @@ struct Lists {
 
     [[nodiscard]] std::span<const Value> operator[](Index i) const
     {
-        const std::size_t begin = at(offsets[i]);
-        return std::span<const Value>(values).subspan(begin, at(offsets[i + 1]) - begin);
+        const std::size_t begin = usize(offsets[i]);
+        return std::span<const Value>(values).subspan(begin, usize(offsets[i + 1]) - begin);
     }
 
     /// Appends a list that has been pushed onto `values` entry by entry.
@@ -58,7 +58,7 @@ struct IndexListsView {
     [[nodiscard]] Index size() const { return offsets.empty() ? 0 : static_cast<Index>(offsets.size()) - 1; }
     [[nodiscard]] std::span<const Index> operator[](Index i) const
     {
-        return values.subspan(at(offsets[i]), at(offsets[i + 1] - offsets[i]));
+        return values.subspan(usize(offsets[i]), usize(offsets[i + 1] - offsets[i]));
     }
 };
 
@@ -71,7 +71,7 @@ Lists<Value> make_lists(Index n_lists, ForEachEntry&& for_each_entry)
     Lists<Value> lists;
     auto& offsets = lists.offsets;
     // The begin of each list is stored one place later and advances to its end, which is the begin of the next.
-    offsets.assign(at(n_lists) + 2, 0);
+    offsets.assign(usize(n_lists) + 2, 0);
     for_each_entry([&](Index list, const Value&) { ++offsets[list + 2]; });
     std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
     lists.values.resize(offsets.back());

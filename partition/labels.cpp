@@ -24,7 +24,7 @@ Index compact_labels(std::vector<Index>& labels)
 {
     if (labels.empty())
         return 0;
-    const auto largest = at(*std::max_element(labels.begin(), labels.end()));
+    const auto largest = usize(*std::max_element(labels.begin(), labels.end()));
     if (largest > 4 * labels.size())
         return compact_sparse(labels);
     std::vector<Index> renumbered(largest + 1, -1);

@@ -78,7 +78,7 @@ std::size_t BasicPointNumbers<Real>::slot_of(std::span<const Index> slots, std::
 {
     const std::size_t mask = slots.size() - 1;
     std::size_t slot = static_cast<std::size_t>(hash_of(point)) & mask;
-    while (slots[slot] >= 0 && points[at(slots[slot])] != point)
+    while (slots[slot] >= 0 && points[usize(slots[slot])] != point)
         slot = (slot + 1) & mask;
     return slot;
 }

@@ -83,7 +83,7 @@ void require_valid(const PolygonMesh& mesh, const Executor& exec)
 
 std::vector<std::uint8_t> used_by_faces(const PolygonMesh& mesh)
 {
-    std::vector<std::uint8_t> is_used(at(mesh.n_vertices()), 0);
+    std::vector<std::uint8_t> is_used(usize(mesh.n_vertices()), 0);
     for (const Index v : mesh.face_vertices)
         is_used[v] = 1;
     return is_used;

@@ -31,8 +31,8 @@ struct PolygonMesh {
     /// The vertices of face f, in order.
     [[nodiscard]] std::span<const Index> face(Index f) const
     {
-        const std::size_t begin = at(face_offsets[f]);
-        return std::span<const Index>(face_vertices).subspan(begin, at(face_offsets[f + 1]) - begin);
+        const std::size_t begin = usize(face_offsets[f]);
+        return std::span<const Index>(face_vertices).subspan(begin, usize(face_offsets[f + 1]) - begin);
     }
 
     /// Appends a face.

@@ -30,7 +30,7 @@ SurfaceComponents surface_components(const PolygonMesh& mesh, const Executor& ex
     Index n_sets = 0;
     std::tie(set_of, n_sets) = sets.numbered(exec);
     // A vertex without faces is a set without faces.
-    std::vector<Index> number(at(n_sets), -1);
+    std::vector<Index> number(usize(n_sets), -1);
     for (Index f = 0; f < mesh.n_faces(); ++f)
         number[set_of[mesh.face(f).front()]] = 0;
     Index n = 0;
@@ -49,7 +49,7 @@ SurfaceComponents surface_components(const PolygonMesh& mesh, const Executor& ex
 double largest_diagonal(const PolygonMesh& mesh, const Executor& exec)
 {
     const SurfaceComponents components = surface_components(mesh, exec);
-    std::vector<Eigen::AlignedBox3d> boxes(at(components.count()));
+    std::vector<Eigen::AlignedBox3d> boxes(usize(components.count()));
     for (Index v = 0; v < mesh.n_vertices(); ++v)
         if (const Index c = components.of_vertex[v]; c >= 0)
             boxes[c].extend(mesh.vertices.row(v).transpose());

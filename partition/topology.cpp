@@ -286,7 +286,7 @@ std::vector<Fan> fans_at(const PolygonMesh& mesh, const Topology& topology, Inde
     const auto belongs = [&](Index f) { return labels.empty() || labels[f] == label; };
     const auto corners = topology.corners_at(v);
     std::vector<bool> visited(corners.size(), false);
-    const auto mark = [&](Index corner) { visited[at(place_in(corners, corner))] = true; };
+    const auto mark = [&](Index corner) { visited[usize(place_in(corners, corner))] = true; };
 
     std::vector<Fan> fans;
     for (std::size_t i = 0; i < corners.size(); ++i) {

@@ -106,8 +106,8 @@ struct Topology {
     /// The corners (each one in its own face) at vertex v.
     [[nodiscard]] std::span<const Index> corners_at(Index v) const
     {
-        const std::size_t begin = at(vertex_offsets[v]);
-        return std::span<const Index>(vertex_corners).subspan(begin, at(vertex_offsets[v + 1]) - begin);
+        const std::size_t begin = usize(vertex_offsets[v]);
+        return std::span<const Index>(vertex_corners).subspan(begin, usize(vertex_offsets[v + 1]) - begin);
     }
 
     /// The half-edge after h in its face.

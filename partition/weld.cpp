@@ -21,7 +21,7 @@ namespace {
 class Lots {
   public:
     explicit Lots(Index n)
-        : above_(at(n))
+        : above_(usize(n))
     {
         std::iota(above_.begin(), above_.end(), 0);
     }

@@ -63,14 +63,14 @@ class SeamsOfFields {
         const std::vector<std::uint8_t> lacked = group.lacks;
         std::vector<Index> n(lacked.size(), 0);
         for (std::size_t v = 0; v < lacked.size(); ++v)
-            n[at(weld_->first[v])] += lacked[v] == 0 ? 1 : 0;
+            n[usize(weld_->first[v])] += lacked[v] == 0 ? 1 : 0;
         for (const Eigen::Index c : group.columns) {
             std::vector<double> sums(lacked.size(), 0.0);
             for (std::size_t v = 0; v < lacked.size(); ++v)
                 if (lacked[v] == 0)
-                    sums[at(weld_->first[v])] += fields(static_cast<Eigen::Index>(v), c);
+                    sums[usize(weld_->first[v])] += fields(static_cast<Eigen::Index>(v), c);
             for (std::size_t v = 0; v < lacked.size(); ++v)
-                if (const std::size_t first = at(weld_->first[v]); lacked[v] != 0 && n[first] > 0) {
+                if (const std::size_t first = usize(weld_->first[v]); lacked[v] != 0 && n[first] > 0) {
                     fields(static_cast<Eigen::Index>(v), c) = sums[first] / n[first];
                     group.lacks[v] = 0;
                 }
@@ -89,7 +89,7 @@ class SeamsOfFields {
             if (group.lacks[v] == 0 && std::exchange(reached[first(v)], std::uint8_t{1}) == 0)
                 append_reachable(first(v), nodes, [&](Index node, auto&& reach) {
                     for (const Index corner : topology.corners_at(node))
-                        for (const Index w : mesh.face(topology.face_of[at(corner)]))
+                        for (const Index w : mesh.face(topology.face_of[usize(corner)]))
                             if (std::exchange(reached[w], std::uint8_t{1}) == 0)
                                 reach(w);
                 });
@@ -112,7 +112,7 @@ PolygonMesh surface_for_extension(const PolygonMesh& mesh, const FieldGroup& gro
     Topology topology = make_topology(sound);
     free_junctions(sound, topology, run_serially);
     free_boundary(topology);
-    std::vector<std::uint8_t> is_held(at(mesh.n_vertices()), 0);
+    std::vector<std::uint8_t> is_held(usize(mesh.n_vertices()), 0);
     for (const Index v : vertices_without_row(sound, topology, laplacian))
         is_held[v] = group.lacks[v];
     for (Index v = 0; v < mesh.n_vertices(); ++v)
@@ -224,7 +224,7 @@ FieldReport diffuse(const PolygonMesh& mesh, Eigen::MatrixXd& fields, const Flow
     std::vector<FieldGroup> groups = group_columns(fields);
     std::vector<std::vector<std::string>> remarks;
     // #V: whether a column lacks data there, or has got some.
-    std::vector<std::uint8_t> lacking(at(mesh.n_vertices()), 0);
+    std::vector<std::uint8_t> lacking(usize(mesh.n_vertices()), 0);
     std::vector<std::uint8_t> filled = lacking;
     for (FieldGroup& group : groups) {
         FlowOptions own = of_flow;

@@ -14,8 +14,8 @@ namespace seamflow {
 EdgePaths paths_along_edges(const PolygonMesh& mesh, const Topology& topology, std::span<const Index> from)
 {
     using Front = std::pair<double, Index>;
-    EdgePaths paths{std::vector<double>(at(mesh.n_vertices()), std::numeric_limits<double>::infinity()),
-                    std::vector<Index>(at(mesh.n_vertices()), -1)};
+    EdgePaths paths{std::vector<double>(usize(mesh.n_vertices()), std::numeric_limits<double>::infinity()),
+                    std::vector<Index>(usize(mesh.n_vertices()), -1)};
     std::priority_queue<Front, std::vector<Front>, std::greater<>> fronts;
     for (const Index v : from) {
         paths.length[v] = 0.0;
@@ -44,10 +44,10 @@ EdgePaths paths_along_edges(const PolygonMesh& mesh, const Topology& topology, s
 std::vector<double> straight_within_faces(const PolygonMesh& mesh, const Topology& topology,
                                           std::span<const Index> from)
 {
-    std::vector<double> straight(at(mesh.n_vertices()), std::numeric_limits<double>::infinity());
+    std::vector<double> straight(usize(mesh.n_vertices()), std::numeric_limits<double>::infinity());
     for (const Index v : from)
         for (const Index corner : topology.corners_at(v))
-            for (const Index w : mesh.face(topology.face_of[at(corner)]))
+            for (const Index w : mesh.face(topology.face_of[usize(corner)]))
                 straight[w] = std::min(straight[w], (mesh.vertices.row(w) - mesh.vertices.row(v)).norm());
     return straight;
 }
@@ -55,7 +55,7 @@ std::vector<double> straight_within_faces(const PolygonMesh& mesh, const Topolog
 std::vector<double> straight_distances(const PolygonMesh& mesh, std::span<const Index> from)
 {
     constexpr double most_pairs = 1e9;
-    std::vector<double> straight(at(mesh.n_vertices()), 0.0);
+    std::vector<double> straight(usize(mesh.n_vertices()), 0.0);
     if (static_cast<double>(from.size()) * mesh.n_vertices() > most_pairs)
         return straight;
     for_each(run_in_parallel, mesh.n_vertices(), [&](Index v) {

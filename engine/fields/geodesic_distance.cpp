@@ -81,7 +81,7 @@ PolygonMesh in_units(const PolygonMesh& mesh, double unit)
         double distance = std::numeric_limits<double>::infinity();
         Index vertex = -1;
     };
-    std::vector<Nearest> nearest(at(surface.n_vertices()));
+    std::vector<Nearest> nearest(usize(surface.n_vertices()));
     for_each_edge(surface, [&](Index v, Index w, double quarter) {
         for (const auto& [from, to] : {std::pair(v, w), std::pair(w, v)})
             if (quarter > 0.0 && 4.0 * quarter < nearest[from].distance)
@@ -123,7 +123,7 @@ class Geodesics::Surface {
             topology_ = make_topology(flowing_.mesh(), run_in_parallel);
         sound_ = with_faces(surface(), [&](Index f) { return !is_thin(surface().face(f), surface().vertices); });
         topology_of_sound_ = make_topology(sound_, run_in_parallel);
-        part_of_.resize(at(surface().n_vertices()), nullptr);
+        part_of_.resize(usize(surface().n_vertices()), nullptr);
     }
 
     [[nodiscard]] Index n_vertices() const { return given_.n_vertices(); }

@@ -38,12 +38,12 @@ constexpr double squared_diagonals_to_rest_of_distance = 1e4;
 PolygonMesh component_around(const PolygonMesh& surface, const Topology& topology, Index v,
                              std::vector<Index>& vertices)
 {
-    std::vector<std::uint8_t> is_reached(at(surface.n_vertices()), 0);
+    std::vector<std::uint8_t> is_reached(usize(surface.n_vertices()), 0);
     is_reached[v] = 1;
     vertices.clear();
     append_reachable(v, vertices, [&](Index node, auto&& reach) {
         for (const Index corner : topology.corners_at(node))
-            for (const Index w : surface.face(topology.face_of[at(corner)]))
+            for (const Index w : surface.face(topology.face_of[usize(corner)]))
                 if (std::exchange(is_reached[w], std::uint8_t{1}) == 0)
                     reach(w);
     });
@@ -51,7 +51,7 @@ PolygonMesh component_around(const PolygonMesh& surface, const Topology& topolog
     std::vector<Index> faces;
     for (const Index w : vertices)
         for (const Index corner : topology.corners_at(w))
-            faces.push_back(topology.face_of[at(corner)]);
+            faces.push_back(topology.face_of[usize(corner)]);
     sort_unique(faces);
     PolygonMesh component;
     std::vector<Index> corners;
@@ -126,10 +126,10 @@ void add_fluxes(std::span<const Index> face, const Points& positions, const Eige
 Eigen::VectorXd divergence(const PolygonMesh& mesh, const Topology& topology, const Eigen::VectorXd& heat)
 {
     std::vector<double> of_corners(mesh.face_vertices.size());
-    std::vector<double> masses(at(mesh.n_faces()));
+    std::vector<double> masses(usize(mesh.n_faces()));
     for_each(run_in_parallel, mesh.n_faces(), [&](Index f) {
         const auto face = mesh.face(f);
-        add_fluxes(face, mesh.vertices, heat, std::span(of_corners).subspan(at(mesh.face_offsets[f]), face.size()));
+        add_fluxes(face, mesh.vertices, heat, std::span(of_corners).subspan(usize(mesh.face_offsets[f]), face.size()));
         masses[f] = VirtualRefinement::corner_mass(VirtualRefinement::size(face, mesh.vertices), face.size());
     });
     Eigen::VectorXd result(mesh.n_vertices());
@@ -138,7 +138,7 @@ Eigen::VectorXd divergence(const PolygonMesh& mesh, const Topology& topology, co
         double mass = 0.0;
         for (const Index corner : topology.corners_at(v)) {
             sum += of_corners[corner];
-            mass += masses[topology.face_of[at(corner)]];
+            mass += masses[topology.face_of[usize(corner)]];
         }
         result[v] = mass > 0.0 ? sum / mass : 0.0;
     });
@@ -185,7 +185,7 @@ Topology with_held_boundary(Topology topology, std::span<const Index> from)
 HeatEquation::HeatEquation(const PolygonMesh& mesh, const Topology& topology, const Executor& exec)
     : n_vertices_(mesh.n_vertices())
 {
-    Decomposition whole = decompose(mesh, topology, std::vector<Index>(at(mesh.n_faces()), 0), 1, exec);
+    Decomposition whole = decompose(mesh, topology, std::vector<Index>(usize(mesh.n_faces()), 0), 1, exec);
     SubMesh sub_mesh = std::move(whole.sub_meshes.front());
     IndexLists faces = std::move(sub_mesh.face_vertices);
     system_.emplace(sub_mesh, std::move(faces), ScaledLaplacian{Laplacian::VirtualRefinement});

@@ -54,7 +54,7 @@ Eigen::MatrixXd white_noise(Index n_vertices)
 
 std::optional<double> fwhm_of_noise(const PolygonMesh& mesh, const Eigen::MatrixXd& noise)
 {
-    std::vector<std::uint8_t> has_face(at(mesh.n_vertices()), 0);
+    std::vector<std::uint8_t> has_face(usize(mesh.n_vertices()), 0);
     for (const Index v : mesh.face_vertices)
         has_face[v] = 1;
     double sum = 0.0;

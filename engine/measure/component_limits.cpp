@@ -25,9 +25,9 @@ LimitedComponents::LimitedComponents(const PolygonMesh& mesh, const Topology& to
     , limits_(limits)
     , normals_(mesh, topology)
     , components_(face_components(mesh, topology))
-    , is_closed_(at(components_.count()), topology.oriented ? 1 : 0)
+    , is_closed_(usize(components_.count()), topology.oriented ? 1 : 0)
     , first_(mesh.vertices)
-    , factors_(at(components_.count()), 1.0)
+    , factors_(usize(components_.count()), 1.0)
 {
     for (Index c = 0; c < components_.count(); ++c) {
         std::vector<Index> vertices;

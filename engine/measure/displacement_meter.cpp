@@ -54,7 +54,7 @@ DisplacementSums DisplacementMeter::sums() const
 
 void DisplacementMeter::restore(const DisplacementSums& sums, const Points& now)
 {
-    const std::size_t n = at(mesh_.n_vertices());
+    const std::size_t n = usize(mesh_.n_vertices());
     if (sums.drift.rows() != mesh_.n_vertices() || sums.tangential.size() != n || sums.normal.size() != n)
         throw InputError("the displacements to resume from are not those of this mesh");
     drift_ = sums.drift;

@@ -73,7 +73,7 @@ Rescaling::Rescaling(const PolygonMesh& mesh, const Topology& topology, Rescale 
         require_closed(mesh, topology);
     require_movable(topology, mesh.n_vertices());
     components_ = surface_components(mesh, run_in_parallel);
-    origins_.assign(at(components_.count()), -1);
+    origins_.assign(usize(components_.count()), -1);
     for (Index v = 0; v < mesh.n_vertices(); ++v)
         if (const Index c = components_.of_vertex[v]; c >= 0 && origins_[c] < 0)
             origins_[c] = v;

@@ -89,12 +89,12 @@ Dealer::Dealer(const PolygonMesh& mesh, const Topology& topology, std::span<cons
     , options_(&options)
     , curvature_(std::move(curvature))
     , faces_(faces_by_label(labels, n_parts, run_in_parallel))
-    , holder_at_(at(mesh.n_vertices()), -1)
+    , holder_at_(usize(mesh.n_vertices()), -1)
     , teller_(holder_at_)
-    , knows_face_(at(mesh.n_faces()), -1)
-    , knows_vertex_(at(mesh.n_vertices()), -1)
-    , meets_vertex_(at(mesh.n_vertices()), -1)
-    , place_(at(mesh.n_vertices()), 0)
+    , knows_face_(usize(mesh.n_faces()), -1)
+    , knows_vertex_(usize(mesh.n_vertices()), -1)
+    , meets_vertex_(usize(mesh.n_vertices()), -1)
+    , place_(usize(mesh.n_vertices()), 0)
     , known_vertices_(static_cast<std::size_t>(n_ranks))
     , told_vertices_(known_vertices_.size())
 {
@@ -121,7 +121,7 @@ std::vector<Index> Dealer::known_faces(int rank)
         if (std::exchange(knows_vertex_[v], rank) == rank)
             return;
         for (const Index corner : topology_->corners_at(v)) {
-            const Index f = topology_->face_of[at(corner)];
+            const Index f = topology_->face_of[usize(corner)];
             if (std::exchange(knows_face_[f], rank) != rank)
                 further.push_back(f);
         }

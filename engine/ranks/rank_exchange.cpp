@@ -83,11 +83,11 @@ void RankExchange::connect(const Decomposition& decomposition, std::span<const S
 {
     find_own_interest(decomposition, sweeps, further);
     pending_.resize(sweeps.size());
-    std::vector<Packer> to_each(comm_->size());
+    std::vector<Packer> per_rank(comm_->size());
     for (std::size_t s = 0; s < dealt_->known.size(); ++s) {
         if (!is_foreign(static_cast<Index>(s)))
             continue;
-        Packer& packer = to_each[holder(static_cast<Index>(s))];
+        Packer& packer = per_rank[holder(static_cast<Index>(s))];
         packer.put(dealt_->known[s]);
         for (const auto& rows : own_interest_[s].rows) {
             std::vector<Index> numbers;
@@ -98,7 +98,7 @@ void RankExchange::connect(const Decomposition& decomposition, std::span<const S
         packer.put_all(std::span<const std::uint8_t>(own_interest_[s].predicts));
     }
     std::vector<Bytes> bytes;
-    for (Packer& packer : to_each)
+    for (Packer& packer : per_rank)
         bytes.push_back(packer.take());
     const std::vector<Bytes> from_each = comm_->exchange(std::move(bytes));
     for (int rank = 0; rank < comm_->size(); ++rank)

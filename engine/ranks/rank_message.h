@@ -16,10 +16,10 @@ enum class RankTask : std::uint8_t {
     Step,
     /// Answer: rows, one for each vertex whose position comes from here.
     Positions,
-    /// Rows of all vertices: Stepper::continue_from, and Stepper::begin, with its DataSteps.
+    /// Rows of all vertices: Stepper::set_positions, and Stepper::set_data, with its DataSteps.
     Continue,
     Begin,
-    /// Numbers of vertices, and rows: Stepper::move.
+    /// Numbers of vertices, and rows: Stepper::set_vertices.
     Move,
     /// Stepper::save. Answer: numbers and arrays.
     Save,

@@ -175,18 +175,18 @@ Bytes RankPart::act(RankTask task, Unpacker& message)
         answer.put_rows(stepper_->positions(), told_);
         break;
     case RankTask::Continue:
-        stepper_->continue_from(message.get_points(), {});
+        stepper_->set_positions(message.get_points(), {});
         break;
     case RankTask::Begin: {
         const auto steps = message.get<DataSteps>();
-        stepper_->begin(message.get_points(), steps);
+        stepper_->set_data(message.get_points(), steps);
         break;
     }
     case RankTask::Move: {
         std::vector<Index> vertices = message.get_all<Index>();
         for (Index& v : vertices)
             v = position_in(dealt_.vertex_numbers, v);
-        stepper_->move(vertices, message.get_points());
+        stepper_->set_vertices(vertices, message.get_points());
         break;
     }
     case RankTask::Save: {
@@ -209,7 +209,7 @@ Bytes RankPart::act(RankTask task, Unpacker& message)
         break;
     }
     case RankTask::Describe:
-        describe(answer);
+        report_to(answer);
         break;
     case RankTask::Deal:
     case RankTask::Drop:
@@ -219,14 +219,14 @@ Bytes RankPart::act(RankTask task, Unpacker& message)
     return answer.take();
 }
 
-void RankPart::describe(Packer& answer) const
+void RankPart::report_to(Packer& answer) const
 {
     FlowReport report;
     SweptSubMeshes swept;
     if (sweeps_ != nullptr)
         swept = sweeps_->describe_sub_meshes(report);
     else
-        stepper_->describe(report);
+        stepper_->report_to(report);
     const auto n_known = static_cast<std::int64_t>(dealt_.vertex_numbers.size());
     const auto n_told = static_cast<std::int64_t>(told_.size());
     RankShare share{.record = {.vertices = n_told,

@@ -33,7 +33,7 @@ class RankPart {
   private:
     void step();
     void take_sweeps(Decomposition decomposition, Progress& progress);
-    void describe(Packer& answer) const;
+    void report_to(Packer& answer) const;
 
     Communicator& comm_;
     DealtMesh dealt_;

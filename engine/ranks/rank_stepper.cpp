@@ -173,14 +173,14 @@ const Points& RankStepper::positions() const
     return positions_;
 }
 
-void RankStepper::continue_from(const Points& image, const SimilarityOfComponents&)
+void RankStepper::set_positions(const Points& image, const SimilarityOfComponents&)
 {
     positions_ = image;
     are_current_ = true;
     ask(RankTask::Continue, [&](int rank, Packer& message) { message.put_rows(image, known_vertices_[rank]); });
 }
 
-void RankStepper::begin(const Points& data, DataSteps steps)
+void RankStepper::set_data(const Points& data, DataSteps steps)
 {
     positions_ = data;
     are_current_ = true;
@@ -190,7 +190,7 @@ void RankStepper::begin(const Points& data, DataSteps steps)
     });
 }
 
-void RankStepper::move(std::span<const Index> vertices, const Points& to)
+void RankStepper::set_vertices(std::span<const Index> vertices, const Points& to)
 {
     if (are_current_)
         move_rows(vertices, to, positions_);
@@ -237,21 +237,21 @@ void RankStepper::restore(const StepMemory& memory)
 void RankStepper::add_seconds(PhaseSeconds& seconds) const
 {
     FlowReport report;
-    describe(report);
+    report_to(report);
     seconds.add_tasks(report.seconds);
 }
 
 /// All ranks know the same of it.
-void RankStepper::describe(StepReport& report) const
+void RankStepper::report_to(StepReport& report) const
 {
-    own_->stepper().describe(report);
+    own_->stepper().report_to(report);
 }
 
-void RankStepper::describe(FlowReport& report) const
+void RankStepper::report_to(FlowReport& report) const
 {
     FlowReport of_own;
-    own_->stepper().describe(of_own);
-    std::vector<SubMeshReport> sub_meshes(at(n_sub_meshes_));
+    own_->stepper().report_to(of_own);
+    std::vector<SubMeshReport> sub_meshes(usize(n_sub_meshes_));
     std::vector<Index> n_nearly_singular(sub_meshes.size());
     std::vector<Factorisation> factorisations(sub_meshes.size());
     bool are_sweeps = false;

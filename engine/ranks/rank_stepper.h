@@ -37,14 +37,14 @@ class RankStepper final : public Stepper {
     /// @param before is what positions() are.
     void step(const Points& before) override;
     [[nodiscard]] const Points& positions() const override;
-    void continue_from(const Points& image, const SimilarityOfComponents& similarity) override;
-    void begin(const Points& data, DataSteps steps) override;
-    void move(std::span<const Index> vertices, const Points& to) override;
+    void set_positions(const Points& image, const SimilarityOfComponents& similarity) override;
+    void set_data(const Points& data, DataSteps steps) override;
+    void set_vertices(std::span<const Index> vertices, const Points& to) override;
     void save(StepMemory& memory) const override;
     void restore(const StepMemory& memory) override;
     void add_seconds(PhaseSeconds& seconds) const override;
-    void describe(StepReport& report) const override;
-    void describe(FlowReport& report) const override;
+    void report_to(StepReport& report) const override;
+    void report_to(FlowReport& report) const override;
 
   private:
     /// Appends to the message for a rank.

@@ -33,7 +33,7 @@ void hold_still(Topology& topology, const PolygonMesh& mesh, const std::vector<d
 {
     if (strength.empty())
         return;
-    if (strength.size() != at(mesh.n_vertices()))
+    if (strength.size() != usize(mesh.n_vertices()))
         throw InputError(fmt::format("there are {} strengths, but the mesh has {} vertices: give one for each",
                                      strength.size(), mesh.n_vertices()));
     const auto is_still = [](double s) { return s < MotionOptions::least_strength; };
@@ -62,7 +62,7 @@ void constrain(Topology& topology, const PolygonMesh& mesh, const FlowOptions& o
         free_boundary(topology);
     hold(topology, options.motion.fixed_vertices);
     const std::size_t n_weights = options.motion.attachment_weights.size();
-    if (n_weights > 0 && n_weights != at(mesh.n_vertices()))
+    if (n_weights > 0 && n_weights != usize(mesh.n_vertices()))
         throw InputError(fmt::format("there are {} attachment weights, but the mesh has {} vertices: give one for each",
                                      n_weights, mesh.n_vertices()));
     hold_still(topology, mesh, options.motion.strength, remarks);

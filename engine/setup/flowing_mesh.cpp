@@ -113,7 +113,7 @@ bool FlowingMesh::leave_out_still_faces(std::span<const double> strength, Reach 
     }
     if (std::ssize(faces) == all.n_faces())
         return false;
-    std::vector<Index> number(at(all.n_faces()), -1);
+    std::vector<Index> number(usize(all.n_faces()), -1);
     PolygonMesh left;
     for (const Index f : faces) {
         number[f] = left.n_faces();
@@ -149,7 +149,7 @@ bool FlowingMesh::leave_out_repeated_faces(const Topology& topology)
     const std::vector<RepeatedFace> repeated = find_repeated_faces(mesh(), candidates);
     if (repeated.empty())
         return false;
-    std::vector<Index> number(at(mesh().n_faces()), -1);
+    std::vector<Index> number(usize(mesh().n_faces()), -1);
     PolygonMesh left;
     auto next = repeated.begin();
     for (Index f = 0; f < mesh().n_faces(); ++f) {
@@ -168,7 +168,7 @@ bool FlowingMesh::leave_out_repeated_faces(const Topology& topology)
 
 void FlowingMesh::replace_faces(PolygonMesh triangles, std::span<const Index> face_of)
 {
-    std::vector<Index> number(at(mesh().n_faces()));
+    std::vector<Index> number(usize(mesh().n_faces()));
     for (std::size_t t = face_of.size(); t-- > 0;)
         number[face_of[t]] = static_cast<Index>(t);
     renumber(std::move(number));
@@ -183,10 +183,10 @@ std::vector<Index> FlowingMesh::of_faces_left(const std::vector<Index>& labels) 
     // Behind its first triangle a polygon has others.
     for (std::size_t f = 0; f < labels.size(); ++f)
         if (number_[f] >= std::ssize(left)) {
-            left.resize(at(number_[f]), left.empty() ? 0 : left.back());
+            left.resize(usize(number_[f]), left.empty() ? 0 : left.back());
             left.push_back(labels[f]);
         }
-    left.resize(at(mesh().n_faces()), left.empty() ? 0 : left.back());
+    left.resize(usize(mesh().n_faces()), left.empty() ? 0 : left.back());
     return left;
 }
 

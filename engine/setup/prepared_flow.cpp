@@ -72,7 +72,7 @@ void examine(PreparedFlow& prepared, FlowingMesh& mesh, Progress& progress)
     std::vector<double>& strength = options.motion.strength;
     if (std::ranges::all_of(strength, [](double s) { return s == 1.0; }))
         strength.clear();
-    if (flows_alone(options) && strength.size() == at(mesh.mesh().n_vertices()) &&
+    if (flows_alone(options) && strength.size() == usize(mesh.mesh().n_vertices()) &&
         mesh.leave_out_still_faces(strength, traits_of(options.laplacian).reach))
         prepared.choices.push_back(remark_on_still_faces(mesh.mesh().n_faces()));
     const auto look = [&] {
@@ -198,7 +198,7 @@ void leave_factors(PreparedFlow& prepared, const PolygonMesh& mesh, const Execut
     prepared.costs.reset();
 }
 
-void describe(const PreparedFlow& prepared, const FlowingMesh& mesh, FlowReport& report)
+void report_to(const PreparedFlow& prepared, const FlowingMesh& mesh, FlowReport& report)
 {
     const FlowOptions& options = prepared.options;
     const Topology& topology = prepared.topology;

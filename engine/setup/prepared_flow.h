@@ -70,6 +70,6 @@ std::unique_ptr<PreparedFlow> prepare(FlowingMesh& mesh, FlowOptions options, bo
 void leave_factors(PreparedFlow& prepared, const PolygonMesh& mesh, const Executor& exec);
 
 /// Adds this to the report.
-void describe(const PreparedFlow& prepared, const FlowingMesh& mesh, FlowReport& report);
+void report_to(const PreparedFlow& prepared, const FlowingMesh& mesh, FlowReport& report);
 
 }  // namespace seamflow

@@ -47,7 +47,7 @@ void CondensedSubMesh::fetch_increments(const CondensedStep& step, SolverWorkspa
 /// The equations with the workspace's increments.
 NeumannSystem::Assembled CondensedSubMesh::assemble(const CondensedStep& step, SolverWorkspace& workspace) const
 {
-    const auto own = std::span(vertices_.local_to_global).first(at(vertices_.n_vertices));
+    const auto own = std::span(vertices_.local_to_global).first(usize(vertices_.n_vertices));
     const Points& positions = gather_rows(own, step.before, workspace.positions);
     if (step.data == nullptr)
         return system_->assemble(positions, workspace.increments, step.time_step, workspace);

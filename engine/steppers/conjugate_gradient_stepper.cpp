@@ -21,7 +21,7 @@ InterfaceResult ConjugateGradientStepper::solve_equation(const IterationStop& st
     return {result, result.distance};
 }
 
-void ConjugateGradientStepper::describe(FlowReport& report) const
+void ConjugateGradientStepper::report_to(FlowReport& report) const
 {
     if (mesh_->n_faces() > 0)
         report.cut.sub_meshes = {{mesh_->n_faces(), mesh_->n_vertices()}};

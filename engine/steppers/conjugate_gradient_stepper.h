@@ -20,8 +20,8 @@ class ConjugateGradientStepper final : public ConvergedStepper {
 
     void give(const GivenStiffness& given) override { system_.give(given); }
 
-    using ConvergedStepper::describe;
-    void describe(FlowReport& report) const override;
+    using ConvergedStepper::report_to;
+    void report_to(FlowReport& report) const override;
 
   private:
     InterfaceResult solve_equation(const IterationStop& stop, const Executor& exec) override;

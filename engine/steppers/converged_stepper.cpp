@@ -23,7 +23,7 @@ ConvergedStepper::ConvergedStepper(const PolygonMesh& mesh, Index n_sub_meshes, 
     : time_step_(options.time_step)
     , filter_(filter_of(options))
     , positions_(mesh.vertices)
-    , seconds_(at(n_sub_meshes) + 1)
+    , seconds_(usize(n_sub_meshes) + 1)
     , graph_([this](const ScheduledTask& task) { task.kind == TaskKind::SolveInterface ? solve() : perform(task); },
              options.report.record_schedule, progress)
     , root_(graph_.add_root())
@@ -75,8 +75,8 @@ void ConvergedStepper::complete_filter()
 /// Notes how well the step has met the tolerance.
 void ConvergedStepper::note()
 {
-    reached_.of_step.resize(std::max(reached_.of_step.size(), at(reached_.n_taken) + 1));
-    Missed& counted = reached_.of_step[at(reached_.n_taken++)];
+    reached_.of_step.resize(std::max(reached_.of_step.size(), usize(reached_.n_taken) + 1));
+    Missed& counted = reached_.of_step[usize(reached_.n_taken++)];
     const Missed now{.is_short = !(reached_.last.residual <= stop_.tolerance),
                      .has_stagnated = reached_.last.stagnated};
     reached_.n_short_of_tolerance += now.is_short && !counted.is_short ? 1 : 0;
@@ -94,14 +94,14 @@ void ConvergedStepper::solve()
     seconds_.back().interface += watch.seconds();
 }
 
-void ConvergedStepper::continue_from(const Points& image, const SimilarityOfComponents&)
+void ConvergedStepper::set_positions(const Points& image, const SimilarityOfComponents&)
 {
     copy(run_in_parallel, image, positions_);
 }
 
-void ConvergedStepper::begin(const Points& data, DataSteps steps)
+void ConvergedStepper::set_data(const Points& data, DataSteps steps)
 {
-    continue_from(data, {});
+    set_positions(data, {});
     if (steps == DataSteps::Further)
         reached_.first = reached_.n_taken;
     reached_.n_taken = reached_.first;
@@ -125,7 +125,7 @@ void ConvergedStepper::restore(const StepMemory& memory)
     reader.require_end();
 }
 
-void ConvergedStepper::describe(StepReport& report) const
+void ConvergedStepper::report_to(StepReport& report) const
 {
     report.iterations = reached_.last.iterations;
     report.residual = reached_.last.residual;

@@ -20,13 +20,13 @@ class ConvergedStepper : public Stepper {
   public:
     void step(const Points& before) final;
     [[nodiscard]] const Points& positions() const final { return positions_; }
-    void continue_from(const Points& image, const SimilarityOfComponents&) final;
-    void begin(const Points& data, DataSteps steps) override;
-    void move(std::span<const Index> vertices, const Points& to) final { move_rows(vertices, to, positions_); }
+    void set_positions(const Points& image, const SimilarityOfComponents&) final;
+    void set_data(const Points& data, DataSteps steps) override;
+    void set_vertices(std::span<const Index> vertices, const Points& to) final { move_rows(vertices, to, positions_); }
     void save(StepMemory& memory) const override;
     void restore(const StepMemory& memory) final;
     void add_seconds(PhaseSeconds& seconds) const final { add_up(seconds_, seconds); }
-    void describe(StepReport& report) const final;
+    void report_to(StepReport& report) const final;
 
   protected:
     /// Adds the equation to the graph.

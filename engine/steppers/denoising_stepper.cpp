@@ -48,7 +48,7 @@ void DenoisingStepper::restore(const StepMemory& memory)
     StepMemoryReader(memory).require_end();
 }
 
-void DenoisingStepper::describe(FlowReport& report) const
+void DenoisingStepper::report_to(FlowReport& report) const
 {
     if (mesh_->n_faces() == 0)
         return;

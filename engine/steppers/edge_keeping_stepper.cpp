@@ -80,7 +80,7 @@ void EdgeKeepingStepper::restore(const StepMemory& memory)
     StepMemoryReader(memory).require_end();
 }
 
-void EdgeKeepingStepper::describe(FlowReport& report) const
+void EdgeKeepingStepper::report_to(FlowReport& report) const
 {
     if (mesh_->n_faces() == 0)
         return;

@@ -25,15 +25,18 @@ class EdgeKeepingStepper final : public Stepper {
     /// @throws ComputationError if the result is not finite.
     void step(const Points& before) override;
     [[nodiscard]] const Points& positions() const override { return positions_; }
-    void continue_from(const Points& image, const SimilarityOfComponents&) override { positions_ = image; }
-    void move(std::span<const Index> vertices, const Points& to) override { move_rows(vertices, to, positions_); }
+    void set_positions(const Points& image, const SimilarityOfComponents&) override { positions_ = image; }
+    void set_vertices(std::span<const Index> vertices, const Points& to) override
+    {
+        move_rows(vertices, to, positions_);
+    }
     void save(StepMemory& memory) const override;
     void restore(const StepMemory& memory) override;
     /// There are no tasks.
     void add_seconds(PhaseSeconds&) const override {}
     /// A single step has nothing to report.
-    void describe(StepReport&) const override {}
-    void describe(FlowReport& report) const override;
+    void report_to(StepReport&) const override {}
+    void report_to(FlowReport& report) const override;
 
   private:
     const PolygonMesh* mesh_;

@@ -112,7 +112,7 @@ void ExplicitStepper::restore(const StepMemory& memory)
     reader.require_end();
 }
 
-void ExplicitStepper::describe(FlowReport& report) const
+void ExplicitStepper::report_to(FlowReport& report) const
 {
     if (mesh_->n_faces() == 0)
         return;

@@ -31,7 +31,7 @@ KeptFactors keep_first(std::span<const std::size_t> factors, std::span<const Ind
         kept.whole[s] = 1;
         kept.bytes += factors[s];
     }
-    if (at(n_whole) < order.size()) {
+    if (usize(n_whole) < order.size()) {
         kept.n_places = n_places;
         kept.bytes_per_place = factors[order[n_whole]];
     }
@@ -46,7 +46,7 @@ Index most_kept_within(std::span<const std::size_t> factors, std::span<const Ind
     std::size_t bytes = 0;
     for (std::size_t n_whole = 0; n_whole < order.size(); ++n_whole) {
         const std::size_t next = factors[order[n_whole]];
-        if (bytes + at(n_places) * next <= limit)
+        if (bytes + usize(n_places) * next <= limit)
             most = static_cast<Index>(n_whole);
         bytes += next;
     }

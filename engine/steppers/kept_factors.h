@@ -26,7 +26,7 @@ struct KeptFactors {
     [[nodiscard]] Index n_live() const { return n_whole + n_places; }
 
     /// The most bytes taken at once.
-    [[nodiscard]] std::size_t most_bytes() const { return bytes + at(n_places) * bytes_per_place; }
+    [[nodiscard]] std::size_t most_bytes() const { return bytes + usize(n_places) * bytes_per_place; }
 };
 
 /// Keeps the largest factors, as many as the limit allows, and leaves as many places for the others as lets them be

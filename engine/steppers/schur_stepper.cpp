@@ -24,7 +24,7 @@ constexpr double left_by_single = 1e-4;
 /// The area of all sub-meshes of all peers.
 double area_of_all(const Decomposition& decomposition, const PolygonMesh& mesh, InterfacePeers& peers)
 {
-    std::vector<double> areas(at(peers.n_places()), 0.0);
+    std::vector<double> areas(usize(peers.n_places()), 0.0);
     for_each(run_in_parallel, static_cast<Index>(decomposition.sub_meshes.size()), [&](Index s) {
         if (peers.is_own(s))
             for (const Index f : decomposition.sub_meshes[s].faces)
@@ -78,7 +78,7 @@ SchurStepper::SchurStepper(const PolygonMesh& mesh, PeerSubMeshes sub_meshes, co
     interface_.complements.resize(sub_meshes_.size());
     interface_.condensed.resize(equation_.copies().n_copies(), 3);
     make_sub_meshes(decomposition, mesh, options, progress);
-    limit_factors(options);
+    choose_factors(options);
     make_graph();
 }
 
@@ -103,14 +103,14 @@ void SchurStepper::make_sub_meshes(Decomposition& decomposition, const PolygonMe
         });
         own.local_to_global = std::move(sub_mesh.local_to_global);
         own.owned = std::move(sub_mesh.owned);
-        const auto on_interface = std::span(copies.vertex).subspan(at(copies.first[s]), at(copies.n_in(s)));
+        const auto on_interface = std::span(copies.vertex).subspan(usize(copies.first[s]), usize(copies.n_in(s)));
         sub_meshes_[s] = std::make_unique<CondensedSubMesh>(std::move(own), std::move(system), on_interface,
                                                             copies.first[s], seconds_[s]);
     });
 }
 
 /// Factors that may be in either precision count as double.
-void SchurStepper::limit_factors(const FlowOptions& options)
+void SchurStepper::choose_factors(const FlowOptions& options)
 {
     std::vector<std::size_t> bytes;
     for (const auto& one : sub_meshes_)
@@ -154,8 +154,8 @@ void SchurStepper::make_graph()
 /// Each waits until an earlier one has given back the place of its factor.
 void SchurStepper::take_turns(const std::vector<StepGraph::Node>& tasks)
 {
-    for (std::size_t i = at(factors_.plan.n_places); i < tasks.size(); ++i)
-        graph_.add_dependency(tasks[i - at(factors_.plan.n_places)], tasks[i]);
+    for (std::size_t i = usize(factors_.plan.n_places); i < tasks.size(); ++i)
+        graph_.add_dependency(tasks[i - usize(factors_.plan.n_places)], tasks[i]);
 }
 
 /// Sub-meshes whose factors are made again take turns.
@@ -172,7 +172,7 @@ void SchurStepper::for_each_sub_mesh(const Executor& exec, Action&& action)
             act(s);
     });
     for_each(exec, factors_.plan.n_places, [&](Index place) {
-        for (std::size_t i = at(place); i < passing.size(); i += at(factors_.plan.n_places))
+        for (std::size_t i = usize(place); i < passing.size(); i += usize(factors_.plan.n_places))
             act(passing[i]);
     });
 }
@@ -326,9 +326,9 @@ InterfaceResult SchurStepper::solve_equation(const IterationStop& stop, const Ex
     return solve_on_interface(false, stop, exec);
 }
 
-void SchurStepper::begin(const Points& data, DataSteps steps)
+void SchurStepper::set_data(const Points& data, DataSteps steps)
 {
-    ConvergedStepper::begin(data, steps);
+    ConvergedStepper::set_data(data, steps);
     interface_.has_update = false;
 }
 
@@ -360,7 +360,7 @@ void SchurStepper::change(std::span<const Index> vertices, Action&& action)
 void SchurStepper::hold(std::span<const Index> vertices, bool is_held)
 {
     change(vertices, [&](std::size_t, CondensedSubMesh& sub_mesh, Index v) { sub_mesh.system().hold(v, is_held); });
-    std::vector<std::uint8_t> is_named(at(static_cast<Index>(positions_.rows())), 0);
+    std::vector<std::uint8_t> is_named(usize(static_cast<Index>(positions_.rows())), 0);
     for (const Index v : vertices)
         is_named[v] = 1;
     const std::vector<Index> on_interface = saved_vertices();
@@ -395,7 +395,7 @@ void SchurStepper::weigh(const std::function<double(Index v, Index w)>& squared_
     });
 }
 
-void SchurStepper::move_first(std::span<const Index> vertices, const Points& to)
+void SchurStepper::set_reference_vertices(std::span<const Index> vertices, const Points& to)
 {
     if (first_.rows() == 0)
         return;
@@ -417,7 +417,7 @@ void SchurStepper::save(StepMemory& memory) const
 std::vector<Index> SchurStepper::saved_vertices() const
 {
     const InterfaceCopies& copies = equation_.copies();
-    std::vector<Index> vertices(at(copies.n_vertices()));
+    std::vector<Index> vertices(usize(copies.n_vertices()));
     for (Index s = 0; s < copies.n_sub_meshes(); ++s) {
         if (!is_own(s))
             continue;
@@ -435,7 +435,7 @@ void SchurStepper::restore_further(StepMemoryReader& memory)
     interface_.has_update = true;
 }
 
-void SchurStepper::describe(FlowReport& report) const
+void SchurStepper::report_to(FlowReport& report) const
 {
     report.cut.interface_vertices = interface_.n_vertices;
     report.resources.live_factors = factors_.plan.n_live();

@@ -55,17 +55,17 @@ class SchurStepper final : public ConvergedStepper {
     /// @param mesh the part of the mesh that this peer knows; positions() are Vᵏ⁺¹ only in its own sub-meshes.
     SchurStepper(const PolygonMesh& mesh, PeerSubMeshes sub_meshes, const FlowOptions& options, Progress& progress);
 
-    void begin(const Points& data, DataSteps steps) override;
+    void set_data(const Points& data, DataSteps steps) override;
     [[nodiscard]] bool can_change() const override { return true; }
     void hold(std::span<const Index> vertices, bool is_held) override;
     void attach(std::span<const Index> vertices, std::span<const double> weights) override;
     void give(const GivenStiffness& given) override;
     void weigh(const std::function<double(Index v, Index w)>& squared_difference) override;
-    void move_first(std::span<const Index> vertices, const Points& to) override;
+    void set_reference_vertices(std::span<const Index> vertices, const Points& to) override;
     void save(StepMemory& memory) const override;
     [[nodiscard]] std::vector<Index> saved_vertices() const override;
-    using ConvergedStepper::describe;
-    void describe(FlowReport& report) const override;
+    using ConvergedStepper::report_to;
+    void report_to(FlowReport& report) const override;
 
   private:
     /// Where factors live.
@@ -99,7 +99,7 @@ class SchurStepper final : public ConvergedStepper {
     [[nodiscard]] bool is_kept(Index s) const { return factors_.plan.whole[s] != 0; }
     void make_sub_meshes(Decomposition& decomposition, const PolygonMesh& mesh, const FlowOptions& options,
                          Progress& progress);
-    void limit_factors(const FlowOptions& options);
+    void choose_factors(const FlowOptions& options);
     void make_graph();
     void take_turns(const std::vector<StepGraph::Node>& tasks);
     template <class Action>

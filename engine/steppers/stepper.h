@@ -45,17 +45,17 @@ class Stepper {
     /// image, up to rounding. What is known of updates and errors stays: a step makes earlier errors smaller by about
     /// as much as its result is scaled back.
     /// @param image #V by 3: positions() mapped by the similarity of each component; vertices without faces stay.
-    virtual void continue_from(const Points& image, const SimilarityOfComponents& similarity) = 0;
+    virtual void set_positions(const Points& image, const SimilarityOfComponents& similarity) = 0;
 
     /// Continues from other data than positions, as flows with one matrix for all steps can: positions() are then the
     /// data. Nothing is known of updates and errors any more.
     /// @param data #V by 3.
-    virtual void begin(const Points& data, DataSteps) { continue_from(data, {}); }
+    virtual void set_data(const Points& data, DataSteps) { set_positions(data, {}); }
 
     /// Moves some vertices, with all copies of them, to where the next step is to find them. What is known of updates
     /// and errors stays.
     /// @param vertices those below 0 are ignored. @param to #vertices by 3.
-    virtual void move(std::span<const Index> vertices, const Points& to) = 0;
+    virtual void set_vertices(std::span<const Index> vertices, const Points& to) = 0;
 
     /// Whether the following are possible, which make anew only what depends on the vertices they name.
     [[nodiscard]] virtual bool can_change() const { return false; }
@@ -77,7 +77,7 @@ class Stepper {
 
     /// Moves vertices in what is kept of V⁰ to other positions (#vertices by 3), as if the flow had begun with them
     /// there.
-    virtual void move_first(std::span<const Index>, const Points&) {}
+    virtual void set_reference_vertices(std::span<const Index>, const Points&) {}
 
     /// Saves what the next step needs.
     virtual void save(StepMemory& memory) const = 0;
@@ -94,13 +94,13 @@ class Stepper {
     virtual void add_seconds(PhaseSeconds& seconds) const = 0;
 
     /// Fills in what is known of the last step.
-    virtual void describe(StepReport& report) const = 0;
+    virtual void report_to(StepReport& report) const = 0;
 
     /// Fills in what is known of all steps: sub-meshes, colours, seconds spent in tasks, the schedule, remarks.
-    virtual void describe(FlowReport& report) const = 0;
+    virtual void report_to(FlowReport& report) const = 0;
 };
 
-/// Stepper::move for positions that have no copies.
+/// Stepper::set_vertices for positions that have no copies.
 void move_rows(std::span<const Index> vertices, const Points& to, Points& positions);
 
 /// Adds the seconds of tasks to `sum`.

@@ -84,8 +84,8 @@ class SweepBuilder {
     /// Factorisation waits until an earlier factor is freed.
     void wait_for_room(const FactorWindow& window)
     {
-        for (std::size_t i = 0; i + at(window.size) < window.order.size(); ++i)
-            graph_.add_dependency(solved_[window.freed[i]], factorised_[window.order[i + at(window.size)]]);
+        for (std::size_t i = 0; i + usize(window.size) < window.order.size(); ++i)
+            graph_.add_dependency(solved_[window.freed[i]], factorised_[window.order[i + usize(window.size)]]);
     }
 
     /// A solve waits for those whose Vᵏ⁺¹ it takes.

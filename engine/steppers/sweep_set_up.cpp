@@ -71,7 +71,7 @@ SweepStepper::SweepStepper(const PolygonMesh& mesh, const Topology& topology, co
         },
         [&] { make_plans(stage, states_.size(), options); });
     order_factors();
-    limit_factors(options);
+    choose_factor_window(options);
     add_sweeps(options);
 }
 
@@ -91,7 +91,7 @@ SweepStepper::SweepStepper(const PolygonMesh& mesh, RankSubMeshes sub_meshes, co
     make_states(mesh, options, progress);
     make_plans(sub_meshes.stage, sub_meshes.n_of_all_ranks, options);
     windows_ = std::move(sub_meshes.windows);
-    limit_factors(options);
+    choose_factor_window(options);
     peers_ = std::move(sub_meshes.peers);
     error_.emplace(decomposition_, mesh, *sub_meshes.topology, options, *peers_);
     foreign_->connect(decomposition_, plans_, error_->foreign_rows());
@@ -121,7 +121,7 @@ void SweepStepper::order_factors()
 
 /// Each thread has enough work within the window, as far as the limit allows. The windows are as small as they can be
 /// without deadlocks.
-void SweepStepper::limit_factors(const FlowOptions& options)
+void SweepStepper::choose_factor_window(const FlowOptions& options)
 {
     constexpr Index places_per_thread = 4;
     std::size_t largest = 1;
@@ -145,12 +145,12 @@ void SweepStepper::limit_factors(const FlowOptions& options)
     if (!options.resources.memory_limit)
         return;
     const std::size_t places = *options.resources.memory_limit / largest;
-    if (places < at(least))
+    if (places < usize(least))
         throw MemoryLimitError("memory_limit is " + std::to_string(*options.resources.memory_limit) +
                                " bytes, but the " + std::to_string(least) +
-                               " factorisations that a step needs at once take " + std::to_string(at(least) * largest) +
-                               ": raise it, or use more sub-meshes");
-    resize(static_cast<Index>(std::min(at(enough), places)));
+                               " factorisations that a step needs at once take " +
+                               std::to_string(usize(least) * largest) + ": raise it, or use more sub-meshes");
+    resize(static_cast<Index>(std::min(usize(enough), places)));
 }
 
 void SweepStepper::make_states(const PolygonMesh& mesh, const FlowOptions& options, Progress& progress)

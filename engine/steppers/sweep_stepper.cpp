@@ -174,7 +174,7 @@ void SweepStepper::fetch_positions(SubMeshState& state)
 }
 
 /// Copies that differ are each mapped; their means are then those of the image up to rounding.
-void SweepStepper::continue_from(const Points& image, const SimilarityOfComponents& similarity)
+void SweepStepper::set_positions(const Points& image, const SimilarityOfComponents& similarity)
 {
     copy(run_in_parallel, image, positions_);
     for_each(run_in_parallel, static_cast<Index>(states_.size()), [&](Index s) {
@@ -188,10 +188,10 @@ void SweepStepper::continue_from(const Points& image, const SimilarityOfComponen
         join();
 }
 
-void SweepStepper::move(std::span<const Index> vertices, const Points& to)
+void SweepStepper::set_vertices(std::span<const Index> vertices, const Points& to)
 {
     move_rows(vertices, to, positions_);
-    std::vector<std::uint8_t> moves(at(static_cast<Index>(positions_.rows())), 0);
+    std::vector<std::uint8_t> moves(usize(static_cast<Index>(positions_.rows())), 0);
     for (const Index v : vertices)
         if (v >= 0)
             moves[v] = 1;
@@ -244,7 +244,7 @@ void SweepStepper::add_seconds(PhaseSeconds& seconds) const
         add_up(std::span(&state.seconds, 1), seconds);
 }
 
-void SweepStepper::describe(StepReport& report) const
+void SweepStepper::report_to(StepReport& report) const
 {
     if (copies_)
         report.gap = copies_->gap();
@@ -252,7 +252,7 @@ void SweepStepper::describe(StepReport& report) const
         report.estimated_v_max = error_->largest();
 }
 
-void SweepStepper::describe(FlowReport& report) const
+void SweepStepper::report_to(FlowReport& report) const
 {
     const SweptSubMeshes swept = describe_sub_meshes(report);
     remark_on_factorisation(factorisation_, swept.factorisations, report);

@@ -72,14 +72,14 @@ class SweepStepper final : public Stepper {
     void step(const Points& before) override;
     [[nodiscard]] const Points& positions() const override { return positions_; }
     [[nodiscard]] const PolygonMesh* separated() const override { return copies_ ? copies_->separated() : nullptr; }
-    void continue_from(const Points& image, const SimilarityOfComponents& similarity) override;
-    void move(std::span<const Index> vertices, const Points& to) override;
+    void set_positions(const Points& image, const SimilarityOfComponents& similarity) override;
+    void set_vertices(std::span<const Index> vertices, const Points& to) override;
     void save(StepMemory& memory) const override;
     [[nodiscard]] std::vector<Index> saved_vertices() const override;
     void restore(const StepMemory& memory) override;
     void add_seconds(PhaseSeconds& seconds) const override;
-    void describe(StepReport& report) const override;
-    void describe(FlowReport& report) const override;
+    void report_to(StepReport& report) const override;
+    void report_to(FlowReport& report) const override;
 
     /// The same without remarks, which are about the sub-meshes of all ranks.
     SweptSubMeshes describe_sub_meshes(FlowReport& report) const;
@@ -90,7 +90,7 @@ class SweepStepper final : public Stepper {
     void make_plans(const std::vector<Index>& stage, std::size_t n_sub_meshes, const FlowOptions& options);
     void add_sweeps(const FlowOptions& options);
     void order_factors();
-    void limit_factors(const FlowOptions& options);
+    void choose_factor_window(const FlowOptions& options);
     [[nodiscard]] const SweepPlan& plan() const { return plans_[sweep_]; }
     void run_sweep(std::size_t sweep, const std::function<void()>& join = {});
     void perform(const ScheduledTask& task);

@@ -59,7 +59,7 @@ const Points* SwitchingStepper::solve_by_factors(const Points& before)
     if (!factors_)
         return nullptr;
     try {
-        factors_->continue_from(before, {});
+        factors_->set_positions(before, {});
         factors_->step(before);
         return &factors_->positions();
     } catch (const ComputationError&) {
@@ -79,13 +79,13 @@ void SwitchingStepper::step(const Points& before)
     gradients_.begin_with(nullptr);
     ++n_taken_;
     StepReport report;
-    gradients_.describe(report);
+    gradients_.report_to(report);
     iterations_.before = std::exchange(iterations_.last, *report.iterations);
 }
 
-void SwitchingStepper::continue_from(const Points& image, const SimilarityOfComponents& similarity)
+void SwitchingStepper::set_positions(const Points& image, const SimilarityOfComponents& similarity)
 {
-    gradients_.continue_from(image, similarity);
+    gradients_.set_positions(image, similarity);
 }
 
 void SwitchingStepper::save(StepMemory& memory) const
@@ -119,9 +119,9 @@ void SwitchingStepper::add_seconds(PhaseSeconds& seconds) const
         factors_->add_seconds(seconds);
 }
 
-void SwitchingStepper::describe(FlowReport& report) const
+void SwitchingStepper::report_to(FlowReport& report) const
 {
-    gradients_.describe(report);
+    gradients_.report_to(report);
     if (factors_)
         factors_->add_seconds(report.seconds);
     if (first_with_factors_ > 0)

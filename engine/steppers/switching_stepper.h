@@ -24,9 +24,12 @@ class SwitchingStepper final : public Stepper {
 
     void step(const Points& before) override;
     [[nodiscard]] const Points& positions() const override { return gradients_.positions(); }
-    void continue_from(const Points& image, const SimilarityOfComponents& similarity) override;
-    void begin(const Points& data, DataSteps steps) override { gradients_.begin(data, steps); }
-    void move(std::span<const Index> vertices, const Points& to) override { gradients_.move(vertices, to); }
+    void set_positions(const Points& image, const SimilarityOfComponents& similarity) override;
+    void set_data(const Points& data, DataSteps steps) override { gradients_.set_data(data, steps); }
+    void set_vertices(std::span<const Index> vertices, const Points& to) override
+    {
+        gradients_.set_vertices(vertices, to);
+    }
     void give(const GivenStiffness& given) override
     {
         given_ = &given;
@@ -35,8 +38,8 @@ class SwitchingStepper final : public Stepper {
     void save(StepMemory& memory) const override;
     void restore(const StepMemory& memory) override;
     void add_seconds(PhaseSeconds& seconds) const override;
-    void describe(StepReport& report) const override { gradients_.describe(report); }
-    void describe(FlowReport& report) const override;
+    void report_to(StepReport& report) const override { gradients_.report_to(report); }
+    void report_to(FlowReport& report) const override;
 
   private:
     void make_factors();

@@ -154,12 +154,12 @@ void VanishingComponents::attach(std::span<const Index> vertices, std::span<cons
     if (first_.rows() == 0)
         return;
     if (each.empty())
-        each.assign(at(static_cast<Index>(first_.rows())), options_.motion.attachment);
+        each.assign(usize(static_cast<Index>(first_.rows())), options_.motion.attachment);
     for (std::size_t i = 0; i < vertices.size(); ++i)
         each[vertices[i]] = weights[i];
 }
 
-void VanishingComponents::move_first(std::span<const Index> vertices, const Points& to)
+void VanishingComponents::set_reference_vertices(std::span<const Index> vertices, const Points& to)
 {
     // Of a mean curvature flow an attachment goes on pulling to where it pulled.
     if (first_.rows() > 0 && options_.flow != FlowEquation::MeanCurvature)
@@ -183,7 +183,7 @@ void VanishingComponents::step(Stepper& stepper, const Points& before)
     for (std::size_t row = 0; row < small.vertices.size(); ++row)
         if (small.vertices[row] >= 0)
             beginning.row(small.vertices[row]) = posed.row(static_cast<Index>(row));
-    stepper.move(small.vertices, posed);
+    stepper.set_vertices(small.vertices, posed);
     stepper.step(beginning);
     Points after = small.table(stepper.positions());
     Points weights;
@@ -199,7 +199,7 @@ void VanishingComponents::step(Stepper& stepper, const Points& before)
     }
     for (Index c = 0; c < n; ++c)
         bring_back(small.rows[c], poses[c], table, first, weights, after);
-    stepper.move(small.vertices, after);
+    stepper.set_vertices(small.vertices, after);
 }
 
 /// Brings a component to the pose for the step.

@@ -47,7 +47,7 @@ class VanishingComponents {
     /// Of changes between steps: which vertices are held, weights of the attachment, and first positions.
     void look_again(FindSmallComponents find) { find_ = std::move(find); }
     void attach(std::span<const Index> vertices, std::span<const double> weights);
-    void move_first(std::span<const Index> vertices, const Points& to);
+    void set_reference_vertices(std::span<const Index> vertices, const Points& to);
 
     /// A sentence on components that were so small; empty if there were none.
     [[nodiscard]] std::string remark() const;

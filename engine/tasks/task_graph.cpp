@@ -119,9 +119,9 @@ void TaskGraph::Nodes::perform(const Task& task)
 struct TaskGraph::OrderedTask {
     flow::continue_msg operator()(const flow::continue_msg& message) const
     {
-        nodes->order.begin(at(task->node));
+        nodes->order.begin(usize(task->node));
         nodes->perform(*task);
-        nodes->order.end(at(task->node));
+        nodes->order.end(usize(task->node));
         return message;
     }
 
@@ -167,7 +167,7 @@ TaskGraph::Node TaskGraph::add_event(std::function<void()> body, TaskPriority pr
 
 void TaskGraph::signal(Node event)
 {
-    nodes_->order.come(at(event));
+    nodes_->order.come(usize(event));
     const std::scoped_lock lock(nodes_->mutex);
     if (nodes_->is_running)
         nodes_->start(event);
@@ -188,14 +188,14 @@ bool TaskGraph::is_ending() const
 void TaskGraph::add_dependency(Node before, Node after)
 {
     flow::make_edge(nodes_->nodes[before], nodes_->nodes[after]);
-    nodes_->order.add_dependency(at(before), at(after));
+    nodes_->order.add_dependency(usize(before), usize(after));
 }
 
 void TaskGraph::run(Node root, double further_parts)
 {
     if (nodes_->progress != nullptr)
         nodes_->progress->expect(nodes_->n_tasks[root] + further_parts);
-    nodes_->order.end(at(root));
+    nodes_->order.end(usize(root));
     for (Index i = 0; i < nodes_->n_events[root]; ++i)
         nodes_->graph.reserve_wait();
     {

@@ -13,7 +13,7 @@ namespace arena = oneapi::tbb::this_task_arena;
 Workspaces::Workspaces()
     : n_threads_(n_threads_of_arena())
     // An arena of one thread gets a second one for tasks enqueued from outside (see TaskGraph::signal).
-    , workspaces_(std::max(at(n_threads_), std::size_t{2}))
+    , workspaces_(std::max(usize(n_threads_), std::size_t{2}))
 {
 }
 

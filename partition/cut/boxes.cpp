@@ -109,7 +109,7 @@ IndexLists divide_into_boxes(const Points& positions, Index n_boxes, const Execu
     });
     for_each(exec, n_boxes, [&](Index box) {
         const std::span<Index> values = boxes.values;
-        sort_along_longest_side(values.subspan(at(boxes.offsets[box]), boxes[box].size()), positions);
+        sort_along_longest_side(values.subspan(usize(boxes.offsets[box]), boxes[box].size()), positions);
     });
     return boxes;
 }

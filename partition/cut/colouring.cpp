@@ -60,8 +60,8 @@ void colour_by_saturation(const Adjacency& adjacency, const std::vector<Index>& 
         colours[node] = colour;
         for (const Index neighbour : adjacency[node]) {
             auto& colours_taken = taken[neighbour];
-            if (colours_taken.size() <= at(colour))
-                colours_taken.resize(at(colour) + 1, false);
+            if (colours_taken.size() <= usize(colour))
+                colours_taken.resize(usize(colour) + 1, false);
             if (colours_taken[colour])
                 continue;
             const bool still_waiting = waiting.erase(urgency(neighbour)) > 0;

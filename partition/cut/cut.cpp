@@ -38,7 +38,7 @@ Index count_parts(const std::vector<Index>& labels)
 
 void require_labels(const PolygonMesh& mesh, std::span<const Index> labels)
 {
-    if (labels.size() != at(mesh.n_faces()))
+    if (labels.size() != usize(mesh.n_faces()))
         throw InputError(fmt::format("there are {} labels for {}: give one label for each face", labels.size(),
                                      number_of(mesh.n_faces(), "face")));
     const auto negative = std::find_if(labels.begin(), labels.end(), [](Index label) { return label < 0; });

@@ -168,7 +168,7 @@ std::vector<Index> divide_further(const FaceGraph& graph, std::span<const Index>
     }
     std::vector<std::size_t> next(graphs.size(), 0);
     for (std::size_t node = 0; node < labels.size(); ++node) {
-        const auto part = at(labels[node]);
+        const auto part = usize(labels[node]);
         result[node] = first_label[part] + of_part[part][next[part]++];
     }
     return result;

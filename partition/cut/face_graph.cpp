@@ -70,7 +70,7 @@ struct BlockOfArcs {
 template <class Append>
 std::vector<BlockOfArcs> list_arcs(Index n_nodes, const Executor& exec, Append&& append)
 {
-    std::vector<BlockOfArcs> blocks(at(n_nodes / block_size) + 1);
+    std::vector<BlockOfArcs> blocks(usize(n_nodes / block_size) + 1);
     for_each_block(exec, n_nodes, [&](Index b, Index begin, Index end) {
         BlockOfArcs& block = blocks[b];
         for (Index node = begin; node < end; ++node) {
@@ -107,7 +107,7 @@ struct ClusterPair {
 std::vector<std::vector<ClusterPair>> list_cut_edges(const PolygonMesh& mesh, const Topology& topology,
                                                      const FaceClusters& clusters, const Executor& exec)
 {
-    std::vector<std::vector<ClusterPair>> blocks(at(mesh.n_faces() / block_size) + 1);
+    std::vector<std::vector<ClusterPair>> blocks(usize(mesh.n_faces() / block_size) + 1);
     for_each_block(exec, mesh.n_faces(), [&](Index b, Index begin, Index end) {
         std::vector<ClusterPair> found(mesh.face_offsets[end] - mesh.face_offsets[begin]);
         std::size_t n = 0;
@@ -199,7 +199,7 @@ std::vector<FaceGraph> induced_subgraphs(const FaceGraph& graph, std::span<const
     for (std::size_t node = 0; node < part_of.size(); ++node) {
         FaceGraph& part = parts[part_of[node]];
         for (Index arc = graph.offsets[node]; arc < graph.offsets[node + 1]; ++arc) {
-            const auto target = at(graph.targets[arc]);
+            const auto target = usize(graph.targets[arc]);
             if (part_of[target] != part_of[node])
                 continue;
             part.targets.push_back(node_in_part[target]);

@@ -31,8 +31,8 @@ struct FaceGraph {
     /// The nodes that the arcs of a node lead to.
     [[nodiscard]] std::span<const Index> neighbours(Index node) const
     {
-        const std::size_t begin = at(offsets[node]);
-        return std::span<const Index>(targets).subspan(begin, at(offsets[node + 1]) - begin);
+        const std::size_t begin = usize(offsets[node]);
+        return std::span<const Index>(targets).subspan(begin, usize(offsets[node + 1]) - begin);
     }
 };
 

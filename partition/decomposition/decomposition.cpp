@@ -80,7 +80,7 @@ std::vector<std::vector<Index>> faces_by_label(std::span<const Index> labels, In
 
 std::vector<Index> labels_by_face(const Decomposition& decomposition, Index n_faces)
 {
-    std::vector<Index> labels(at(n_faces));
+    std::vector<Index> labels(usize(n_faces));
     for (std::size_t s = 0; s < decomposition.sub_meshes.size(); ++s)
         for (const Index f : decomposition.sub_meshes[s].faces)
             labels[f] = static_cast<Index>(s);

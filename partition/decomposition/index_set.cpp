@@ -23,7 +23,7 @@ IndexSet::IndexSet(std::span<const Index> values)
         first_ = std::min(first_, value);
         last = std::max(last, value);
     }
-    const std::size_t width = at(last) - at(first_) + 1;
+    const std::size_t width = usize(last) - usize(first_) + 1;
     if (width <= most_indices_per_value * values.size())
         fill_window(values, width);
     else
@@ -34,7 +34,7 @@ void IndexSet::fill_window(std::span<const Index> values, std::size_t width)
 {
     words_.resize(width / bits_per_word + 1);
     for (const Index value : values) {
-        const std::size_t offset = at(value) - at(first_);
+        const std::size_t offset = usize(value) - usize(first_);
         words_[offset / bits_per_word].bits |= std::uint64_t{1} << offset % bits_per_word;
     }
     Index n = 0;

@@ -201,7 +201,7 @@ std::vector<Index> read_vertex_set(const std::filesystem::path& path, Index n_ve
 std::vector<double> read_vertex_weights(const std::filesystem::path& path, Index n_vertices, std::string_view property)
 {
     std::vector<double> weights;
-    weights.reserve(at(n_vertices));
+    weights.reserve(usize(n_vertices));
     if (format_of(path) == FileFormat::Ply) {
         read_ply_property(path, n_vertices, property, [&](Index, double value, auto& source) {
             if (!is_weight(value))
@@ -212,14 +212,14 @@ std::vector<double> read_vertex_weights(const std::filesystem::path& path, Index
         return weights;
     }
     const std::size_t n_lines = read_lines(path, [&](std::string_view text, std::size_t line) {
-        if (weights.size() == at(n_vertices))
+        if (weights.size() == usize(n_vertices))
             throw InputError(
                 fmt::format("{}more weights than the mesh has vertices ({}): remove the surplus, or use the "
                             "weights with the mesh they belong to",
                             place_of_line(path, line), n_vertices));
         weights.push_back(parse_weight(text, path, line));
     });
-    if (weights.size() != at(n_vertices))
+    if (weights.size() != usize(n_vertices))
         throw InputError(fmt::format("{}the file ends after {} of {} weights: give one for each vertex, or use the "
                                      "weights with the mesh they belong to",
                                      place_of_line(path, std::max<std::size_t>(n_lines, 1)), weights.size(),
@@ -230,7 +230,7 @@ std::vector<double> read_vertex_weights(const std::filesystem::path& path, Index
 std::vector<double> read_vertex_strengths(const std::filesystem::path& path, Index n_vertices,
                                           std::string_view property)
 {
-    std::vector<double> strengths(at(n_vertices), 0.0);
+    std::vector<double> strengths(usize(n_vertices), 0.0);
     if (format_of(path) != FileFormat::Ply) {
         for (const Index v : from_lines(path, n_vertices))
             strengths[v] = 1.0;

@@ -38,7 +38,7 @@ std::uint64_t checksum(std::string_view content, const Executor& exec)
     constexpr std::size_t slice = std::size_t{1} << 20;
     std::vector<std::uint64_t> sums(content.size() / slice + 1);
     for_each(exec, static_cast<Index>(sums.size()),
-             [&](Index i) { sums[i] = checksum(content.substr(at(i) * slice, slice)); });
+             [&](Index i) { sums[i] = checksum(content.substr(usize(i) * slice, slice)); });
     return checksum({reinterpret_cast<const char*>(sums.data()), sums.size() * sizeof(std::uint64_t)});
 }
 
@@ -254,7 +254,7 @@ void require_readable(const std::filesystem::path& path, const PolygonMesh& mesh
 void require_one_per_face(const std::filesystem::path& path, std::size_t count, const std::string& what,
                           const PolygonMesh& mesh)
 {
-    if (count != at(mesh.n_faces()))
+    if (count != usize(mesh.n_faces()))
         throw OutputError(fmt::format("{}: cannot be written: there are {} {} for {} faces; give one for each face",
                                       path.string(), count, what, mesh.n_faces()));
 }
@@ -282,7 +282,7 @@ namespace {
 /// Of a column that was read.
 std::optional<WholeRange> range_of(const FileFields& fields, Index column)
 {
-    return at(column) < fields.whole.size() ? fields.whole[column] : std::nullopt;
+    return usize(column) < fields.whole.size() ? fields.whole[column] : std::nullopt;
 }
 
 /// The columns red, green and blue, where they were read as colours and each vertex has one.
@@ -297,7 +297,7 @@ std::optional<std::array<Index, 3>> columns_of_colours(const FileFields& fields)
             return {};
         const auto range = range_of(fields, c);
         const bool is_whole = range && range->least == 0.0 && range->largest <= most_whole;
-        if (!is_whole && (at(c) >= fields.decimals.size() || fields.decimals[c] != Decimals::SingleText))
+        if (!is_whole && (usize(c) >= fields.decimals.size() || fields.decimals[c] != Decimals::SingleText))
             return {};
     }
     return columns;
@@ -421,7 +421,7 @@ void write_valued_ply(const std::filesystem::path& path, const PolygonMesh& mesh
 {
     require_readable(path, mesh, exec);
     const auto require_each = [&](std::size_t count, const std::string& what) {
-        if (count != at(mesh.n_vertices()))
+        if (count != usize(mesh.n_vertices()))
             throw OutputError(
                 fmt::format("{}: cannot be written: there are {} {} for {} vertices; give one for each vertex",
                             path.string(), count, what, mesh.n_vertices()));

@@ -131,7 +131,7 @@ void ObjReader::require_no_open_reference(Index n) const
             scanner_.fault_at(scanner_.position_of(line),
                               fmt::format("names vertex {}, but the file has only {}; correct the face or export the "
                                           "mesh again",
-                                          vertex + 1, counted(at(n), "vertex", "vertices")));
+                                          vertex + 1, counted(usize(n), "vertex", "vertices")));
 }
 
 /// @throws InputError if there is any fault, not necessarily naming the line.

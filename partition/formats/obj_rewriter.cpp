@@ -106,8 +106,8 @@ std::vector<std::string> NormalUpdate::remarks(const std::filesystem::path& path
     if (all.n_unused > 0)
         reasons += fmt::format("{}{} to no face", all.n_shared > 0 ? ", " : "", all.n_unused);
     return {fmt::format("of the {} (vn) of {}, {} could not be recomputed and stay as they were: {}",
-                        counted(at(normals_.size()), "normal", "normals"), path.string(), all.n_shared + all.n_unused,
-                        reasons)};
+                        counted(usize(normals_.size()), "normal", "normals"), path.string(),
+                        all.n_shared + all.n_unused, reasons)};
 }
 
 /// Collects the normal that each corner of a slice refers to, or `none`; without the faces that are left out of the
@@ -136,10 +136,10 @@ void CornerNormals::face(TextScanner& scanner, const ObjCounts& before)
     // As in MeshBuilder::add_face.
     find_distinct_corners(vertices, distinct);
     for (std::size_t i = 0; i < distinct.size(); ++i)
-        vertices[i] = vertices[at(distinct[i])];
+        vertices[i] = vertices[usize(distinct[i])];
     if (are_corners_of_face(std::span(vertices).first(distinct.size()), sorted))
         for (const Index k : distinct)
-            normals.push_back(normals_of_face[at(k)]);
+            normals.push_back(normals_of_face[usize(k)]);
 }
 
 /// @param n_components see read_text_colours.

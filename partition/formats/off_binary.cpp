@@ -121,7 +121,7 @@ bool rewrite_binary_off(OutputFile& output, std::string_view file, std::size_t o
                        for (const double coordinate : mesh.vertices.row(v))
                            slice.binary(static_cast<float>(coordinate), order);
                    });
-    output.text(file.substr(first + vertex_bytes * at(mesh.n_vertices())));
+    output.text(file.substr(first + vertex_bytes * usize(mesh.n_vertices())));
     return mesh.vertices.cast<float>().cast<double>() != mesh.vertices;
 }
 

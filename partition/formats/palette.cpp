@@ -26,7 +26,7 @@ constexpr Colour yellow{255, 255, 0};
 constexpr Colour red{255, 0, 0};
 
 /// @param stops at least two, the first at 0 and the last at 1, equally spaced.
-Colour between(std::span<const Colour> stops, double value)
+Colour interpolate(std::span<const Colour> stops, double value)
 {
     if (std::isnan(value))
         return grey;
@@ -61,13 +61,13 @@ Colour colour_of(Index label)
 Colour rainbow_colour(double value)
 {
     constexpr std::array stops{blue, cyan, green, yellow, red};
-    return between(stops, value);
+    return interpolate(stops, value);
 }
 
 Colour signed_colour(double value)
 {
     constexpr std::array stops{blue, white, red};
-    return between(stops, 0.5 * (value + 1.0));
+    return interpolate(stops, 0.5 * (value + 1.0));
 }
 
 }  // namespace seamflow

@@ -45,7 +45,7 @@ std::vector<PlySlice> PlyData::slices(std::span<const PlyElement> kinds, const S
     else
         for (PlySource numbers = source({.bytes = bytes}); const PlyElement& kind : kinds) {
             const std::uint64_t n_before = slices.empty() ? 0 : slices.back().end;
-            const std::uint64_t per_slice = at(elements_per_slice(slicing, typical_bytes(kind)));
+            const std::uint64_t per_slice = usize(elements_per_slice(slicing, typical_bytes(kind)));
             for (std::uint64_t i = 0; i < kind.count;) {
                 const char* const begin = numbers.behind().data();
                 const std::uint64_t end = i + std::min(per_slice, kind.count - i);

@@ -14,7 +14,7 @@ void read_plain_vertices(const std::vector<PlySlot>& slots, const PlySlice& slic
                          const MeshSlice& place)
 {
     const auto n = static_cast<Index>(slice.end - slice.begin);
-    const std::size_t stride = slice.bytes.size() / at(n);
+    const std::size_t stride = slice.bytes.size() / usize(n);
     const char* first = slice.bytes.data();
     for (const PlySlot& slot : slots) {
         if (slot.property == nullptr)
@@ -23,7 +23,7 @@ void read_plain_vertices(const std::vector<PlySlot>& slots, const PlySlice& slic
         auto coordinates = place.vertices.col(slot.column).segment(place.first_vertex, n);
         with_type(slot.property->type, [&](auto zero) {
             for (Index v = 0; v < n; ++v)
-                coordinates[v] = static_cast<double>(from_bytes<decltype(zero)>(first + at(v) * stride, order));
+                coordinates[v] = static_cast<double>(from_bytes<decltype(zero)>(first + usize(v) * stride, order));
         });
         if (!coordinates.allFinite())
             throw InputError("a coordinate is not a finite number");

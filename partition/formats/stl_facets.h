@@ -108,8 +108,8 @@ Points join_facets(Index n_slices, const Executor& exec,
                    const std::function<std::vector<std::array<Real, 3>>(Index slice, const MeshSlice& place)>& read,
                    PolygonMesh& faces)
 {
-    std::vector<std::vector<std::array<Real, 3>>> of_slice(at(n_slices));
-    std::vector<Index> corners(at(n_slices) + 1, 0);
+    std::vector<std::vector<std::array<Real, 3>>> of_slice(usize(n_slices));
+    std::vector<Index> corners(usize(n_slices) + 1, 0);
     Points none(0, 3);
     append_faces(faces, n_slices, exec, [&](Index i, PolygonMesh& part) {
         of_slice[i] = read(i, {none, 0, part});

@@ -120,7 +120,7 @@ PolygonMesh read_binary_slices(const std::filesystem::path& path, std::string_vi
     const std::uint64_t per_slice = 2 * static_cast<std::uint64_t>(elements_per_slice(slicing, facet_bytes));
     ByteScanner(path, file, header_bytes + facet_bytes * n, std::endian::little).require_end();
     const auto read = [&](Index i, const MeshSlice& place) {
-        const std::uint64_t begin = at(i) * per_slice;
+        const std::uint64_t begin = usize(i) * per_slice;
         ByteScanner scanner(path, file, header_bytes + facet_bytes * begin, std::endian::little);
         BinaryFacets collector(scanner, place);
         collector.expect_facets(per_slice);

@@ -34,7 +34,7 @@ void require_triangles(const std::filesystem::path& path, const PolygonMesh& mes
 
 void require_no_isolated_vertex(const std::filesystem::path& path, const PolygonMesh& mesh)
 {
-    std::vector<bool> used(at(mesh.n_vertices()), false);
+    std::vector<bool> used(usize(mesh.n_vertices()), false);
     for (const Index v : mesh.face_vertices)
         used[v] = true;
     const auto unused = std::find(used.begin(), used.end(), false);

@@ -60,7 +60,7 @@ std::optional<double> largest_whole(const TextColours& written)
 void ColourReader::colour(Index v, TextScanner& scanner, std::size_t n_behind) const
 {
     const WrittenColour colour = read_colour(scanner, n_behind);
-    if (colour.count < at(n_components) || colour.count > colour_names.size())
+    if (colour.count < usize(n_components) || colour.count > colour_names.size())
         scanner.fail(fmt::format("vertex {} (numbered from 0) has {} where the {} numbers of a colour should be; "
                                  "give each vertex a colour, or name no colours",
                                  v, counted(colour.count, "number", "numbers"), n_components));

@@ -46,7 +46,7 @@ void scan_vertex(TextScanner& scanner, Index v, const VertexLayout& layout, Visi
     if (scanner.crosses_lines())
         pass_over(layout.n_behind_colour);
     else if constexpr (visits_colour)
-        visitor.colour(v, scanner, at(layout.n_behind_colour));
+        visitor.colour(v, scanner, usize(layout.n_behind_colour));
 }
 
 }  // namespace seamflow

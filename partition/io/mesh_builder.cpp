@@ -32,7 +32,7 @@ void find_distinct_corners(std::span<const Index> corners, std::vector<Index>& p
     for (std::size_t k = 0; k < corners.size(); ++k)
         if (k == 0 || corners[k] != corners[k - 1])
             positions.push_back(static_cast<Index>(k));
-    while (positions.size() > 1 && corners[at(positions.back())] == corners.front())
+    while (positions.size() > 1 && corners[usize(positions.back())] == corners.front())
         positions.pop_back();
 }
 
@@ -60,7 +60,7 @@ void MeshBuilder::reserve(std::uint64_t n_vertices, std::uint64_t n_faces)
 
 void MeshBuilder::add_vertex(const std::array<double, 3>& position)
 {
-    if (at(n_vertices_) >= most)
+    if (usize(n_vertices_) >= most)
         position_.fail(fmt::format("more than {} vertices; divide the mesh into several files", most));
     if (vertices_ != nullptr)
         vertices_->row(n_vertices_) << position[0], position[1], position[2];
@@ -100,7 +100,7 @@ void MeshBuilder::add_face(std::span<const Index> corners)
     if (!are_corners_of_face(corners, sorted_)) {
         find_distinct_corners(corners, distinct_);
         for (Index& corner : distinct_)
-            corner = corners[at(corner)];
+            corner = corners[usize(corner)];
         if (!are_corners_of_face(distinct_, sorted_)) {
             refuse_face(corners);
             position_.leave_out_face(number);

@@ -27,8 +27,8 @@ Index share_of(const std::array<Real, 3>& point)
 template <class Value>
 std::unique_ptr<Value[]> uninitialised(Index n)
 {
-    auto values = std::make_unique_for_overwrite<Value[]>(at(n));
-    prefer_large_pages(values.get(), at(n) * sizeof(Value));
+    auto values = std::make_unique_for_overwrite<Value[]>(usize(n));
+    prefer_large_pages(values.get(), usize(n) * sizeof(Value));
     return values;
 }
 
@@ -48,24 +48,24 @@ Shares<Real> divide(std::span<const std::vector<std::array<Real, 3>>> lists, con
 {
     const auto n_lists = static_cast<Index>(lists.size());
     // Of each share, the points of each list; then where these begin.
-    std::vector<Index> places(at(n_shares) * lists.size() + 1, 0);
+    std::vector<Index> places(usize(n_shares) * lists.size() + 1, 0);
     for_each(exec, n_lists, [&](Index i) {
         std::array<Index, n_shares> n_points{};
         for (const auto& point : lists[i])
             ++n_points[share_of(point)];
         for (Index share = 0; share < n_shares; ++share)
-            places[at(share) * lists.size() + at(i) + 1] = n_points[share];
+            places[usize(share) * lists.size() + usize(i) + 1] = n_points[share];
     });
     std::partial_sum(places.begin(), places.end(), places.begin());
     Shares<Real> shares;
     for (Index share = 0; share <= n_shares; ++share)
-        shares.begin.push_back(places[at(share) * lists.size()]);
+        shares.begin.push_back(places[usize(share) * lists.size()]);
     shares.points = uninitialised<std::array<Real, 3>>(begin.back());
     shares.origins = uninitialised<Index>(begin.back());
     for_each(exec, n_lists, [&](Index i) {
         std::array<Index, n_shares> next{};
         for (Index share = 0; share < n_shares; ++share)
-            next[share] = places[at(share) * lists.size() + at(i)];
+            next[share] = places[usize(share) * lists.size() + usize(i)];
         for (Index k = 0; k < std::ssize(lists[i]); ++k) {
             const Index place = next[share_of(lists[i][k])]++;
             shares.points[place] = lists[i][k];
@@ -83,7 +83,7 @@ std::unique_ptr<Index[]> first_equal(std::span<const std::vector<std::array<Real
     const Shares<Real> shares = divide(lists, begin, exec);
     auto first = uninitialised<Index>(begin.back());
     for_each(exec, n_shares, [&](Index share) {
-        const auto n = at(shares.begin[share + 1] - shares.begin[share]);
+        const auto n = usize(shares.begin[share + 1] - shares.begin[share]);
         const Index* const origins = shares.origins.get() + shares.begin[share];
         const std::vector<Index> of_share =
             BasicPointNumbers<Real>::first_equal({shares.points.get() + shares.begin[share], n});

@@ -28,7 +28,7 @@ void make_room(std::vector<Value>& values, std::span<const PolygonMesh> parts, I
     if (sum <= values.capacity())
         return;
     constexpr std::size_t most_growth = 8;
-    values.reserve(sum + std::min(at(n_to_follow) * largest, most_growth * sum));
+    values.reserve(sum + std::min(usize(n_to_follow) * largest, most_growth * sum));
     prefer_large_pages(values.data(), values.capacity() * sizeof(Value));
 }
 
@@ -83,7 +83,7 @@ std::vector<std::int64_t> count_lines(const TextScanner& whole, std::span<const 
 Points uninitialised_points(Index n)
 {
     Points points(n, 3);
-    prefer_large_pages(points.data(), at(n) * 3 * sizeof(double));
+    prefer_large_pages(points.data(), usize(n) * 3 * sizeof(double));
     return points;
 }
 
@@ -95,7 +95,7 @@ void append_faces(PolygonMesh& mesh, Index n, const Executor& exec,
     std::vector<PolygonMesh> parts;
     std::vector<PolygonMesh> parts_before;
     for (Index begin = 0; begin < n; begin += at_once) {
-        parts.resize(at(std::min(at_once, n - begin)));
+        parts.resize(usize(std::min(at_once, n - begin)));
         // One thread appends the parts that were read before, while others read these.
         for_each(exec, static_cast<Index>(parts.size()) + 1, [&](Index i) {
             if (i == 0)

@@ -29,7 +29,7 @@ std::vector<Index> order_of_neighbours(std::span<const Point> points, const Exec
     for (std::size_t length = std::bit_ceil(points.size()); length > 1; length /= 2) {
         const std::size_t n_lower = length / 2;
         for_each(exec, static_cast<Index>((points.size() + n_lower - 1) / length), [&](Index k) {
-            const std::span rest = std::span(order).subspan(at(k) * length);
+            const std::span rest = std::span(order).subspan(usize(k) * length);
             divide(rest.first(std::min(rest.size(), length)), n_lower, points);
         });
     }

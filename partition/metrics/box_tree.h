@@ -95,13 +95,13 @@ class BoxTree {
             waiting[n_waiting++] = root();
         while (n_waiting > 0) {
             const auto [level, k] = waiting[--n_waiting];
-            if ((k + 1) * (std::size_t{1} << level) <= at(first) || !levels_[level][k].meets(box))
+            if ((k + 1) * (std::size_t{1} << level) <= usize(first) || !levels_[level][k].meets(box))
                 continue;
             if (level == 0) {
                 visit(k);
                 continue;
             }
-            if (at(2 * k + 1) < levels_[level - 1].size())
+            if (usize(2 * k + 1) < levels_[level - 1].size())
                 waiting[n_waiting++] = {level - 1, 2 * k + 1};
             waiting[n_waiting++] = {level - 1, 2 * k};
         }
@@ -126,7 +126,7 @@ class BoxTree {
                 const Node left{next.node.level - 1, 2 * next.node.number};
                 const Node right{left.level, left.number + 1};
                 next = waiting_at(left);
-                if (at(right.number) == levels_[left.level].size())
+                if (usize(right.number) == levels_[left.level].size())
                     continue;
                 Waiting other = waiting_at(right);
                 if (other.squared < next.squared)

@@ -85,7 +85,7 @@ std::array<Index, 2> others_of(const Triangle& triangle, const Edge& edge)
 
 std::vector<CrowdedFan> crowded_fans_of(std::span<const Triangle> triangles, Index n_vertices)
 {
-    std::vector<Index> n_triangles(at(n_vertices), 0);
+    std::vector<Index> n_triangles(usize(n_vertices), 0);
     for (const Triangle& t : triangles)
         for (const Index v : t)
             ++n_triangles[v];

@@ -10,27 +10,27 @@ namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 
-Kernel::Point_3 at(const Point& p)
+Kernel::Point_3 usize(const Point& p)
 {
     return {p[0], p[1], p[2]};
 }
 
 Kernel::Triangle_3 triangle(const TriangleCorners& t)
 {
-    return {at(t[0]), at(t[1]), at(t[2])};
+    return {usize(t[0]), usize(t[1]), usize(t[2])};
 }
 
 /// The edge opposite to the first corner.
 Kernel::Segment_3 opposite_edge(const TriangleCorners& t)
 {
-    return {at(t[1]), at(t[2])};
+    return {usize(t[1]), usize(t[2])};
 }
 
 }  // namespace
 
 bool is_flat(const TriangleCorners& t)
 {
-    return CGAL::collinear(at(t[0]), at(t[1]), at(t[2]));
+    return CGAL::collinear(usize(t[0]), usize(t[1]), usize(t[2]));
 }
 
 bool meet(const TriangleCorners& a, const TriangleCorners& b)
@@ -45,8 +45,8 @@ bool meet_beyond_corner(const TriangleCorners& a, const TriangleCorners& b)
 
 bool meet_beyond_edge(const TriangleCorners& a, const TriangleCorners& b)
 {
-    return CGAL::coplanar(at(a[0]), at(a[1]), at(a[2]), at(b[2])) &&
-           CGAL::coplanar_orientation(at(a[0]), at(a[1]), at(a[2]), at(b[2])) == CGAL::POSITIVE;
+    return CGAL::coplanar(usize(a[0]), usize(a[1]), usize(a[2]), usize(b[2])) &&
+           CGAL::coplanar_orientation(usize(a[0]), usize(a[1]), usize(a[2]), usize(b[2])) == CGAL::POSITIVE;
 }
 
 }  // namespace seamflow::exact

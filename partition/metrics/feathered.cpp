@@ -43,8 +43,8 @@ class Front {
     Front(const PolygonMesh& mesh, const Topology& topology)
         : mesh_(mesh)
         , topology_(topology)
-        , is_reached_(at(mesh.n_vertices()), 0)
-        , distances_(at(mesh.n_vertices()), never)
+        , is_reached_(usize(mesh.n_vertices()), 0)
+        , distances_(usize(mesh.n_vertices()), never)
     {
     }
 
@@ -123,7 +123,7 @@ std::vector<double> feathered(const PolygonMesh& mesh, std::vector<double> stren
     if (!(length >= 0.0 && std::isfinite(length)))
         throw OptionError(
             fmt::format("the feather is {:.17g} long, but must be at least 0 and finite (a length)", length));
-    if (strength.size() != at(mesh.n_vertices()))
+    if (strength.size() != usize(mesh.n_vertices()))
         throw InputError(fmt::format("there are {} strengths, but the mesh has {} vertices: give one for each",
                                      strength.size(), mesh.n_vertices()));
     if (length == 0.0)

@@ -20,7 +20,7 @@ std::vector<Index> flipped_faces(const PolygonMesh& mesh, const Points& before, 
 std::vector<Index> folded_faces(const PolygonMesh& mesh, const Points& before, const Points& after,
                                 const std::vector<Index>& flipped)
 {
-    std::vector<char> has_flipped(at(mesh.n_vertices()));
+    std::vector<char> has_flipped(usize(mesh.n_vertices()));
     for (const Index f : flipped)
         for (const Index v : mesh.face(f))
             has_flipped[v] = 1;

@@ -51,7 +51,7 @@ void join_around(const SheetOrder& order, const Topology& topology, Index h, Dis
 template <class Value>
 std::vector<double> of_lists(const IndexLists& lists, const Executor& exec, Value&& value)
 {
-    std::vector<double> values(at(lists.size()));
+    std::vector<double> values(usize(lists.size()));
     const auto is_long = [&](Index list) { return std::ssize(lists[list]) > block_size; };
     for_each(exec, lists.size(), [&](Index list) {
         if (!is_long(list))

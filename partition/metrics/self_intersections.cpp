@@ -155,7 +155,7 @@ void CrossingSearch::sort_pieces(const Executor& exec)
 std::vector<Box> CrossingSearch::boxes_of_leaves(const Executor& exec) const
 {
     const auto n = static_cast<Index>(pieces_.size());
-    std::vector<Box> leaves(at(n / leaf_size) + (n % leaf_size > 0 ? 1 : 0));
+    std::vector<Box> leaves(usize(n / leaf_size) + (n % leaf_size > 0 ? 1 : 0));
     for_each(exec, static_cast<Index>(leaves.size()), [&](Index leaf) {
         for (Index i = begin_of(leaf); i < end_of(leaf); ++i)
             leaves[leaf].add(box(pieces_[i]));

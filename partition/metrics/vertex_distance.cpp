@@ -65,7 +65,7 @@ double mean_edge_length(const PolygonMesh& mesh, const Points& positions, const 
     const std::vector<Spike> spikes = find_spikes(mesh, positions, exec);
     if (spikes.empty())
         return mean;
-    std::vector<std::uint8_t> is_spike(at(mesh.n_vertices()), 0);
+    std::vector<std::uint8_t> is_spike(usize(mesh.n_vertices()), 0);
     for (const Spike& spike : spikes)
         is_spike[spike.vertex] = 1;
     const LengthsOfEdges others = measure_edges(mesh, positions, is_spike, exec);

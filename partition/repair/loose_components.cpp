@@ -88,7 +88,7 @@ void LooseComponents::find(const std::vector<bool>& suspects, const Executor& ex
     std::vector<Index> lowest(suspects.size(), -1);
     std::vector<std::size_t> n_faces(suspects.size(), 0);
     for (Index f = 0; f < mesh_.n_faces(); ++f)
-        if (const auto label = at(labels_[f]); suspects[label]) {
+        if (const auto label = usize(labels_[f]); suspects[label]) {
             component_of_[f] = unvisited;
             if (n_faces[label]++ == 0)
                 lowest[label] = f;
@@ -191,7 +191,7 @@ Index split_by_component(const PolygonMesh& mesh, const Topology& topology, Inde
     std::vector<Index> name(n_labels, -1);
     Index n_names = n_labels;
     for (const Index f : by_component) {
-        const auto label = at(labels[f]);
+        const auto label = usize(labels[f]);
         if (component_of[label] != components.component_of[f]) {
             name[label] = component_of[label] < 0 ? static_cast<Index>(label) : n_names++;
             component_of[label] = components.component_of[f];

@@ -144,7 +144,7 @@ Columns solve_by_own_factor(const Equations& equations, SolverTimes& times)
     const Matrix ordered = permuted.triangularView<Eigen::Upper>();
     const LdlSolver solver(pattern_of(ordered), {}, {}, run_in_parallel);
     LdlWorkspace workspace;
-    const auto factor = solver.factorise<double>({ordered.valuePtr(), at(static_cast<Index>(ordered.nonZeros()))},
+    const auto factor = solver.factorise<double>({ordered.valuePtr(), usize(static_cast<Index>(ordered.nonZeros()))},
                                                  *std::pmr::new_delete_resource(), workspace);
     if (!factor)
         throw ComputationError("the matrix is not positive definite up to rounding");

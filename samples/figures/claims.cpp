@@ -285,7 +285,7 @@ Claim counted(const std::string& text, Index count, std::size_t all, const std::
     return {.figure = std::string(many_sub_meshes),
             .text = text,
             .measured = std::to_string(count) + " of " + std::to_string(all),
-            .holds = all > 0 && at(count) == all,
+            .holds = all > 0 && usize(count) == all,
             .why = why.empty() ? "" : why + "."};
 }
 

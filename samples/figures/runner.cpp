@@ -73,7 +73,7 @@ class Run {
             , variant_(variant)
         {
             const auto reference = run.reference_.find(variant.laplacian);
-            const auto steps = at(run.experiment_.steps);
+            const auto steps = usize(run.experiment_.steps);
             if (variant.cut != CutKind::Uncut && reference != run.reference_.end() && reference->second.size() == steps)
                 undecomposed_ = &reference->second;
             if (run.page_)
@@ -185,7 +185,7 @@ class Run {
     void compare(Row& row, const Points& positions, double drift) const
     {
         const auto reference = reference_.find(row.laplacian);
-        if (reference == reference_.end() || reference->second.size() < at(row.step)) {
+        if (reference == reference_.end() || reference->second.size() < usize(row.step)) {
             row.v = row.h = {.mean = std::nan(""), .rms = std::nan(""), .max = std::nan("")};
             row.drift = row.interface_length = std::nan("");
             return;

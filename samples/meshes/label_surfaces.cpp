@@ -21,7 +21,7 @@ class LayeredFaces {
     LayeredFaces(Index size, const Labels& label)
         : size_(size)
         , label_(label)
-        , below_(at((size + 1) * (size + 1)), -1)
+        , below_(usize((size + 1) * (size + 1)), -1)
         , labels_(below_)
     {
         vertices_.fill(std::vector<Index>(below_.size(), -1));
@@ -40,12 +40,12 @@ class LayeredFaces {
   private:
     using Cube = std::array<Index, 3>;
 
-    [[nodiscard]] std::size_t place(Index j, Index k) const { return at(j * (size_ + 1) + k); }
+    [[nodiscard]] std::size_t place(Index j, Index k) const { return usize(j * (size_ + 1) + k); }
 
     void add_layer(Index i)
     {
         std::swap(below_, labels_);
-        std::ranges::fill(vertices_[at((i + 1) % 2)], -1);
+        std::ranges::fill(vertices_[usize((i + 1) % 2)], -1);
         for (Index j = 0; j < size_; ++j)
             for (Index k = 0; k < size_; ++k)
                 labels_[place(j + 1, k + 1)] = label_(Point(i + 0.5, j + 0.5, k + 0.5));
@@ -77,7 +77,7 @@ class LayeredFaces {
 
     Index vertex(const Cube& corner)
     {
-        Index& v = vertices_[at(corner[0] % 2)][place(corner[1], corner[2])];
+        Index& v = vertices_[usize(corner[0] % 2)][place(corner[1], corner[2])];
         if (v < 0) {
             v = static_cast<Index>(positions_.size());
             positions_.emplace_back(corner[0], corner[1], corner[2]);
@@ -198,7 +198,7 @@ Labels plates_of_a_t(std::uint32_t /*seed*/)
 Labels foam_of(int n_cells, std::uint32_t seed)
 {
     RandomNumbers random(seed);
-    std::vector<Point> seeds(at(n_cells));
+    std::vector<Point> seeds(usize(n_cells));
     for (Point& point : seeds)
         for (double& coordinate : point)
             coordinate = 0.5 + 0.4 * random.symmetric();

@@ -159,7 +159,7 @@ void ObjColourReader::face(TextScanner& scanner, const ObjCounts& /*before*/)
     std::vector<Index> distinct;
     find_distinct_corners(vertices, distinct);
     for (const Index k : distinct)
-        result_.place_of_corner.push_back(places[at(k)]);
+        result_.place_of_corner.push_back(places[usize(k)]);
     if (f >= mesh_.n_faces() || distinct.size() != mesh_.face(f).size())
         scanner_.fail("the face is not that of the mesh; leave the file unchanged while it is read");
     const auto [entry, is_new] = materials_.try_emplace(material_, static_cast<Index>(names_.size()));
@@ -199,7 +199,7 @@ void ObjColourReader::drop_what_is_not_shown()
     if (result_.places.empty())
         result_.places.push_back({0.0F, 0.0F});
     for (Index& place : result_.place_of_corner)
-        place = at(place) < result_.places.size() ? place : 0;
+        place = usize(place) < result_.places.size() ? place : 0;
 }
 
 void ObjColourReader::other(std::string_view keyword)
@@ -218,9 +218,9 @@ void ObjColourReader::other(std::string_view keyword)
 FileColours ObjColourReader::read()
 {
     const std::int64_t n_vertices = scan_obj(scanner_, *this).n_vertices;
-    if (n_vertices != mesh_.n_vertices() || at(mesh_.n_faces()) != result_.material_of_face.size())
+    if (n_vertices != mesh_.n_vertices() || usize(mesh_.n_faces()) != result_.material_of_face.size())
         throw InputError(path_.string() + ": the file is not that of the mesh");
-    if (colours_.size() == at(mesh_.n_vertices())) {
+    if (colours_.size() == usize(mesh_.n_vertices())) {
         const bool is_to_255 = std::any_of(colours_.begin(), colours_.end(), [](const auto& colour) {
             return std::any_of(colour.begin(), colour.end(), [](double part) { return part > 1.0; });
         });

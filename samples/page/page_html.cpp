@@ -147,10 +147,10 @@ std::vector<std::uint32_t> places_of(const PageTriangles& triangles, const Polyg
     std::size_t next = 0;
     for (Index f = 0; f < mesh.n_faces(); ++f) {
         const auto face = mesh.face(f);
-        for (std::uint32_t k = 0; k < 3 * triangles.per_face[at(f)]; ++k, ++next) {
+        for (std::uint32_t k = 0; k < 3 * triangles.per_face[usize(f)]; ++k, ++next) {
             const auto v = static_cast<Index>(triangles.corners[next]);
             const auto in_face = static_cast<Index>(std::find(face.begin(), face.end(), v) - face.begin());
-            places.push_back(static_cast<std::uint32_t>(place_of_corner[at(mesh.face_offsets[f] + in_face)]));
+            places.push_back(static_cast<std::uint32_t>(place_of_corner[usize(mesh.face_offsets[f] + in_face)]));
         }
     }
     return places;

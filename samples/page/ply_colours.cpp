@@ -161,7 +161,8 @@ class PlyColourReader {
         std::vector<Index> distinct;
         find_distinct_corners(vertices, distinct);
         for (const Index k : distinct)
-            of_corners_.push_back({static_cast<float>(numbers[2 * at(k)]), static_cast<float>(numbers[2 * at(k) + 1])});
+            of_corners_.push_back(
+                {static_cast<float>(numbers[2 * usize(k)]), static_cast<float>(numbers[2 * usize(k) + 1])});
     }
 
     void number_places_of_corners();
@@ -195,7 +196,7 @@ FileColours PlyColourReader::finish(const std::filesystem::path& path)
         for (auto& place : *places)
             for (float& part : place)
                 part = std::isfinite(part) ? part : 0.0F;
-    if (of_corners_.size() == at(mesh_.n_corners()))
+    if (of_corners_.size() == usize(mesh_.n_corners()))
         number_places_of_corners();
     else if (!result_.places.empty())
         result_.place_of_corner = mesh_.face_vertices;
@@ -219,7 +220,7 @@ FileColours read_ply_colours(const std::filesystem::path& path, std::string_view
     TextureImages images(path);
     if (const std::string image = images.data_url(name); !image.empty()) {
         colours.materials.push_back({.image = image});
-        colours.material_of_face.assign(at(mesh.n_faces()), 0);
+        colours.material_of_face.assign(usize(mesh.n_faces()), 0);
     } else {
         colours.places.clear();
         colours.place_of_corner.clear();

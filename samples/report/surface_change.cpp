@@ -31,7 +31,7 @@ class Surface {
         for (Index c = 0; c < bodies_.count() && bodies_.count() > 1; ++c)
             is_closed_.push_back(has_volume_ || encloses_volume(mesh, bodies_.faces[c]) ? 1 : 0);
 
-        std::vector<char> is_in_sample(at(mesh.n_vertices()));
+        std::vector<char> is_in_sample(usize(mesh.n_vertices()));
         for_each(exec, mesh.n_vertices(), [&](Index v) { is_in_sample[v] = is_sampled(v, mesh.n_vertices()) ? 1 : 0; });
         const std::vector<Index> faces = select(exec, mesh.n_faces(), [&](Index f) {
             return std::ranges::any_of(mesh.face(f), [&](Index v) { return is_in_sample[v] != 0; });
@@ -50,8 +50,8 @@ class Surface {
     void find_cells(const Points& positions, SurfaceChange& change)
     {
         EnclosedCells cells = seamflow::find_cells(mesh_, positions, exec_);
-        change.overlaps = at(cells.n_overlaps);
-        change.surfaces = at(cells.n_surfaces);
+        change.overlaps = usize(cells.n_overlaps);
+        change.surfaces = usize(cells.n_surfaces);
         if (change.overlaps == 0)
             cells_ = std::move(cells);
     }
@@ -96,7 +96,7 @@ class Surface {
         BodySize size{
             .area = sum(run_serially, n, [&](Index i) { return vector_area(mesh_.face(faces[i]), positions).norm(); }),
             .volume = std::nullopt};
-        if (is_closed_[at(body)] != 0)
+        if (is_closed_[usize(body)] != 0)
             size.volume = std::abs(
                 sum(run_serially, n, [&](Index i) { return cone_volume(mesh_.face(faces[i]), positions, origin); }));
         return size;
@@ -158,7 +158,7 @@ SurfaceChangeMeter::SurfaceChangeMeter(const PolygonMesh& mesh, const Executor& 
 SurfaceChange SurfaceChangeMeter::measure(const PolygonMesh& mesh, const MeshReport& report, bool finds_crossings,
                                           const Executor& exec) const
 {
-    std::vector<LengthSums> of_block(at(mesh.n_vertices() / block_size) + 1);
+    std::vector<LengthSums> of_block(usize(mesh.n_vertices() / block_size) + 1);
     for_each_block(exec, mesh.n_vertices(), [&](Index block, Index begin, Index end) {
         for (Index v = begin; v < end; ++v)
             if (!std::ranges::binary_search(report.unused_vertices, v))

@@ -24,7 +24,7 @@ class JoinedBorders {
     }
 
     [[nodiscard]] Index n_vertices() const { return static_cast<Index>(origins_.size()); }
-    [[nodiscard]] const BorderOfTile& tile_of(Index i) const { return near_[at(origins_[i].place)]; }
+    [[nodiscard]] const BorderOfTile& tile_of(Index i) const { return near_[usize(origins_[i].place)]; }
     [[nodiscard]] Index vertex_of(Index i) const { return tile_of(i).border.vertices[origins_[i].number]; }
     [[nodiscard]] bool is_on_border(Index i) const { return tile_of(i).border.is_on_border[origins_[i].number] != 0; }
 
@@ -68,7 +68,7 @@ class JoinedBorders {
 /// #V: 1 for the lowest of vertices that are one where these are of several tiles.
 std::vector<std::uint8_t> shared_by_tiles(const JoinedBorders& all)
 {
-    std::vector<std::uint8_t> is_shared(at(all.n_vertices()), 0);
+    std::vector<std::uint8_t> is_shared(usize(all.n_vertices()), 0);
     for (Index i = 0; i < all.n_vertices(); ++i)
         if (all.tile_of(i).tile != all.tile_of(all.lowest(i)).tile)
             is_shared[all.lowest(i)] = 1;
@@ -120,8 +120,8 @@ TileOwners owners_of(Index tile, std::span<const BorderOfTile> near, double dist
         }
         // That vertex may have an owner in a tile lower still, which is not near.
         const Index place = position_in(first.owners.vertices, all.vertex_of(lowest));
-        owners.tiles.push_back(first.owners.tiles.at(at(place)));
-        owners.numbers.push_back(first.owners.numbers.at(at(place)));
+        owners.tiles.push_back(first.owners.tiles.at(usize(place)));
+        owners.numbers.push_back(first.owners.numbers.at(usize(place)));
     }
     return owners;
 }

@@ -24,9 +24,9 @@ std::vector<BorderOfTile> borders_near(const TileFolder& folder, std::span<const
                                        double distance)
 {
     std::vector<BorderOfTile> near;
-    const BoundingBox box = inflated(tiles[at(tile)].box, distances_of_chain * distance);
+    const BoundingBox box = inflated(tiles[usize(tile)].box, distances_of_chain * distance);
     for (Index other = 0; std::cmp_less(other, tiles.size()); ++other)
-        if (meet(box, tiles[at(other)].box))
+        if (meet(box, tiles[usize(other)].box))
             near.push_back({other, folder.border(other), other < tile ? folder.owners(other) : TileOwners{}});
     return near;
 }

@@ -72,7 +72,7 @@ FlowReport TileStepper::take(Index tile, int step, std::span<const BoundingBox> 
         near = Neighbourhood(shared_positions(owners, positions), width_);
     }
     for (Index other = 0; std::cmp_less(other, boxes.size()) && !near.is_empty(); ++other) {
-        if (other == tile || !meet(near.box(), boxes[at(other)]))
+        if (other == tile || !meet(near.box(), boxes[usize(other)]))
             continue;
         const Points of_other = folder_->state(other, step - 1);
         const std::vector<std::uint8_t> is_wanted = near.select(of_other, exec);

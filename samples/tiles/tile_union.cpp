@@ -18,8 +18,8 @@ std::uint64_t key_of(Index tile, Index vertex)
 
 std::span<const Index> face_of(const TileFaces& faces, std::size_t f)
 {
-    const std::size_t begin = at(faces.face_offsets[f]);
-    return std::span<const Index>(faces.face_vertices).subspan(begin, at(faces.face_offsets[f + 1]) - begin);
+    const std::size_t begin = usize(faces.face_offsets[f]);
+    return std::span<const Index>(faces.face_vertices).subspan(begin, usize(faces.face_offsets[f + 1]) - begin);
 }
 
 }  // namespace
@@ -75,7 +75,7 @@ std::vector<std::uint8_t> Neighbourhood::select(const Points& positions, const E
 std::vector<Index> TileUnion::add(const TileFaces& faces, const TileOwners& owners, const Points& positions,
                                   std::span<const std::uint8_t> is_wanted)
 {
-    const auto is_wanted_vertex = [&](Index v) { return is_wanted[at(v)] != 0; };
+    const auto is_wanted_vertex = [&](Index v) { return is_wanted[usize(v)] != 0; };
     std::vector<std::size_t> taken;
     std::vector<Index> used(is_wanted.size(), 0);
     for (std::size_t f = 0; f + 1 < faces.face_offsets.size(); ++f) {
@@ -108,7 +108,8 @@ std::vector<Index> TileUnion::number(const std::vector<Index>& used, const TileO
     mesh_.vertices.conservativeResize(n + std::count(used.begin(), used.end(), 1), 3);
     std::size_t next_on_border = 0;
     for (std::size_t v = 0; v < used.size(); ++v) {
-        const bool is_on_border = next_on_border < owners.vertices.size() && at(owners.vertices[next_on_border]) == v;
+        const bool is_on_border =
+            next_on_border < owners.vertices.size() && usize(owners.vertices[next_on_border]) == v;
         const std::size_t i = next_on_border;
         next_on_border += is_on_border ? 1 : 0;
         if (used[v] == 0)

@@ -225,11 +225,11 @@ bool TiledRun::take_step(Index tile, int step)
         return false;
     Points positions;
     try {
-        with_name_of(tiles_[at(tile)].path, [&] {
+        with_name_of(tiles_[usize(tile)].path, [&] {
             const TileStepper stepper(folder_, options_, width_);
             const FlowReport report = stepper.take(tile, step, boxes_, control_for(tile, step), exec_, positions);
             bar_.erase();
-            report_.add_step(report, tiles_[at(tile)].path, step);
+            report_.add_step(report, tiles_[usize(tile)].path, step);
         });
     } catch (const Cancelled&) {
         return false;
@@ -252,7 +252,7 @@ void TiledRun::write_missing()
     for (Index tile = 0; tile < n_tiles(); ++tile) {
         if (!folder_.has_state(tile, options_.steps))
             continue;
-        if (std::filesystem::exists(command_.out_dir / tiles_[at(tile)].path.filename(), ignored))
+        if (std::filesystem::exists(command_.out_dir / tiles_[usize(tile)].path.filename(), ignored))
             report_.add_earlier_result();
         else
             write(tile, folder_.state(tile, options_.steps));
@@ -261,7 +261,7 @@ void TiledRun::write_missing()
 
 void TiledRun::write(Index tile, const Points& positions)
 {
-    const TileSummary& summary = tiles_[at(tile)];
+    const TileSummary& summary = tiles_[usize(tile)];
     TileInput input = read_tile(summary.path, exec_);
     if (summary_of(summary.path, input.file.mesh, exec_).checksum != summary.checksum)
         throw InputError(summary.path.string() + ": has been changed since the run began; start over with it");

@@ -50,7 +50,7 @@ class SuspectPlaces {
             if (const Point point = positions.row(v); !meet(box_, {point, point}))
                 continue;
             if (const Index number = numbers_.find(place_of(positions, v)); number >= 0)
-                at_place_[at(number)].push_back({{tile, v}, owner_of(tile, v, owners)});
+                at_place_[usize(number)].push_back({{tile, v}, owner_of(tile, v, owners)});
         }
     }
 
@@ -63,7 +63,7 @@ class SuspectPlaces {
             if (std::ranges::none_of(entries, differs) || std::ranges::none_of(entries, is_elsewhere))
                 continue;
             for (const Entry& entry : entries)
-                held[at(entry.vertex.first)].push_back(entry.vertex.second);
+                held[usize(entry.vertex.first)].push_back(entry.vertex.second);
         }
     }
 
@@ -98,16 +98,16 @@ std::int64_t hold_unjoined(const TileFolder& folder, std::span<const BoundingBox
             continue;
         SuspectPlaces places(folder.state(tile, 0), suspects);
         for (Index other = 0; std::cmp_less(other, boxes.size()); ++other)
-            if (meet(boxes[at(tile)], boxes[at(other)]))
+            if (meet(boxes[usize(tile)], boxes[usize(other)]))
                 places.add(other, folder.state(other, 0), folder.owners(other));
         places.select_unjoined(held);
     }
     std::int64_t n_held = 0;
     for (Index tile = 0; std::cmp_less(tile, boxes.size()); ++tile) {
-        if (held[at(tile)].empty())
+        if (held[usize(tile)].empty())
             continue;
         TileOwners owners = folder.owners(tile);
-        owners.held = std::move(held[at(tile)]);
+        owners.held = std::move(held[usize(tile)]);
         sort_unique(owners.held);
         n_held += std::ssize(owners.held);
         folder.keep(tile, owners);

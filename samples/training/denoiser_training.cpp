@@ -136,7 +136,7 @@ struct MixingSamples {
 MixingSamples mixing_samples(std::vector<TrainingCase>& cases, const DenoiserTraining& training, std::size_t stage,
                              const Executor& exec)
 {
-    const std::size_t per_case = at(training.samples_per_surface);
+    const std::size_t per_case = usize(training.samples_per_surface);
     const std::size_t n = cases.size() * per_case;
     const StageInputs first = inputs_of_stage(cases[0]);
     const std::size_t n_estimates = first.estimates.vectors.size();
@@ -147,13 +147,13 @@ MixingSamples mixing_samples(std::vector<TrainingCase>& cases, const DenoiserTra
                           std::vector<FaceVector>(n), std::vector<float>(n)};
     for_each(exec, static_cast<Index>(cases.size()), [&](Index c) {
         TrainingCase& item = cases[c];
-        RandomNumbers random = numbers_for(training, Purpose::Samples, stage * cases.size() + at(c));
+        RandomNumbers random = numbers_for(training, Purpose::Samples, stage * cases.size() + usize(c));
         const StageInputs inputs = inputs_of_stage(item);
         if (stage == 0)
             item.weight = weight_of_case(inputs.estimates, item.normals);
         std::vector<float> row;
         for (std::size_t k = 0; k < per_case; ++k) {
-            const std::size_t sample = at(c) * per_case + k;
+            const std::size_t sample = usize(c) * per_case + k;
             const Index f = random.below(item.surface.n_faces());
             row.clear();
             append_mixing_inputs(inputs.estimates, inputs.features, f,
@@ -235,7 +235,7 @@ std::string train_noise(std::vector<TrainingCase>& cases, const DenoiserTraining
     for_each(exec, static_cast<Index>(cases.size()), [&](Index c) {
         TrainingCase& item = cases[c];
         item.found.resize(0, item.found.cols());
-        RandomNumbers random = numbers_for(training, Purpose::NoiseAlone, at(c));
+        RandomNumbers random = numbers_for(training, Purpose::NoiseAlone, usize(c));
         for (int draw = 0; draw < draws_per_case; ++draw) {
             item.noisy = (c + draw) % one_without_noise == 0
                              ? item.surface.vertices
@@ -246,7 +246,7 @@ std::string train_noise(std::vector<TrainingCase>& cases, const DenoiserTraining
             for (int k = draw * samples_per_draw; k < (draw + 1) * samples_per_draw; ++k) {
                 const Index f = random.below(item.surface.n_faces());
                 inputs_of_case[c].row(k) = inputs.features.around.row(f);
-                wanted[at(c) * per_case + at(k)] = logarithms(f, 0);
+                wanted[usize(c) * per_case + usize(k)] = logarithms(f, 0);
             }
         }
     });
@@ -278,12 +278,12 @@ TrainedDenoiser train_denoiser(std::vector<PolygonMesh> surfaces, const Denoiser
         item.surface = std::move(surfaces[c]);
         item.topology = make_topology(item.surface);
         FaceAverages(item.surface, item.topology).measure_normals(item.surface.vertices, item.normals);
-        RandomNumbers random = numbers_for(training, Purpose::Noise, at(c));
+        RandomNumbers random = numbers_for(training, Purpose::Noise, usize(c));
         item.noisy = add_noise(item.surface, item.topology, NoiseRange::ForNormals, random);
     });
     TrainedDenoiser trained;
     for (int stage = 0; stage < training.n_stages; ++stage)
-        trained.stages.push_back(train_stage(cases, training, at(stage), out, exec));
+        trained.stages.push_back(train_stage(cases, training, usize(stage), out, exec));
     trained.noise = train_noise(cases, training, out, exec);
     return trained;
 }

@@ -57,7 +57,7 @@ float activation(float x)
 void shuffle(std::vector<int>& order, RandomNumbers& random)
 {
     for (int n = static_cast<int>(order.size()); n > 1; --n)
-        std::swap(order[at(n - 1)], order[at(random.below(n))]);
+        std::swap(order[usize(n - 1)], order[usize(random.below(n))]);
 }
 
 template <class Numbers>
@@ -146,7 +146,7 @@ float Network::train(const SampleRows& inputs, const SampleLoss& loss, const Tra
     if (n_batches == 0)
         throw OptionError("there are fewer samples than a batch has: more surfaces or more samples are needed");
     measure(inputs);
-    std::vector<int> order(at(n));
+    std::vector<int> order(usize(n));
     std::iota(order.begin(), order.end(), 0);
     Adam adam(parameters_.size());
     std::vector<Gradient> parts(parts_of_batch);
@@ -161,7 +161,8 @@ float Network::train(const SampleRows& inputs, const SampleLoss& loss, const Tra
         }
         for_each(exec, parts_of_batch, [&](Index part) {
             const int first = batch * plan.batch + part * samples_of_part;
-            add_gradient(inputs, std::span(order).subspan(at(first), at(samples_of_part)), loss, parts[at(part)]);
+            add_gradient(inputs, std::span(order).subspan(usize(first), usize(samples_of_part)), loss,
+                         parts[usize(part)]);
         });
         for (std::size_t part = 1; part < parts.size(); ++part) {
             parts[0].of_parameters += parts[part].of_parameters;

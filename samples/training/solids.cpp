@@ -239,7 +239,7 @@ void subdivide(Solid& solid, int n_faces)
 {
     do
         CGAL::Subdivision_method_3::PTQ(solid, MidpointRule{&solid}, CGAL::parameters::number_of_iterations(1));
-    while (2 * solid.number_of_faces() < at(n_faces) && solid.number_of_faces() < subdivided_faces);
+    while (2 * solid.number_of_faces() < usize(n_faces) && solid.number_of_faces() < subdivided_faces);
 }
 
 void stretch(Solid& solid, int axis, double factor)

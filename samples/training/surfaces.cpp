@@ -210,7 +210,7 @@ void cut_open(PolygonMesh& mesh, RandomNumbers& random)
     const double part = between(random, 0.15, 0.6);
     const double cut = (1.0 - part) * heights.minCoeff() + part * heights.maxCoeff();
     PolygonMesh kept;
-    std::vector<Index> number(at(mesh.n_vertices()), -1);
+    std::vector<Index> number(usize(mesh.n_vertices()), -1);
     std::vector<Index> vertices;
     for (Index f = 0; f < mesh.n_faces(); ++f) {
         std::vector<Index> corners(mesh.face(f).begin(), mesh.face(f).end());

@@ -33,7 +33,7 @@ std::string read_text(const std::filesystem::path& path)
 
 std::vector<PolygonMesh> make_surfaces(std::uint32_t seed, int n, const Executor& exec)
 {
-    std::vector<std::optional<PolygonMesh>> made(at(n));
+    std::vector<std::optional<PolygonMesh>> made(usize(n));
     for_each(exec, n, [&](Index i) { made[i] = make_training_surface(seed, i); });
     std::vector<PolygonMesh> surfaces;
     for (std::optional<PolygonMesh>& surface : made)

@@ -67,10 +67,10 @@ class PredictedSide final : public TransmissionCondition {
         double diagonal = 1.0;
         for (std::size_t k = 0; k < columns.size(); ++k)
             if (columns[k] < sub_mesh_->n_vertices)
-                row[at(place_in(columns_[i], columns[k]))] += time_step_ * star[k];
+                row[usize(place_in(columns_[i], columns[k]))] += time_step_ * star[k];
             else
                 diagonal += time_step_ * star[k] * responses(i)[k];
-        row[at(place_in(columns_[i], sub_mesh_->interface.vertices[i]))] += diagonal;
+        row[usize(place_in(columns_[i], sub_mesh_->interface.vertices[i]))] += diagonal;
     }
 
     [[nodiscard]] Point right_hand_side(Index i, const Points& positions, const Points& other_side) const override
@@ -145,7 +145,7 @@ class PredictedSide final : public TransmissionCondition {
             const auto columns = star_.columns()[i];
             for (std::size_t k = 0; kinds_[i] == RowKind::Responding && k < columns.size(); ++k)
                 if (columns[k] >= sub_mesh_->n_vertices)
-                    responses_[at(star_.columns().offsets[i]) + k] =
+                    responses_[usize(star_.columns().offsets[i]) + k] =
                         remainder(sub_mesh_->interface.vertices[i], columns[k], positions);
         }
     }
@@ -153,7 +153,7 @@ class PredictedSide final : public TransmissionCondition {
     /// The responses of row i, one per entry of its star; 0 where the other side is held.
     [[nodiscard]] std::span<const double> responses(Index i) const
     {
-        return std::span(responses_).subspan(at(star_.columns().offsets[i]), star_.columns()[i].size());
+        return std::span(responses_).subspan(usize(star_.columns().offsets[i]), star_.columns()[i].size());
     }
 
     /// Robin's columns are a subset of this condition's: its row is computed in front, then spread from the end.
@@ -163,7 +163,7 @@ class PredictedSide final : public TransmissionCondition {
         robin_.left_hand_side(i, positions, row.first(columns.size()));
         for (std::size_t k = columns.size(); k-- > 0;) {
             const double coefficient = std::exchange(row[k], 0.0);
-            row[at(place_in(columns_[i], columns[k]))] = coefficient;
+            row[usize(place_in(columns_[i], columns[k]))] = coefficient;
         }
     }
 

@@ -57,7 +57,7 @@ void StarLaplacian::make_slots(const SubMeshInterface& interface)
         }
         slots_.push_back(columns_.offsets[row] + place_in(columns_[row], entry.column));
     }
-    values_.resize(at(unread) + 1);
+    values_.resize(usize(unread) + 1);
 }
 
 void StarLaplacian::assemble(const Points& positions)

@@ -161,7 +161,7 @@ class FilteredSample {
     {
         filter_positions(coefficients(amount));
         const auto n = static_cast<Index>(sample_.measured.size());
-        std::vector<Point> normals(at(n));
+        std::vector<Point> normals(usize(n));
         for_each(exec_, n, [&](Index m) { normals[m] = normals_(sample_.vertices[sample_.measured[m]], positions_); });
         Eigen::MatrixXd along_normals(n, n_terms);
         Eigen::VectorXd traces(n_terms);
@@ -211,7 +211,7 @@ class FilteredSample {
     [[nodiscard]] Eigen::MatrixXd products(const Eigen::MatrixXd& columns) const
     {
         const auto n = static_cast<Index>(columns.rows());
-        std::vector<Eigen::MatrixXd> of_blocks(at(n / block_size) + 1, Eigen::MatrixXd::Zero(n_terms, n_terms));
+        std::vector<Eigen::MatrixXd> of_blocks(usize(n / block_size) + 1, Eigen::MatrixXd::Zero(n_terms, n_terms));
         for_each_block(exec_, n, [&](Index block, Index begin, Index end) {
             const auto rows = columns.middleRows(begin, end - begin);
             of_blocks[block].noalias() = rows.transpose() * rows;

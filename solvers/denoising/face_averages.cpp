@@ -31,7 +31,7 @@ inline float decay(float x)
 IndexLists neighbours_of_vertices(const PolygonMesh& mesh, const Topology& topology)
 {
     IndexLists lists;
-    lists.offsets.reserve(at(mesh.n_vertices()) + 1);
+    lists.offsets.reserve(usize(mesh.n_vertices()) + 1);
     for (Index v = 0; v < mesh.n_vertices(); ++v) {
         const std::vector<Index> list = neighbours_of(mesh, topology, v);
         lists.values.insert(lists.values.end(), list.begin(), list.end());
@@ -48,7 +48,7 @@ FaceAverages::FaceAverages(const PolygonMesh& mesh, const Topology& topology, co
     , neighbours_(make_face_neighbours(mesh, topology, exec))
     , vertex_neighbours_(neighbours_of_vertices(mesh, topology))
     , signs_(face_signs(mesh, topology))
-    , areas_(at(mesh.n_faces()))
+    , areas_(usize(mesh.n_faces()))
     , near_(neighbours_.faces.size())
 {
 }
@@ -57,13 +57,13 @@ void FaceAverages::measure(const Points& positions, const Executor& exec)
 {
     const Index n = n_faces();
     Points centroids(n, 3);
-    std::vector<double> areas(at(n));
+    std::vector<double> areas(usize(n));
     for_each(exec, n, [&](Index f) {
         areas[f] = area_above_rounding(mesh_->face(f), positions);
         centroids.row(f) = centroid(mesh_->face(f), positions);
     });
     const double mean_area = sum(exec, n, [&](Index f) { return areas[f]; }) / std::max(n, Index{1});
-    std::vector<double> reach(at(n));
+    std::vector<double> reach(usize(n));
     for_each(exec, n, [&](Index f) {
         areas_[f] = mean_area > 0.0 ? static_cast<float>(areas[f] / mean_area) : 0.0F;
         double squares = 0.0;

@@ -22,7 +22,7 @@ constexpr int outside_patches = patch_rings + 1;
 std::vector<std::int8_t> rings_around_middles(const PolygonMesh& mesh, const Topology& topology)
 {
     const Index n = mesh.n_vertices();
-    std::vector<std::int8_t> rings(at(n), outside_patches);
+    std::vector<std::int8_t> rings(usize(n), outside_patches);
     std::vector<Index> front;
     for (Index i = 0; i < n_patches; ++i) {
         // Evenly spread, and out of step with any grid.
@@ -52,11 +52,11 @@ FilterSample take_filter_sample(const PolygonMesh& mesh, const Topology& topolog
 {
     const Index n = mesh.n_vertices();
     const std::vector<std::int8_t> rings =
-        n <= most_vertices ? std::vector<std::int8_t>(at(n), 0) : rings_around_middles(mesh, topology);
+        n <= most_vertices ? std::vector<std::int8_t>(usize(n), 0) : rings_around_middles(mesh, topology);
     FilterSample sample;
     sample.vertices = select(exec, n, [&](Index v) { return rings[v] < outside_patches; });
     const auto n_places = static_cast<Index>(sample.vertices.size());
-    std::vector<std::vector<Index>> neighbours(at(n_places));
+    std::vector<std::vector<Index>> neighbours(usize(n_places));
     for_each(exec, n_places, [&](Index i) {
         const Index v = sample.vertices[i];
         if (!topology.moves(v) || rings[v] >= patch_rings)

@@ -71,17 +71,17 @@ MixingNetwork::MixingNetwork(std::string_view bytes)
         Layer layer;
         layer.n_inputs = sizes[0];
         layer.n_outputs = (sizes[1] + outputs_at_once - 1) / outputs_at_once * outputs_at_once;
-        const std::vector<float> scales_of_inputs = reader.read<float>(at(sizes[0]));
-        const std::vector<float> scales = reader.read<float>(at(sizes[1]));
-        const std::vector<float> bias = reader.read<float>(at(sizes[1]));
-        const std::vector<std::int8_t> weights = reader.read<std::int8_t>(at(sizes[0]) * at(sizes[1]));
-        layer.weights.assign(at(layer.n_inputs) * at(layer.n_outputs), 0.0F);
-        layer.bias.assign(at(layer.n_outputs), 0.0F);
+        const std::vector<float> scales_of_inputs = reader.read<float>(usize(sizes[0]));
+        const std::vector<float> scales = reader.read<float>(usize(sizes[1]));
+        const std::vector<float> bias = reader.read<float>(usize(sizes[1]));
+        const std::vector<std::int8_t> weights = reader.read<std::int8_t>(usize(sizes[0]) * usize(sizes[1]));
+        layer.weights.assign(usize(layer.n_inputs) * usize(layer.n_outputs), 0.0F);
+        layer.bias.assign(usize(layer.n_outputs), 0.0F);
         for (int j = 0; j < sizes[1]; ++j) {
-            layer.bias[at(j)] = bias[at(j)];
+            layer.bias[usize(j)] = bias[usize(j)];
             for (int i = 0; i < sizes[0]; ++i)
-                layer.weights[at(i * layer.n_outputs + j)] =
-                    static_cast<float>(weights[at(i * sizes[1] + j)]) * scales[at(j)] * scales_of_inputs[at(i)];
+                layer.weights[usize(i * layer.n_outputs + j)] = static_cast<float>(weights[usize(i * sizes[1] + j)]) *
+                                                                scales[usize(j)] * scales_of_inputs[usize(i)];
         }
         layers_.push_back(std::move(layer));
     }
@@ -92,7 +92,7 @@ void MixingNetwork::evaluate(std::vector<float>& numbers) const
     std::vector<float> outputs;
     for (std::size_t l = 0; l < layers_.size(); ++l) {
         const Layer& layer = layers_[l];
-        outputs.resize(at(faces_at_once) * at(layer.n_outputs));
+        outputs.resize(usize(faces_at_once) * usize(layer.n_outputs));
         with_simd_width(register_width(), MultiplyKernel(), layer.weights.data(), layer.bias.data(),
                         Index{layer.n_inputs}, Index{layer.n_outputs}, numbers.data(), outputs.data());
         if (l + 1 < layers_.size())
@@ -110,14 +110,14 @@ FaceVectors MixingNetwork::mix(const NormalEstimates& estimates, const EstimateF
     FaceVectors mixed(n, 4);
     const Index n_groups = (n + faces_at_once - 1) / faces_at_once;
     exec(n_groups, [&](Index begin, Index end) {
-        std::vector<FaceVector> units(at(faces_at_once * n_estimates));
+        std::vector<FaceVector> units(usize(faces_at_once * n_estimates));
         std::vector<float> numbers;
         for (Index group = begin; group < end; ++group) {
             numbers.clear();
             for (Index k = 0; k < faces_at_once; ++k) {
                 const Index f = std::min(group * faces_at_once + k, n - 1);
                 append_mixing_inputs(estimates, features, f,
-                                     std::span(units).subspan(at(k * n_estimates), at(n_estimates)), numbers);
+                                     std::span(units).subspan(usize(k * n_estimates), usize(n_estimates)), numbers);
             }
             evaluate(numbers);
             const auto n_outputs = static_cast<Index>(numbers.size()) / faces_at_once;
@@ -139,7 +139,7 @@ FaceVectors MixingNetwork::mix(const NormalEstimates& estimates, const EstimateF
 std::vector<float> MixingNetwork::apply(const EstimateFeatures& features, const Executor& exec) const
 {
     const auto n = static_cast<Index>(features.around.rows());
-    std::vector<float> results(at(n));
+    std::vector<float> results(usize(n));
     const Index n_groups = (n + faces_at_once - 1) / faces_at_once;
     exec(n_groups, [&](Index begin, Index end) {
         std::vector<float> numbers;

@@ -75,8 +75,8 @@ struct Motion {
         , before(from)
         , after(to)
         , found(normals)
-        , lengths(at(of_mesh.n_vertices()), 0.0F)
-        , edges(at(of_mesh.n_vertices()), 0.0)
+        , lengths(usize(of_mesh.n_vertices()), 0.0F)
+        , edges(usize(of_mesh.n_vertices()), 0.0)
     {
         for_each(exec, mesh.n_vertices(), [&](Index v) {
             double total = 0.0;
@@ -112,8 +112,8 @@ struct Motion {
 Components all_together(const PolygonMesh& mesh)
 {
     Components all;
-    all.component_of.assign(at(mesh.n_faces()), 0);
-    all.nodes.values.resize(at(mesh.n_faces()));
+    all.component_of.assign(usize(mesh.n_faces()), 0);
+    all.nodes.values.resize(usize(mesh.n_faces()));
     std::iota(all.nodes.values.begin(), all.nodes.values.end(), Index{0});
     all.nodes.close();
     return all;
@@ -169,7 +169,7 @@ std::vector<double> NoisyPlaces::find(const PolygonMesh& mesh, const Topology& t
 {
     const Index n = mesh.n_vertices();
     const Motion motion(mesh, topology, before, after, found, exec);
-    std::vector<std::uint8_t> noisy(at(components_.count()));
+    std::vector<std::uint8_t> noisy(usize(components_.count()));
     for_each(exec, components_.count(), [&](Index c) { noisy[c] = is_noisy(motion, components_.nodes[c]) ? 1 : 0; });
     FaceAverages::Rows near(mesh.n_faces(), 1);
     FaceAverages::Rows around(mesh.n_faces(), 1);
@@ -179,7 +179,7 @@ std::vector<double> NoisyPlaces::find(const PolygonMesh& mesh, const Topology& t
             near(f, 0) += motion.lengths[v] / static_cast<float>(mesh.face(f).size());
     });
     averages_->spread(near, around, 0, rounds, exec);
-    std::vector<double> parts(at(n), 0.0);
+    std::vector<double> parts(usize(n), 0.0);
     for_each(exec, n, [&](Index v) {
         const auto corners = topology.corners_at(v);
         const auto count = static_cast<double>(corners.size());

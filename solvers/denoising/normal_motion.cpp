@@ -36,7 +36,7 @@ class FoldedFaces {
     /// #F: between each face and its wanted normal; 1 where none is wanted, 0 for faces without area.
     [[nodiscard]] std::vector<double> cosines(const Points& positions) const
     {
-        std::vector<double> found(at(mesh_.n_faces()));
+        std::vector<double> found(usize(mesh_.n_faces()));
         for_each(exec_, mesh_.n_faces(), [&](Index f) {
             const Point normal = vector_area(mesh_.face(f), positions);
             const double length = area_above_rounding(mesh_.face(f), positions);

@@ -21,7 +21,7 @@ constexpr double half_weight = 0.25;
 
 PositionFilters::PositionFilters(const Topology& topology, const IndexLists& neighbours)
     : neighbours_(&neighbours)
-    , is_interior_(at(neighbours.size()))
+    , is_interior_(usize(neighbours.size()))
 {
     for (Index v = 0; v < neighbours.size(); ++v)
         is_interior_[v] = topology.kind[v] == VertexKind::Interior ? 1 : 0;

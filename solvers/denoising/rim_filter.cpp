@@ -51,16 +51,16 @@ RimFilter::RimFilter(const PolygonMesh& mesh, const Topology& topology)
     const IndexLists at_vertex = make_lists(static_cast<Index>(vertices_.size()), [&](auto&& enter) {
         for (Index s = 0; s < n; ++s)
             for (Index end : {0, 1})
-                enter(segments_[s].ends[at(end)], 2 * s + end);
+                enter(segments_[s].ends[usize(end)], 2 * s + end);
     });
     for (Index s = 0; s < n; ++s)
         for (Index end : {0, 1}) {
-            const auto around = at_vertex[segments_[s].ends[at(end)]];
+            const auto around = at_vertex[segments_[s].ends[usize(end)]];
             if (around.size() != 2)
                 continue;
             const Index other = around[0] == 2 * s + end ? around[1] : around[0];
-            segments_[s].neighbours[at(end)] = other / 2;
-            segments_[s].signs[at(end)] = other % 2 == end ? -1.0 : 1.0;
+            segments_[s].neighbours[usize(end)] = other / 2;
+            segments_[s].signs[usize(end)] = other % 2 == end ? -1.0 : 1.0;
         }
     rims_ = connected_components(n, [&](Index s, auto&& visit) {
         for (const Index other : segments_[s].neighbours)
@@ -73,7 +73,7 @@ Points RimFilter::smooth_normals(const Points& normals, const Points& positions)
 {
     const auto n = static_cast<Index>(segments_.size());
     Points directions(n, 3);
-    std::vector<double> lengths(at(n));
+    std::vector<double> lengths(usize(n));
     for (Index s = 0; s < n; ++s) {
         const Point way = positions.row(segments_[s].ends[1]) - positions.row(segments_[s].ends[0]);
         lengths[s] = way.norm();

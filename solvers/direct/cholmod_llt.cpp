@@ -109,7 +109,7 @@ class CholmodLlt final : public DirectSolver {
         , view_(upper_)
     {
         using Integer = typename Interface::Integer;
-        matrix_.nrow = matrix_.ncol = at(upper_.n());
+        matrix_.nrow = matrix_.ncol = usize(upper_.n());
         matrix_.nzmax = upper_.rows.size();
         matrix_.p = const_cast<Integer*>(view_.offsets());
         matrix_.i = const_cast<Integer*>(view_.rows());
@@ -163,7 +163,7 @@ class CholmodLlt final : public DirectSolver {
         if (upper_.n() == 0)
             return;
         cholmod_dense right{};
-        right.nrow = right.d = at(upper_.n());
+        right.nrow = right.d = usize(upper_.n());
         right.ncol = 3;
         right.nzmax = 3 * right.nrow;
         right.x = const_cast<double*>(right_hand_side.data());

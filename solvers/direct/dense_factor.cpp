@@ -24,8 +24,9 @@ using Lanes = SimdVector<float, n_lanes>;
 [[gnu::always_inline]] inline void prefetch_after(const float* tile)
 {
     // The last ones prefetch memory after the factor, which does no harm.
-    const std::uintptr_t ahead = reinterpret_cast<std::uintptr_t>(tile) + at(tiles_ahead * tile_size) * sizeof(float);
-    for (std::size_t byte = 0; byte < at(tile_size) * sizeof(float); byte += 64)
+    const std::uintptr_t ahead =
+        reinterpret_cast<std::uintptr_t>(tile) + usize(tiles_ahead * tile_size) * sizeof(float);
+    for (std::size_t byte = 0; byte < usize(tile_size) * sizeof(float); byte += 64)
         __builtin_prefetch(reinterpret_cast<const void*>(ahead + byte));
 }
 
@@ -180,7 +181,7 @@ struct Lower {
     }
     [[nodiscard]] Block block(Index begin) const
     {
-        return {tiles + at(tiles_before(begin)) * at(tile_size), n_groups() - begin / n_lanes, begin};
+        return {tiles + usize(tiles_before(begin)) * usize(tile_size), n_groups() - begin / n_lanes, begin};
     }
     /// Negative if there is none.
     [[nodiscard]] Index last_block() const { return (n + block_width - 1) / block_width * block_width - block_width; }
@@ -280,7 +281,7 @@ void DenseFactor::take(const DenseLdl<Number>& factor, double scale)
                                                     pivots.head(row).transpose()));
     }
     Lower lower{nullptr, n_};
-    lower_.assign(at(lower.tiles_before(static_cast<Index>(room(n_)))) * at(tile_size));
+    lower_.assign(usize(lower.tiles_before(static_cast<Index>(room(n_)))) * usize(tile_size));
     lower.tiles = lower_.data();
     for (Index begin = 0; begin < n_; begin += block_width) {
         const Block block = lower.block(begin);
@@ -299,7 +300,7 @@ template void DenseFactor::take(const DenseLdl<double>&, double);
 
 void DenseFactor::prefetch() const
 {
-    const std::size_t n = std::min(lower_.size(), at(tiles_ahead) * at(tile_size));
+    const std::size_t n = std::min(lower_.size(), usize(tiles_ahead) * usize(tile_size));
     for (std::size_t i = 0; i < n; i += 64 / sizeof(float))
         __builtin_prefetch(lower_.data() + i);
 }

@@ -48,7 +48,7 @@ class DenseFactor {
     static constexpr Index lanes = 8;
 
     /// The padded length of a column of n numbers.
-    [[nodiscard]] static std::size_t room(Index n) { return at((n + lanes - 1) / lanes * lanes); }
+    [[nodiscard]] static std::size_t room(Index n) { return usize((n + lanes - 1) / lanes * lanes); }
 
     /// Takes over a factorisation.
     /// @param scale by which the factor is to be multiplied: see LdlFactor::scale.

@@ -20,7 +20,7 @@ std::vector<double> work_of_subtrees(const SymbolicFactor& pattern, const std::v
         const auto n_rows = static_cast<double>(pattern.rows[static_cast<Index>(b)].size());
         work[b] += 0.5 * pattern.width(static_cast<Index>(b)) * n_rows * n_rows;
         if (parent[b] >= 0)
-            work[at(parent[b])] += work[b];
+            work[usize(parent[b])] += work[b];
     }
     return work;
 }
@@ -30,10 +30,10 @@ std::vector<double> work_of_subtrees(const SymbolicFactor& pattern, const std::v
 EliminationSchedule schedule_elimination(const SymbolicFactor& pattern, const std::vector<Index>& supernode_of)
 {
     const Index n = pattern.n_supernodes();
-    std::vector<Index> parent(at(n), -1);
+    std::vector<Index> parent(usize(n), -1);
     for (Index b = 0; b < n; ++b)
         if (const auto rows = pattern.rows[b]; std::ssize(rows) > pattern.width(b))
-            parent[b] = supernode_of[rows[at(pattern.width(b))]];
+            parent[b] = supernode_of[rows[usize(pattern.width(b))]];
     const std::vector<double> work = work_of_subtrees(pattern, parent);
     double all = 0.0;
     for (Index b = 0; b < n; ++b)
@@ -41,14 +41,14 @@ EliminationSchedule schedule_elimination(const SymbolicFactor& pattern, const st
     EliminationSchedule schedule;
     if (all < least_work)
         return schedule;
-    schedule.place_above.assign(at(n), -1);
+    schedule.place_above.assign(usize(n), -1);
     for (Index b = 0; b < n; ++b)
         if (work[b] > largest_share * all) {
             schedule.place_above[b] = static_cast<Index>(schedule.above.size());
             schedule.above.push_back(b);
         }
     // Subtrees in the order of their roots; a supernode has the group of its parent.
-    std::vector<Index> group_of(at(n), -1);
+    std::vector<Index> group_of(usize(n), -1);
     Index n_groups = 0;
     double gathered = 0.0;
     for (Index b = n; b-- > 0;) {

@@ -27,7 +27,7 @@ template <Index Rows, class Vector, class Number, class Use>
         Vector factor;
         factor.load_from(factors + c * Vector::lanes);
         for (Index r = 0; r < Rows; ++r)
-            sums[r].add_product(rows[at(r) * width + at(c)], factor);
+            sums[r].add_product(rows[usize(r) * width + usize(c)], factor);
     }
     for (Index r = 0; r < Rows; ++r)
         use(r, sums[r]);
@@ -42,7 +42,7 @@ struct Targets {
     /// The first one, and the number of consecutive ones.
     Index first;
     Index n;
-    std::array<Index, at(most_lanes)> lane;
+    std::array<Index, usize(most_lanes)> lane;
 };
 
 Targets in_order(Index first, Index n)
@@ -58,26 +58,26 @@ template <class Vector, class Number, class Use>
 [[gnu::always_inline]] inline void multiply_all(const LdlPanel<Number>& panel, Index first, Index last,
                                                 const Targets& targets, Use&& use)
 {
-    const std::size_t width = at(panel.width);
-    const Number* rows = panel.values + at(targets.first) * width;
+    const std::size_t width = usize(panel.width);
+    const Number* rows = panel.values + usize(targets.first) * width;
     const Index n_rows = static_cast<Index>(panel.rows.size()) - targets.first;
-    std::array<Number, at(chunk * Vector::lanes)> factors;
+    std::array<Number, usize(chunk * Vector::lanes)> factors;
     for (Index begin = first; begin < last; begin += chunk) {
         const Index size = std::min(chunk, last - begin);
         if (targets.n < Vector::lanes)
-            std::fill_n(factors.begin(), at(size * Vector::lanes), Number{0});
+            std::fill_n(factors.begin(), usize(size * Vector::lanes), Number{0});
         for (Index c = 0; c < size; ++c) {
-            const Number pivot = panel.values[at(begin + c) * (width + 1)];
+            const Number pivot = panel.values[usize(begin + c) * (width + 1)];
             for (Index t = 0; t < targets.n; ++t)
-                factors[c * Vector::lanes + targets.lane[t]] = pivot * rows[at(t) * width + at(begin + c)];
+                factors[c * Vector::lanes + targets.lane[t]] = pivot * rows[usize(t) * width + usize(begin + c)];
         }
         constexpr Index at_once = rows_at_once<Vector>;
         Index i = 0;
         for (; i + at_once <= n_rows; i += at_once)
-            multiply<at_once, Vector>(rows + at(i) * width + at(begin), width, factors.data(), size,
+            multiply<at_once, Vector>(rows + usize(i) * width + usize(begin), width, factors.data(), size,
                                       [&](Index r, const Vector& sums) { use(i + r, sums); });
         for (; i < n_rows; ++i)
-            multiply<1, Vector>(rows + at(i) * width + at(begin), width, factors.data(), size,
+            multiply<1, Vector>(rows + usize(i) * width + usize(begin), width, factors.data(), size,
                                 [&](Index, const Vector& sums) { use(i, sums); });
     }
 }
@@ -96,7 +96,7 @@ template <class Vector, class Number>
 [[gnu::always_inline]] inline void update_columns(const LdlPanel<Number>& earlier, Index place, Index n,
                                                   const Index* target_rows, const LdlPanel<Number>& later)
 {
-    const std::size_t width = at(later.width);
+    const std::size_t width = usize(later.width);
     const Index begin = std::max(Index{0}, std::min(target_rows[0], later.width - Vector::lanes));
     Targets targets{place, n, {}};
     for (Index t = 0; t < n; ++t)
@@ -104,11 +104,11 @@ template <class Vector, class Number>
     Number* columns = later.values + begin;
     if (later.width >= Vector::lanes)
         multiply_all<Vector>(earlier, 0, earlier.width, targets, [&](Index i, const Vector& sums) {
-            sums.subtract_from(columns + at(target_rows[i]) * width);
+            sums.subtract_from(columns + usize(target_rows[i]) * width);
         });
     else
         multiply_all<Vector>(earlier, 0, earlier.width, targets, [&](Index i, const Vector& sums) {
-            sums.subtract_from(columns + at(target_rows[i]) * width, later.width);
+            sums.subtract_from(columns + usize(target_rows[i]) * width, later.width);
         });
 }
 
@@ -118,15 +118,15 @@ template <class Vector, class Number>
 {
     if (first == last || n == 0)
         return;
-    const std::size_t width = at(panel.width);
-    Number* target = panel.values + at(last) * (width + 1);
+    const std::size_t width = usize(panel.width);
+    Number* target = panel.values + usize(last) * (width + 1);
     const Targets targets = in_order(last, n);
     if (n == Vector::lanes)
         multiply_all<Vector>(panel, first, last, targets,
-                             [&](Index i, const Vector& sums) { sums.subtract_from(target + at(i) * width); });
+                             [&](Index i, const Vector& sums) { sums.subtract_from(target + usize(i) * width); });
     else
         multiply_all<Vector>(panel, first, last, targets,
-                             [&](Index i, const Vector& sums) { sums.subtract_from(target + at(i) * width, n); });
+                             [&](Index i, const Vector& sums) { sums.subtract_from(target + usize(i) * width, n); });
 }
 
 /// Factorises columns that depend only on each other.
@@ -134,8 +134,8 @@ template <class Vector, class Number>
 template <Index Columns, class Number>
 [[gnu::always_inline]] inline bool factorise_columns(const LdlPanel<Number>& panel, Index first)
 {
-    const std::size_t width = at(panel.width);
-    Number* top = panel.values + at(first) * (width + 1);
+    const std::size_t width = usize(panel.width);
+    Number* top = panel.values + usize(first) * (width + 1);
     Number inverse[Columns];
     Number factor[Columns][Columns];
     Number* row = top;

@@ -25,7 +25,7 @@ struct Row {
 template <class Number>
 [[gnu::always_inline]] inline Number* row_of(Number* x, Index unknown)
 {
-    return x + at(ldl_row) * at(unknown);
+    return x + usize(ldl_row) * usize(unknown);
 }
 
 /// Eliminates columns that depend on each other, from which all contributions of earlier ones have been subtracted.
@@ -33,10 +33,10 @@ template <class Number>
 template <Index Columns, class Number>
 [[gnu::always_inline]] inline void eliminate_columns(const LdlPanel<Number>& panel, Index first, Number* x)
 {
-    const std::size_t width = at(panel.width);
+    const std::size_t width = usize(panel.width);
     const auto n_rows = static_cast<Index>(panel.rows.size());
     Number* own = row_of(x, panel.rows[first]);
-    const Number* row = panel.values + at(first) * (width + 1);
+    const Number* row = panel.values + usize(first) * (width + 1);
     Row<Number> known[Columns];
     for (Index i = 0; i < Columns; ++i, row += width) {
         known[i] = Row(own + ldl_row * i);
@@ -58,16 +58,16 @@ template <Index Columns, class Number>
 template <Index Columns, class Number>
 [[gnu::always_inline]] inline void substitute_columns(const LdlPanel<Number>& panel, Index first, Number* x)
 {
-    const std::size_t width = at(panel.width);
+    const std::size_t width = usize(panel.width);
     const auto n_rows = static_cast<Index>(panel.rows.size());
     Number* own = row_of(x, panel.rows[first]);
-    const Number* top = panel.values + at(first) * (width + 1);
+    const Number* top = panel.values + usize(first) * (width + 1);
     Row<Number> sums[Columns];
     for (Index c = 0; c < Columns; ++c) {
         sums[c] = Row(own + ldl_row * c);
-        sums[c].divide(top[at(c) * (width + 1)]);
+        sums[c].divide(top[usize(c) * (width + 1)]);
     }
-    const Number* row = top + at(Columns) * width;
+    const Number* row = top + usize(Columns) * width;
     for (Index m = first + Columns; m < n_rows; ++m, row += width) {
         const Row known(row_of(x, panel.rows[m]));
         for (Index c = 0; c < Columns; ++c)
@@ -75,7 +75,7 @@ template <Index Columns, class Number>
     }
     for (Index i = Columns; i-- > 0;) {
         for (Index c = 0; c < i; ++c)
-            sums[c].subtract(top[at(i) * width + at(c)], sums[i]);
+            sums[c].subtract(top[usize(i) * width + usize(c)], sums[i]);
         sums[i].store_to(own + ldl_row * i);
     }
 }

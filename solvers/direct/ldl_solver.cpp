@@ -46,16 +46,16 @@ bool has_small_pivot(const LdlPanel<Number>& panel, const std::vector<double>& d
 {
     bool is_small = false;
     for (Index c = 0; c < panel.width; ++c)
-        is_small |= panel.values[at(c) * at(panel.width + 1)] < least_pivot * static_cast<Number>(diagonal[c]);
+        is_small |= panel.values[usize(c) * usize(panel.width + 1)] < least_pivot * static_cast<Number>(diagonal[c]);
     return is_small;
 }
 
 template <class Number>
 void copy_diagonal(const LdlPanel<Number>& panel, std::vector<double>& diagonal)
 {
-    diagonal.resize(std::max(diagonal.size(), at(panel.width)));
+    diagonal.resize(std::max(diagonal.size(), usize(panel.width)));
     for (Index c = 0; c < panel.width; ++c)
-        diagonal[c] = panel.values[at(c) * at(panel.width + 1)];
+        diagonal[c] = panel.values[usize(c) * usize(panel.width + 1)];
 }
 
 /// Of supernodes that several threads factorise: narrow ones have more to do at a time, wide ones less to wait for.
@@ -90,8 +90,8 @@ LdlSolver::LdlSolver(const SparsePattern& upper, std::optional<Index> n_last, co
     assert((!exec_ || !has_rows_) && "several threads factorise matrices without last unknowns");
     panels_.reserve(pattern_.first.size());
     for (Index b = 0; b < pattern_.n_supernodes(); ++b) {
-        const std::size_t end = at(panels_.back()) + at(pattern_.width(b)) * pattern_.rows[b].size();
-        if (end > at(std::numeric_limits<Index>::max()))
+        const std::size_t end = usize(panels_.back()) + usize(pattern_.width(b)) * pattern_.rows[b].size();
+        if (end > usize(std::numeric_limits<Index>::max()))
             throw ComputationError("the system's factor is too large: use more sub-meshes");
         panels_.push_back(static_cast<Index>(end));
     }
@@ -158,7 +158,7 @@ std::optional<LdlFactor<Number>> LdlSolver::factorise(std::span<const double> va
     Number* factor = numbers.get();
     enlarge(workspace);
     auto& last = std::get<std::vector<Number>>(workspace.last);
-    const std::size_t n_in_last = at(n_last_) * at(n_last_);
+    const std::size_t n_in_last = usize(n_last_) * usize(n_last_);
     last.resize(std::max(last.size(), n_in_last));
     std::fill_n(last.begin(), n_in_last, Number{});
     std::fill_n(factor, n_factor_numbers(), Number{});
@@ -182,7 +182,7 @@ std::optional<LdlFactor<Number>> LdlSolver::factorise(std::span<const double> va
 
 void LdlSolver::enlarge(LdlWorkspace& workspace) const
 {
-    if (workspace.row_of.size() < at(n())) {
+    if (workspace.row_of.size() < usize(n())) {
         workspace.row_of.resize(n());
         workspace.target_rows.resize(n());
     }
@@ -212,7 +212,7 @@ bool LdlSolver::factorise_by_subtrees(Number* factor, Number least_pivot) const
 {
     const auto n_groups = schedule_.groups.size();
     const auto n_above = static_cast<Index>(schedule_.above.size());
-    std::vector<std::uint8_t> is_positive(at(n_groups), 0);
+    std::vector<std::uint8_t> is_positive(usize(n_groups), 0);
     exec_(n_groups, [&](Index begin, Index end) {
         LdlWorkspace workspace;
         enlarge(workspace);
@@ -221,7 +221,7 @@ bool LdlSolver::factorise_by_subtrees(Number* factor, Number least_pivot) const
     });
     if (std::ranges::find(is_positive, 0) != is_positive.end())
         return false;
-    std::vector<std::vector<double>> diagonals(at(n_above));
+    std::vector<std::vector<double>> diagonals(usize(n_above));
     exec_(n_above, [&](Index begin, Index end) {
         LdlWorkspace workspace;
         enlarge(workspace);
@@ -248,9 +248,9 @@ void LdlSolver::subtract_from_targets(Index above, Number* factor) const
     const std::span<const Target> targets = targets_[above];
     exec_(static_cast<Index>(targets.size()), [&](Index begin, Index end) {
         std::vector<Index> target_rows;
-        for (const Target& target : targets.subspan(at(begin), at(end - begin))) {
+        for (const Target& target : targets.subspan(usize(begin), usize(end - begin))) {
             const LdlPanel<Number> later = panel(factor, target.later);
-            find_target_rows(earlier.rows.subspan(at(target.place)), later.rows, target_rows);
+            find_target_rows(earlier.rows.subspan(usize(target.place)), later.rows, target_rows);
             subtract_update(earlier, target.place, target.n_columns, target_rows.data(), later);
         }
     });
@@ -276,10 +276,10 @@ void LdlFactor<Number>::solve(const Columns& right_hand_side, Columns& solution,
 {
     assert(solver_->n_last_ == 0);
     const Index n = solver_->n();
-    const double unit = scale_of<Number>(std::span(right_hand_side.data(), at(3) * at(n)));
+    const double unit = scale_of<Number>(std::span(right_hand_side.data(), usize(3) * usize(n)));
     // There is no last block.
     auto& rows_of_solution = std::get<std::vector<Number>>(workspace.last);
-    rows_of_solution.resize(std::max(rows_of_solution.size(), at(ldl_row) * at(n)));
+    rows_of_solution.resize(std::max(rows_of_solution.size(), usize(ldl_row) * usize(n)));
     Number* const x = rows_of_solution.data();
     for (Index i = 0; i < n; ++i) {
         for (Index c = 0; c < 3; ++c)

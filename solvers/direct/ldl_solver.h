@@ -94,7 +94,7 @@ class LdlSolver {
     /// Of a factor, and of the three right-hand sides that one without its last block keeps.
     [[nodiscard]] std::size_t n_numbers() const
     {
-        return at(n_factor_numbers()) + (has_rows_ ? at(ldl_row) * at(n()) : 0);
+        return usize(n_factor_numbers()) + (has_rows_ ? usize(ldl_row) * usize(n()) : 0);
     }
     /// An update of a later supernode, seen from the earlier one.
     struct Target {

@@ -38,13 +38,13 @@ void subtract(const Pair* columns, std::span<const Index> rows, std::size_t plac
 void subtract(const Pair* columns, Index n_columns, std::span<const Index> rows, Index place, Pair* elimination)
 {
     for (; n_columns >= 4; n_columns -= 4, columns += 4 * rows.size())
-        subtract<4>(columns, rows, at(place), elimination);
+        subtract<4>(columns, rows, usize(place), elimination);
     if (n_columns == 3)
-        subtract<3>(columns, rows, at(place), elimination);
+        subtract<3>(columns, rows, usize(place), elimination);
     else if (n_columns == 2)
-        subtract<2>(columns, rows, at(place), elimination);
+        subtract<2>(columns, rows, usize(place), elimination);
     else if (n_columns == 1)
-        subtract<1>(columns, rows, at(place), elimination);
+        subtract<1>(columns, rows, usize(place), elimination);
 }
 
 }  // namespace
@@ -53,7 +53,7 @@ LuSolver::LuSolver(const SparsePattern& pattern)
     : pattern_(make_symbolic_factor(pattern))
 {
     for (Index b = 0; b < pattern_.n_supernodes(); ++b)
-        panels_.push_back(panels_.back() + at(pattern_.width(b)) * pattern_.rows[b].size());
+        panels_.push_back(panels_.back() + usize(pattern_.width(b)) * pattern_.rows[b].size());
     list_loads(pattern);
 }
 
@@ -127,7 +127,7 @@ bool LuSolver::store(Index supernode, Index column, const Factor& factor, LuWork
     const double size = sizes[rows[column]];
     const double inverse = 1.0 / workspace.elimination[rows[column]][lower];
     bool will_do = std::isfinite(inverse) && std::abs(inverse) * size * least_pivot <= 1.0;
-    for (std::size_t m = at(column); m < rows.size(); ++m) {
+    for (std::size_t m = usize(column); m < rows.size(); ++m) {
         Pair& entry = workspace.elimination[rows[m]];
         const double multiplier = entry[lower] * inverse;
         will_do &= std::abs(multiplier) * size <= largest_multiplier * sizes[rows[m]];
@@ -151,7 +151,7 @@ void LuSolver::Factor::solve(const Columns& right_hand_side, Columns& solution, 
             const auto rows = pattern.rows[b];
             const Pair* column = column_of(b, c);
             const Eigen::Array4d known = x[rows[c]];
-            for (std::size_t m = at(c) + 1; m < rows.size(); ++m)
+            for (std::size_t m = usize(c) + 1; m < rows.size(); ++m)
                 x[rows[m]] -= column[m][lower] * known;
         }
     for (Index b = pattern.n_supernodes(); b-- > 0;)
@@ -159,7 +159,7 @@ void LuSolver::Factor::solve(const Columns& right_hand_side, Columns& solution, 
             const auto rows = pattern.rows[b];
             const Pair* row = column_of(b, c);
             Eigen::Array4d sum = x[rows[c]];
-            for (std::size_t m = at(c) + 1; m < rows.size(); ++m)
+            for (std::size_t m = usize(c) + 1; m < rows.size(); ++m)
                 sum -= row[m][upper] * x[rows[m]];
             x[rows[c]] = sum * row[c][lower];
         }

@@ -80,7 +80,7 @@ class LuSolver::Factor {
     /// One column of a supernode, with an entry for each of the supernode's rows.
     [[nodiscard]] Eigen::Array2d* column_of(Index supernode, Index column) const
     {
-        return pairs_.get() + solver_->panels_[supernode] + at(column) * solver_->pattern_.rows[supernode].size();
+        return pairs_.get() + solver_->panels_[supernode] + usize(column) * solver_->pattern_.rows[supernode].size();
     }
 
     const LuSolver* solver_;

@@ -59,8 +59,8 @@ class UmfpackLu final : public DirectSolver {
         : n_(pattern.n())
         , view_(pattern)
     {
-        work_.integers.resize(at(pattern.n()));
-        work_.numbers.resize(at(pattern.n()));
+        work_.integers.resize(usize(pattern.n()));
+        work_.numbers.resize(usize(pattern.n()));
         Interface::defaults(fast_.control.data());
         careful_.control = fast_.control;
         fast_.control[UMFPACK_STRATEGY] = UMFPACK_STRATEGY_SYMMETRIC;

@@ -172,7 +172,7 @@ void ErrorEquation::stiffen(const Executor& exec)
 template <class Value>
 double ErrorEquation::add_up(const Executor& exec, Value&& value)
 {
-    sums_.assign(at(peers_->n_places()), 0.0);
+    sums_.assign(usize(peers_->n_places()), 0.0);
     for_each(exec, static_cast<Index>(peers_->places().size()), [&](Index s) {
         double total = 0.0;
         for (Index i = first(s); i < first(s + 1); ++i)

@@ -25,7 +25,7 @@ WholeRows::Parts WholeRows::list_parts(const Decomposition& decomposition, const
 {
     Parts parts;
     std::vector<Index> all_beside;
-    std::vector<Index> number(at(mesh.n_vertices()), -1);
+    std::vector<Index> number(usize(mesh.n_vertices()), -1);
     std::vector<Index> beside;
     for (Index s = 0; s < static_cast<Index>(decomposition.sub_meshes.size()); ++s) {
         if (!peers.is_own(s))

@@ -203,8 +203,8 @@ void CoarseSpace::list_functions(const std::vector<VertexClass>& classes)
 void CoarseSpace::divide_terms(const std::vector<VertexClass>& classes)
 {
     const std::vector<Index>& holders = peers_.holders();
-    told_.resize(holders.empty() ? 0 : at(*std::ranges::max_element(holders)) + 1);
-    std::vector<std::uint8_t> is_begun(at(size()), 0);
+    told_.resize(holders.empty() ? 0 : usize(*std::ranges::max_element(holders)) + 1);
+    std::vector<std::uint8_t> is_begun(usize(size()), 0);
     Index f = 0;
     for (const VertexClass& vertices : classes) {
         const Index holder = holders[vertices.sharing.front()];
@@ -279,7 +279,7 @@ void CoarseSpace::multiply_functions(Index s, const DenseFactor& schur)
     for (Index i = 0; i < copies_.n_in(s); ++i)
         for (const Index copy : copies_.of_vertex[copies_.vertex[copies_.first[s] + i]]) {
             const auto column = static_cast<std::size_t>(place_in(functions, function_[copy]));
-            columns.data()[column * room + at(i)] += static_cast<float>(values_at_[copy]);
+            columns.data()[column * room + usize(i)] += static_cast<float>(values_at_[copy]);
         }
     share.product.assign(n_columns * room);
     for (std::size_t c = 0; c < n_columns; c += 3)
@@ -337,7 +337,7 @@ void CoarseSpace::correct(const Points& residual, Points& y, const Executor& exe
             sum += values_at_[copy] * residual.row(copies_.vertex[copy]);
         sums_.row(f) = sum;
     };
-    if (at(peers_.self()) < told_.size()) {
+    if (usize(peers_.self()) < told_.size()) {
         const Told& own = told_[peers_.self()];
         for_each(exec, static_cast<Index>(own.finished.size()), [&](Index i) {
             begin(own.finished[i]);
@@ -375,8 +375,8 @@ void CoarseSpace::exchange_terms()
             action(products_with_y_.row(term));
     };
     std::vector<double> own;
-    if (at(peers_.self()) < told_.size())
-        for_rows_of(at(peers_.self()), [&](auto&& row) { own.insert(own.end(), row.data(), row.data() + 3); });
+    if (usize(peers_.self()) < told_.size())
+        for_rows_of(usize(peers_.self()), [&](auto&& row) { own.insert(own.end(), row.data(), row.data() + 3); });
     const InterfacePeers::Numbers of_all = peers_.gather(own);
     for (std::size_t peer = 0; peer < told_.size(); ++peer) {
         const double* next = of_all[peer].data();

@@ -33,7 +33,7 @@ InterfaceEquation::InterfaceEquation(const Decomposition& decomposition, Balanci
 
 void InterfaceEquation::hold(Index vertex, bool is_held)
 {
-    is_held_.resize(at(copies_.n_vertices()), 0);
+    is_held_.resize(usize(copies_.n_vertices()), 0);
     is_held_[vertex] = is_held ? 1 : 0;
 }
 
@@ -206,7 +206,7 @@ void InterfaceEquation::on_each(std::span<const DenseFactor> complements, const 
         }
         // A previous solution may have left values that are not finite.
         for (std::size_t c = 0; c < 6; ++c)
-            std::fill(columns.x + c * room + at(n), columns.x + (c + 1) * room, 0.0F);
+            std::fill(columns.x + c * room + usize(n), columns.x + (c + 1) * room, 0.0F);
         const std::pair<FloatColumns, double> applied = apply(complements[s], columns, scratch);
         const FloatColumns& result = applied.first;
         const Point factor = applied.second * unit;

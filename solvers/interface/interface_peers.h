@@ -72,7 +72,7 @@ class InterfacePeers {
 class OnePeer final : public InterfacePeers {
   public:
     explicit OnePeer(Index n_sub_meshes)
-        : InterfacePeers(0, std::vector<Index>(at(n_sub_meshes), 0), numbers_below(n_sub_meshes))
+        : InterfacePeers(0, std::vector<Index>(usize(n_sub_meshes), 0), numbers_below(n_sub_meshes))
     {
     }
 
@@ -82,7 +82,7 @@ class OnePeer final : public InterfacePeers {
   private:
     static std::vector<Index> numbers_below(Index n)
     {
-        std::vector<Index> numbers(at(n));
+        std::vector<Index> numbers(usize(n));
         std::iota(numbers.begin(), numbers.end(), 0);
         return numbers;
     }

@@ -11,7 +11,7 @@ SumTree::SumTree(InterfacePeers& peers)
     // The peer that has all of the rows added to each row.
     std::vector<Index> holders = peers.holders();
     const auto n = static_cast<Index>(holders.size());
-    told_.resize(n > 0 ? at(*std::ranges::max_element(holders)) + 1 : 0);
+    told_.resize(n > 0 ? usize(*std::ranges::max_element(holders)) + 1 : 0);
     const auto tell = [&](Index row) {
         if (holders[row] != several)
             told_[holders[row]].push_back(row);
@@ -37,17 +37,17 @@ void SumTree::add(const std::vector<Addition>& additions, std::vector<double>& r
 {
     for (const auto& [to, from] : additions)
         for (std::size_t i = 0; i < width; ++i)
-            rows[at(to) * width + i] += rows[at(from) * width + i];
+            rows[usize(to) * width + i] += rows[usize(from) * width + i];
 }
 
 std::vector<double> SumTree::add_up(std::vector<double>& rows, std::size_t width)
 {
     if (rows.empty())
         return std::vector<double>(width, 0.0);
-    const auto begin_of = [&](Index row) { return rows.begin() + static_cast<std::ptrdiff_t>(at(row) * width); };
+    const auto begin_of = [&](Index row) { return rows.begin() + static_cast<std::ptrdiff_t>(usize(row) * width); };
     add(own_, rows, width);
     std::vector<double> own;
-    if (at(peers_->self()) < told_.size())
+    if (usize(peers_->self()) < told_.size())
         for (const Index row : told_[peers_->self()])
             own.insert(own.end(), begin_of(row), begin_of(row + 1));
     const InterfacePeers::Numbers all = peers_->gather(own);
@@ -72,11 +72,11 @@ InterfaceSums::InterfaceSums(const InterfaceCopies& copies, InterfacePeers& peer
 std::vector<Point> InterfaceSums::products(std::initializer_list<VectorPair> pairs, const Executor& exec)
 {
     const std::size_t width = 3 * pairs.size();
-    rows_.resize(at(peers_->n_places()) * width);
+    rows_.resize(usize(peers_->n_places()) * width);
     for_each(exec, copies_->n_sub_meshes(), [&](Index s) {
         if (!peers_->is_own(s))
             return;
-        double* row = rows_.data() + at(peers_->places()[s]) * width;
+        double* row = rows_.data() + usize(peers_->places()[s]) * width;
         for (const auto& [a, b] : pairs) {
             Point sum = Point::Zero();
             for (Index v = copies_->first_vertex[s]; v < copies_->first_vertex[s + 1]; ++v)

@@ -16,15 +16,15 @@ SharedRows::SharedRows(InterfacePeers& peers, std::map<Index, Lists> with)
 
 void SharedRows::complete(double* values, std::size_t width)
 {
-    InterfacePeers::Numbers to_each(others_.size());
+    InterfacePeers::Numbers per_rank(others_.size());
     for (std::size_t p = 0; p < others_.size(); ++p)
         for (const Index row : lists_[p].given)
-            to_each[p].insert(to_each[p].end(), values + at(row) * width, values + at(row + 1) * width);
-    const InterfacePeers::Numbers from_each = peers_->exchange(others_, to_each);
+            per_rank[p].insert(per_rank[p].end(), values + usize(row) * width, values + usize(row + 1) * width);
+    const InterfacePeers::Numbers from_each = peers_->exchange(others_, per_rank);
     for (std::size_t p = 0; p < others_.size(); ++p) {
         auto next = from_each[p].begin();
         for (const Index row : lists_[p].taken) {
-            std::copy_n(next, width, values + at(row) * width);
+            std::copy_n(next, width, values + usize(row) * width);
             next += static_cast<std::ptrdiff_t>(width);
         }
     }

@@ -36,7 +36,7 @@ Index edge_without_length(const PolygonMesh& mesh, const Topology& topology, Ind
 {
     const auto corners = mesh.face(f);
     throw InputError("vertices " + std::to_string(corners[corner]) + " and " +
-                     std::to_string(corners[(at(corner) + 1) % corners.size()]) +
+                     std::to_string(corners[(usize(corner) + 1) % corners.size()]) +
                      " (numbered from 0) are joined by an edge of face " + std::to_string(f) +
                      " and lie at the same place, or so near or far that their distance is not a normal double: merge "
                      "them, move one, or scale the mesh");

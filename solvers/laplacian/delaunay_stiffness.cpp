@@ -89,7 +89,7 @@ Lists<Index> edges_by_length(const IntrinsicTriangles& triangles)
         edges.values.push_back(place);
     }
     edges.close();
-    std::vector<Index> order(at(edges.size()));
+    std::vector<Index> order(usize(edges.size()));
     std::iota(order.begin(), order.end(), 0);
     std::ranges::stable_sort(order,
                              [&](Index a, Index b) { return edges[a].front().length > edges[b].front().length; });
@@ -127,7 +127,7 @@ void soften(Index h, double weight, std::vector<double>& weights)
 /// @returns per half-edge: the share of it in the weight of its edge.
 std::vector<double> softened_weights(const IntrinsicTriangles& triangles, const Topology& topology)
 {
-    std::vector<double> weights(3 * at(triangles.n_triangles()));
+    std::vector<double> weights(3 * usize(triangles.n_triangles()));
     for (Index h = 0; h < 3 * triangles.n_triangles(); ++h)
         weights[h] = triangles.half_cotangent(h);
     const Lists<Index> edges = edges_by_length(triangles);
@@ -164,12 +164,12 @@ GivenStiffness stiffness_of(const IntrinsicTriangles& triangles, const std::vect
         }
     });
     GivenStiffness of;
-    of.mass.assign(at(n_vertices), 0.0);
+    of.mass.assign(usize(n_vertices), 0.0);
     for (Index t = 0; t < triangles.n_triangles(); ++t)
         for (const Index v : triangles.corners(t))
             of.mass[v] += triangles.area(t) / 3.0;
     for (Index v = 0; v < n_vertices; ++v) {
-        const auto row = std::span(entries.values).subspan(at(entries.offsets[v]), entries[v].size());
+        const auto row = std::span(entries.values).subspan(usize(entries.offsets[v]), entries[v].size());
         std::ranges::stable_sort(row, {}, &Entry::other);
         for (const Entry& entry : row) {
             if (std::ssize(of.neighbours.values) == of.neighbours.offsets.back() ||
@@ -202,7 +202,7 @@ std::optional<DelaunaySurface> make_delaunay(const PolygonMesh& mesh, const Topo
         triangulate(mesh.face(f), mesh.vertices, of_face);
         for (const Triangle& triangle : of_face)
             cut.add_face(triangle);
-        surface.face_of.resize(at(cut.n_faces()), f);
+        surface.face_of.resize(usize(cut.n_faces()), f);
     }
     IntrinsicTriangles triangles(cut, make_topology(cut, exec));
     triangles.flip_to_delaunay(cut.vertices);

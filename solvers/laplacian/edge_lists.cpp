@@ -13,7 +13,7 @@ void for_each_halfedge(const IndexListsView& faces, Action&& action)
     for (Index f = 0; f < faces.size(); ++f) {
         const auto corners = faces[f];
         for (std::size_t k = 0; k < corners.size(); ++k)
-            action(at(faces.offsets[f]) + k, corners[k], corners[k + 1 == corners.size() ? 0 : k + 1]);
+            action(usize(faces.offsets[f]) + k, corners[k], corners[k + 1 == corners.size() ? 0 : k + 1]);
     }
 }
 
@@ -31,7 +31,7 @@ OuterEdges by_number_of_faces(const std::vector<VertexPair>& edges, Index n_vert
         std::sort(second, end);
         while (second != end) {
             const auto next = std::find_if(second, end, [&](Index v) { return v != *second; });
-            outer.inner.insert(outer.inner.end(), at(static_cast<Index>(next - second) / 2), {first, *second});
+            outer.inner.insert(outer.inner.end(), usize(static_cast<Index>(next - second) / 2), {first, *second});
             if ((next - second) % 2 != 0)
                 outer.rim.push_back({first, *second});
             second = next;
@@ -58,7 +58,7 @@ void append_own_edges(const FacesOnBothSides& faces, bool on_rim, std::vector<Ve
 {
     for_each_halfedge(faces.own, [&](std::size_t h, Index start, Index end) {
         const Index twin = faces.twin[h];
-        if ((twin < 0) == on_rim && (twin < 0 || h < at(twin)))
+        if ((twin < 0) == on_rim && (twin < 0 || h < usize(twin)))
             edges.push_back({start, end});
     });
 }

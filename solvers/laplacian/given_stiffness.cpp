@@ -18,7 +18,7 @@ class GivenLaplacian final : public SymmetricLaplacian {
         , mass_(local_to_global.size(), 0.0)
     {
         const auto share_of_mass = [&](Index local) {
-            const Index v = local_to_global[at(local)];
+            const Index v = local_to_global[usize(local)];
             Index n = 0;
             for (Index i = given.neighbours.offsets[v]; i < given.neighbours.offsets[v + 1]; ++i)
                 n += given.n_faces[i];
@@ -26,8 +26,8 @@ class GivenLaplacian final : public SymmetricLaplacian {
         };
         std::vector<double> shares(mass_.size(), -1.0);
         for (const auto& [first, second] : laplacian_->pairs()) {
-            const Index v = local_to_global[at(first)];
-            const Index i = given.neighbours.offsets[v] + place_in(given.neighbours[v], local_to_global[at(second)]);
+            const Index v = local_to_global[usize(first)];
+            const Index i = given.neighbours.offsets[v] + place_in(given.neighbours[v], local_to_global[usize(second)]);
             entries_.push_back(-given.weights[i] / given.n_faces[i]);
             for (const Index local : {first, second}) {
                 if (shares[local] < 0.0)

@@ -35,7 +35,7 @@ Eigen::RowVector2d product(const Eigen::RowVector2d& a, const Eigen::RowVector2d
 }  // namespace
 
 IntrinsicTriangles::IntrinsicTriangles(const PolygonMesh& mesh, const Topology& topology)
-    : corners_(at(mesh.n_faces()))
+    : corners_(usize(mesh.n_faces()))
     , edges_(mesh.face_vertices.size())
     , twin_(topology.twin)
 {

@@ -24,7 +24,7 @@ class IntrinsicTriangles {
     [[nodiscard]] double area(Index t) const;
     /// The half-edge of the other triangle at the edge; -1 where there is none, or several.
     [[nodiscard]] Index twin(Index h) const { return twin_[h]; }
-    [[nodiscard]] Index start(Index h) const { return corners_[h / 3][at(h % 3)]; }
+    [[nodiscard]] Index start(Index h) const { return corners_[h / 3][usize(h % 3)]; }
     [[nodiscard]] Index end(Index h) const { return start(next(h)); }
     [[nodiscard]] double length(Index h) const { return edge(h).norm(); }
     /// Half the cotangent of the angle opposite to a half-edge; large, but finite, in a triangle without area.

@@ -43,7 +43,7 @@ double visit_row(Kernel, const PolygonMesh& mesh, const Topology& topology, cons
     double mass = 0.0;
     for (const Index corner : topology.corners_at(v)) {
         const Index f = topology.face_of[corner];
-        measure_corner<Kernel>(mesh.face(f), at(corner - mesh.face_offsets[f]), positions,
+        measure_corner<Kernel>(mesh.face(f), usize(corner - mesh.face_offsets[f]), positions,
                                [&](const auto& face, std::size_t i) {
                                    const auto row = face.row(i, 1.0 / face.divisor());
                                    for (std::size_t k = 0; k < face.size(); ++k)

@@ -28,7 +28,7 @@ void list_neighbours(const PolygonMesh& mesh, const Topology& topology, Index f,
 FaceNeighbours make_face_neighbours(const PolygonMesh& mesh, const Topology& topology, const Executor& exec)
 {
     FaceNeighbours neighbours;
-    neighbours.offsets.assign(at(mesh.n_faces()) + 1, 0);
+    neighbours.offsets.assign(usize(mesh.n_faces()) + 1, 0);
     exec(mesh.n_faces(), [&](Index begin, Index end) {
         std::vector<Index> list;
         for (Index f = begin; f < end; ++f) {
@@ -54,7 +54,7 @@ std::vector<std::int8_t> face_signs(const PolygonMesh& mesh, const Topology& top
 {
     if (topology.oriented)
         return {};
-    std::vector<std::int8_t> signs(at(mesh.n_faces()), 0);
+    std::vector<std::int8_t> signs(usize(mesh.n_faces()), 0);
     std::vector<Index> next;
     for (Index first = 0; first < mesh.n_faces(); ++first) {
         if (signs[first] != 0)

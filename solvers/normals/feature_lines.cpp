@@ -58,7 +58,7 @@ FeatureLines::FeatureLines(const PolygonMesh& mesh, const Topology& topology, st
                             v, w));
     }
     sort_unique(edges_);
-    place_of_.assign(at(mesh.n_vertices()), -1);
+    place_of_.assign(usize(mesh.n_vertices()), -1);
     std::vector<std::vector<Index>> ends;
     for (const auto& [v, w] : edges_)
         for (const auto& [here, there] : {std::pair(v, w), std::pair(w, v)}) {

@@ -73,7 +73,7 @@ NormalDiffusion::NormalDiffusion(const PolygonMesh& mesh, const PolygonMesh& con
     , neighbours_(make_face_neighbours(connected, topology, exec))
     , signs_(face_signs(connected, topology))
     , across_(mesh.face_vertices.size())
-    , areas_(at(mesh.n_faces()))
+    , areas_(usize(mesh.n_faces()))
     , centroids_(mesh.n_faces(), 3)
     , reach_(areas_.size())
     , scale_(areas_.size())
@@ -146,7 +146,7 @@ void NormalDiffusion::measure(const Points& positions, double time_step, const E
 double NormalDiffusion::measure_noise(const Points& normals, double edge_chord, const Executor& exec) const
 {
     const Index n = mesh_->n_faces();
-    std::vector<double> chords(at(n));
+    std::vector<double> chords(usize(n));
     for_each(exec, n, [&](Index f) {
         chords[f] = std::numeric_limits<double>::infinity();
         if (areas_[f] == 0.0)

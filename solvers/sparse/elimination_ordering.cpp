@@ -47,7 +47,7 @@ AmdResult::AmdResult(SparsePattern neighbours)
     const std::size_t n_entries = neighbours.rows.size();
     // AMD's own choice of the workspace size.
     const std::size_t room = n_entries + n_entries / 5 + n;
-    if (room > at(std::numeric_limits<Index>::max()))
+    if (room > usize(std::numeric_limits<Index>::max()))
         fail_for_memory();
     const Index end = neighbours.n_entries();
     std::vector<Index>& lists = neighbours.rows;

@@ -129,7 +129,7 @@ void list_supernodes(const SparsePattern& upper, const EliminationTree& tree, co
         factor.first.push_back(last + 1);
         for (Index u = first; u <= last; ++u)
             factor.rows.values.push_back(u);
-        factor.rows.values.resize(factor.rows.values.size() + at(tree.count[last]));
+        factor.rows.values.resize(factor.rows.values.size() + usize(tree.count[last]));
         factor.rows.close();
     }
     factor.first.shrink_to_fit();
@@ -168,7 +168,7 @@ SymbolicFactor make_symbolic_factor(const SparsePattern& pattern)
     for (Index i = 0; i < n; ++i)
         factor.position[order[i]] = i;
 
-    factor.update_offsets.assign(at(n) + 1, 0);
+    factor.update_offsets.assign(usize(n) + 1, 0);
     const SparsePattern upper = symmetrised(pattern, factor.position);
     list_supernodes(
         upper, make_tree(upper), {Zeros::None, 0, n}, factor,

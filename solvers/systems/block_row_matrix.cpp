@@ -48,7 +48,7 @@ BlockRowMatrix::BlockRowMatrix(std::vector<Index> blocks, const Pattern& pattern
     };
     std::vector<Lists> lists(blocks_.size() - 1);
     for (std::vector<Index>* begin : {&lower_.begin, &upper_.begin, &outer_.begin})
-        begin->assign(at(n_rows()) + 1, 0);
+        begin->assign(usize(n_rows()) + 1, 0);
     for_each_block(exec, [&](Index block, Index begin, Index end) {
         lists[block] = {pattern(block), {}};
         for (Index i = begin; i < end; ++i) {

@@ -17,7 +17,7 @@ GeneralSystem::GeneralSystem(SystemParts parts, std::unique_ptr<TransmissionCond
 {
     const SubMesh& sub_mesh = *sub_mesh_;
     make_rows();
-    screening_ = make_screening(parts.terms, std::span(sub_mesh.local_to_global).first(at(sub_mesh.n_vertices)));
+    screening_ = make_screening(parts.terms, std::span(sub_mesh.local_to_global).first(usize(sub_mesh.n_vertices)));
     const auto is_laplacian = [&](const MatrixEntry& entry) { return row_of_[entry.row] == Row::Laplacian; };
     const Points first =
         parts.terms.keeps_stiffness ? rows_of(*parts.terms.first, sub_mesh.local_to_global) : Points(0, 3);
@@ -91,7 +91,7 @@ void GeneralSystem::assemble_interface(const Points& positions, const Points& ot
 {
     const auto& vertices = sub_mesh_->interface.vertices;
     for (Index i = 0; i < static_cast<Index>(vertices.size()); ++i) {
-        const auto begin = at(condition_->columns().offsets[i]);
+        const auto begin = usize(condition_->columns().offsets[i]);
         if (roles_[i] == InterfaceRole::Follows) {
             matrix_->diagonal(vertices[i]) = 1.0;
             continue;

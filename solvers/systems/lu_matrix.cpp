@@ -32,9 +32,9 @@ void LuMatrix::scale_rows(std::span<const double> step_scales, std::span<const I
 {
     const std::size_t n_entries = pattern_.rows.size();
     for (std::size_t slot = 0; slot < n_entries; ++slot)
-        values_[slot] *= step_scales[at(pattern_.rows[slot])];
+        values_[slot] *= step_scales[usize(pattern_.rows[slot])];
     for (std::size_t i = 0; i < further.size(); ++i)
-        values_[n_entries + i] *= step_scales[at(further[i])];
+        values_[n_entries + i] *= step_scales[usize(further[i])];
 }
 
 std::optional<DirectSolver::Factor> LuMatrix::factorise(std::span<const double> values, FactorMemory& memory,

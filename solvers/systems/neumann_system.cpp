@@ -28,7 +28,7 @@ NeumannSystem::NeumannSystem(const SubMesh& sub_mesh, IndexLists faces, const Sc
     , solver_(number_unknowns(sub_mesh), n_interface_)
 {
     const std::span<const Index> local_to_global = sub_mesh.local_to_global;
-    matrix_.screening = make_screening(terms, local_to_global.first(at(sub_mesh.n_vertices)));
+    matrix_.screening = make_screening(terms, local_to_global.first(usize(sub_mesh.n_vertices)));
     if (terms.keeps_stiffness)
         matrix_.laplacian = keep_stiffness(std::move(matrix_.laplacian), matrix_.n_vertices,
                                            rows_of(*terms.first, sub_mesh.local_to_global), terms.keeps_mass);
@@ -105,7 +105,7 @@ NeumannSystem::Assembled NeumannSystem::assemble(const Points& positions, const 
 
 void NeumannSystem::hold(Index v, bool is_held)
 {
-    is_held_.resize(at(matrix_.n_vertices), 0);
+    is_held_.resize(usize(matrix_.n_vertices), 0);
     n_held_ += (is_held ? 1 : 0) - is_held_[v];
     is_held_[v] = is_held ? 1 : 0;
 }
@@ -168,7 +168,7 @@ void NeumannSystem::condense(const Assembled& equations, Factor& factor, Eigen::
             const double scale = numbers.scale() * factor.unit_;
             const double inverse = 1.0 / scale;
             Number* const rows = numbers.rows();
-            std::fill_n(rows, at(ldl_row) * at(matrix_.n()), Number{});
+            std::fill_n(rows, usize(ldl_row) * usize(matrix_.n()), Number{});
             for (Index u = 0; u < n_interior(); ++u) {
                 const double* const residual = equations.residual.row(matrix_.vertex_of[u]).data();
                 for (Index c = 0; c < 3; ++c)

@@ -13,7 +13,7 @@ namespace {
 
 void require_countable(std::size_t n_entries, Index n)
 {
-    if (n_entries > at(std::numeric_limits<Index>::max()))
+    if (n_entries > usize(std::numeric_limits<Index>::max()))
         throw ComputationError("a system of " + std::to_string(n) +
                                " unknowns has too many entries: cut the mesh into more sub-meshes");
 }
@@ -22,7 +22,7 @@ void require_countable(std::size_t n_entries, Index n)
 
 PairsOfUnknowns pairs_of_unknowns(const std::vector<VertexPair>& pairs, const std::vector<Index>& unknown_of, Index n)
 {
-    require_countable(2 * pairs.size() + at(n), n);
+    require_countable(2 * pairs.size() + usize(n), n);
     const auto n_own = static_cast<Index>(unknown_of.size());
     const auto unknown = [&](Index v) { return v < n_own ? unknown_of[v] : -1; };
     return {make_lists<PairsOfUnknowns::Entry>(n,
@@ -77,7 +77,7 @@ UpperPattern upper_pattern(const PairsOfUnknowns& pairs, const std::vector<Index
     std::vector<Index>& offsets = upper.pattern.column_offsets;
     std::vector<Index>& rows = upper.pattern.rows;
     // The beginnings of columns are stored one place further, and advance to their ends.
-    offsets.assign(at(n) + 2, 1);
+    offsets.assign(usize(n) + 2, 1);
     offsets[0] = offsets[1] = 0;
     for_each_entry_above_diagonal(
         [&](Index, Index column, Index, bool is_new) { offsets[column + 2] += is_new ? 1 : 0; });
@@ -98,7 +98,7 @@ UpperPattern upper_pattern(const PairsOfUnknowns& pairs, const std::vector<Index
 std::span<double> SymmetricMatrix::fill(const Points& positions, double time_step, std::size_t n_further,
                                         SolverWorkspace& workspace, const StiffnessProduct* product) const
 {
-    const std::size_t n_values = at(n_entries()) + n_further;
+    const std::size_t n_values = usize(n_entries()) + n_further;
     workspace.values.assign(n_values + 1, 0.0);
     workspace.diagonal.resize(n_vertices);
     workspace.mass.resize(n_vertices);

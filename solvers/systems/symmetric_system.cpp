@@ -18,7 +18,7 @@ SymmetricSystem::SymmetricSystem(const SystemParts& parts, SymmetricRows rows, S
               sub_mesh_->n_vertices + sub_mesh_->n_halo}
 {
     const std::span<const Index> local_to_global = sub_mesh_->local_to_global;
-    matrix_.screening = make_screening(parts.terms, local_to_global.first(at(sub_mesh_->n_vertices)));
+    matrix_.screening = make_screening(parts.terms, local_to_global.first(usize(sub_mesh_->n_vertices)));
     if (parts.terms.keeps_stiffness)
         matrix_.laplacian =
             keep_stiffness(std::move(matrix_.laplacian), matrix_.n_vertices,
@@ -130,7 +130,7 @@ void SymmetricSystem::list_interface(const SparsePattern& upper, const std::vect
     rows_.reserve(vertices.size() + 1);
     for (std::size_t i = 0; i < vertices.size(); ++i) {
         rows_.push_back({unknown_of[vertices[i]], entries.offsets[i], beyond});
-        while (at(beyond) < beyond_.size() && beyond_[beyond].unknown == rows_[i].unknown)
+        while (usize(beyond) < beyond_.size() && beyond_[beyond].unknown == rows_[i].unknown)
             ++beyond;
     }
     rows_.push_back({-1, entries.offsets.back(), beyond});

@@ -20,7 +20,7 @@ namespace {
 /// A region of consecutive numbers: about a tenth of the mesh, with vertices of several sub-meshes.
 std::vector<Index> region_of(const PolygonMesh& mesh)
 {
-    std::vector<Index> region(at(mesh.n_vertices() / 10));
+    std::vector<Index> region(usize(mesh.n_vertices() / 10));
     std::iota(region.begin(), region.end(), mesh.n_vertices() / 3);
     return region;
 }
@@ -156,7 +156,7 @@ TEST_CASE("with all of the interface held, interiors move as exactly")
     PolygonMesh moved = mesh;
     Flow flow(moved, options);
     const std::vector<Index>& labels = flow.report().cut.labels;
-    std::vector<Index> label_of(at(mesh.n_vertices()), -1);
+    std::vector<Index> label_of(usize(mesh.n_vertices()), -1);
     std::vector<Index> held;
     for (Index f = 0; f < mesh.n_faces(); ++f)
         for (const Index v : mesh.face(f)) {
@@ -215,7 +215,7 @@ TEST_CASE("weights of an attachment that change between steps are as if they had
     for (const FlowEquation flow : {FlowEquation::MeanCurvature, FlowEquation::Linear}) {
         FlowOptions options = converged(flow, Laplacian::Fujiwara, mesh);
         const std::vector<Index> region = region_of(mesh);
-        options.motion.attachment_weights.assign(at(mesh.n_vertices()), 0.5 / options.time_step);
+        options.motion.attachment_weights.assign(usize(mesh.n_vertices()), 0.5 / options.time_step);
         PolygonMesh moved = mesh;
         Flow changed(moved, options);
         changed.attach(region, std::vector<double>(region.size(), 40.0 / options.time_step));
@@ -300,9 +300,9 @@ TEST_CASE("components that shrink to points are held, released and attached like
     FlowOptions options = converged(FlowEquation::MeanCurvature, Laplacian::Fujiwara, mesh);
     options.time_step = 0.5;
     options.cut.subdomains = 4;
-    options.motion.attachment_weights.assign(at(mesh.n_vertices()), 0.0);
+    options.motion.attachment_weights.assign(usize(mesh.n_vertices()), 0.0);
     options.motion.attachment_weights[0] = 1e-3;
-    std::vector<Index> all_small(at(small.n_vertices()));
+    std::vector<Index> all_small(usize(small.n_vertices()));
     std::iota(all_small.begin(), all_small.end(), n);
     const std::vector<Index> one{n + 5};
 

@@ -84,8 +84,8 @@ Waits waits_of(const SweepPlan& plan, const std::vector<std::vector<Index>>& adj
                 add(TaskKind::Predict, prediction.from, TaskKind::UsePredictions, s);
     }
     // A factor takes the place of one that is gone.
-    for (std::size_t i = at(window.size); i < window.order.size(); ++i)
-        add(TaskKind::Solve, window.freed[i - at(window.size)], TaskKind::AssembleAndFactorise, window.order[i]);
+    for (std::size_t i = usize(window.size); i < window.order.size(); ++i)
+        add(TaskKind::Solve, window.freed[i - usize(window.size)], TaskKind::AssembleAndFactorise, window.order[i]);
     return ascending(std::move(waits));
 }
 
@@ -122,7 +122,7 @@ RecordedWaits recorded_from(const Schedule& schedule, std::size_t first, std::si
 {
     REQUIRE(first + n <= schedule.tasks.size());
     const auto task = [&](std::size_t i) { return Task(schedule.tasks[i].kind, schedule.tasks[i].sub_mesh); };
-    const auto is_here = [&](Index i) { return at(i) >= first && at(i) < first + n; };
+    const auto is_here = [&](Index i) { return usize(i) >= first && usize(i) < first + n; };
     RecordedWaits recorded;
     for (std::size_t i = first; i < first + n; ++i)
         recorded.tasks.push_back(task(i));
@@ -131,7 +131,7 @@ RecordedWaits recorded_from(const Schedule& schedule, std::size_t first, std::si
         // Tasks of another sweep run in another step.
         CHECK(is_here(before) == is_here(after));
         if (is_here(before))
-            recorded.waits.emplace_back(task(at(before)), task(at(after)));
+            recorded.waits.emplace_back(task(usize(before)), task(usize(after)));
     }
     std::ranges::sort(recorded.waits);
     return recorded;
@@ -177,7 +177,7 @@ Index check_graphs(const PolygonMesh& mesh, const FlowOptions& options)
     const FlowReport report = mean_curvature_flow(moved, options);
     const Decomposition decomposition = decomposed(mesh, options, report);
     std::vector<std::vector<Index>> ranks{colours_of(report)};
-    if (alternates(options, at(report.cut.n_sub_meshes())))
+    if (alternates(options, usize(report.cut.n_sub_meshes())))
         ranks.push_back(reversed(colours_of(report)));
     const std::vector<Index> order = reverse_cuthill_mckee(decomposition.adjacency);
     const Schedule& schedule = report.schedule.value();

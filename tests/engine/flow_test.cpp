@@ -31,9 +31,9 @@ TEST_CASE("a flow taken step by step has the bits and the report of one call")
         for (int step = 1; step <= kind.options.steps; ++step) {
             flow.step();
             CHECK(flow.n_steps() == step);
-            CHECK(same_bits(moved.vertices, after[at(step - 1)]));
+            CHECK(same_bits(moved.vertices, after[usize(step - 1)]));
             // To look at the report changes nothing.
-            CHECK(flow.report().steps.size() == at(step));
+            CHECK(flow.report().steps.size() == usize(step));
         }
         const FlowReport report = flow.report();
         CHECK(report.remarks == expected.remarks);

@@ -110,7 +110,8 @@ int check_against_references(Index subdomains, std::optional<double> tolerance)
         const double unit = tolerance ? 1e-6 * mean_edge_length(reference.mesh, reference.mesh.vertices) : 1e-9;
         mean_curvature_flow(reference.mesh, reference.options, [&](const StepState& state) {
             CAPTURE(state.step);
-            CHECK(largest_difference(state.positions, reference.positions_after_step.at(at(state.step - 1))) <= unit);
+            CHECK(largest_difference(state.positions, reference.positions_after_step.at(usize(state.step - 1))) <=
+                  unit);
             ++n;
         });
     }
@@ -187,7 +188,7 @@ TEST_CASE("every step of the linear flow has the matrix of the first surface")
                 own.report.reference = true;
                 PolygonMesh flowing = mesh;
                 const FlowReport report = mean_curvature_flow(flowing, own, [&](const StepState& state) {
-                    CHECK(largest_difference(state.positions, after[at(state.step)]) <= 1e-10);
+                    CHECK(largest_difference(state.positions, after[usize(state.step)]) <= 1e-10);
                 });
                 CHECK(report.convergence.steps_short_of_tolerance == 0);
                 for (const StepReport& step : report.steps)
@@ -250,7 +251,7 @@ TEST_CASE("an attached flow ends where (Δ + w) V = w V⁰, and vertices stay th
     FlowOptions options;
     options.laplacian = Laplacian::VirtualRefinement;
     options.time_step = 1e6;
-    options.motion.attachment_weights.assign(at(mesh.n_vertices()), 100.0);
+    options.motion.attachment_weights.assign(usize(mesh.n_vertices()), 100.0);
     for (Index v = 0; v < mesh.n_vertices(); ++v)
         options.motion.attachment_weights[v] = mesh.vertices(v, 0) < 0.5 ? 1e9 : 100.0;
     const Points end = flowed(mesh, options);
@@ -278,7 +279,7 @@ TEST_CASE("w for each vertex is the same as one for all, where they are equal, a
         CAPTURE(flow.name);
         const Points expected = flowed(mesh, flow.options);
         MotionOptions& motion = flow.options.motion;
-        motion.attachment_weights.assign(at(mesh.n_vertices()), motion.attachment);
+        motion.attachment_weights.assign(usize(mesh.n_vertices()), motion.attachment);
         motion.attachment = 0.0;
         CHECK(largest_difference(flowed(mesh, flow.options), expected) <= 1e-12);
     }

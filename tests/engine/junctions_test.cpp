@@ -184,11 +184,11 @@ TEST_CASE("plates at other angles move to the point of the shortest connection, 
     // The line is held at both ends, and begins there where it is to come.
     double shortest = 0.0;
     for (Index s = 0; s < 3; ++s) {
-        shortest += n * (ends[at(s)] - nearest).norm();
+        shortest += n * (ends[usize(s)] - nearest).norm();
         for (const Index j : {0, n})
             for (Index i = 0; i < m; ++i)
                 mesh.vertices.row(vertex(s, i, j)) =
-                    nearest + static_cast<double>(i) / m * (ends[at(s)] - nearest) + Point(0, 0, j);
+                    nearest + static_cast<double>(i) / m * (ends[usize(s)] - nearest) + Point(0, 0, j);
     }
     FlowOptions options = junction_options(Laplacian::VirtualRefinement, 100.0, Approach::Converged);
     options.cut.subdomains = 4;
@@ -256,7 +256,7 @@ TEST_CASE("two touching balls lose the volumes that dense steps take from them")
     REQUIRE(labelled.mesh.face_vertices == mesh.face_vertices);
     double volume = 0.0;
     for (Index f = 0; f < mesh.n_faces(); ++f)
-        if (const auto face = mesh.face(f); labelled.front[at(f)] == 0)
+        if (const auto face = mesh.face(f); labelled.front[usize(f)] == 0)
             volume += Point(expected.vertices.row(face[0]))
                           .dot(Point(expected.vertices.row(face[1])).cross(Point(expected.vertices.row(face[2])))) /
                       6.0;

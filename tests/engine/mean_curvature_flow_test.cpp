@@ -53,7 +53,7 @@ TEST_CASE("the report tells what was done")
         colours.insert(sub_mesh.colour);
     }
     CHECK(n_faces == mesh.n_faces());
-    CHECK(report.cut.labels.size() == at(mesh.n_faces()));
+    CHECK(report.cut.labels.size() == usize(mesh.n_faces()));
     CHECK(static_cast<Index>(colours.size()) == report.cut.n_colours());
     CHECK(report.cut.interface_vertices > 50);
     CHECK(report.time_step == 0.001);

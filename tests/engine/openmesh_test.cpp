@@ -92,7 +92,7 @@ TEST_CASE("locked vertices stay, and so do those that are not selected where any
     CHECK(held_by_status(mesh) == std::vector<Index>{150});
     for (unsigned v = 140; v < 300; ++v)
         mesh.status(mesh.vertex_handle(v)).set_selected(true);
-    CHECK(held_by_status(mesh).size() == at(before.n_vertices()) - 159);
+    CHECK(held_by_status(mesh).size() == usize(before.n_vertices()) - 159);
     mean_curvature_flow(mesh, two_steps());
     const PolygonMesh after = to_polygon_mesh(mesh);
     const Topology topology = make_topology(before);

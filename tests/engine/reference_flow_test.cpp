@@ -15,7 +15,7 @@ TEST_CASE("the flows of the paper's authors are reproduced, undecomposed and in 
         int steps = 0;
         mean_curvature_flow(reference.mesh, reference.options, [&](const StepState& state) {
             CAPTURE(state.step);
-            const Points& expected = reference.positions_after_step.at(at(state.step - 1));
+            const Points& expected = reference.positions_after_step.at(usize(state.step - 1));
             CHECK((state.positions - expected).cwiseAbs().maxCoeff() <= 1e-9);
             ++steps;
         });

@@ -225,7 +225,7 @@ TEST_CASE("a strength of 1 everywhere is none, bit for bit")
     for (const PolygonMesh& mesh : height_fields(900)) {
         FlowOptions options = region_options(mesh, Laplacian::AlexaWardetzky);
         FlowOptions without = options;
-        options.motion.strength.assign(at(mesh.n_vertices()), 1.0);
+        options.motion.strength.assign(usize(mesh.n_vertices()), 1.0);
         without.motion.strength.clear();
         CHECK(same_bits(flowed(mesh, options), flowed(mesh, without)));
     }
@@ -277,7 +277,7 @@ TEST_CASE("in an empty region nothing moves, and a remark says so")
     PolygonMesh mesh = make_triangles(400);
     const Points before = mesh.vertices;
     FlowOptions options = region_options(mesh, Laplacian::Fujiwara);
-    options.motion.strength.assign(at(mesh.n_vertices()), 0.0);
+    options.motion.strength.assign(usize(mesh.n_vertices()), 0.0);
     const FlowReport report = mean_curvature_flow(mesh, options);
     CHECK(same_bits(mesh.vertices, before));
     CHECK(report.remarks ==
@@ -445,7 +445,7 @@ TEST_CASE("a flow of a region resumes from its state, and holds and moves vertic
     PolygonMesh changed = mesh;
     Flow flow(changed, options);
     const std::vector<Index> inside{mesh.n_vertices() / 2 + 20};
-    REQUIRE(options.motion.strength[at(inside.front())] == 1.0);
+    REQUIRE(options.motion.strength[usize(inside.front())] == 1.0);
     const std::vector<Index> outside{0};
     flow.hold(inside);
     flow.step();
@@ -469,12 +469,12 @@ TEST_CASE("copies of a vertex along a seam have the least of their strengths, an
     REQUIRE(mesh.n_vertices() > whole.n_vertices());
     FlowOptions options = in_four_sub_meshes(region_options(mesh, Laplacian::Fujiwara));
     FlowOptions of_whole = options;
-    of_whole.motion.strength.resize(at(whole.n_vertices()));
+    of_whole.motion.strength.resize(usize(whole.n_vertices()));
     for (Index v = whole.n_vertices(); v < mesh.n_vertices(); ++v)
         for (Index w = 0; w < whole.n_vertices(); ++w)
             if (mesh.vertices.row(v) == whole.vertices.row(w)) {
-                double& strength = of_whole.motion.strength[at(w)];
-                strength = std::min(strength, options.motion.strength[at(v)]);
+                double& strength = of_whole.motion.strength[usize(w)];
+                strength = std::min(strength, options.motion.strength[usize(v)]);
             }
     const Points expected = flowed(whole, of_whole);
     CHECK(largest_difference(flowed(mesh, options).topRows(whole.n_vertices()), expected) < 1e-9);
@@ -493,8 +493,8 @@ TEST_CASE("a face that repeats another is in its sub-mesh, also where faces besi
     options.motion.strength = disc(mesh, 0.3);
     PolygonMesh flowing = mesh;
     std::vector<Index> expected = mean_curvature_flow(flowing, options).cut.labels;
-    CHECK(expected[at(repeated)] < 4);
-    expected.insert(expected.begin() + repeated, expected[at(repeated)]);
+    CHECK(expected[usize(repeated)] < 4);
+    expected.insert(expected.begin() + repeated, expected[usize(repeated)]);
     CHECK(mean_curvature_flow(with_repeated, options).cut.labels == expected);
     CHECK(same_bits(with_repeated.vertices, flowing.vertices));
 }

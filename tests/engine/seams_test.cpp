@@ -38,7 +38,7 @@ FlowOptions in_sub_meshes()
 /// The vertex of the whole mesh at the place of each vertex of a part.
 std::vector<Index> originals(const PolygonMesh& parts, const PolygonMesh& whole)
 {
-    std::vector<Index> of(at(parts.n_vertices()));
+    std::vector<Index> of(usize(parts.n_vertices()));
     for (std::size_t corner = 0; corner < parts.face_vertices.size(); ++corner)
         of[parts.face_vertices[corner]] = whole.face_vertices[corner];
     return of;
@@ -137,8 +137,8 @@ TEST_CASE("a copy that is fixed or attached holds all of them")
 
     of_parts.motion.fixed_vertices.clear();
     of_whole.motion.fixed_vertices.clear();
-    of_parts.motion.attachment_weights.assign(at(parts.n_vertices()), 1.0);
-    of_whole.motion.attachment_weights.assign(at(whole.n_vertices()), 1.0);
+    of_parts.motion.attachment_weights.assign(usize(parts.n_vertices()), 1.0);
+    of_whole.motion.attachment_weights.assign(usize(whole.n_vertices()), 1.0);
     of_parts.motion.attachment_weights[copy] = of_whole.motion.attachment_weights[first] = 500.0;
     CHECK(same_bits(flowed(parts, of_parts).topRows(whole.n_vertices()), flowed(whole, of_whole)));
 }

@@ -74,7 +74,7 @@ TEST_CASE("sets that several threads join are numbered by their lowest members")
     RandomNumbers random(7);
     for (Index i = 0; i < 6 * n / 10; ++i)
         pairs.push_back({random.below(n), random.below(n)});
-    std::vector<std::vector<Index>> adjacency(at(n));
+    std::vector<std::vector<Index>> adjacency(usize(n));
     for (const auto& [a, b] : pairs) {
         adjacency[a].push_back(b);
         adjacency[b].push_back(a);

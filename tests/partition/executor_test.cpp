@@ -42,7 +42,7 @@ TEST_CASE("what is selected is in order, and sums have the same bits, however th
     const auto third = [](Index i) { return i % 3 == 0; };
     const auto value = [](Index i) { return 1.0 / (1.0 + i); };
     const std::vector<Index> selected = select(run_serially, n, third);
-    REQUIRE(selected.size() == at((n + 2) / 3));
+    REQUIRE(selected.size() == usize((n + 2) / 3));
     for (std::size_t i = 0; i < selected.size(); ++i)
         CHECK(selected[i] == 3 * static_cast<Index>(i));
     CHECK(select(run_backwards, n, third) == selected);
@@ -62,7 +62,7 @@ TEST_CASE("long ranges have every index once, are few, and none short but the la
         }
         CHECK(end == n);
         CHECK(ranges.size() <= 16);
-        CHECK(ranges.size() >= std::min<std::size_t>(at(n) / 65536, 15));
+        CHECK(ranges.size() >= std::min<std::size_t>(usize(n) / 65536, 15));
     }
     CHECK(long_ranges(10'000'000, 100'000).size() == 7);
     CHECK(long_ranges(10'000'000, 1'000'000).size() == 1);

@@ -32,7 +32,7 @@ void check_twins(const PolygonMesh& mesh, const Topology& topology)
     std::multiset<Edge> edges;
     for (Index h = 0; h < mesh.n_corners(); ++h)
         edges.insert(edge_of(mesh, topology, h));
-    REQUIRE(topology.twin.size() == at(mesh.n_corners()));
+    REQUIRE(topology.twin.size() == usize(mesh.n_corners()));
     for (Index h = 0; h < mesh.n_corners(); ++h) {
         const Index twin = topology.twin[h];
         CHECK((twin >= 0) == (edges.count(edge_of(mesh, topology, h)) == 2));

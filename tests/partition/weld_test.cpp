@@ -31,7 +31,7 @@ std::optional<Weld> welded(const PolygonMesh& mesh, double distance = 0.0)
     CHECK(topology.oriented == expected.oriented);
     bool same_faces = true;
     for (Index h = 0; h < result->mesh.n_corners(); ++h)
-        same_faces = same_faces && topology.face_of[at(h)] == expected.face_of[at(h)];
+        same_faces = same_faces && topology.face_of[usize(h)] == expected.face_of[usize(h)];
     CHECK(same_faces);
     return result;
 }
@@ -44,7 +44,7 @@ Index count_kind(const Topology& topology, VertexKind kind)
 /// Every face has a label of its own.
 std::vector<Index> all_apart(const PolygonMesh& mesh)
 {
-    std::vector<Index> labels(at(mesh.n_faces()));
+    std::vector<Index> labels(usize(mesh.n_faces()));
     std::iota(labels.begin(), labels.end(), 0);
     return labels;
 }
@@ -90,7 +90,7 @@ TEST_CASE("a slit is closed up to its ends, and the first of copies stands for a
     const PolygonMesh grid = quad_grid(6, 4);
     PolygonMesh slit = grid;
     // Along the middle of the lower half.
-    std::vector<Index> labels(at(grid.n_faces()), 0);
+    std::vector<Index> labels(usize(grid.n_faces()), 0);
     const Topology topology = make_topology(grid);
     REQUIRE(topology.kind[2 * 7 + 3] == VertexKind::Interior);
     slit.vertices.conservativeResize(grid.n_vertices() + 1, 3);

@@ -86,7 +86,7 @@ Adjacency adjacency_of(const PolygonMesh& mesh, const Topology& topology, std::s
     }
     std::sort(pairs.begin(), pairs.end());
     pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
-    Adjacency adjacency(at(n_parts));
+    Adjacency adjacency(usize(n_parts));
     for (const auto& [low, high] : pairs) {
         adjacency[low].push_back(high);
         adjacency[high].push_back(low);

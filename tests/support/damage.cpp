@@ -121,7 +121,7 @@ std::string damage(LooseMesh& mesh, RandomNumbers& random)
                                     Damage{"turned faces", turn_faces},
                                     Damage{"repeated faces", repeat_faces},
                                     Damage{"cone", add_cone}};
-    const Damage& chosen = all.at(at(random.below(static_cast<int>(all.size()))));
+    const Damage& chosen = all.at(usize(random.below(static_cast<int>(all.size()))));
     chosen.apply(mesh, random);
     return chosen.name;
 }

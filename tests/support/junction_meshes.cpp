@@ -49,7 +49,7 @@ PolygonMesh touching_balls(Index size)
 
 PolygonMesh cut_into_triangles(const PolygonMesh& quads)
 {
-    const std::vector<Index> none(at(quads.n_faces()));
+    const std::vector<Index> none(usize(quads.n_faces()));
     return seamflow::cut_into_triangles({quads, none, none}).mesh;
 }
 

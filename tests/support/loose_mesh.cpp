@@ -28,7 +28,7 @@ Index before(const Face& face, std::size_t place)
 Corner random_corner(const LooseMesh& mesh, RandomNumbers& random)
 {
     const Index f = random.below(mesh.n_faces());
-    return {f, at(random.below(static_cast<int>(mesh.faces[f].size())))};
+    return {f, usize(random.below(static_cast<int>(mesh.faces[f].size())))};
 }
 
 /// All places at which an edge starts that joins a and b, in either direction.
@@ -173,8 +173,8 @@ void split_vertex(LooseMesh& mesh, RandomNumbers& random)
     const auto n = static_cast<int>(fan.size());
     if (n < 4)
         return;
-    const auto first = at(random.below(n));
-    const auto count = at(1 + random.below(n - 2));
+    const auto first = usize(random.below(n));
+    const auto count = usize(1 + random.below(n - 2));
     const auto face_at = [&](std::size_t i) -> const Corner& { return fan[i % fan.size()]; };
     // The new vertex gets `count` faces from `first` on.
     const Index begin = before(mesh.faces[face_at(first).face], face_at(first).place);

@@ -181,7 +181,7 @@ void check_memory_limit(Case& c)
     }
     ++c.n_compared["memory limit"];
     c.expect(same_bits(refused.end, c.mesh().vertices), "a refusal has moved the mesh");
-    options.resources.memory_limit = *least + (c.random.unit() < 0.5 ? 0 : 1 + at(c.random.below(100'000)));
+    options.resources.memory_limit = *least + (c.random.unit() < 0.5 ? 0 : 1 + usize(c.random.below(100'000)));
     const Outcome limited = outcome_of(c.mesh(), options);
     check_same(c, limited, "memory limit " + std::to_string(*options.resources.memory_limit));
     c.expect(limited.report.resources.factor_memory_bytes <= *options.resources.memory_limit,
@@ -193,7 +193,7 @@ void check_resume(Case& c)
     const Outcome captured = outcome_of(c.mesh(), c.flow.options, {}, true);
     if (captured.captured.empty())
         return;
-    FlowState state = captured.captured.at(at(c.random.below(static_cast<int>(captured.captured.size()))));
+    FlowState state = captured.captured.at(usize(c.random.below(static_cast<int>(captured.captured.size()))));
     if (c.random.unit() < 0.3) {
         const TemporaryDirectory folder;
         write_checkpoint(folder / "state", state);

@@ -128,7 +128,7 @@ void choose_constraints(const PolygonMesh& mesh, RandomNumbers& random, FlowOpti
 FlowOptions random_options(const PolygonMesh& mesh, RandomNumbers& random)
 {
     FlowOptions options;
-    options.laplacian = all_laplacians.at(at(random.below(3)));
+    options.laplacian = all_laplacians.at(usize(random.below(3)));
     const double edge = mean_edge_length(mesh, mesh.vertices);
     options.time_step = edge * edge * power_of_ten(-3.0, 3.0, random);
     options.steps = 1 + random.below(3);

@@ -109,7 +109,7 @@ void change_connectivity(LooseMesh& mesh, RandomNumbers& random, Log& log)
         Change{"cut", cut_face, 1.0},           Change{"merged", merge_faces, 0.7},
         Change{"holes", make_hole, 0.03}};
     for (int i = random.below(4); i > 0; --i) {
-        const Change& change = changes.at(at(random.below(static_cast<int>(changes.size()))));
+        const Change& change = changes.at(usize(random.below(static_cast<int>(changes.size()))));
         int times = 1 + static_cast<int>(random.unit() * change.part * mesh.n_faces());
         log.add(change.name, " ", times);
         for (; times > 0 && mesh.n_points() < 250; --times)

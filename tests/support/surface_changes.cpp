@@ -125,7 +125,7 @@ void double_seams(Writing& w)
     }
     const PolygonMesh before = std::exchange(w.mesh, split(w.mesh, labels));
     const std::vector<Index> vertex_from = w.vertex_from;
-    w.vertex_from.resize(at(w.mesh.n_vertices()));
+    w.vertex_from.resize(usize(w.mesh.n_vertices()));
     for (std::size_t corner = 0; corner < before.face_vertices.size(); ++corner)
         w.vertex_from[w.mesh.face_vertices[corner]] = vertex_from[before.face_vertices[corner]];
 }
@@ -151,8 +151,8 @@ void repeat_faces(Writing& w)
 void put_before(Writing& w, const PolygonMesh& other)
 {
     w.mesh = together({other, w.mesh});
-    w.vertex_from.insert(w.vertex_from.begin(), at(other.n_vertices()), -1);
-    w.face_from.insert(w.face_from.begin(), at(other.n_faces()), -1);
+    w.vertex_from.insert(w.vertex_from.begin(), usize(other.n_vertices()), -1);
+    w.face_from.insert(w.face_from.begin(), usize(other.n_faces()), -1);
 }
 
 void add_unused_vertex(Writing& w)
@@ -184,10 +184,10 @@ std::optional<EdgeOfFace> some_edge(const PolygonMesh& mesh, bool at_boundary)
 {
     const Topology topology = make_topology(mesh);
     for (Index h = mesh.n_corners() / 2; h < mesh.n_corners(); ++h) {
-        const Index f = topology.face_of[at(h)];
+        const Index f = topology.face_of[usize(h)];
         const auto moves = [&](Index c) { return topology.kind[mesh.face_vertices[c]] == VertexKind::Interior; };
         if ((topology.twin[h] < 0) == at_boundary && (at_boundary || (moves(h) && moves(topology.next(mesh, h)))))
-            return EdgeOfFace{at(f), at(h - mesh.face_offsets[f])};
+            return EdgeOfFace{usize(f), usize(h - mesh.face_offsets[f])};
     }
     return {};
 }
@@ -245,8 +245,8 @@ void close_hole(Writing& w)
 Writing Change::operator()(const PolygonMesh& mesh) const
 {
     Writing w{.mesh = mesh,
-              .vertex_from = ascending_numbers(at(mesh.n_vertices())),
-              .face_from = ascending_numbers(at(mesh.n_faces()))};
+              .vertex_from = ascending_numbers(usize(mesh.n_vertices())),
+              .face_from = ascending_numbers(usize(mesh.n_faces()))};
     for (const auto& step : steps)
         step.make(w);
     return w;

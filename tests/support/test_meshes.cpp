@@ -205,7 +205,7 @@ PolygonMesh split(const PolygonMesh& mesh, const std::vector<Index>& labels)
 {
     PolygonMesh parts = mesh;
     std::map<std::pair<Index, Index>, Index> copies;
-    std::vector<Index> first_label(at(mesh.n_vertices()), -1);
+    std::vector<Index> first_label(usize(mesh.n_vertices()), -1);
     std::vector<Index> copied;
     for (Index f = 0; f < mesh.n_faces(); ++f)
         for (Index corner = mesh.face_offsets[f]; corner < mesh.face_offsets[f + 1]; ++corner) {

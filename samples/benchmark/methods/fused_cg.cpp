@@ -72,7 +72,7 @@ Equations analyse(const Flow& flow)
 {
     const Index n = flow.mesh.n_vertices();
     Equations equations;
-    equations.offsets.assign(at(n) + 1, 0);
+    equations.offsets.assign(usize(n) + 1, 0);
     for (const bool is_counted : {false, true}) {
         for_each_block(run_in_parallel, n, [&](Index, Index begin, Index end) {
             std::vector<Index> neighbours;
@@ -116,7 +116,7 @@ double visit_row(const Flow& flow, const Equations& equations, const Points& pos
     for (const Index corner : flow.topology.corners_at(v)) {
         const Index f = flow.topology.face_of[corner];
         const auto corners = flow.mesh.face(f);
-        const std::size_t own = at(corner - flow.mesh.face_offsets[f]);
+        const std::size_t own = usize(corner - flow.mesh.face_offsets[f]);
         const auto add = [&](const auto& face, std::size_t i) {
             const auto row = face.row(i, 1.0 / face.divisor());
             for (std::size_t k = 0; k < face.size(); ++k)

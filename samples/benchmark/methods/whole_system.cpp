@@ -21,11 +21,11 @@ FaceView faces_of(const PolygonMesh& mesh, const Topology& topology)
 /// @param entries may repeat; those with a negative index are ignored.
 SparsePattern make_large_pattern(Index n, const std::vector<MatrixEntry>& entries)
 {
-    std::vector<std::size_t> begin(at(n) + 1, 0);
+    std::vector<std::size_t> begin(usize(n) + 1, 0);
     for (const MatrixEntry& entry : entries)
         if (entry.column >= 0)
             ++begin[entry.column + 1];
-    for (std::size_t c = 0; c < at(n); ++c)
+    for (std::size_t c = 0; c < usize(n); ++c)
         begin[c + 1] += begin[c];
     std::vector<Index> rows(begin.back());
     std::vector<std::size_t> end(begin.begin(), begin.end() - 1);
@@ -33,9 +33,9 @@ SparsePattern make_large_pattern(Index n, const std::vector<MatrixEntry>& entrie
         if (entry.column >= 0)
             rows[end[entry.column]++] = entry.row;
     SparsePattern pattern;
-    pattern.column_offsets.reserve(at(n) + 1);
+    pattern.column_offsets.reserve(usize(n) + 1);
     std::size_t kept = 0;
-    for (std::size_t c = 0; c < at(n); ++c) {
+    for (std::size_t c = 0; c < usize(n); ++c) {
         const auto first = rows.begin() + static_cast<std::ptrdiff_t>(begin[c]);
         const auto last = rows.begin() + static_cast<std::ptrdiff_t>(end[c]);
         std::sort(first, last);
@@ -99,7 +99,7 @@ void WholeSystem::make_slots(const std::vector<MatrixEntry>& entries, const std:
     std::replace(slots_.begin(), slots_.end(), Index{-1}, unread);
     for (Index u = 0; u < n(); ++u)
         diagonal_slots_.push_back(pattern_.slot({u, u}));
-    values_.resize(at(unread) + 1);
+    values_.resize(usize(unread) + 1);
 }
 
 void WholeSystem::assemble(const Points& positions, double time_step)

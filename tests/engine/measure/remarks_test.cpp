@@ -40,7 +40,7 @@ TEST_CASE("a mesh none of whose vertices can move is remarked on, one of which s
     options.time_step = 1e-3;
     PolygonMesh open = make_quads(400);
     CHECK_FALSE(speaks_of(mean_curvature_flow(open, options), "No vertex can flow"));
-    options.motion.fixed_vertices.resize(at(open.n_vertices()));
+    options.motion.fixed_vertices.resize(usize(open.n_vertices()));
     std::iota(options.motion.fixed_vertices.begin(), options.motion.fixed_vertices.end(), 0);
     CHECK(speaks_of(mean_curvature_flow(open, options), "No vertex can flow"));
 }

@@ -91,7 +91,7 @@ TEST_CASE("records respect the dependencies and their steps, and a thread does o
                     ++compared;
                 }
         CHECK(compared == 2 * schedule.dependencies.size());
-        CHECK(by_thread.size() <= at(threads));
+        CHECK(by_thread.size() <= usize(threads));
         CHECK(by_thread.begin()->first >= 0);
         for (auto& [thread, spans] : by_thread) {
             std::sort(spans.begin(), spans.end());
@@ -121,7 +121,7 @@ TEST_CASE("solve waits for factorise, and accept for solve")
         if (first.sub_mesh == second.sub_mesh && first.kind == TaskKind::Solve && second.kind == TaskKind::Accept)
             waits.emplace(first.sub_mesh, 1);
     }
-    CHECK(waits.size() == 2 * at(flow.report.cut.n_sub_meshes()));
+    CHECK(waits.size() == 2 * usize(flow.report.cut.n_sub_meshes()));
 }
 
 TEST_CASE("recording changes no position by a bit")

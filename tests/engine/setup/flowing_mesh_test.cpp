@@ -52,7 +52,7 @@ TEST_CASE("a surface whose faces are there twice flows like the single one, and 
                 of_single.uniform_edge = uniform_edge_of(repeated_faces_options(laplacian, subdomains), both);
                 CHECK(moved.vertices == flowed(single, of_single));
                 CHECK(report.mesh.faces == both.n_faces());
-                REQUIRE(report.cut.labels.size() == at(both.n_faces()));
+                REQUIRE(report.cut.labels.size() == usize(both.n_faces()));
                 for (Index f = 0; f < single.n_faces(); ++f)
                     CHECK(report.cut.labels[f] == report.cut.labels[f + single.n_faces()]);
                 CHECK(report.mesh.non_manifold_vertices == 0);

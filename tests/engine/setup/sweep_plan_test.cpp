@@ -103,7 +103,7 @@ TEST_CASE("at each vertex of the interface the sub-mesh of the lowest rank leads
                     led.insert(sub_mesh.local_to_global[sub_mesh.interface.vertices[i]]);
             }
         }
-        CHECK(led.size() == at(decomposition.n_interface_vertices));
+        CHECK(led.size() == usize(decomposition.n_interface_vertices));
         CHECK(std::set<Index>(led.begin(), led.end()).size() == led.size());
     });
 }
@@ -169,7 +169,7 @@ TEST_CASE("in a mutual sweep everyone leads, and every other copy of a vertex of
             const SubMesh& sub_mesh = decomposition.sub_meshes[s];
             CHECK(std::all_of(plan.roles[s].begin(), plan.roles[s].end(),
                               [](InterfaceRole role) { return role == InterfaceRole::Leads; }));
-            CHECK(plan.roles[s].size() == at(sub_mesh.interface.size()));
+            CHECK(plan.roles[s].size() == usize(sub_mesh.interface.size()));
             CHECK(plan.traces[s].empty());
             std::vector<Index> arrived(sub_mesh.n_vertices, 0);
             for (const Transfer& copies : plan.copies[s]) {

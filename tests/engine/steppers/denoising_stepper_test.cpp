@@ -153,7 +153,7 @@ TEST_CASE("the result does not depend on threads, and hardly on numbers, size, p
     CHECK(denoised(mesh, {.resources = {.threads = 2}}).positions.cwiseEqual(result).all());
     const double little = 0.04 * mean_edge(mesh);  // ties among patches go either way
 
-    std::vector<Index> order(at(mesh.n_vertices()));
+    std::vector<Index> order(usize(mesh.n_vertices()));
     std::iota(order.begin(), order.end(), 0);
     std::ranges::shuffle(order, std::mt19937(9));
     const Points other = denoised(renumbered(mesh, order)).positions;
@@ -255,7 +255,7 @@ TEST_CASE("vertices that are held stay, and strengths scale motions")
     for (const Index v : {5, 700})
         CHECK(held.row(v).cwiseEqual(mesh.vertices.row(v)).all());
     CHECK(largest_difference(free, held) > 0.0);
-    std::vector<double> strength(at(mesh.n_vertices()), 1.0);
+    std::vector<double> strength(usize(mesh.n_vertices()), 1.0);
     std::fill(strength.begin(), strength.begin() + 1000, 0.0);
     const Points part = denoised(mesh, {.motion = {.strength = strength}}).positions;
     CHECK(part.topRows(1000).cwiseEqual(mesh.vertices.topRows(1000)).all());

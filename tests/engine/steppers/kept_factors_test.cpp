@@ -52,7 +52,7 @@ TEST_CASE("those made again have places enough that the fewest rounds are made, 
         const KeptFactors kept = choose_kept_factors(many, limit, n_threads);
         CHECK(kept.n_whole == n_whole);
         CHECK(kept.n_places == n_places);
-        CHECK(kept.most_bytes() == 100 * at(n_whole + n_places));
+        CHECK(kept.most_bytes() == 100 * usize(n_whole + n_places));
         CHECK(kept.most_bytes() <= limit);
     };
     check(9999, 1, 98, 1);

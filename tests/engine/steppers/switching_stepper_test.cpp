@@ -37,7 +37,7 @@ TEST_CASE("where edges collapse, conjugate gradients begin with the solution by 
     const int first = first_without_iterations(report);
     REQUIRE(first >= 4);
     for (std::size_t i = 0; i < report.steps.size(); ++i) {
-        CHECK((*report.steps[i].iterations == 0) == (i + 1 >= at(first)));
+        CHECK((*report.steps[i].iterations == 0) == (i + 1 >= usize(first)));
         CHECK(*report.steps[i].residual <= *report.convergence.tolerance);
     }
     REQUIRE(report.choices.size() == 2);

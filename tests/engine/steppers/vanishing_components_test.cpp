@@ -170,7 +170,7 @@ TEST_CASE("what the scaling of a small component leaves out is far below its siz
         if (mesh.vertices(v, 0) > 0.2)
             at_the_right.push_back(v);
     for (const Index v : at_the_right)
-        options.motion.attachment_weights[at(v)] = 1e-14 / (extent * extent);
+        options.motion.attachment_weights[usize(v)] = 1e-14 / (extent * extent);
     const double pull = static_cast<double>(at_the_right.size()) / static_cast<double>(mesh.n_vertices());
     const double target = mesh.vertices(at_the_right, Eigen::all).col(0).mean();
     CHECK(after(1e9).col(0).mean() == test::relative(pull * target / (1.0 + pull), 0.05));
@@ -203,7 +203,7 @@ TEST_CASE("a component with a vertex that hardly moves does not count as one tha
     options.time_step = 0.002;
     options.accuracy.approach = Approach::Undecomposed;
     const auto n_small = [&](double strength) {
-        options.motion.strength.assign(at(mesh.n_vertices()), 0.5);
+        options.motion.strength.assign(usize(mesh.n_vertices()), 0.5);
         options.motion.strength.back() = strength;
         const Topology topology = make_topology(mesh);
         return find_small_components(mesh, topology, options.motion.strength)(mesh.vertices, 1e-3).rows.size();
@@ -221,7 +221,7 @@ TEST_CASE("a small component is pulled as far as any vertex of a region that is 
     options.accuracy = {.tolerance = 1e-10, .approach = Approach::Converged};
     options.cut.subdomains = 4;
     options.motion.attachment = 600.0;
-    options.motion.strength.assign(at(mesh.n_vertices()), 0.25);
+    options.motion.strength.assign(usize(mesh.n_vertices()), 0.25);
     std::vector<Index> small(100);
     std::iota(small.begin(), small.end(), mesh.n_vertices() - 100);
     PolygonMesh moved = mesh;

@@ -43,7 +43,7 @@ TEST_CASE("every face lies in one cluster, every cluster in one component")
             const Components components = face_components(m.mesh, m.topology);
             std::vector<Index> faces = clusters.faces.values;
             std::sort(faces.begin(), faces.end());
-            REQUIRE(faces.size() == at(m.mesh.n_faces()));
+            REQUIRE(faces.size() == usize(m.mesh.n_faces()));
             for (Index f = 0; f < m.mesh.n_faces(); ++f)
                 CHECK(faces[f] == f);
             for (Index cluster = 0; cluster < clusters.size(); ++cluster)

@@ -51,7 +51,7 @@ void check_valid(const Adjacency& adjacency, const std::vector<Index>& colours)
 /// m by n nodes in rows, each joined to the next in its row and to two in the next row.
 Adjacency triangular_grid(Index m, Index n)
 {
-    Adjacency adjacency(at(m * n));
+    Adjacency adjacency(usize(m * n));
     const auto join = [&](Index a, Index b) {
         adjacency[a].push_back(b);
         adjacency[b].push_back(a);

@@ -75,7 +75,7 @@ TEST_CASE("no part lies in two components, and every component has one")
     const PolygonMesh mesh = side_by_side(many);
     for (const Index k : {1, 5, 100}) {
         const Divided d = divided(mesh, 1, k);
-        std::vector<std::set<Index>> components_of_part(at(k) + 31);
+        std::vector<std::set<Index>> components_of_part(usize(k) + 31);
         for (std::size_t node = 0; node < d.labels.size(); ++node)
             components_of_part[d.labels[node]].insert(d.components.component_of[node]);
         Index parts = 0;
@@ -96,7 +96,7 @@ TEST_CASE("what is left over goes to the components that lack the most")
         std::vector<std::set<Index>> parts_of_component(2);
         for (std::size_t node = 0; node < d.labels.size(); ++node)
             parts_of_component[d.components.component_of[node]].insert(d.labels[node]);
-        CHECK(parts_of_component[0].size() == at(k) - 1);
+        CHECK(parts_of_component[0].size() == usize(k) - 1);
         CHECK(parts_of_component[1].size() == 1);
     }
 }

@@ -29,7 +29,7 @@ void for_each_decomposition(Check&& check)
 TEST_CASE("every face lies in exactly one sub-mesh, the one of its label")
 {
     for_each_decomposition([](const CutMesh& cut, const Decomposition& decomposition) {
-        REQUIRE(decomposition.sub_meshes.size() == at(cut.n_parts));
+        REQUIRE(decomposition.sub_meshes.size() == usize(cut.n_parts));
         std::vector<int> times(cut.mesh.n_faces(), 0);
         for (Index s = 0; s < cut.n_parts; ++s)
             for (const Index f : decomposition.sub_meshes[s].faces) {
@@ -101,7 +101,7 @@ TEST_CASE("sub-meshes are adjacent when they share a vertex of the interface, as
 TEST_CASE("transfers fill every vertex of the halo once, with the same vertex of an adjacent sub-mesh")
 {
     for_each_decomposition([](const CutMesh& cut, const Decomposition& decomposition) {
-        REQUIRE(decomposition.halo.size() == at(cut.n_parts));
+        REQUIRE(decomposition.halo.size() == usize(cut.n_parts));
         for (Index s = 0; s < cut.n_parts; ++s) {
             const SubMesh& to = decomposition.sub_meshes[s];
             const auto& adjacent = decomposition.adjacency[s];
@@ -122,7 +122,7 @@ TEST_CASE("transfers fill every vertex of the halo once, with the same vertex of
                 }
             }
             for (std::size_t i = 0; i < filled.size(); ++i)
-                CHECK(filled[i] == (i < at(to.n_vertices) ? 0 : 1));
+                CHECK(filled[i] == (i < usize(to.n_vertices) ? 0 : 1));
         }
     });
 }

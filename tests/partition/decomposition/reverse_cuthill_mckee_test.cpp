@@ -62,7 +62,7 @@ std::vector<Index> places_in(const std::vector<Index>& order)
 {
     std::vector<Index> places(order.size(), -1);
     for (std::size_t i = 0; i < order.size(); ++i)
-        places.at(at(order[i])) = static_cast<Index>(i);
+        places.at(usize(order[i])) = static_cast<Index>(i);
     return places;
 }
 

@@ -25,7 +25,7 @@ TEST_CASE("separated, no two sub-meshes share a vertex, and everything keeps its
         std::size_t n = 0;
         for (std::size_t s = 0; s < decomposition.sub_meshes.size(); ++s) {
             const SubMesh& sub_mesh = decomposition.sub_meshes[s];
-            REQUIRE(separated.vertex_of[s].size() == at(sub_mesh.n_vertices));
+            REQUIRE(separated.vertex_of[s].size() == usize(sub_mesh.n_vertices));
             used.insert(separated.vertex_of[s].begin(), separated.vertex_of[s].end());
             n += separated.vertex_of[s].size();
             for (std::size_t f = 0; f < sub_mesh.faces.size(); ++f) {

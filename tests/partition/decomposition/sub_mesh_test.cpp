@@ -86,7 +86,7 @@ TEST_CASE("local and global vertices correspond, and own vertices are those of t
 {
     for_each_sub_mesh([](const CutMesh& cut, const SubMesh& sub_mesh) {
         const std::span<const Index> all = sub_mesh.local_to_global;
-        REQUIRE(all.size() == at(sub_mesh.n_vertices + sub_mesh.n_halo));
+        REQUIRE(all.size() == usize(sub_mesh.n_vertices + sub_mesh.n_halo));
         CHECK(is_ascending(all.first(sub_mesh.n_vertices)));
         CHECK(is_ascending(all.subspan(sub_mesh.n_vertices)));
         std::set<Index> own;
@@ -142,7 +142,7 @@ TEST_CASE("vertices are fixed, on the interface or neither, as their kind and th
 TEST_CASE("the sub-mesh of the lowest label speaks for a vertex that may move, and for no other")
 {
     for_each_sub_mesh([](const CutMesh& cut, const SubMesh& sub_mesh) {
-        REQUIRE(sub_mesh.owned.size() == at(sub_mesh.n_vertices));
+        REQUIRE(sub_mesh.owned.size() == usize(sub_mesh.n_vertices));
         for (Index v = 0; v < sub_mesh.n_vertices; ++v) {
             const Index global = sub_mesh.local_to_global[v];
             const bool is_lowest = *labels_at(cut, global).begin() == label_of(cut, sub_mesh);
@@ -188,7 +188,7 @@ TEST_CASE("reduced to the faces at its interface, a sub-mesh has the same faces 
         REQUIRE(kept.size() == all.size());
         for (std::size_t i = 0; i < all.size(); ++i)
             CHECK(std::ranges::equal(reduced.face_vertices[kept[i]], sub_mesh.face_vertices[all[i]]));
-        CHECK(at(reduced.face_vertices.size()) == std::set<Index>(all.begin(), all.end()).size());
+        CHECK(usize(reduced.face_vertices.size()) == std::set<Index>(all.begin(), all.end()).size());
     });
 }
 

@@ -35,7 +35,7 @@ using Edges = std::vector<Edge>;
 
 Numbers all_faces(const PolygonMesh& mesh)
 {
-    Numbers all(at(mesh.n_faces()));
+    Numbers all(usize(mesh.n_faces()));
     std::iota(all.begin(), all.end(), 0);
     return all;
 }

@@ -32,10 +32,10 @@ PolygonMesh shuffled_mesh(const PolygonMesh& mesh, std::uint32_t seed)
 {
     RandomNumbers random(seed);
     const auto any_order = [&](Index n) {
-        std::vector<Index> order(at(n));
+        std::vector<Index> order(usize(n));
         for (Index i = 0; i < n; ++i) {
-            order[at(i)] = i;
-            std::swap(order[at(i)], order[at(random.below(i + 1))]);
+            order[usize(i)] = i;
+            std::swap(order[usize(i)], order[usize(random.below(i + 1))]);
         }
         return order;
     };
@@ -43,11 +43,11 @@ PolygonMesh shuffled_mesh(const PolygonMesh& mesh, std::uint32_t seed)
     PolygonMesh other;
     other.vertices.resize(mesh.n_vertices(), 3);
     for (Index v = 0; v < mesh.n_vertices(); ++v)
-        other.vertices.row(new_number[at(v)]) = mesh.vertices.row(v);
+        other.vertices.row(new_number[usize(v)]) = mesh.vertices.row(v);
     for (const Index f : any_order(mesh.n_faces())) {
         std::vector<Index> corners;
         for (const Index v : mesh.face(f))
-            corners.push_back(new_number[at(v)]);
+            corners.push_back(new_number[usize(v)]);
         std::rotate(corners.begin(), corners.begin() + random.below(static_cast<int>(corners.size())), corners.end());
         if (random.below(2) == 0)
             std::reverse(corners.begin(), corners.end());
@@ -76,8 +76,8 @@ std::map<Index, double> volumes_of_labels(const LabelSurface& surface)
         for (const Index v : mesh.face(f))
             mean += mesh.vertices.row(v) / static_cast<double>(mesh.face(f).size());
         const double cone = vector_area(mesh.face(f), mesh.vertices).dot(mean) / 3.0;
-        of_label[surface.back[at(f)]] += cone;
-        of_label[surface.front[at(f)]] -= cone;
+        of_label[surface.back[usize(f)]] += cone;
+        of_label[surface.front[usize(f)]] -= cone;
     }
     of_label.erase(0);
     return of_label;
@@ -123,7 +123,7 @@ TEST_CASE("a cell with a hole is open, cells with a hole between them are one, a
     const LabelSurface boxes = two_boxes();
     const auto face_between = [&](Index front, Index back) {
         for (Index f = 0;; ++f)
-            if (boxes.front[at(f)] == front && boxes.back[at(f)] == back)
+            if (boxes.front[usize(f)] == front && boxes.back[usize(f)] == back)
                 return f;
     };
     check_near(volumes_of_cells(without_faces(boxes.mesh, std::array{face_between(0, 2)})), {60.0});
@@ -166,9 +166,9 @@ TEST_CASE("the cells of a foam are those of its labels, also where four faces sh
             std::map<Index, double> of_label;
             for (Index c = 0; c < cells.count(); ++c) {
                 const auto label = [&](Index side) {
-                    return (side % 2 == 0 ? surface.front : surface.back)[at(side / 2)];
+                    return (side % 2 == 0 ? surface.front : surface.back)[usize(side / 2)];
                 };
-                of_label[label(cells.sides[c][0])] += volumes[at(c)];
+                of_label[label(cells.sides[c][0])] += volumes[usize(c)];
                 CHECK(
                     std::ranges::all_of(cells.sides[c], [&](Index s) { return label(s) == label(cells.sides[c][0]); }));
             }
@@ -269,7 +269,7 @@ PolygonMesh boxes_with_two_walls()
         const auto q = boxes.mesh.face(f);
         mesh.add_face(std::array{q[0], q[1], q[2]});
         mesh.add_face(std::array{q[0], q[2], q[3]});
-        if (boxes.front[at(f)] == 0 || boxes.back[at(f)] == 0)
+        if (boxes.front[usize(f)] == 0 || boxes.back[usize(f)] == 0)
             continue;
         if (f % 6 == 0) {
             mesh.add_face(q);

@@ -45,9 +45,9 @@ TEST_CASE("distances from a straight rim are exact on flat grids, and infinite b
         for (Index v = 0; v < mesh.n_vertices(); ++v) {
             const double expected = std::max(mesh.vertices(v, 0) - 3.0, 0.0);
             if (expected > 6.5)
-                CHECK(distances[at(v)] == std::numeric_limits<double>::infinity());
+                CHECK(distances[usize(v)] == std::numeric_limits<double>::infinity());
             else
-                CHECK(std::abs(distances[at(v)] - expected) < 1e-12);
+                CHECK(std::abs(distances[usize(v)] - expected) < 1e-12);
         }
     }
 }
@@ -63,8 +63,8 @@ TEST_CASE("distances from a point are at least straight, and at most a quarter l
         distances_from(mesh, make_topology(mesh), source, std::numeric_limits<double>::infinity());
     for (Index v = 0; v < mesh.n_vertices(); ++v) {
         const double straight = (mesh.vertices.row(v) - mesh.vertices.row(source.front())).norm();
-        CHECK(distances[at(v)] > straight - 1e-9);
-        CHECK(distances[at(v)] <= 1.25 * straight);
+        CHECK(distances[usize(v)] > straight - 1e-9);
+        CHECK(distances[usize(v)] <= 1.25 * straight);
     }
 }
 
@@ -76,7 +76,7 @@ TEST_CASE("strength rises smoothly from the rim of a region, and not from the bo
         s *= 0.75;
     const std::vector<double> soft = feathered(mesh, strength, 8.0);
     for (Index v = 0; v < mesh.n_vertices(); ++v)
-        CHECK(std::abs(soft[at(v)] - 0.75 * rise(std::max(mesh.vertices(v, 0) - 4.0, 0.0) / 8.0)) < 1e-12);
+        CHECK(std::abs(soft[usize(v)] - 0.75 * rise(std::max(mesh.vertices(v, 0) - 4.0, 0.0) / 8.0)) < 1e-12);
     CHECK(feathered(mesh, strength, 0.0) == strength);
     const std::vector<double> everywhere(strength.size(), 1.0);
     CHECK(feathered(mesh, everywhere, 3.0) == everywhere);
@@ -92,15 +92,15 @@ TEST_CASE("the distance from the rim continues across the seams of a texture, wh
     REQUIRE(mesh.n_vertices() > whole.n_vertices());
     const std::vector<double> soft = feathered(mesh, strengths_right_of(mesh, 4.5), 8.0);
     for (Index v = 0; v < mesh.n_vertices(); ++v)
-        CHECK(std::abs(soft[at(v)] - rise(std::max(mesh.vertices(v, 0) - 4.0, 0.0) / 8.0)) < 1e-12);
+        CHECK(std::abs(soft[usize(v)] - rise(std::max(mesh.vertices(v, 0) - 4.0, 0.0) / 8.0)) < 1e-12);
     // A rim that is a seam itself is seen from the other side.
-    std::vector<double> one_side(at(mesh.n_vertices()), 0.0);
+    std::vector<double> one_side(usize(mesh.n_vertices()), 0.0);
     for (Index f = 0; f < mesh.n_faces(); ++f)
         for (const Index v : mesh.face(f))
-            one_side[at(v)] = labels[at(f)] == 1 ? 1.0 : one_side[at(v)];
+            one_side[usize(v)] = labels[usize(f)] == 1 ? 1.0 : one_side[usize(v)];
     const std::vector<double> from_seam = feathered(mesh, one_side, 8.0);
     for (Index v = 0; v < mesh.n_vertices(); ++v)
-        CHECK(std::abs(from_seam[at(v)] - rise(std::max(mesh.vertices(v, 0) - 7.0, 0.0) / 8.0)) < 1e-12);
+        CHECK(std::abs(from_seam[usize(v)] - rise(std::max(mesh.vertices(v, 0) - 7.0, 0.0) / 8.0)) < 1e-12);
 }
 
 TEST_CASE("strengths that do not fit, and lengths that are none, are refused")

@@ -141,7 +141,7 @@ TEST_CASE("fans have their centres after the vertices, and cover each face once"
     const CentreFans fans = fans_around_centres(mesh, mesh.vertices);
     REQUIRE(fans.triangles.n_vertices() == mesh.n_vertices() + mesh.n_faces());
     REQUIRE(fans.triangles.n_faces() == mesh.n_corners());
-    REQUIRE(fans.faces.size() == at(mesh.n_corners()));
+    REQUIRE(fans.faces.size() == usize(mesh.n_corners()));
     CHECK(fans.faces.front() == 0);
     CHECK(fans.faces.back() == mesh.n_faces() - 1);
     CHECK(fans.triangles.vertices.topRows(mesh.n_vertices()) == mesh.vertices);

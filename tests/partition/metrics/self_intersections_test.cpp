@@ -26,7 +26,7 @@ using Pairs = std::vector<FacePair>;
 /// All pairs of faces, one after the other. How two triangles cross is for other tests.
 Pairs brute_force(const PolygonMesh& mesh)
 {
-    std::vector<std::vector<TriangleCorners>> pieces(at(mesh.n_faces()));
+    std::vector<std::vector<TriangleCorners>> pieces(usize(mesh.n_faces()));
     for (Index f = 0; f < mesh.n_faces(); ++f) {
         std::vector<Triangle> triangles;
         triangulate(mesh.face(f), mesh.vertices, triangles);

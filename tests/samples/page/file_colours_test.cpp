@@ -45,7 +45,7 @@ const std::string ply_header = "ply\nformat ascii 1.0\ncomment TextureFile map.p
 /// The place of a corner.
 std::array<float, 2> place(const FileColours& colours, std::size_t corner)
 {
-    return colours.places[at(colours.place_of_corner[corner])];
+    return colours.places[usize(colours.place_of_corner[corner])];
 }
 
 using Place = std::array<float, 2>;

@@ -49,7 +49,7 @@ TEST_CASE("a face of n sides is n - 2 triangles of its corners")
         const PolygonMesh& mesh = named.mesh;
         const Topology& topology = named.topology;
         const PageTriangles triangles = page_triangles(mesh, topology);
-        REQUIRE(triangles.per_face.size() == at(mesh.n_faces()));
+        REQUIRE(triangles.per_face.size() == usize(mesh.n_faces()));
         std::size_t t = 0;
         for (Index f = 0; f < mesh.n_faces(); ++f) {
             const auto face = mesh.face(f);

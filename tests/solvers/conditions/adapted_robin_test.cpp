@@ -44,7 +44,7 @@ TEST_CASE("the row is (I + dt p ∂n) and the right-hand side (I - dt p ∂n) of
                 const Point right = row_of(condition, i, positions, row);
                 normal_derivative_row(sub_mesh, stencils, i, *own, normal);
                 CHECK((right - (v - dt_p * other->direction)).norm() < 1e-14 * (1.0 + v.norm()));
-                const auto centre = at(stencils.centre[i]);
+                const auto centre = usize(stencils.centre[i]);
                 for (std::size_t k = 0; k < row.size(); ++k)
                     CHECK(row[k] == dt_p * normal[k] + (k == centre ? 1.0 : 0.0));
             }
@@ -175,7 +175,7 @@ TEST_CASE("p = 0 and a missing conormal on either side leave the vertex where it
             const Point right = row_of(condition, i, positions, row);
             CHECK(right == positions.row(sub_mesh.interface.vertices[i]));
             for (std::size_t k = 0; k < row.size(); ++k)
-                CHECK(row[k] == (k == at(stencils.centre[i]) ? 1.0 : 0.0));
+                CHECK(row[k] == (k == usize(stencils.centre[i]) ? 1.0 : 0.0));
         }
     };
     check_stays(flat, 0.0);

@@ -56,7 +56,7 @@ TEST_CASE("the derivatives are those of the paper's authors")
         const ReferenceOperators reference = read_operators(file);
         const Topology topology = make_topology(reference.mesh);
         const Decomposition decomposition = seamflow::decompose(reference.mesh, topology, reference.labels, 2);
-        CHECK(reference.interface_rows.size() == 2 * at(decomposition.n_interface_vertices));
+        CHECK(reference.interface_rows.size() == 2 * usize(decomposition.n_interface_vertices));
         for (const auto& expected : reference.interface_rows) {
             CAPTURE(expected.vertex);
             const SubMesh& sub_mesh = decomposition.sub_meshes[expected.sub_mesh];

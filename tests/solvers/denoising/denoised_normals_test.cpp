@@ -224,7 +224,7 @@ TEST_CASE("a rim loses its noise within the surface, keeps its corners, and stay
     Topology free = topology;
     free_boundary(free);
     const Points up = normals_of(truth);
-    const std::vector<double> all(at(truth.n_vertices()), 1.0);
+    const std::vector<double> all(usize(truth.n_vertices()), 1.0);
     Points positions = truth.vertices;
     filter.apply(free, up, all, positions);
     CHECK(positions.cwiseEqual(truth.vertices).all());

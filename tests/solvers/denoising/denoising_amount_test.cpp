@@ -145,7 +145,7 @@ TEST_CASE("meshes in which nothing moves have no amount")
     CHECK(amount_for(test::triangle_grid(1, 5), 0.1).amount == 0.0);
     PolygonMesh sheet = make_triangles(900);
     Topology topology = make_topology(sheet);
-    std::vector<Index> all(at(sheet.n_vertices()));
+    std::vector<Index> all(usize(sheet.n_vertices()));
     std::iota(all.begin(), all.end(), Index{0});
     hold(topology, all);
     CHECK(denoising_amount(sheet, topology, 0.1).amount == 0.0);
@@ -184,7 +184,7 @@ TEST_CASE("the amount hardly depends on the order of vertices")
 {
     const PolygonMesh noisy = test::with_gaussian_noise(make_triangles(9000), 0.2, 4);
     const double noise = noise_along_normals(0.2, noisy);
-    std::vector<Index> order(at(noisy.n_vertices()));
+    std::vector<Index> order(usize(noisy.n_vertices()));
     std::iota(order.begin(), order.end(), Index{0});
     std::shuffle(order.begin(), order.end(), std::mt19937(5));
     PolygonMesh shuffled = noisy;

@@ -38,7 +38,7 @@ PolygonMesh with_noise(const PolygonMesh& truth, double sigma)
 
 PolygonMesh renumbered(PolygonMesh mesh)
 {
-    std::vector<Index> order(at(mesh.n_vertices()));
+    std::vector<Index> order(usize(mesh.n_vertices()));
     std::iota(order.begin(), order.end(), Index{0});
     std::ranges::shuffle(order, std::mt19937(5));
     const Points before = mesh.vertices;

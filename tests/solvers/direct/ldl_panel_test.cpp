@@ -30,7 +30,7 @@ struct Block {
     {
         std::vector<Number> lower;
         for (std::size_t row = 0; row < rows.size(); ++row) {
-            const auto begin = values.begin() + static_cast<std::ptrdiff_t>(row * at(width));
+            const auto begin = values.begin() + static_cast<std::ptrdiff_t>(row * usize(width));
             lower.insert(lower.end(), begin,
                          begin + std::min(static_cast<std::ptrdiff_t>(row) + 1, std::ptrdiff_t{width}));
         }
@@ -43,10 +43,10 @@ template <class Number>
 Block<Number> random_block(Index width, std::vector<Index> rows, RandomNumbers& random)
 {
     Block<Number> block{width, std::move(rows), {}};
-    block.values.resize(at(width) * block.rows.size());
+    block.values.resize(usize(width) * block.rows.size());
     std::generate(block.values.begin(), block.values.end(), [&] { return static_cast<Number>(random.symmetric()); });
     for (Index c = 0; c < width; ++c)
-        block.values[at(c) * at(width + 1)] = 2 * static_cast<Number>(block.rows.size());
+        block.values[usize(c) * usize(width + 1)] = 2 * static_cast<Number>(block.rows.size());
     return block;
 }
 
@@ -105,7 +105,7 @@ TEST_CASE_TEMPLATE(
         targets.insert(targets.end(), below.begin(), below.end());
 
         const Index place = earlier_width + random.below(3);
-        std::vector<Index> earlier_rows(at(place) + targets.size());
+        std::vector<Index> earlier_rows(usize(place) + targets.size());
         std::iota(earlier_rows.begin(), earlier_rows.end(), 0);
         Block<Number> earlier = random_block<Number>(earlier_width, earlier_rows, random);
         std::vector<Index> later_rows(later_width + n_below);
@@ -141,12 +141,15 @@ TEST_CASE_TEMPLATE("a block is factorised with the same bits in registers of any
         REQUIRE(factorise_panel(first.panel(), 2));
         for (std::size_t i = 0; i < rows.size(); ++i)
             for (Index column = 0; column <= std::min(static_cast<Index>(i), width - 1); ++column) {
-                const auto entry = [&](std::size_t row, Index c) { return first.values[row * at(width) + at(c)]; };
+                const auto entry = [&](std::size_t row, Index c) {
+                    return first.values[row * usize(width) + usize(c)];
+                };
                 double sum = 0.0;
                 for (Index c = 0; c <= column; ++c)
-                    sum += (static_cast<Index>(i) == c ? 1.0 : entry(i, c)) * entry(at(c), c) *
-                           (column == c ? 1.0 : entry(at(column), c));
-                CHECK(std::abs(sum - before.values[i * at(width) + at(column)]) <= 1e2 * rounding_of_panels<Number>);
+                    sum += (static_cast<Index>(i) == c ? 1.0 : entry(i, c)) * entry(usize(c), c) *
+                           (column == c ? 1.0 : entry(usize(column), c));
+                CHECK(std::abs(sum - before.values[i * usize(width) + usize(column)]) <=
+                      1e2 * rounding_of_panels<Number>);
             }
         for (const Index of_registers : widths()) {
             Block<Number> block = before;
@@ -160,10 +163,11 @@ TEST_CASE_TEMPLATE("a pivot of zero will not do, wherever it comes", Number, flo
 {
     for (Index width = 1; width <= 12; ++width)
         for (Index zero = 0; zero < width; ++zero) {
-            Block<Number> block{width, std::vector<Index>(width), std::vector<Number>(at(width) * at(width), Number{})};
+            Block<Number> block{width, std::vector<Index>(width),
+                                std::vector<Number>(usize(width) * usize(width), Number{})};
             std::iota(block.rows.begin(), block.rows.end(), 0);
             for (Index c = 0; c < width; ++c)
-                block.values[at(c) * at(width + 1)] = c == zero ? Number{0} : Number{1};
+                block.values[usize(c) * usize(width + 1)] = c == zero ? Number{0} : Number{1};
             for (const Index of_registers : widths()) {
                 Block<Number> copy = block;
                 CHECK_FALSE(factorise_panel(copy.panel(), of_registers));

@@ -106,7 +106,7 @@ struct OrderedTriangles {
         return product;
     }
 
-    double& diagonal(Index unknown) { return values[at(upper.column_offsets[unknown + 1]) - 1]; }
+    double& diagonal(Index unknown) { return values[usize(upper.column_offsets[unknown + 1]) - 1]; }
 
     static constexpr Index side = 180;
     SparsePattern upper;
@@ -168,7 +168,7 @@ TEST_CASE("without any entries that are zero there is one block, of any width")
     for (const Index n : {2, 3, 4, 5, 7, 8, 64, 67, 130, 201}) {
         const SymmetricMatrix matrix = full_matrix(n, random);
         LdlSolver solver(matrix.upper);
-        CHECK(solver.factor_bytes<double>() == at(n) * at(n) * sizeof(double));
+        CHECK(solver.factor_bytes<double>() == usize(n) * usize(n) * sizeof(double));
         CHECK(solver.factor_bytes<float>() == solver.factor_bytes<double>() / 2);
         const Columns right = random_columns(n, random);
         const Columns found = solved(solver, matrix.values, right, workspace);

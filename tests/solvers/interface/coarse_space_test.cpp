@@ -22,14 +22,14 @@ Points product(const InterfaceCopies& copies, const std::vector<DenseFactor>& co
         const std::size_t room = DenseFactor::room(copies.n_in(s));
         AlignedFloats numbers;
         numbers.assign(6 * room);
-        const auto of = [&](std::size_t column, Index i) -> float& { return numbers.data()[column * room + at(i)]; };
+        const auto of = [&](std::size_t column, Index i) -> float& { return numbers.data()[column * room + usize(i)]; };
         for (Index i = 0; i < copies.n_in(s); ++i)
             for (Index c = 0; c < 3; ++c)
-                of(at(c), i) = static_cast<float>(x(copies.vertex[copies.first[s] + i], c));
+                of(usize(c), i) = static_cast<float>(x(copies.vertex[copies.first[s] + i], c));
         complements[s].multiply(columns_at(numbers.data(), room), columns_at(numbers.data() + 3 * room, room));
         for (Index i = 0; i < copies.n_in(s); ++i)
             for (Index c = 0; c < 3; ++c)
-                result(copies.vertex[copies.first[s] + i], c) += complements[s].scale() * of(at(c) + 3, i);
+                result(copies.vertex[copies.first[s] + i], c) += complements[s].scale() * of(usize(c) + 3, i);
     }
     return result;
 }

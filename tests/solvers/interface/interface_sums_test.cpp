@@ -85,7 +85,7 @@ TEST_CASE("rows are added along a tree of their numbers, whoever has them")
         for (Index shift = 0; shift < 3; ++shift) {
             std::vector<Index> holders;
             for (std::size_t i = 0; i < n; ++i)
-                holders.push_back(static_cast<Index>(i * 5 / 3 + at(shift)) % 3);
+                holders.push_back(static_cast<Index>(i * 5 / 3 + usize(shift)) % 3);
             for (const auto& sums : add_up_together(rows, holders, 2).sums)
                 CHECK(sums[1] == expected);
         }

@@ -52,7 +52,7 @@ Eigen::MatrixXd stiffness_of(const PolygonMesh& mesh)
     std::vector<Index> slots(pairs.size());
     std::iota(slots.begin(), slots.end(), 0);
     std::vector<double> values(pairs.size(), 0.0);
-    std::vector<double> diagonal(at(mesh.n_vertices()));
+    std::vector<double> diagonal(usize(mesh.n_vertices()));
     std::vector<double> mass(diagonal.size());
     laplacian->assemble(mesh.vertices, 1.0, slots, values, diagonal, mass);
     Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(mesh.n_vertices(), mesh.n_vertices());
@@ -146,9 +146,9 @@ TEST_CASE("linear functions on a plane are harmonic away from the boundary")
 TEST_CASE("a triangulation within a surface does not depend on the order of faces and vertices")
 {
     const PolygonMesh mesh = rolled(sheared(test::triangle_grid(12, 7), 1.5));
-    std::vector<Index> number(at(mesh.n_vertices()));
+    std::vector<Index> number(usize(mesh.n_vertices()));
     std::iota(number.begin(), number.end(), 0);
-    std::vector<Index> faces(at(mesh.n_faces()));
+    std::vector<Index> faces(usize(mesh.n_faces()));
     std::iota(faces.begin(), faces.end(), 0);
     std::mt19937 random(3);
     std::ranges::shuffle(number, random);

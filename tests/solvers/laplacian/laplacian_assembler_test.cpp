@@ -351,7 +351,7 @@ TEST_CASE("assemblers add, with a factor, and leave entries that are not wanted 
         std::vector<Index> slots;
         for (const MatrixEntry& entry : assembler->entries())
             slots.push_back(entry.row % 2 == 0 ? matrix.pattern.slot(entry) : matrix.pattern.n_entries());
-        std::vector<double> values(at(matrix.pattern.n_entries()) + 1, 1.0);
+        std::vector<double> values(usize(matrix.pattern.n_entries()) + 1, 1.0);
         for (int repetition = 0; repetition < 2; ++repetition)
             assembler->add(m.mesh.vertices, 0.25, slots, values);
         const double scale = largest(dense(matrix.pattern, matrix.values));

@@ -64,7 +64,7 @@ TEST_CASE("signs turn all faces to the same side")
     CHECK(face_signs(mesh, make_topology(mesh)).empty());
     const PolygonMesh flipped = test::with_faces_flipped(mesh, 3);
     const auto signs = face_signs(flipped, make_topology(flipped));
-    REQUIRE(signs.size() == at(mesh.n_faces()));
+    REQUIRE(signs.size() == usize(mesh.n_faces()));
     const auto side = [&](Index f) {
         return signs[f] * vector_area(flipped.face(f), mesh.vertices).dot(centroid(mesh.face(f), mesh.vertices));
     };

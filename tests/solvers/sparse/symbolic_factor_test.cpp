@@ -81,7 +81,7 @@ TEST_CASE("an unknown is updated once by each earlier block that has a row there
     std::size_t n_expected = 0;
     for (Index b = 0; b < factor.n_supernodes(); ++b) {
         CHECK(std::is_sorted(factor.rows[b].begin(), factor.rows[b].end()));
-        n_expected += factor.rows[b].size() - at(factor.width(b));
+        n_expected += factor.rows[b].size() - usize(factor.width(b));
     }
     CHECK(factor.updates.size() == n_expected);
     for (Index u = 0; u < factor.n(); ++u) {
@@ -140,7 +140,7 @@ TEST_CASE("with the tree that comes with an elimination ordering, blocks have th
           star_neighbours(200, 12, random), tree_neighbours(150, random)}) {
         const EliminationOrdering elimination = order_elimination(neighbours);
         const SparsePattern upper = upper_in(neighbours, elimination.order);
-        REQUIRE(elimination.tree.parent.size() == at(neighbours.n()));
+        REQUIRE(elimination.tree.parent.size() == usize(neighbours.n()));
         std::vector<Index> places;
         const SymbolicFactor factor = make_symmetric_symbolic_factor(upper, 0, elimination.tree, places);
         std::vector<Index> as_they_are(upper.n());

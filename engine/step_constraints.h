@@ -15,8 +15,8 @@
 namespace seamflow {
 
 /// The tools that take and check steps, and make results from their positions.
-struct StepTools {
-    StepTools(const PolygonMesh& mesh, const Topology& topology, const FlowOptions& options)
+struct StepConstraints {
+    StepConstraints(const PolygonMesh& mesh, const Topology& topology, const FlowOptions& options)
         : is_scaled(options.motion.rescale != Rescale::None && options.flow == FlowEquation::Conformalized)
         , is_scaled_apart(options.motion.rescale != Rescale::None && !is_scaled)
         , rescaling(mesh, topology, options.motion.rescale)
@@ -56,7 +56,7 @@ struct StepTools {
             return;
         Points directed = stepper.positions();
         directed_->project(before, directed, run_in_parallel);
-        stepper.continue_from(directed, {});
+        stepper.set_positions(directed, {});
     }
 
     /// Rescales the surface that the next step begins with, where steps begin with results.
@@ -66,7 +66,7 @@ struct StepTools {
             return;
         Points rescaled = stepper.positions();
         const SimilarityOfComponents similarity = rescaling.apply(rescaled);
-        stepper.continue_from(rescaled, similarity);
+        stepper.set_positions(rescaled, similarity);
     }
 
     /// On components that lose too much; limits have their own. And on those that cannot be scaled back.
