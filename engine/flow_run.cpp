@@ -283,8 +283,6 @@ void FlowRun::compare_with_reference(int step, StepReport& of_step)
     undecomposed.vertices = reference_->positions();
     PolygonMesh decomposed = mesh_.mesh();
     decomposed.vertices = stepper_->positions();
-    mesh_.take_along(undecomposed.vertices);
-    mesh_.take_along(decomposed.vertices);
     of_step.distance = vertex_distance(undecomposed, undecomposed.vertices, decomposed.vertices);
     of_step.surface_distance = surface_distance(undecomposed, decomposed, run_in_parallel);
 }

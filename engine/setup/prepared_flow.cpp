@@ -88,6 +88,9 @@ void examine(PreparedFlow& prepared, FlowingMesh& mesh, Progress& progress)
         prepared.size.vertices -= static_cast<Index>(std::ranges::count(topology.kind, VertexKind::Isolated));
     };
     look();
+    // The sub-meshes as they are have all faces. A seam is where edges of one face each meet.
+    if (!options.report.keep_gaps && !options.motion.strict && mesh.leave_out_repeated_faces(topology))
+        look();
     if (std::ranges::find(topology.kind, VertexKind::Isolated) != topology.kind.end())
         prepared.unused_vertices = mesh.unused_vertices();
     mesh.weld_seams(topology, options.motion, progress.exec());
@@ -95,7 +98,7 @@ void examine(PreparedFlow& prepared, FlowingMesh& mesh, Progress& progress)
     std::optional<Cracks> cracks;
     if (options.motion.weld && !options.report.keep_gaps)
         cracks = find_cracks(mesh.mesh(), topology, progress.exec());
-    // The sub-meshes as they are have all faces.
+    // Some repeat others only now that vertices are joined.
     if (!options.report.keep_gaps && mesh.leave_out_repeated_faces(topology)) {
         look();
         constrain_it();

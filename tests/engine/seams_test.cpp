@@ -275,8 +275,8 @@ TEST_CASE("a flow with seams continues from a state as if it had never ended, bu
     CHECK(same_bits(again.vertices, mesh.vertices));
     options.motion.weld.reset();
     again = parts;
-    CHECK_THROWS_WITH_AS(mean_curvature_flow(again, options, {}, {.resume = state}), doctest::Contains("weld was 0"),
-                         OptionError);
+    CHECK_THROWS_WITH_AS(mean_curvature_flow(again, options, {}, {.resume = state}),
+                         doctest::Contains("to other options"), InputError);
     options.motion.weld = -1.0;
     CHECK_THROWS_WITH_AS(mean_curvature_flow(again, options), doctest::Contains("weld is -1"), OptionError);
 }

@@ -153,6 +153,9 @@ struct BallWorkshop : Workshop {
         REQUIRE(run("sh -c 'seq 500 2100 >region; seq 100 3 700 >stay; seq 0 7995 | awk \"{print int(\\$1 / 900)}\" "
                     ">labels; seq 0 3999 | awk \"{print \\$1 % 5}\" >weights'") == 0);
         REQUIRE(smooth("ball.ply fields.ply --from stay") == 0);
+        // Without obtuse angles.
+        REQUIRE(run(GENERATE " quads grid.ply --vertices 4000") == 0);
+        REQUIRE(smooth("grid.ply even.ply --from stay") == 0);
     }
 };
 
@@ -199,8 +202,8 @@ TEST_CASE("the file is that of smooth whatever the options of steps that ranks s
     check_bytes(w, {"ball.ply", "--preset fair --approach sweep --subdomains 4"}, {3});
     check_bytes(w, {"ball.ply", "--noise 1% --approach sweep --subdomains 4"}, {3});
     check_bytes(w, {"ball.ply", "--preset terrain --noise 2% --approach converged --subdomains 4"}, {2});
-    check_bytes(w, {"fields.ply", "--fields distance --fwhm 3% --steps 2 --approach converged --subdomains 5"}, {2, 5});
-    check_bytes(w, {"fields.ply", "--fields distance --radius 2% --fill --fix stay --subdomains 5"}, {3});
+    check_bytes(w, {"even.ply", "--fields distance --fwhm 3% --steps 2 --approach converged --subdomains 5"}, {2, 5});
+    check_bytes(w, {"even.ply", "--fields distance --radius 2% --fill --fix stay --subdomains 5"}, {3});
 }
 
 TEST_CASE("the file is that of smooth whatever the options of what rank 0 does alone")
@@ -218,6 +221,7 @@ TEST_CASE("the file is that of smooth whatever the options of what rank 0 does a
           "--from stay"})
         check_bytes(w, {"ball.ply", options, Steps::OfRank0}, {3});
     check_bytes(w, {"fields.ply", "--fields distance --fwhm 3% --keep-field-edges 0.3", Steps::OfRank0}, {3});
+    check_bytes(w, {"fields.ply", "--fields distance --fwhm 3% --steps 2 --subdomains 5", Steps::OfRank0}, {2});
     check_bytes(w, {"creased.obj", "--edges-from-file", Steps::OfRank0, "n.obj"}, {2});
     check_bytes(w, {"creased.obj", "--edges pairs --radius 1% --keep-edges 20", Steps::OfRank0, "n.obj"}, {5});
     const std::string tiles = "left.obj right.obj --time-step-edges 2 --steps 2 --threads 1 --out-dir ";
@@ -242,8 +246,7 @@ TEST_CASE("what is written beside the result is that of smooth")
                      {"n.html", "n.csv", "s1.ply", "s2.ply", "cut.ply"}},
                     {2, 5});
     check_bytes(
-        w,
-        {"fields.ply", "--fields distance --fwhm 3% --subdomains 5 --html n.html", Steps::Shared, "n.ply", {"n.html"}},
+        w, {"even.ply", "--fields distance --fwhm 3% --subdomains 5 --html n.html", Steps::Shared, "n.ply", {"n.html"}},
         {3});
     // Who does what when is known of one process alone.
     check_bytes(

@@ -67,7 +67,7 @@ void shuffle_faces(Writing& w)
     RandomNumbers random(12);
     renumber(w, ascending_numbers(w.vertex_from.size()), random_permutation(w.mesh.n_faces(), random));
     change_faces(w, [&](std::size_t, std::vector<Index>& corners) {
-        std::ranges::rotate(corners, corners.begin() + random.below(static_cast<int>(corners.size())));
+        std::rotate(corners.begin(), corners.begin() + random.below(static_cast<int>(corners.size())), corners.end());
     });
 }
 

@@ -109,8 +109,9 @@ TEST_CASE("weights of any surface become at least 0, K no stiffer than it was, a
         {"sheets that meet", sheared(test::three_wings(), 4.0), {}}};
     std::mt19937 random(5);
     std::normal_distribution<double> normal;
-    for (const auto& [name, mesh, topology] : meshes) {
-        CAPTURE(name);
+    for (const test::NamedMesh& one : meshes) {
+        CAPTURE(one.name);
+        const PolygonMesh& mesh = one.mesh;
         const auto surface = delaunay_of(mesh);
         REQUIRE(surface);
         const GivenStiffness& given = surface->stiffness;
@@ -161,7 +162,7 @@ TEST_CASE("a triangulation within a surface does not depend on the order of face
         std::vector<Index> corners;
         for (const Index v : mesh.face(f))
             corners.push_back(number[v]);
-        std::ranges::rotate(corners, corners.begin() + f % 3);
+        std::rotate(corners.begin(), corners.begin() + f % 3, corners.end());
         if (f % 4 == 0)
             std::ranges::reverse(corners);
         other.add_face(corners);
