@@ -1,6 +1,7 @@
 #include "partition/polygon_mesh.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <set>
 #include <string>
@@ -81,11 +82,12 @@ void require_valid(const PolygonMesh& mesh, const Executor& exec)
                         bad_vertices.front()));
 }
 
-std::vector<std::uint8_t> used_by_faces(const PolygonMesh& mesh)
+std::vector<std::uint8_t> used_by_faces(const PolygonMesh& mesh, const Executor& exec)
 {
     std::vector<std::uint8_t> is_used(usize(mesh.n_vertices()), 0);
-    for (const Index v : mesh.face_vertices)
-        is_used[v] = 1;
+    for_each(exec, mesh.n_corners(), [&](Index corner) {
+        std::atomic_ref(is_used[mesh.face_vertices[corner]]).store(1, std::memory_order_relaxed);
+    });
     return is_used;
 }
 

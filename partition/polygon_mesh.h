@@ -50,7 +50,7 @@ void require_valid(const PolygonMesh& mesh, const Executor& exec = run_serially)
 
 /// #V: 1 for each vertex that a face uses, 0 for the others.
 /// @pre every vertex named by a face exists.
-std::vector<std::uint8_t> used_by_faces(const PolygonMesh& mesh);
+std::vector<std::uint8_t> used_by_faces(const PolygonMesh& mesh, const Executor& exec = run_serially);
 
 /// Copies `from` to `to`.
 /// @param from, to #V by 3.

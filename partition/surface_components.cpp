@@ -1,6 +1,7 @@
 #include "partition/surface_components.h"
 
 #include <algorithm>
+#include <numeric>
 #include <tuple>
 #include <utility>
 
@@ -29,6 +30,14 @@ SurfaceComponents surface_components(const PolygonMesh& mesh, const Executor& ex
     std::vector<Index> set_of;
     Index n_sets = 0;
     std::tie(set_of, n_sets) = sets.numbered(exec);
+    if (n_sets == 1 && mesh.n_faces() > 0) {
+        SurfaceComponents one;
+        one.of_vertex = std::move(set_of);
+        one.faces.values.resize(usize(mesh.n_faces()));
+        std::iota(one.faces.values.begin(), one.faces.values.end(), 0);
+        one.faces.close();
+        return one;
+    }
     // A vertex without faces is a set without faces.
     std::vector<Index> number(usize(n_sets), -1);
     for (Index f = 0; f < mesh.n_faces(); ++f)

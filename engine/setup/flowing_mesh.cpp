@@ -38,7 +38,7 @@ FlowingMesh::FlowingMesh(PolygonMesh& given)
 
 std::vector<Index> FlowingMesh::unused_vertices() const
 {
-    const std::vector<std::uint8_t> is_used = used_by_faces(*given_);
+    const std::vector<std::uint8_t> is_used = used_by_faces(*given_, run_in_parallel);
     return select(run_in_parallel, given_->n_vertices(), [&](Index v) { return is_used[v] == 0; });
 }
 

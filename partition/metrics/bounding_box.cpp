@@ -1,6 +1,8 @@
 #include "partition/metrics/bounding_box.h"
 
+#include <cstdint>
 #include <limits>
+#include <vector>
 
 namespace seamflow {
 
@@ -17,11 +19,12 @@ BoundingBox empty_box()
 
 BoundingBox box_of_faces(const PolygonMesh& mesh, const Points& positions, const Executor& exec)
 {
+    const std::vector<std::uint8_t> is_used = used_by_faces(mesh, exec);
     const BoundingBox box = reduce(
-        exec, mesh.n_corners(), empty_box(),
-        [&](BoundingBox& part, Index corner) {
-            const Point position = positions.row(mesh.face_vertices[corner]);
-            if (!position.allFinite())
+        exec, mesh.n_vertices(), empty_box(),
+        [&](BoundingBox& part, Index v) {
+            const Point position = positions.row(v);
+            if (is_used[v] == 0 || !position.allFinite())
                 return;
             part.low = part.low.cwiseMin(position);
             part.high = part.high.cwiseMax(position);

@@ -56,13 +56,19 @@ Index needle_tip(std::span<const Index> corners, const Points& positions)
 {
     // The shortest edge of such a face is not at the tip, and the longest one is.
     double longest = -1.0;
+    double shortest = std::numeric_limits<double>::infinity();
     std::size_t at_longest = 0;
     const std::size_t n = corners.size();
-    for (std::size_t k = 0; k < n; ++k)
-        if (const double squared = squared_length(positions, corners[k], corners[(k + 1) % n]); squared > longest) {
+    for (std::size_t k = 0; k < n; ++k) {
+        const double squared = squared_length(positions, corners[k], corners[k + 1 < n ? k + 1 : 0]);
+        shortest = std::min(shortest, squared);
+        if (squared > longest) {
             longest = squared;
             at_longest = k;
         }
+    }
+    if (!(longest > least_in_edges * least_in_edges * shortest))
+        return -1;
     for (const std::size_t tip : {at_longest, (at_longest + 1) % n}) {
         Around around{.vertex = corners[tip]};
         around.add(corners, positions);

@@ -124,7 +124,7 @@ std::string remark_on_far_vertices(const std::vector<Index>& vertices)
 
 void remark_on_vertices(const PolygonMesh& mesh, const Executor& exec, std::vector<std::string>& remarks)
 {
-    const std::vector<std::uint8_t> is_used = used_by_faces(mesh);
+    const std::vector<std::uint8_t> is_used = used_by_faces(mesh, exec);
     const auto unused = select(exec, mesh.n_vertices(), [&](Index v) { return is_used[v] == 0; });
     if (const std::vector<Index> far = far_from_faces(mesh, unused, exec); !far.empty())
         remarks.push_back(remark_on_far_vertices(far));
