@@ -45,8 +45,11 @@ template <class Number>
 bool has_small_pivot(const LdlPanel<Number>& panel, const std::vector<double>& diagonal, Number least_pivot)
 {
     bool is_small = false;
-    for (Index c = 0; c < panel.width; ++c)
-        is_small |= panel.values[at(c) * at(panel.width + 1)] < least_pivot * static_cast<Number>(diagonal[c]);
+    for (Index c = 0; c < panel.width; ++c) {
+        const Number pivot = panel.values[at(c) * at(panel.width + 1)];
+        const auto sign = static_cast<Number>(diagonal[c] < 0.0 ? -1.0 : 1.0);
+        is_small |= !(sign * pivot > Number{0}) || sign * pivot < least_pivot * sign * static_cast<Number>(diagonal[c]);
+    }
     return is_small;
 }
 
