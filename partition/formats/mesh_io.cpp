@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <new>
 #include <optional>
@@ -277,57 +276,6 @@ std::vector<std::string> write_mesh(const std::filesystem::path& path, const Pol
     return write_mesh(path, mesh, kind, {}, exec);
 }
 
-namespace {
-
-/// Of a column that was read.
-std::optional<WholeRange> range_of(const FileFields& fields, Index column)
-{
-    return usize(column) < fields.whole.size() ? fields.whole[column] : std::nullopt;
-}
-
-/// The columns red, green and blue, where they were read as colours and each vertex has one.
-std::optional<std::array<Index, 3>> columns_of_colours(const FileFields& fields)
-{
-    std::array<Index, 3> columns{};
-    std::ranges::transform(std::array{"red", "green", "blue"}, columns.begin(),
-                           [&](const char* name) { return fields.column(name); });
-    constexpr double most_whole = 65535.0;
-    for (const Index c : columns) {
-        if (c < 0 || fields.values.col(c).hasNaN())
-            return {};
-        const auto range = range_of(fields, c);
-        const bool is_whole = range && range->least == 0.0 && range->largest <= most_whole;
-        if (!is_whole && (usize(c) >= fields.decimals.size() || fields.decimals[c] != Decimals::SingleText))
-            return {};
-    }
-    return columns;
-}
-
-/// Takes these columns out of the fields.
-/// @returns #V colours.
-std::vector<Colour> take_colours(FileFields& fields, const std::array<Index, 3>& columns)
-{
-    std::vector<Colour> colours(static_cast<std::size_t>(fields.values.rows()));
-    for (std::size_t k = 0; k < columns.size(); ++k) {
-        const double all = range_of(fields, columns[k]).value_or(WholeRange{0.0, 1.0}).largest;
-        for (std::size_t v = 0; v < colours.size(); ++v)
-            colours[v][k] = static_cast<std::uint8_t>(
-                std::lround(255.0 * std::clamp(fields.values(static_cast<Index>(v), columns[k]) / all, 0.0, 1.0)));
-    }
-    FileFields others;
-    std::vector<Eigen::Index> kept;
-    for (std::size_t c = 0; c < fields.names.size(); ++c)
-        if (std::ranges::find(columns, static_cast<Index>(c)) == columns.end()) {
-            others.names.push_back(fields.names[c]);
-            kept.push_back(static_cast<Eigen::Index>(c));
-        }
-    others.values = fields.values(Eigen::all, kept);
-    fields = std::move(others);
-    return colours;
-}
-
-}  // namespace
-
 std::vector<std::string> write_mesh(const std::filesystem::path& path, const PolygonMesh& mesh, const FileKind& kind,
                                     const FileFields& fields, const Executor& exec)
 {
@@ -341,12 +289,8 @@ std::vector<std::string> write_mesh(const std::filesystem::path& path, const Pol
     OutputFile file(path);
     if (fields.names.empty())
         format.write(file, mesh, kind.encoding, {exec});
-    else if (const auto columns = columns_of_colours(fields); columns && kind.format == FileFormat::Ply) {
-        FileFields others = fields;
-        const std::vector<Colour> colours = take_colours(others, *columns);
-        write_ply(file, mesh, kind.encoding, {exec}, {.vertex_colours = colours, .vertex_fields = &others});
-    } else if (kind.format == FileFormat::Ply)
-        write_ply(file, mesh, kind.encoding, {exec}, {.vertex_fields = &fields});
+    else if (kind.format == FileFormat::Ply)
+        write_ply(file, mesh, kind.encoding, {exec}, fields);
     else
         refuse_fields(path, kind.format);
     file.commit();

@@ -45,6 +45,10 @@ struct PlyExtras {
 void write_ply(OutputFile& file, const PolygonMesh& mesh, Encoding encoding, const Slicing& slicing,
                const PlyExtras& extras = {});
 
+/// The same with fields: those that were read as colours become red, green and blue (uchar), the others double.
+void write_ply(OutputFile& file, const PolygonMesh& mesh, Encoding encoding, const Slicing& slicing,
+               const FileFields& fields);
+
 /// How a property of the vertices holds numbers. @param type not of whole numbers.
 Decimals decimals_of(PlyType type, Encoding encoding);
 

@@ -1,0 +1,157 @@
+// How converged steps are set up; how they are taken is in schur_stepper.cpp.
+
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "engine/setup/automatic_choices.h"
+#include "engine/setup/sub_mesh_options.h"
+#include "engine/steppers/schur_stepper.h"
+#include "engine/tasks/parallel_executor.h"
+#include "solvers/laplacian/geometry.h"
+
+namespace seamflow {
+
+namespace {
+
+/// Wider sub-meshes, in √dt, do without a coarse space: it would save an iteration in nine, and cost more.
+constexpr double width_without_coarse_space = 8.0;
+
+/// The area of all sub-meshes of all peers.
+double area_of_all(const Decomposition& decomposition, const PolygonMesh& mesh, InterfacePeers& peers)
+{
+    std::vector<double> areas(usize(peers.n_places()), 0.0);
+    for_each(run_in_parallel, static_cast<Index>(decomposition.sub_meshes.size()), [&](Index s) {
+        if (peers.is_own(s))
+            for (const Index f : decomposition.sub_meshes[s].faces)
+                areas[peers.places()[s]] += area(mesh.face(f), mesh.vertices);
+    });
+    return SumTree(peers).add_up(areas, 1).front();
+}
+
+Balancing balancing_for(const Decomposition& decomposition, const PolygonMesh& mesh, InterfacePeers& peers,
+                        double time_step)
+{
+    const double area = area_of_all(decomposition, mesh, peers);
+    return width_in_diffusion_lengths(area, peers.n_places(), time_step) < width_without_coarse_space
+               ? Balancing::Coarse
+               : Balancing::None;
+}
+
+/// The sub-meshes of a single peer.
+PeerSubMeshes alone(Decomposition decomposition)
+{
+    auto peers = std::make_unique<OnePeer>(static_cast<Index>(decomposition.sub_meshes.size()));
+    std::vector<SubMeshName> names = names_of(decomposition);
+    return {std::move(decomposition), std::move(peers), std::move(names)};
+}
+
+}  // namespace
+
+SchurStepper::SchurStepper(const PolygonMesh& mesh, const Topology& topology, const Cut& cut,
+                           const FlowOptions& options, Progress& progress)
+    : SchurStepper(mesh, alone(decompose(mesh, topology, cut.labels, cut.n_parts, progress.exec())), options, progress)
+{
+}
+
+SchurStepper::SchurStepper(const PolygonMesh& mesh, PeerSubMeshes sub_meshes, const FlowOptions& options,
+                           Progress& progress)
+    : ConvergedStepper(mesh, static_cast<Index>(sub_meshes.decomposition.sub_meshes.size()), options,
+                       static_cast<double>(sub_meshes.decomposition.sub_meshes.size()), progress)
+    , peers_(std::move(sub_meshes.peers))
+    , names_(std::move(sub_meshes.names))
+    , sub_meshes_(sub_meshes.decomposition.sub_meshes.size())
+    , equation_(sub_meshes.decomposition, balancing_for(sub_meshes.decomposition, mesh, *peers_, options.time_step),
+                *peers_)
+{
+    Decomposition& decomposition = sub_meshes.decomposition;
+    keeps_matrix_ = options.flow == FlowEquation::Linear;
+    changed_.resize(sub_meshes_.size(), 0);
+    if (options.flow != FlowEquation::MeanCurvature)
+        first_ = mesh.vertices;
+    factors_.precision = options.resources.precision;
+    interface_.n_vertices = decomposition.n_interface_vertices;
+    interface_.complements.resize(sub_meshes_.size());
+    interface_.condensed.resize(equation_.copies().n_copies(), 3);
+    make_sub_meshes(decomposition, mesh, options, progress);
+    choose_factors(options);
+    make_graph();
+}
+
+/// Data of sub-meshes that is needed later is moved there; the rest is freed when all are analysed.
+void SchurStepper::make_sub_meshes(Decomposition& decomposition, const PolygonMesh& mesh, const FlowOptions& options,
+                                   Progress& progress)
+{
+    const FlowTerms terms = terms_of(options, mesh.vertices);
+    const InterfaceCopies& copies = equation_.copies();
+    progress.expect(static_cast<double>(sub_meshes_.size()));
+    for_each(run_in_parallel, static_cast<Index>(sub_meshes_.size()), [&](Index s) {
+        progress.require_going_on();
+        progress.count();
+        if (!is_own(s))
+            return;
+        SubMesh sub_mesh = std::move(decomposition.sub_meshes[s]);
+        CondensedSubMesh::Vertices own{.faces = std::move(sub_mesh.faces), .n_vertices = sub_mesh.n_vertices};
+        std::unique_ptr<NeumannSystem> system;
+        run_for_sub_mesh(names_[s], [&] {
+            IndexLists faces = std::move(sub_mesh.face_vertices);
+            system = std::make_unique<NeumannSystem>(sub_mesh, std::move(faces), laplacian_of(options), terms);
+        });
+        own.local_to_global = std::move(sub_mesh.local_to_global);
+        own.owned = std::move(sub_mesh.owned);
+        const auto on_interface = std::span(copies.vertex).subspan(usize(copies.first[s]), usize(copies.n_in(s)));
+        sub_meshes_[s] = std::make_unique<CondensedSubMesh>(std::move(own), std::move(system), on_interface,
+                                                            copies.first[s], seconds_[s]);
+    });
+}
+
+/// Factors that may be in either precision count as double.
+void SchurStepper::choose_factors(const FlowOptions& options)
+{
+    std::vector<std::size_t> bytes;
+    for (const auto& one : sub_meshes_)
+        if (one)
+            bytes.push_back(factors_.precision == Precision::Single ? one->system().factor_bytes<float>()
+                                                                    : one->system().factor_bytes<double>());
+    factors_.plan = choose_kept_factors(bytes, options.resources.memory_limit, workspaces_.size());
+    factors_.passing.emplace(factors_.plan.bytes_per_place);
+    FactorMemory& kept = options.resources.memory_limit ? *std::pmr::new_delete_resource() : factors_.pool;
+    std::vector<std::uint8_t> whole(sub_meshes_.size(), 1);
+    auto next = factors_.plan.whole.begin();
+    for (std::size_t s = 0; s < sub_meshes_.size(); ++s)
+        if (sub_meshes_[s]) {
+            whole[s] = *next++;
+            sub_meshes_[s]->use_memory(whole[s] != 0 ? kept : *factors_.passing, whole[s] != 0);
+        }
+    factors_.plan.whole = std::move(whole);
+}
+
+void SchurStepper::make_graph()
+{
+    std::vector<StepGraph::Node> passing_condensed;
+    std::vector<StepGraph::Node> passing_substituted;
+    for (Index s = 0; s < static_cast<Index>(sub_meshes_.size()); ++s) {
+        if (!is_own(s))
+            continue;
+        const auto condensed = graph_.add_task({TaskKind::Condense, s});
+        const auto substituted = graph_.add_task({TaskKind::BackSubstitute, s});
+        graph_.add_dependency(root_, condensed);
+        graph_.add_dependency(condensed, equation_solved_);
+        graph_.add_dependency(equation_solved_, substituted);
+        if (!is_kept(s)) {
+            passing_condensed.push_back(condensed);
+            passing_substituted.push_back(substituted);
+        }
+    }
+    take_turns(passing_condensed);
+    take_turns(passing_substituted);
+}
+
+/// Each waits until an earlier one has given back the place of its factor.
+void SchurStepper::take_turns(const std::vector<StepGraph::Node>& tasks)
+{
+    for (std::size_t i = usize(factors_.plan.n_places); i < tasks.size(); ++i)
+        graph_.add_dependency(tasks[i - usize(factors_.plan.n_places)], tasks[i]);
+}
+
+}  // namespace seamflow
