@@ -47,7 +47,7 @@ Point VertexNormals::operator()(std::span<const Index> corners, const Points& po
 {
     Point sum = Point::Zero();
     for (const Index corner : corners)
-        sum += (sense_.empty() ? 1 : sense_[corner]) * vector_area(mesh_.face(topology_.face_of[corner]), positions);
+        sum += sense(corner) * vector_area(mesh_.face(topology_.face_of[corner]), positions);
     sum.stableNormalize();
     return sum;
 }

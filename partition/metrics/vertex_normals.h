@@ -26,10 +26,13 @@ class VertexNormals {
     /// The same for only the faces of some corners, all at one vertex.
     [[nodiscard]] Point operator()(std::span<const Index> corners, const Points& positions) const;
 
+    /// 1, or -1 if the face of a corner is oriented against the first of its fan around the corner's vertex.
+    [[nodiscard]] std::int8_t sense(Index corner) const { return sense_.empty() ? std::int8_t{1} : sense_[corner]; }
+
   private:
     const PolygonMesh& mesh_;
     const Topology& topology_;
-    /// One per corner: 1, or -1 if its face is oriented against the first of its fan. Empty: 1 everywhere.
+    /// One per corner; empty: 1 everywhere.
     std::vector<std::int8_t> sense_;
 };
 

@@ -8,6 +8,7 @@
 
 #include "partition/index_lists.h"
 #include "partition/labels.h"
+#include "partition/metrics/vertex_normals.h"
 #include "solvers/estimate/error_row.h"
 
 namespace seamflow {
@@ -25,6 +26,7 @@ ErrorEquation::ErrorEquation(const Decomposition& decomposition, const PolygonMe
     number_own(kinds);
     number_foreign(mesh, topology, kinds);
     list_neighbours(kinds, exec);
+    find_senses(mesh, topology);
     share_rows();
     rows_.couplings.resize(rows_.neighbours.values.size());
     for (auto* array : {&rows_.mass, &rows_.diagonal, &rows_.row_sum, &rows_.response})
@@ -122,6 +124,28 @@ void ErrorEquation::list_neighbours(std::span<const Index> kinds, const Executor
     });
 }
 
+/// Where faces are oriented differently, how those around each vertex are.
+void ErrorEquation::find_senses(const PolygonMesh& mesh, const Topology& topology)
+{
+    if (topology.oriented)
+        return;
+    const VertexNormals normals(mesh, topology);
+    std::vector<std::int8_t>& senses = rows_.senses.values;
+    std::vector<std::int8_t> of_others;
+    for (std::size_t s = 0; s < decomposition_->sub_meshes.size(); ++s) {
+        const SubMesh& sub_mesh = decomposition_->sub_meshes[s];
+        for (Index i = numbering_.first[s]; i < numbering_.first[s + 1]; ++i) {
+            of_others.clear();
+            for (const Index corner : topology.corners_at(sub_mesh.local_to_global[numbering_.local_vertex[i]])) {
+                const bool is_own = std::ranges::binary_search(sub_mesh.faces, topology.face_of[corner]);
+                (is_own ? senses : of_others).push_back(normals.sense(corner));
+            }
+            senses.insert(senses.end(), of_others.begin(), of_others.end());
+            rows_.senses.close();
+        }
+    }
+}
+
 void ErrorEquation::assemble(Index s, const Points& before, const Points& after, const Points& stiffness_at,
                              double time_step)
 {
@@ -129,7 +153,8 @@ void ErrorEquation::assemble(Index s, const Points& before, const Points& after,
     for (Index i = first(s); i < first(s + 1); ++i) {
         const auto kinds = rows_.neighbours[i];
         const auto couplings = std::span(rows_.couplings).subspan(rows_.neighbours.offsets[i], kinds.size());
-        const ErrorRow row = error_row(sub_mesh, laplacian_, numbering_.index_in_sub_mesh[i], kinds,
+        const auto senses = rows_.senses.size() > 0 ? rows_.senses[i] : std::span<const std::int8_t>();
+        const ErrorRow row = error_row(sub_mesh, laplacian_, numbering_.index_in_sub_mesh[i], senses, kinds,
                                        {before, after, stiffness_at, time_step}, couplings);
         rows_.mass[i] = row.mass;
         rows_.diagonal[i] = row.diagonal;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
@@ -77,6 +78,7 @@ class ErrorEquation {
     void number_own(std::vector<Index>& kinds);
     void number_foreign(const PolygonMesh& mesh, const Topology& topology, std::vector<Index>& kinds);
     void list_neighbours(std::span<const Index> kinds, const Executor& exec);
+    void find_senses(const PolygonMesh& mesh, const Topology& topology);
     void share_rows();
     void stiffen(const Executor& exec);
     template <class Value>
@@ -98,6 +100,8 @@ class ErrorEquation {
         /// Per vertex of Γ, its edge neighbours: numbers on Γ, or see off_interface; and -T there.
         IndexLists neighbours;
         std::vector<double> couplings;
+        /// Per vertex of Γ, see error_row; no lists if all faces are oriented alike.
+        Lists<std::int8_t> senses;
         std::vector<double> mass;
         std::vector<double> diagonal;
         std::vector<double> row_sum;

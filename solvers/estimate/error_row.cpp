@@ -142,8 +142,9 @@ using WithinOneRing = std::conditional_t<Kernel::traits.reach == Reach::TwoRings
 
 }  // namespace
 
-ErrorRow error_row(const SubMesh& sub_mesh, const ScaledLaplacian& laplacian, Index i, std::span<const Index> kinds,
-                   const SolvedStep& step, std::span<double> couplings)
+ErrorRow error_row(const SubMesh& sub_mesh, const ScaledLaplacian& laplacian, Index i,
+                   std::span<const std::int8_t> senses, std::span<const Index> kinds, const SolvedStep& step,
+                   std::span<double> couplings)
 {
     const Points& before = step.before;
     const Points& after = step.after;
@@ -152,6 +153,7 @@ ErrorRow error_row(const SubMesh& sub_mesh, const ScaledLaplacian& laplacian, In
     std::fill(couplings.begin(), couplings.end(), 0.0);
     Draft draft{before, after, step.stiffness_at, v, sub_mesh.corrected.neighbours[i], couplings, {}};
     draft.along = unit(before.row(interface.after[i]) - before.row(interface.before[i]));
+    std::size_t n_faces = 0;
     with_kernel(laplacian, [&]<class Given>(Given given) {
         using Kernel = WithinOneRing<Given>;
         const auto visit = [&](std::span<const Index> corners, std::size_t k) {
@@ -160,7 +162,9 @@ ErrorRow error_row(const SubMesh& sub_mesh, const ScaledLaplacian& laplacian, In
             const std::size_t p = corners.size();
             const Index next = corners[k + 1 == p ? 0 : k + 1];
             const Index previous = corners[k == 0 ? p - 1 : k - 1];
-            draft.row.normal += draft.to(next).cross(draft.to(previous));
+            const int sense = senses.empty() ? 1 : senses[n_faces];
+            draft.row.normal += sense * draft.to(next).cross(draft.to(previous));
+            ++n_faces;
         };
         for_each_face(interface.own_faces[i], sub_mesh.face_vertices, v, visit);
         if constexpr (FaceKernel<Kernel>)

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <span>
 
 #include "partition/decomposition/sub_mesh.h"
@@ -41,9 +42,12 @@ struct SolvedStep {
 };
 
 /// The row at the i-th vertex of a sub-mesh's Γ. Δ_P has the T of Δ_A, and no residual here: its rows reach further.
+/// @param senses one per face around the vertex, first its own ones, then those of the complement fan: 1, or -1 if the
+///        face is oriented against the others (see VertexNormals::sense). Empty: 1 everywhere.
 /// @param kinds one per edge neighbour of the vertex (see CorrectedVertices): its number on Γ, or one of the above.
 /// @param couplings one per edge neighbour: receives -T_vw where it is on Γ, and else 0.
-ErrorRow error_row(const SubMesh& sub_mesh, const ScaledLaplacian& laplacian, Index i, std::span<const Index> kinds,
-                   const SolvedStep& step, std::span<double> couplings);
+ErrorRow error_row(const SubMesh& sub_mesh, const ScaledLaplacian& laplacian, Index i,
+                   std::span<const std::int8_t> senses, std::span<const Index> kinds, const SolvedStep& step,
+                   std::span<double> couplings);
 
 }  // namespace seamflow

@@ -2,7 +2,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -70,12 +69,6 @@ constexpr Allowance differences[]{
     {"", "", "precision single", 1e-5, "rounding"},
     {"", "", "loose", 1e-2, "steps converge no further"},
     {"", "", "denoise", 0.1, "what rounding changes may change the choice of a filter"},
-};
-
-/// What is not right yet, with the kind of the fault. To be empty.
-constexpr Allowance not_yet[]{
-    {"some faces turned round", "", "sweeps", 0.3, "the estimate takes normals from faces as they are oriented"},
-    {"faces twice", "faces reordered", "sweeps", 0.3, "the same"},
 };
 
 /// What is measured of steps: the largest of all vertices, which copies do not change, in mean edge lengths.
@@ -147,10 +140,9 @@ std::vector<std::string> names_of(const Original& original)
 double tolerance_of(const Change& change, const std::vector<std::string>& options)
 {
     double tolerance = change.tolerance();
-    for (const std::span<const Allowance> list : {std::span<const Allowance>(differences), {not_yet}})
-        for (const Allowance& allowance : list)
-            if (allowance.is_for(change, options))
-                tolerance = std::max(tolerance, allowance.tolerance);
+    for (const Allowance& allowance : differences)
+        if (allowance.is_for(change, options))
+            tolerance = std::max(tolerance, allowance.tolerance);
     return tolerance;
 }
 

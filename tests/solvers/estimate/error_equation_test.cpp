@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <Eigen/LU>
 #include <doctest/doctest.h>
@@ -105,6 +107,34 @@ TEST_CASE("the error on Γ is found from the residual, smooth and rough")
                     CHECK(found < 2.5 * expected);
                     CHECK(found > 0.4 * expected);
                 }
+}
+
+TEST_CASE("normals on Γ do not depend on how single faces are oriented")
+{
+    const auto normals_of = [](PolygonMesh mesh, Laplacian laplacian) {
+        mesh.vertices.col(2) = 0.1 * mesh.vertices.col(0).cwiseProduct(mesh.vertices.col(1));
+        const Case c = in_two("bent", std::move(mesh), 3.1);
+        OnePeer peers(2);
+        ErrorEquation equation(c.decomposition, c.cut.mesh, c.cut.topology, laplacian, peers);
+        assemble(c, c.cut.mesh.vertices, 1.0, equation);
+        Points normals(equation.size(), 3);
+        for (Index i = 0; i < equation.size(); ++i)
+            normals.row(i) = equation.normal(i);
+        return normals;
+    };
+    for (const PolygonMesh& mesh : {test::quad_grid(7, 7), test::triangle_grid(7, 7)})
+        for (const Laplacian laplacian : {Laplacian::Fujiwara, Laplacian::AlexaWardetzky}) {
+            PolygonMesh turned = mesh;
+            for (Index f = 1; f < turned.n_faces(); f += 3)
+                std::reverse(turned.face_vertices.begin() + turned.face_offsets[f],
+                             turned.face_vertices.begin() + turned.face_offsets[f + 1]);
+            const Points expected = normals_of(mesh, laplacian);
+            const Points found = normals_of(turned, laplacian);
+            CHECK(expected.rows() == 6);
+            REQUIRE(found.rows() == expected.rows());
+            // Of either sign.
+            CHECK((found.cwiseProduct(expected).rowwise().sum().cwiseAbs().array() > 1.0 - 1e-12).all());
+        }
 }
 
 TEST_CASE("the order of the loop does not matter")

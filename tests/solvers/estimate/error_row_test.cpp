@@ -43,7 +43,7 @@ void for_each_row(const test::CutMesh& cut, Laplacian laplacian, const Points& a
         for (Index i = 0; i < sub_mesh.interface.size(); ++i) {
             const auto kinds = kinds_at(cut, sub_mesh, i);
             std::vector<double> couplings(kinds.size());
-            const ErrorRow row = error_row(sub_mesh, laplacian, i, kinds,
+            const ErrorRow row = error_row(sub_mesh, laplacian, i, {}, kinds,
                                            {before_here, after_here, before_here, error_time_step}, couplings);
             action(sub_mesh, i, row, kinds, couplings);
         }
