@@ -109,8 +109,11 @@ void examine(PreparedFlow& prepared, FlowingMesh& mesh, Progress& progress)
                               progress.exec())) {
             mesh.replace_faces(std::move(surface->mesh), surface->face_of);
             prepared.stiffness = std::move(surface->stiffness);
-            prepared.choices.emplace_back("Edges opposite to obtuse angles are flipped within the surface, so that "
-                                          "values stay in their range.");
+            // The factors of other filters are below 0 or above 1 for some modes.
+            prepared.choices.push_back(
+                fmt::format("Edges opposite to obtuse angles are flipped within the surface, so "
+                            "that {}.",
+                            filter_of(options).is_plain() ? "values stay in their range" : "no weight is below 0"));
             look();
             constrain_it();
         }

@@ -151,8 +151,9 @@ void apply_preset(const CLI::App& app, SmoothCommand& command)
         command.preset = default_preset(app);
     const PresetTraits& preset = preset_of(command.preset);
     if (command.noise && !preset.measures_noise())
-        throw OptionError("--noise is for --preset scan, terrain and automatic; the amount of " + command.preset +
-                          " does not depend on it");
+        throw OptionError("--noise is for --preset scan, terrain and automatic; " + command.preset +
+                          (preset.denoise ? " finds out itself how much there is at each place"
+                                          : " smooths as much whatever the noise"));
     std::string left_out;
     const bool denoise = preset.denoise && !has_amount && !wants_equation(app) && !keeps_edges(app);
     for (const PresetOption& option : options_of(preset, denoise)) {

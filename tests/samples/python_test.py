@@ -281,6 +281,8 @@ class SameBits(WithFolder):
         for wrong, message in (
             (lambda: flow.hold([len(V)]), f"vertices names vertex {len(V)}, but the mesh has {len(V)}"),
             (lambda: flow.hold([0.5]), "mask or numbers of vertices"),
+            (lambda: flow.hold(mask[:-1].astype(int)), r"names vertex . \d+ times: .* as vertices.astype\(bool\)"),
+            (lambda: flow.hold(mask.astype(int) + 1), r"names vertex . \d+ times"),
             (lambda: flow.hold(mask[:5]), rf"mask or numbers of vertices, \({len(V)},\), but is bool, \(5,\)"),
             (lambda: flow.move(region, to[:5]), "to has to be real numbers"),
             (lambda: flow.attach(region, 1.0), "only a flow with an attachment"),

@@ -362,7 +362,8 @@ def _vertex_numbers(name, value, count):
     if array.size == 0:
         return np.zeros(0, dtype=np.int32)
     if array.ndim != 1 or array.dtype.kind not in "iu":
-        raise ValueError(f"{name} has to be a mask or numbers of vertices, but is {array.dtype}, {array.shape}")
+        raise ValueError(f"{name} has to be a mask or numbers of vertices, of shape (n,), but is {array.dtype}, "
+                         f"{array.shape}")
     if len(array) == count and (count > 2 or array.dtype == np.uint8) and np.all((array == 0) | (array == 1)):
         # Numbers would be those of two vertices, again and again.
         array = np.flatnonzero(array)
@@ -372,6 +373,10 @@ def _vertex_numbers(name, value, count):
     wrong = array[(array < 0) | (array >= count)]
     if wrong.size > 0:
         raise ValueError(f"{name} names vertex {wrong[0]}, but the mesh has {count} vertices")
+    numbers, times = np.unique(array, return_counts=True)
+    if len(array) > 2 * len(numbers):
+        raise ValueError(f"{name} names vertex {numbers[times.argmax()]} {times.max()} times: give the number of each "
+                         f"vertex once, or a mask of {count} as {name}.astype(bool)")
     return np.ascontiguousarray(array, dtype=np.int32)
 
 
