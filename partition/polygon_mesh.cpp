@@ -86,7 +86,10 @@ std::vector<std::uint8_t> used_by_faces(const PolygonMesh& mesh, const Executor&
 {
     std::vector<std::uint8_t> is_used(usize(mesh.n_vertices()), 0);
     for_each(exec, mesh.n_corners(), [&](Index corner) {
-        std::atomic_ref(is_used[mesh.face_vertices[corner]]).store(1, std::memory_order_relaxed);
+        // Written once: threads would wait for each other's lines of memory.
+        const std::atomic_ref mark(is_used[mesh.face_vertices[corner]]);
+        if (mark.load(std::memory_order_relaxed) == 0)
+            mark.store(1, std::memory_order_relaxed);
     });
     return is_used;
 }
