@@ -19,6 +19,7 @@
 #include "partition/io/input_position.h"
 #include "partition/metrics/bounding_box.h"
 #include "partition/weld.h"
+#include "partition/with_faces.h"
 #include "solvers/laplacian/degenerate.h"
 #include "solvers/laplacian/laplacian.h"
 

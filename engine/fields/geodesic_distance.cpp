@@ -18,6 +18,7 @@
 #include "partition/errors.h"
 #include "partition/index_lists.h"
 #include "partition/topology.h"
+#include "partition/with_faces.h"
 #include "solvers/direct/ldl_solver.h"
 
 namespace seamflow {

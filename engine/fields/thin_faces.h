@@ -1,6 +1,6 @@
 #pragma once
 
-#include <functional>
+#include <span>
 
 #include "partition/polygon_mesh.h"
 
@@ -10,8 +10,5 @@ namespace seamflow {
 /// rounding errors outweigh M in steps as long as those of distances and of what is extended. Faces without area (see
 /// has_area) are thin.
 bool is_thin(std::span<const Index> face, const Points& positions);
-
-/// The same vertices, and the faces for which keeps(f) holds.
-PolygonMesh with_faces(const PolygonMesh& mesh, const std::function<bool(Index f)>& keeps);
 
 }  // namespace seamflow

@@ -137,7 +137,7 @@ enum class Junctions {
 /// Compensation for the shrinking of the surface.
 enum class Rescale {
     None,
-    /// Scales every result to the area of the input, and moves its centroid to that of the input.
+    /// Scales each component of every result to its area in the input, and moves its centroid to that in the input.
     Area,
     /// The same for the enclosed volume of closed, consistently oriented surfaces.
     Volume,

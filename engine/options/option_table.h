@@ -79,7 +79,8 @@ auto option_table(Options& options)
                      positive("above 0 and finite (a length; empty: no bound)")}),
         row(rescale, {"rescale", "--rescale", group::amount, equation | concern::motion | whole_surface,
                       "scale the result to the area or volume of the input [none]\n"
-                      "The centroid stays. Not with fixed vertices; open surfaces therefore need --boundary free."}),
+                      "Each component keeps its centroid. Not with fixed vertices; open surfaces therefore need "
+                      "--boundary free."}),
         row(keep_edges,
             {"keep_edges", "--keep-edges", group::kept, concern::motion | whole_surface,
              "keep edges sharper than this angle between faces, in degrees, and their corners; 20 to 40 suit "

@@ -46,7 +46,7 @@ struct PeerSubMeshes {
 class SchurStepper final : public ConvergedStepper {
   public:
     /// @param progress must outlive the stepper.
-    /// @throws ComputationError naming the sub-mesh if an analysis fails; OptionError if the memory limit is too low;
+    /// @throws ComputationError naming the sub-mesh if an analysis fails; MemoryLimitError if the limit is too low;
     ///         Cancelled, as all functions that take time.
     SchurStepper(const PolygonMesh& mesh, const Topology& topology, const Cut& cut, const FlowOptions& options,
                  Progress& progress);

@@ -59,7 +59,7 @@ class SweepStepper final : public Stepper {
     /// Cuts out the sub-meshes, analyses their equations and builds the graph.
     /// @param mesh, topology, progress must outlive the stepper.
     /// @param curvature #V: ‖ΔV⁰‖; empty: as if it were 0.
-    /// @throws ComputationError naming the sub-mesh if an analysis fails; OptionError if the memory limit is too low;
+    /// @throws ComputationError naming the sub-mesh if an analysis fails; MemoryLimitError if the limit is too low;
     ///         Cancelled, as all functions that take time.
     SweepStepper(const PolygonMesh& mesh, const Topology& topology, const Cut& cut, const FlowOptions& options,
                  std::vector<double> curvature, Progress& progress);

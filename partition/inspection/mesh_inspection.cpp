@@ -15,6 +15,7 @@
 #include "partition/metrics/spikes.h"
 #include "partition/vector_area.h"
 #include "partition/weld.h"
+#include "partition/with_faces.h"
 
 namespace seamflow {
 
@@ -167,10 +168,8 @@ void inspect_duplicates(const Surface& s, const Executor& exec, MeshInspection& 
         found.counts.components = face_components(s.mesh, s.topology).count();
         return;
     }
-    PolygonMesh single{.vertices = s.mesh.vertices, .face_offsets = {0}, .face_vertices = {}};
-    for (const Index f : faces)
-        if (!std::ranges::binary_search(found.defects.duplicate_faces, f))
-            single.add_face(s.mesh.face(f));
+    const PolygonMesh single =
+        with_faces(s.mesh, [&](Index f) { return !std::ranges::binary_search(found.defects.duplicate_faces, f); });
     found.counts.components = face_components(single, make_topology(single, exec)).count();
 }
 

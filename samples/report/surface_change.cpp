@@ -13,6 +13,7 @@
 #include "partition/metrics/volume.h"
 #include "partition/surface_components.h"
 #include "partition/vector_area.h"
+#include "partition/with_faces.h"
 #include "samples/meshes/surface_sample.h"
 
 namespace seamflow {
@@ -114,17 +115,6 @@ class Surface {
     std::optional<EnclosedCells> cells_;
 };
 
-/// The faces that flow.
-/// @param repeated see MeshReport; not empty.
-PolygonMesh without(const std::vector<Index>& repeated, const PolygonMesh& mesh)
-{
-    PolygonMesh faces{.vertices = mesh.vertices, .face_offsets = {0}, .face_vertices = {}};
-    for (Index f = 0; f < mesh.n_faces(); ++f)
-        if (!std::ranges::binary_search(repeated, f))
-            faces.add_face(mesh.face(f));
-    return faces;
-}
-
 /// The faces alone.
 /// @param moved_with see MeshReport; not empty.
 PolygonMesh joined(const PolygonMesh& mesh, const std::vector<Index>& moved_with, const Executor& exec)
@@ -169,7 +159,7 @@ SurfaceChange SurfaceChangeMeter::measure(const PolygonMesh& mesh, const MeshRep
         moved.add(sums);
     std::optional<PolygonMesh> single;
     if (!report.repeated_faces.empty())
-        single = without(report.repeated_faces, mesh);
+        single = with_faces(mesh, [&](Index f) { return !std::ranges::binary_search(report.repeated_faces, f); });
     const PolygonMesh& flowing = single ? *single : mesh;
     std::optional<PolygonMesh> welded;
     if (!report.moved_with.empty())
