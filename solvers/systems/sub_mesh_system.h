@@ -11,6 +11,7 @@
 #include "solvers/direct/direct_solver.h"
 #include "solvers/laplacian/flow_terms.h"
 #include "solvers/laplacian/laplacian.h"
+#include "solvers/laplacian/symmetric_laplacian.h"
 #include "solvers/systems/interface_role.h"
 
 namespace seamflow {
@@ -98,6 +99,8 @@ struct SystemParts {
     FlowTerms terms = {};
     /// Runs what several threads can do at once for this sub-mesh; empty: nothing is.
     Executor exec = {};
+    /// See make_symmetric_laplacian.
+    std::size_t most_corners = most_corners_without_auxiliary;
 };
 
 /// The equations with a condition of any kind on Γ.
