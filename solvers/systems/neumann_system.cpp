@@ -20,13 +20,13 @@ constexpr float least_pivot_of_single = 1e-3F;
 }  // namespace
 
 NeumannSystem::NeumannSystem(const SubMesh& sub_mesh, IndexLists faces, const ScaledLaplacian& laplacian,
-                             const FlowTerms& terms, std::size_t most_corners)
+                             const FlowTerms& terms)
     : n_interface_(sub_mesh.interface.size())
     , faces_(std::move(faces))
     , matrix_{make_symmetric_laplacian(laplacian,
                                        {faces_, sub_mesh.interface.halo_faces, sub_mesh.twin,
                                         sub_mesh.n_vertices + sub_mesh.n_halo, Contributions::OwnFaces},
-                                       most_corners),
+                                       most_corners_without_auxiliary),
               sub_mesh.n_vertices + sub_mesh.n_halo}
     , solver_(number_unknowns(sub_mesh), n_interface_, {}, {}, matrix_.pivots())
 {

@@ -29,9 +29,8 @@ class NeumannSystem {
     /// @param sub_mesh without overlap; needed only during the call.
     /// @param faces its face_vertices: most of the data that Δ_A and Δ_B keep; Δ_F keeps edges.
     /// @throws ComputationError if the analysis fails.
-    /// @param most_corners see make_symmetric_laplacian.
     NeumannSystem(const SubMesh& sub_mesh, IndexLists faces, const ScaledLaplacian& laplacian,
-                  const FlowTerms& terms = {}, std::size_t most_corners = most_corners_without_auxiliary);
+                  const FlowTerms& terms = {});
     NeumannSystem(const NeumannSystem&) = delete;
     NeumannSystem& operator=(const NeumannSystem&) = delete;
 

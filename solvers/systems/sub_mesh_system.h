@@ -11,7 +11,6 @@
 #include "solvers/direct/direct_solver.h"
 #include "solvers/laplacian/flow_terms.h"
 #include "solvers/laplacian/laplacian.h"
-#include "solvers/laplacian/symmetric_laplacian.h"
 #include "solvers/systems/interface_role.h"
 
 namespace seamflow {
@@ -99,8 +98,6 @@ struct SystemParts {
     FlowTerms terms = {};
     /// Runs what several threads can do at once for this sub-mesh; empty: nothing is.
     Executor exec = {};
-    /// See make_symmetric_laplacian.
-    std::size_t most_corners = most_corners_without_auxiliary;
 };
 
 /// The equations with a condition of any kind on Γ.

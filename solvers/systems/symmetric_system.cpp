@@ -16,7 +16,7 @@ SymmetricSystem::SymmetricSystem(const SystemParts& parts, SymmetricRows rows, S
     , matrix_{make_symmetric_laplacian(parts.laplacian,
                                        {sub_mesh_->face_vertices, sub_mesh_->interface.halo_faces, parts.twin,
                                         sub_mesh_->n_vertices + sub_mesh_->n_halo},
-                                       parts.most_corners),
+                                       most_corners_without_auxiliary),
               sub_mesh_->n_vertices + sub_mesh_->n_halo}
 {
     const std::span<const Index> local_to_global = sub_mesh_->local_to_global;
