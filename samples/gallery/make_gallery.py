@@ -18,6 +18,8 @@ import numpy as np
 
 HALF = 400  # pixels: the width of each of the two pictures
 SAMPLES = 2  # along each side of a pixel
+MOST_BYTES = 150_000  # of a picture
+PAGE = pathlib.Path(__file__).parent.parent / "gallery.md"
 NUMBERS = {"char": "i1", "uchar": "u1", "short": "<i2", "ushort": "<u2", "int": "<i4", "uint": "<u4",
            "float": "<f4", "double": "<f8"}
 RAMP = np.array([[48, 59, 142], [42, 129, 171], [94, 187, 142], [228, 208, 96], [206, 80, 62]], float)
@@ -168,6 +170,8 @@ class Gallery:
 
     def run(self, command):
         program, *arguments = shlex.split(command)
+        if program == "smooth" and f"    {command}\n" not in PAGE.read_text():
+            sys.exit(f"{PAGE.name} does not have the command that makes its picture: {command}")
         print("   ", command)
         subprocess.run([self.programs / program, *arguments], cwd=self.folder, check=True, stdout=subprocess.DEVNULL)
 
@@ -176,7 +180,10 @@ class Gallery:
 
     def save(self, name, view, before, after):
         pictures = [view.draw(*picture) for picture in (before, after)]
-        write_png(self.out / f"{name}.png", np.concatenate(pictures, axis=1))
+        path = self.out / f"{name}.png"
+        write_png(path, np.concatenate(pictures, axis=1))
+        if path.stat().st_size > MOST_BYTES:
+            sys.exit(f"{path} has {path.stat().st_size} bytes, more than {MOST_BYTES}")
 
     def clay(self, mesh):
         return mesh, np.broadcast_to(CLAY, mesh.points.shape)
@@ -208,7 +215,7 @@ class Gallery:
         self.save("labels", View(before.points, -0.9, 0.6), (before, colours, True), (after, colours, True))
 
     def field(self):
-        self.run("generate noisy-sphere sphere.ply --vertices 8000 --amplitude 0.12 --noise 0")
+        self.run("generate noisy-sphere sphere.ply --vertices 6000 --amplitude 0.12 --noise 0")
         sphere = self.read("sphere.ply")
         x, y, z = sphere.points.T
         random = np.random.default_rng(1)
