@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "partition/executor.h"
+#include "partition/large_arrays.h"
 
 namespace seamflow {
 
@@ -56,7 +57,7 @@ class DisjointSets {
     std::pair<std::vector<Index>, Index> numbered(const Executor& exec)
     {
         const std::vector<Index> lowest = select(exec, size(), [&](Index i) { return next_of(i) == i; });
-        std::vector<Index> number(towards_lowest_.size());
+        auto number = large_vector<Index>(towards_lowest_.size());
         const auto n = static_cast<Index>(lowest.size());
         for_each(exec, n, [&](Index set) { number[lowest[set]] = set; });
         for_each(exec, size(), [&](Index i) {

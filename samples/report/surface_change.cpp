@@ -140,7 +140,6 @@ void find_crossings(const PolygonMesh& mesh, const Points& before, SurfaceChange
 }  // namespace
 
 SurfaceChangeMeter::SurfaceChangeMeter(const PolygonMesh& mesh, const Executor& exec)
-    : positions_(mesh.n_vertices(), 3)
 {
     copy(exec, mesh.vertices, positions_);
 }

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "partition/errors.h"
+#include "partition/large_arrays.h"
 
 namespace seamflow {
 
@@ -22,12 +23,6 @@ constexpr double most_positive = 0.05;
 constexpr float part_of_fill = 0.8F;
 /// Relative to the diagonal.
 constexpr float least_pivot = 0.1F;
-
-template <class Value>
-void reserve(std::unique_ptr<Value[]>& buffer, Index n)
-{
-    buffer = std::make_unique_for_overwrite<Value[]>(n);
-}
 
 /// 0 where the denominator is not positive.
 Eigen::Array4f quotients(const Eigen::Array4d& numerators, const Eigen::Array4d& denominators)
@@ -48,7 +43,7 @@ BlockRowMatrix::BlockRowMatrix(std::vector<Index> blocks, const Pattern& pattern
     };
     std::vector<Lists> lists(blocks_.size() - 1);
     for (std::vector<Index>* begin : {&lower_.begin, &upper_.begin, &outer_.begin})
-        begin->assign(usize(n_rows()) + 1, 0);
+        *begin = large_vector<Index>(usize(n_rows()) + 1);
     for_each_block(exec, [&](Index block, Index begin, Index end) {
         lists[block] = {pattern(block), {}};
         for (Index i = begin; i < end; ++i) {
@@ -60,6 +55,7 @@ BlockRowMatrix::BlockRowMatrix(std::vector<Index> blocks, const Pattern& pattern
             outer_.begin[i + 1] = static_cast<Index>(columns.size()) - parts[2] + parts[0];
         }
     });
+    const auto reserve = []<class Value>(Buffer<Value>& buffer, Index n) { buffer = uninitialised<Value>(usize(n)); };
     const auto reserve_entries = [&](auto& entries) {
         if (std::accumulate(entries.begin.begin(), entries.begin.end(), std::int64_t{0}) >
             std::numeric_limits<Index>::max())
