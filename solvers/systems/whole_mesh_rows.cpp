@@ -162,6 +162,10 @@ BlockRowMatrix make_matrix(const PolygonMesh& mesh, const Topology& topology, co
             [&](Index block) {
                 RowPattern pattern(mesh, topology, rows.row_of, reach);
                 IndexLists columns;
+                const auto n_rows = usize(begin[block + 1] - begin[block]);
+                columns.offsets.reserve(n_rows + 1);
+                // Of triangles, a vertex has as many neighbours as corners.
+                columns.values.reserve(n_rows * mesh.face_vertices.size() / usize(std::max(mesh.n_vertices(), 1)));
                 for (Index i = begin[block]; i < begin[block + 1]; ++i) {
                     if (topology.moves(vertices.values[i])) {
                         const std::vector<Index>& row = pattern.list(vertices.values[i]);
