@@ -303,7 +303,7 @@ std::string edited(std::string_view text, JsonEdits edits)
 void write_binary_gltf(OutputFile& file, const GltfContent& content, std::string text, const NewBuffers& now)
 {
     constexpr std::size_t unit = 4;
-    if (text.size() % unit != 0 && text != content.text()) {
+    if (text != content.text()) {
         text.resize(text.find_last_not_of(' ') + 1);
         text.resize((text.size() + unit - 1) / unit * unit, ' ');
     }

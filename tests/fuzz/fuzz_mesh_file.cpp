@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "partition/errors.h"
+#include "partition/formats/gltf.h"
 #include "partition/formats/mesh_io.h"
 #include "partition/formats/obj.h"
 #include "partition/formats/off.h"
@@ -118,7 +119,7 @@ void write_and_read_again(const FuzzedFile& file, const MeshFile& read)
 }
 
 /// Reads the content of a file in slices of few bytes.
-PolygonMesh read_in_slices(std::string_view content)
+PolygonMesh read_in_slices(const OpenFile& file, std::string_view content)
 {
     const Slicing slicing{run_serially, 7};
     switch (*format_of("a" + extension)) {
@@ -128,6 +129,11 @@ PolygonMesh read_in_slices(std::string_view content)
         return read_off("a", content, slicing);
     case FileFormat::Ply:
         return read_ply("a", content, slicing).mesh;
+    case FileFormat::Glb:
+    case FileFormat::Gltf:
+        if (const auto all = with_gltf_buffers(file, content))
+            return read_gltf("a", InputFile(*all).content(), slicing);
+        return read_gltf("a", content, slicing);
     case FileFormat::Stl:
         break;
     }
@@ -138,8 +144,8 @@ PolygonMesh read_in_slices(std::string_view content)
 std::optional<PolygonMesh> mesh_in_slices(const FuzzedFile& file)
 {
     try {
-        const InputFile input{OpenFile(file.path())};
-        return read_in_slices(input.content());
+        const OpenFile open(file.path());
+        return read_in_slices(open, InputFile(open).content());
     } catch (const InputError&) {
         return std::nullopt;
     }
