@@ -27,19 +27,19 @@ void add_to_list(std::string& list, const std::string& element)
 
 }  // namespace
 
-int GltfMaker::view(std::string_view bytes, const std::string& more)
+int GltfMaker::view(std::string_view bytes, const std::string& others)
 {
     bytes_.resize((bytes_.size() + 3) / 4 * 4, '\0');
     add_to_list(views_, fmt::format(R"({{"buffer":0,"byteOffset":{},"byteLength":{}{}{}}})", bytes_.size(),
-                                    bytes.size(), more.empty() ? "" : ",", more));
+                                    bytes.size(), others.empty() ? "" : ",", others));
     bytes_ += bytes;
     return n_views_++;
 }
 
-int GltfMaker::accessor(int view, int component, int count, const std::string& type, const std::string& more)
+int GltfMaker::accessor(int view, int component, int count, const std::string& type, const std::string& others)
 {
     add_to_list(accessors_, fmt::format(R"({{"bufferView":{},"componentType":{},"count":{},"type":"{}"{}{}}})", view,
-                                        component, count, type, more.empty() ? "" : ",", more));
+                                        component, count, type, others.empty() ? "" : ",", others));
     return n_accessors_++;
 }
 

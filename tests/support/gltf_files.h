@@ -18,13 +18,13 @@ std::string bytes_of(const std::vector<Number>& numbers)
 class GltfMaker {
   public:
     /// Bytes of a view of their own.
-    /// @param more of its members, such as "\"byteStride\":24".
+    /// @param others of its members, such as "\"byteStride\":24".
     /// @returns its number.
-    int view(std::string_view bytes, const std::string& more = "");
+    int view(std::string_view bytes, const std::string& others = "");
 
-    /// @param more of its members, such as "\"min\":[0]".
+    /// @param others of its members, such as "\"min\":[0]".
     /// @returns its number.
-    int accessor(int view, int component, int count, const std::string& type, const std::string& more = "");
+    int accessor(int view, int component, int count, const std::string& type, const std::string& others = "");
 
     /// Vectors of three floats, with their bounds.
     int vectors(const std::vector<float>& numbers);
