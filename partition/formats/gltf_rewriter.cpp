@@ -413,9 +413,13 @@ std::vector<std::string> extras_of_gltf(const std::filesystem::path& path, std::
                 add_once(extras, "points and lines");
         }
     }
-    for (const char* const list : {"materials", "textures", "animations", "skins", "cameras", "nodes"})
+    for (const char* const list : {"materials", "textures", "animations", "skins", "cameras"})
         if (root[list].size() > 0)
-            extras.push_back(list == std::string_view("nodes") ? "nodes and their transforms" : list);
+            extras.emplace_back(list);
+    for (std::size_t n = 0; n < root["nodes"].size(); ++n)
+        for (const char* const transform : {"matrix", "translation", "rotation", "scale"})
+            if (root["nodes"].at(n)[transform].is_there())
+                add_once(extras, "transforms of nodes");
     return extras;
 }
 

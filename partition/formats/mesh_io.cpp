@@ -369,9 +369,10 @@ FileFields read_fields(const MeshSource& source, std::span<const std::string> na
     const FileFormat kind = source.kind().format;
     const Format& format = functions_of(kind);
     if (format.read_fields == nullptr)
-        throw InputError(fmt::format("{}: {} files have no numbers of vertices besides positions; convert the mesh and "
-                                     "its data to PLY",
-                                     source.path().string(), traits_of(kind).name));
+        throw InputError(
+            fmt::format("{}: no numbers of vertices besides positions are read from {} files; convert the mesh "
+                        "and its data to PLY",
+                        source.path().string(), traits_of(kind).name));
     const InputFile input = source.read_again(exec);
     return format.read_fields(source.path(), input.content(), names, {exec});
 }
