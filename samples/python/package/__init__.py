@@ -35,8 +35,8 @@ def smooth(V, F=None, *, fixed=None, labels=None, edges=None, attach_weights=Non
     """Smooths a mesh by mean curvature flow; with the same options the result has the same bits as that of the program
     `smooth`. Without an amount it finds the noise of each place and removes it.
 
-    V: positions, (#V, 3), of which a copy is smoothed; or, without F, a mesh of trimesh, meshio, Open3D, VTK or PyVista,
-        or a surface of nibabel (GIFTI). The mesh stays as it is.
+    V: positions, (#V, 3), of which a copy is smoothed; or, without F, a mesh of trimesh, meshio, Open3D, VTK or
+        PyVista, or a surface of nibabel (GIFTI). The mesh stays as it is.
     F: faces, (#F, 3) or (#F, 4) and so on, with the vertices of each numbered from 0; or a list of polygons.
     fixed: vertices that stay where they are, as a mask (#V, bool; or whole numbers, 0 and 1 alone) or by their numbers.
     labels: the sub-mesh of every face, (#F,), at least 0.
@@ -155,7 +155,8 @@ def diffuse(V, F=None, fields=None, *, fwhm=None, keep_edges=None, fill=False, b
     """Smooths fields on a surface by its heat equation, while the surface stays. All columns share one factorisation.
 
     V, F: as for smooth(); with a mesh in place of V, F is None.
-    fields: values at the vertices, (#V,) or (#V, n), or data of nibabel (GIFTI), a column for each array. NaN is no data: such vertices take no part and stay NaN.
+    fields: values at the vertices, (#V,) or (#V, n), or data of nibabel (GIFTI), a column for each array. NaN is no
+        data: such vertices take no part and stay NaN.
     fwhm: full width at half maximum of the smoothing, a length or "2%" of the diagonal; or give radius, time_step or
         time_step_edges. With fwhm, steps is 10 unless it is given.
     keep_edges: differences of fields well above this stay (Perona and Malik); all columns count together.
