@@ -31,6 +31,16 @@ std::vector<Value> large_vector(std::size_t n, const Value& value = Value())
     return values;
 }
 
+/// Gives a matrix of Eigen another size, in large pages where the system has them; all entries are still to be set.
+template <class Matrix>
+void resize_large(Matrix& matrix, std::ptrdiff_t rows, std::ptrdiff_t columns)
+{
+    if (matrix.rows() == rows && matrix.cols() == columns)
+        return;
+    matrix.resize(rows, columns);
+    prefer_large_pages(matrix.data(), static_cast<std::size_t>(matrix.size()) * sizeof(typename Matrix::Scalar));
+}
+
 /// n values that are still to be set, in large pages where the system has them: touched by the threads that fill them,
 /// not by the one that allocates them.
 template <class Value>

@@ -97,15 +97,14 @@ std::vector<std::uint8_t> used_by_faces(const PolygonMesh& mesh, const Executor&
 
 Points uninitialised_points(Index n)
 {
-    Points points(n, 3);
-    prefer_large_pages(points.data(), usize(n) * 3 * sizeof(double));
+    Points points(0, 3);
+    resize_large(points, n, 3);
     return points;
 }
 
 void copy(const Executor& exec, const Points& from, Points& to)
 {
-    if (to.rows() != from.rows())
-        to = uninitialised_points(static_cast<Index>(from.rows()));
+    resize_large(to, from.rows(), 3);
     for_each_block(exec, static_cast<Index>(from.rows()), [&](Index, Index begin, Index end) {
         to.middleRows(begin, end - begin) = from.middleRows(begin, end - begin);
     });

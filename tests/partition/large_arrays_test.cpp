@@ -51,7 +51,12 @@ TEST_CASE("large arrays ask for large pages, and have the values of others")
     const auto numbers = uninitialised<double>(many);
     const Points points = uninitialised_points(static_cast<Index>(many));
     CHECK(points.rows() == static_cast<Eigen::Index>(many));
+    Eigen::MatrixXf matrix;
+    resize_large(matrix, 3, static_cast<Eigen::Index>(many));
+    CHECK(matrix.rows() == 3);
+    CHECK(matrix.cols() == static_cast<Eigen::Index>(many));
     if (system_has_large_pages()) {
+        CHECK(prefers_large_pages(matrix.data() + many));
         CHECK(prefers_large_pages(equal.data() + many / 2));
         CHECK(prefers_large_pages(numbers.get() + many / 2));
         CHECK(prefers_large_pages(points.data() + many));
