@@ -5,7 +5,6 @@
 #include <umfpack.h>
 
 #include "solvers/direct/suitesparse.h"
-#include "solvers/platform/blas_work_area.h"
 
 namespace seamflow {
 
@@ -142,7 +141,6 @@ class UmfpackLu final : public DirectSolver {
     {
         numeric_ = {nullptr, values, &way};
         void* numbers = nullptr;
-        const BlasWorkArea turn;
         const int status =
             static_cast<int>(Interface::numeric(view_.offsets(), view_.rows(), values.data(), way.symbolic.get(),
                                                 &numbers, way.control.data(), info_.data()));
