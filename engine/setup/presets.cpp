@@ -95,17 +95,17 @@ void smooth_nothing(PresetChoice& choice, double mean_edge, std::string remark)
 /// Puts spikes among their neighbours, so that they count neither as noise nor as shape. The flow is to hold them, and
 /// their neighbours, which they would drag along: unless all vertices have to move.
 /// @returns nothing if there are none.
-std::optional<PolygonMesh> without_spikes(const PolygonMesh& mesh, const Topology& topology,
-                                          const std::vector<Spike>& spikes, MotionOptions& motion)
+std::optional<PolygonMesh> hold_spikes(const PolygonMesh& mesh, const Topology& topology,
+                                       const std::vector<Spike>& spikes, MotionOptions& motion)
 {
     if (spikes.empty())
         return {};
     std::optional<PolygonMesh> without = mesh;
+    without->vertices = without_spikes(mesh, topology, spikes, mesh.vertices);
     for (const Spike& spike : spikes) {
-        const std::vector<Index> around = neighbours_of(mesh, topology, spike.vertex);
-        without->vertices.row(spike.vertex) = mesh.vertices(around, Eigen::all).colwise().mean();
         if (motion.rescale != Rescale::None)
             continue;
+        const std::vector<Index> around = neighbours_of(mesh, topology, spike.vertex);
         motion.fixed_vertices.push_back(spike.vertex);
         motion.fixed_vertices.insert(motion.fixed_vertices.end(), around.begin(), around.end());
     }
@@ -122,7 +122,7 @@ void choose_by_noise(const PolygonMesh& mesh, const std::optional<LengthOnMesh>&
     const PolygonMesh* const joined_mesh = welded ? &welded->mesh : &mesh;
     const std::vector<Spike> spikes = find_spikes(*joined_mesh, joined_mesh->vertices, exec);
     const std::optional<PolygonMesh> without =
-        without_spikes(*joined_mesh, welded ? welded->topology : topology, spikes, choice.options.motion);
+        hold_spikes(*joined_mesh, welded ? welded->topology : topology, spikes, choice.options.motion);
     const PolygonMesh& flowing = without ? *without : *joined_mesh;
     const Topology& joined = welded ? welded->topology : topology;
     const double mean_edge = mean_edge_length(mesh, mesh.vertices, exec);

@@ -1,22 +1,35 @@
 #include "engine/steppers/directed_motion.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "partition/metrics/feathered.h"
+#include "partition/vector_area.h"
 
 namespace seamflow {
 
 namespace {
 
-/// Where the cosine between a line and the normal of the surface is smaller, as at walls along the line, the moved
-/// surface is not followed all the way.
-constexpr double least_cosine = 0.7;
+/// Where the cosine between a line and the normal of the surface is smaller, the surface stands along the line, and it
+/// is a matter of rounding which of its points the line meets.
+constexpr double least_cosine = 0.01;
 
-/// The way along a line of direction d to the plane through the moved point with normal n.
-double way_to_surface(const Point& way, const Point& d, const Point& n)
+/// Near a silhouette, where a surface turns over as seen along the lines, many of them miss the moved surface. There,
+/// the moved surface is followed all the way only where the cosine is larger than this.
+constexpr double least_cosine_at_silhouette = 0.7;
+
+/// Ways along lines of this fraction of the distance from a silhouette are half of the one and half of the other.
+constexpr double halved_at = 1.0 / 16.0;
+
+/// The way along a line of direction d to the plane through the moved point with normal n; less of it where their
+/// cosine is below `least`.
+double way_to_plane(const Point& way, const Point& d, const Point& n, double least)
 {
     const double along = way.dot(d);
     const double cosine = d.dot(n);
     const Point aside = way - along * d;
-    return along + aside.dot(n) * cosine / std::max(cosine * cosine, least_cosine * least_cosine);
+    return along + aside.dot(n) * cosine / std::max(cosine * cosine, least * least);
 }
 
 /// Replaces each way by another one, coordinate by coordinate.
@@ -39,7 +52,9 @@ void move_each(const Points& before, Points& after, const Executor& exec, NewWay
 }  // namespace
 
 DirectedMotion::DirectedMotion(const PolygonMesh& mesh, const Topology& topology, const MotionDirection& direction)
-    : direction_(direction.vector.stableNormalized())
+    : mesh_(mesh)
+    , topology_(topology)
+    , direction_(direction.vector.stableNormalized())
     , follows_normals_(direction.kind == MotionDirection::Kind::Normal)
     , normals_(mesh, topology)
 {
@@ -48,10 +63,58 @@ DirectedMotion::DirectedMotion(const PolygonMesh& mesh, const Topology& topology
 void DirectedMotion::project(const Points& before, Points& after, const Executor& exec) const
 {
     const Points moved = after;
+    if (follows_normals_) {
+        move_each(before, after, exec, [&](Index v, const Point& way) {
+            const Point n = normals_(v, moved);
+            return Point(way.dot(n) * n);
+        });
+        return;
+    }
+    const std::vector<Index> silhouette =
+        select(exec, mesh_.n_vertices(), [&](Index v) { return is_on_silhouette(v, before); });
+    const std::vector<double> distances =
+        distances_from(mesh_, topology_, silhouette, std::numeric_limits<double>::infinity());
     move_each(before, after, exec, [&](Index v, const Point& way) {
         const Point n = normals_(v, moved);
-        return follows_normals_ ? Point(way.dot(n) * n) : Point(way_to_surface(way, direction_, n) * direction_);
+        const double shorter = way_to_plane(way, direction_, n, least_cosine_at_silhouette);
+        if (std::abs(direction_.dot(n)) >= least_cosine_at_silhouette || n.isZero(0.0))
+            return Point(shorter * direction_);
+        const double whole = least_way(v, way, moved);
+        const double relative = whole / (halved_at * distances[v]);
+        return Point((whole == 0.0 ? 0.0 : shorter + (whole - shorter) / (1.0 + relative * relative)) * direction_);
     });
+}
+
+double DirectedMotion::least_way(Index v, const Point& way, const Points& moved) const
+{
+    double least = way_to_plane(way, direction_, normals_(v, moved), least_cosine);
+    for (const Index corner : topology_.corners_at(v)) {
+        const Point n = vector_area(mesh_.face(topology_.face_of[corner]), moved).stableNormalized();
+        if (n.isZero(0.0))
+            continue;
+        const double to_plane = way_to_plane(way, direction_, n, least_cosine);
+        if (std::abs(to_plane) < std::abs(least))
+            least = to_plane;
+    }
+    return least;
+}
+
+bool DirectedMotion::is_on_silhouette(Index v, const Points& positions) const
+{
+    if (topology_.kind[v] == VertexKind::Junction)
+        return true;
+    bool rises = false;
+    bool falls = false;
+    for (const Index corner : topology_.corners_at(v)) {
+        const std::span<const Index> face = mesh_.face(topology_.face_of[corner]);
+        const double area = area_above_rounding(face, positions);
+        if (area == 0.0)
+            continue;
+        const double along = normals_.sense(corner) * vector_area(face, positions).dot(direction_) / area;
+        rises = rises || along > -least_cosine;
+        falls = falls || along < least_cosine;
+    }
+    return rises && falls;
 }
 
 void DirectedMotion::straighten(const Points& before, Points& after, const Executor& exec) const

@@ -19,9 +19,11 @@ class DirectedMotion {
     [[nodiscard]] bool is_parallel() const { return !follows_normals_; }
 
     /// V' = V + ((V̂ - V)·n) n, with n the normal of V̂ at each vertex, of length 1; or V' = V + s d, the point on a line
-    /// of direction d where it meets the plane through V̂ with the normal n. So a plane stays a plane, and other
-    /// surfaces are followed, as far as lines meet them at 45° or more; less of the way is gone elsewhere. Coordinates
-    /// to which nothing is added stay bit for bit.
+    /// of direction d where it meets the plane through V̂ with the normal n, or where the surface is steeper than 45°
+    /// the nearest of this plane and those of the faces of V̂, so that walls do not spread. So a plane stays a plane,
+    /// and a height field a height field, whatever their slope. Less of the way is gone on steep parts that turn over
+    /// nearby, as seen along d: there, lines may miss the moved surface. Without a normal, at junctions, s is that of
+    /// the motion. Coordinates to which nothing is added stay bit for bit.
     /// @param before #V by 3: V. @param after in: V̂; out: V'.
     void project(const Points& before, Points& after, const Executor& exec) const;
 
@@ -29,6 +31,14 @@ class DirectedMotion {
     void straighten(const Points& before, Points& after, const Executor& exec) const;
 
   private:
+    /// Whether the faces at a vertex are seen from both sides along the lines, or one of them edgewise.
+    [[nodiscard]] bool is_on_silhouette(Index v, const Points& positions) const;
+
+    /// The shortest way along the line to the planes through V̂ of the surface at a vertex, and of the faces there.
+    [[nodiscard]] double least_way(Index v, const Point& way, const Points& moved) const;
+
+    const PolygonMesh& mesh_;
+    const Topology& topology_;
     Point direction_;
     bool follows_normals_;
     VertexNormals normals_;

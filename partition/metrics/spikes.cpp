@@ -4,12 +4,13 @@
 #include <cmath>
 #include <limits>
 #include <span>
+#include <tuple>
 #include <utility>
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
-#include "partition/index_lists.h"
+#include "partition/disjoint_sets.h"
 
 namespace seamflow {
 
@@ -17,99 +18,166 @@ namespace {
 
 constexpr double least_in_edges = 10.0;
 constexpr double least_in_boxes = 3.0;
+/// More vertices than this part of the surface beside them are a part of its shape.
+constexpr double most_of_neighbour = 0.1;
 
 double squared_length(const Points& positions, Index v, Index w)
 {
     return (positions.row(w) - positions.row(v)).squaredNorm();
 }
 
-/// Squares of lengths around a vertex.
-struct Around {
-    Index vertex = 0;
-    double shortest = std::numeric_limits<double>::infinity();
-    double longest_of_others = 0.0;
-    Eigen::AlignedBox3d neighbours = {};
+/// Calls visit(v, w) for each edge of a face.
+template <class Visit>
+void for_each_edge(std::span<const Index> corners, Visit&& visit)
+{
+    for (std::size_t k = 0; k < corners.size(); ++k)
+        visit(corners[k], corners[k + 1 < corners.size() ? k + 1 : 0]);
+}
 
-    void add(std::span<const Index> corners, const Points& positions)
+/// Sets of vertices that are connected by edges of at most ten times the shortest one at either end.
+class Blocks {
+  public:
+    Blocks(const PolygonMesh& mesh, const Points& positions)
+        : mesh_(mesh)
+        , positions_(positions)
+        , shortest_(usize(mesh.n_vertices()), std::numeric_limits<double>::infinity())
     {
-        for (std::size_t k = 0; k < corners.size(); ++k) {
-            const Index from = corners[k];
-            const Index to = corners[k + 1 < corners.size() ? k + 1 : 0];
-            const double squared = squared_length(positions, from, to);
-            if (from != vertex && to != vertex) {
-                longest_of_others = std::max(longest_of_others, squared);
-                continue;
-            }
-            shortest = std::min(shortest, squared);
-            neighbours.extend(positions.row(from == vertex ? to : from).transpose());
+        DisjointSets sets(mesh.n_vertices(), run_serially);
+        for (Index f = 0; f < mesh.n_faces(); ++f)
+            for_each_edge(mesh.face(f), [&](Index v, Index w) {
+                const double squared = squared_length(positions, v, w);
+                shortest_[v] = std::min(shortest_[v], squared);
+                shortest_[w] = std::min(shortest_[w], squared);
+            });
+        for (Index f = 0; f < mesh.n_faces(); ++f)
+            for_each_edge(mesh.face(f), [&](Index v, Index w) {
+                const double bound = least_in_edges * least_in_edges * std::min(shortest_[v], shortest_[w]);
+                if (squared_length(positions, v, w) <= bound)
+                    sets.join(v, w);
+            });
+        std::tie(block_of_, n_blocks_) = sets.numbered(run_serially);
+        around_.resize(usize(n_blocks_));
+        for (const Index block : block_of_)
+            ++around_[block].n_vertices;
+        for (Index f = 0; f < mesh.n_faces(); ++f)
+            look_at(mesh.face(f));
+    }
+
+    [[nodiscard]] std::vector<Spike> spikes() const
+    {
+        std::vector<Spike> all;
+        for (Index v = 0; v < mesh_.n_vertices(); ++v)
+            if (const Around& around = around_[block_of_[v]]; around.is_spike())
+                all.push_back({v, std::sqrt(around.shortest / around.longest_of_others)});
+        return all;
+    }
+
+  private:
+    /// Squares of lengths around a block.
+    struct Around {
+        Index n_vertices = 0;
+        /// That of the largest block beside it.
+        Index n_beside = 0;
+        double shortest = std::numeric_limits<double>::infinity();
+        double longest_of_others = 0.0;
+        Eigen::AlignedBox3d neighbours = {};
+
+        [[nodiscard]] bool is_spike() const
+        {
+            return longest_of_others > 0.0 && shortest > least_in_edges * least_in_edges * longest_of_others &&
+                   shortest > least_in_boxes * least_in_boxes * neighbours.diagonal().squaredNorm() &&
+                   (n_vertices == 1 || n_vertices <= most_of_neighbour * n_beside);
         }
+    };
+
+    void look_at(std::span<const Index> corners)
+    {
+        if (std::ranges::all_of(corners, [&](Index v) { return block_of_[v] == block_of_[corners[0]]; }))
+            return;
+        for_each_edge(corners, [&](Index v, Index w) {
+            const double squared = squared_length(positions_, v, w);
+            for (const auto& [from, to] : {std::pair(v, w), std::pair(w, v)})
+                if (block_of_[from] != block_of_[to])
+                    leave(block_of_[from], to, squared);
+            for (const Index other : corners)
+                if (block_of_[v] == block_of_[w] && block_of_[other] != block_of_[v])
+                    around_[block_of_[other]].longest_of_others =
+                        std::max(around_[block_of_[other]].longest_of_others, squared);
+        });
     }
 
-    [[nodiscard]] bool is_spike() const
+    void leave(Index block, Index to, double squared)
     {
-        return longest_of_others > 0.0 && shortest > least_in_edges * least_in_edges * longest_of_others &&
-               shortest > least_in_boxes * least_in_boxes * neighbours.diagonal().squaredNorm();
+        Around& around = around_[block];
+        around.shortest = std::min(around.shortest, squared);
+        around.neighbours.extend(positions_.row(to).transpose());
+        around.n_beside = std::max(around.n_beside, around_[block_of_[to]].n_vertices);
     }
+
+    const PolygonMesh& mesh_;
+    const Points& positions_;
+    /// #V: the squared length of the shortest edge.
+    std::vector<double> shortest_;
+    /// #V.
+    std::vector<Index> block_of_;
+    Index n_blocks_ = 0;
+    std::vector<Around> around_;
 };
 
 }  // namespace
 
-Index needle_tip(std::span<const Index> corners, const Points& positions)
+bool has_needle(std::span<const Index> corners, const Points& positions)
 {
-    // The shortest edge of such a face is not at the tip, and the longest one is.
-    double longest = -1.0;
+    double longest = 0.0;
     double shortest = std::numeric_limits<double>::infinity();
-    std::size_t at_longest = 0;
-    const std::size_t n = corners.size();
-    for (std::size_t k = 0; k < n; ++k) {
-        const double squared = squared_length(positions, corners[k], corners[k + 1 < n ? k + 1 : 0]);
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+        const double squared = squared_length(positions, corners[k], corners[k + 1 < corners.size() ? k + 1 : 0]);
+        longest = std::max(longest, squared);
         shortest = std::min(shortest, squared);
-        if (squared > longest) {
-            longest = squared;
-            at_longest = k;
-        }
     }
-    if (!(longest > least_in_edges * least_in_edges * shortest))
-        return -1;
-    for (const std::size_t tip : {at_longest, (at_longest + 1) % n}) {
-        Around around{.vertex = corners[tip]};
-        around.add(corners, positions);
-        if (around.shortest > least_in_edges * least_in_edges * around.longest_of_others)
-            return corners[tip];
-    }
-    return -1;
+    return longest > least_in_edges * least_in_edges * shortest;
 }
 
 std::vector<Spike> find_spikes(const PolygonMesh& mesh, const Points& positions, const Executor& exec)
 {
-    using Tips = std::vector<Index>;
-    Tips tips = reduce(
-        exec, mesh.n_faces(), Tips(),
-        [&](Tips& found, Index f) {
-            if (const Index tip = needle_tip(mesh.face(f), positions); tip >= 0)
-                found.push_back(tip);
-        },
-        [](Tips& all, const Tips& part) { all.insert(all.end(), part.begin(), part.end()); });
-    return spikes_among(mesh, positions, std::move(tips));
+    const std::vector<Index> needles =
+        select(exec, mesh.n_faces(), [&](Index f) { return has_needle(mesh.face(f), positions); });
+    return needles.empty() ? std::vector<Spike>() : spikes_at_needles(mesh, positions);
 }
 
-std::vector<Spike> spikes_among(const PolygonMesh& mesh, const Points& positions, std::vector<Index> tips)
+std::vector<Spike> spikes_at_needles(const PolygonMesh& mesh, const Points& positions)
 {
-    if (tips.empty())
-        return {};
-    sort_unique(tips);
-    std::vector<Around> around(tips.size());
-    for (std::size_t i = 0; i < tips.size(); ++i)
-        around[i].vertex = tips[i];
-    for (Index f = 0; f < mesh.n_faces(); ++f)
-        for (const Index v : mesh.face(f))
-            if (const Index place = position_in(tips, v); place >= 0)
-                around[place].add(mesh.face(f), positions);
-    std::vector<Spike> spikes;
-    for (const Around& one : around)
-        if (one.is_spike())
-            spikes.push_back({one.vertex, std::sqrt(one.shortest / one.longest_of_others)});
-    return spikes;
+    return Blocks(mesh, positions).spikes();
+}
+
+Points without_spikes(const PolygonMesh& mesh, const Topology& topology, const std::vector<Spike>& spikes,
+                      const Points& positions)
+{
+    Points filled = positions;
+    std::vector<Index> left;
+    for (const Spike& spike : spikes)
+        left.push_back(spike.vertex);
+    while (!left.empty()) {
+        std::vector<Index> next;
+        Points means(static_cast<Eigen::Index>(left.size()), 3);
+        std::vector<Index> done;
+        for (const Index v : left) {
+            std::vector<Index> around = neighbours_of(mesh, topology, v);
+            std::erase_if(around, [&](Index w) { return std::ranges::binary_search(left, w); });
+            if (around.empty()) {
+                next.push_back(v);
+                continue;
+            }
+            means.row(std::ssize(done)) = filled(around, Eigen::all).colwise().mean();
+            done.push_back(v);
+        }
+        if (done.empty())
+            break;
+        for (std::size_t i = 0; i < done.size(); ++i)
+            filled.row(done[i]) = means.row(static_cast<Eigen::Index>(i));
+        left = std::move(next);
+    }
+    return filled;
 }
 
 std::string remark_on_spikes(const std::vector<Spike>& spikes)

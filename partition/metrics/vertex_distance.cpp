@@ -19,8 +19,8 @@ struct LengthsOfEdges {
     double total = 0.0;
     double longest = 0.0;
     Index n = 0;
-    /// See needle_tip.
-    std::vector<Index> tips = {};
+    /// See has_needle.
+    bool has_needles = false;
 };
 
 /// @param is_left_out #V, or empty: vertices whose edges do not count.
@@ -48,15 +48,14 @@ LengthsOfEdges add_up_edges(const PolygonMesh& mesh, const Points& positions, st
         // Few faces have edges that differ so much.
         constexpr double much = 5.0;
         if (is_left_out.empty() && longest > much * shortest)
-            if (const Index tip = needle_tip(corners, positions); tip >= 0)
-                lengths.tips.push_back(tip);
+            lengths.has_needles = lengths.has_needles || has_needle(corners, positions);
     };
     return reduce(exec, mesh.n_faces(), LengthsOfEdges{}, add_face,
                   [](LengthsOfEdges& all, const LengthsOfEdges& part) {
                       all.total += part.total;
                       all.longest = std::max(all.longest, part.longest);
                       all.n += part.n;
-                      all.tips.insert(all.tips.end(), part.tips.begin(), part.tips.end());
+                      all.has_needles = all.has_needles || part.has_needles;
                   });
 }
 
@@ -70,6 +69,11 @@ bool has_long_edges(const LengthsOfEdges& edges)
 {
     constexpr double long_in_means = 4.0;
     return edges.longest > long_in_means * mean_of(edges);
+}
+
+std::vector<Spike> spikes_of(const LengthsOfEdges& all, const PolygonMesh& mesh, const Points& positions)
+{
+    return all.has_needles ? spikes_at_needles(mesh, positions) : std::vector<Spike>();
 }
 
 double mean_without(const std::vector<Spike>& spikes, const LengthsOfEdges& all, const PolygonMesh& mesh,
@@ -94,7 +98,7 @@ double mean_edge_length(const PolygonMesh& mesh)
 double mean_edge_length(const PolygonMesh& mesh, const Points& positions, const Executor& exec)
 {
     const LengthsOfEdges all = add_up_edges(mesh, positions, {}, exec);
-    return has_long_edges(all) ? mean_without(spikes_among(mesh, positions, all.tips), all, mesh, positions, exec)
+    return has_long_edges(all) ? mean_without(spikes_of(all, mesh, positions), all, mesh, positions, exec)
                                : mean_of(all);
 }
 
@@ -102,7 +106,7 @@ EdgeMeasures measure_edges(const PolygonMesh& mesh, const Points& positions, con
 {
     const LengthsOfEdges all = add_up_edges(mesh, positions, {}, exec);
     EdgeMeasures measures;
-    measures.spikes = spikes_among(mesh, positions, all.tips);
+    measures.spikes = spikes_of(all, mesh, positions);
     measures.mean = mean_without(measures.spikes, all, mesh, positions, exec);
     return measures;
 }

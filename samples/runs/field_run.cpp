@@ -53,8 +53,8 @@ void complete_options(SmoothCommand& command, const MeshFile& file, const FaultL
     about_file(command.input, [&] { resolve_field_amount(command, file.mesh, exec, run); });
 }
 
-/// A sentence on numbers that may be names of things: few different whole ones. Of two neighbours rounding makes no
-/// third.
+/// A sentence on numbers that may be names of things: few different whole ones, whatever their type. Of two neighbours
+/// rounding makes no third, and 0 and 1 may be shares.
 void remark_on_labels(const FileFields& fields, std::vector<std::string>& remarks)
 {
     constexpr std::size_t most_labels = 32;
@@ -62,11 +62,15 @@ void remark_on_labels(const FileFields& fields, std::vector<std::string>& remark
     constexpr std::array colours{"red", "green", "blue", "alpha"};
     for (Eigen::Index c = 0; c < fields.values.cols(); ++c) {
         const std::string& name = fields.names[static_cast<std::size_t>(c)];
-        if (!fields.whole[static_cast<std::size_t>(c)] || std::ranges::find(colours, name) != colours.end())
+        if (std::ranges::find(colours, name) != colours.end())
+            continue;
+        const auto is_fraction = [](double value) { return std::isfinite(value) && value != std::floor(value); };
+        if (std::ranges::any_of(fields.values.col(c), is_fraction))
             continue;
         std::set<double> labels;
         for (Eigen::Index v = 0; v < fields.values.rows() && labels.size() <= most_labels; ++v)
-            labels.insert(fields.values(v, c));
+            if (std::isfinite(fields.values(v, c)))
+                labels.insert(fields.values(v, c));
         const auto n = static_cast<Eigen::Index>(labels.size());
         if (labels.size() <= most_labels && n * least_vertices_of_each <= fields.values.rows() && !labels.empty() &&
             *labels.rbegin() - *labels.begin() > 1.0)

@@ -73,11 +73,7 @@ MeshDenoiser::cut_polygons(const PolygonMesh& mesh, const Topology& topology, co
 Points MeshDenoiser::denoise(const Points& before, std::span<const double> strengths, const Executor& exec)
 {
     spikes_ = find_spikes(*polygons_, before, exec);
-    Points positions = before;
-    for (const Spike& spike : spikes_)
-        positions.row(spike.vertex) =
-            before(neighbours_of(*polygons_, *polygon_topology_, spike.vertex), Eigen::all).colwise().mean();
-    positions = without_noise(positions, strengths, exec);
+    Points positions = without_noise(without_spikes(*polygons_, *polygon_topology_, spikes_, before), strengths, exec);
     for (const Spike& spike : spikes_)
         positions.row(spike.vertex) = before.row(spike.vertex);
     return positions;
@@ -90,8 +86,9 @@ Points MeshDenoiser::without_noise(const Points& before, std::span<const double>
     fit_vertices(*mesh_, *topology_, {},
                  {found.normals, std::min(most_relaxation, mean_chord(*mesh_, before, found.normals, exec))}, fitted,
                  exec);
-    const std::vector<double> parts = places_.find(*mesh_, *topology_, before, fitted, found, exec);
-    measure_noise(fitted - before, parts, found.normals, fitted, exec);
+    const std::vector<std::uint8_t> is_flat = flat_vertices(*mesh_, *topology_, before, exec);
+    const std::vector<double> parts = places_.find(*mesh_, *topology_, before, fitted, found, is_flat, exec);
+    measure_noise(fitted - before, parts, is_flat, found.normals, fitted, exec);
     for_each(exec, mesh_->n_vertices(), [&](Index v) {
         const double part = (strengths.empty() ? 1.0 : strengths[v]) * parts[v];
         if (part < 1.0)
@@ -103,8 +100,9 @@ Points MeshDenoiser::without_noise(const Points& before, std::span<const double>
     return result;
 }
 
-void MeshDenoiser::measure_noise(const Points& motions, const std::vector<double>& parts, const Points& normals,
-                                 const Points& after, const Executor& exec)
+void MeshDenoiser::measure_noise(const Points& motions, std::span<const double> parts,
+                                 std::span<const std::uint8_t> is_flat, const Points& normals, const Points& after,
+                                 const Executor& exec)
 {
     // Squares of motions and of edges, and the numbers of vertices with noise and of all on faces.
     using Sums = Eigen::Array4d;
@@ -113,7 +111,7 @@ void MeshDenoiser::measure_noise(const Points& motions, const std::vector<double
         [&](Index v) -> Sums {
             if (topology_->corners_at(v).empty())
                 return Sums::Zero();
-            if (parts[v] <= 0.0)
+            if (parts[v] <= 0.0 || is_flat[v] != 0)
                 return Sums(0.0, 0.0, 0.0, 1.0);
             const double motion = motion_along_normal(*topology_, normals, v, motions.row(v));
             return Sums(motion * motion, mean_squared_edge(*polygons_, *polygon_topology_, v, after), 1.0, 1.0);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
@@ -53,10 +54,10 @@ class MeshDenoiser {
 
     /// @param before without spikes.
     Points without_noise(const Points& before, std::span<const double> strengths, const Executor& exec);
-    /// @param motions #V by 3, to the positions after. @param parts #V: 0 where there is no noise.
+    /// @param motions #V by 3, to the positions after. @param parts #V: 0 where there is no noise, nor where is_flat.
     /// @param normals #F by 3.
-    void measure_noise(const Points& motions, const std::vector<double>& parts, const Points& normals,
-                       const Points& after, const Executor& exec);
+    void measure_noise(const Points& motions, std::span<const double> parts, std::span<const std::uint8_t> is_flat,
+                       const Points& normals, const Points& after, const Executor& exec);
 
     /// Null if the mesh itself has no other faces.
     static std::unique_ptr<const Triangles> cut_polygons(const PolygonMesh& mesh, const Topology& topology,

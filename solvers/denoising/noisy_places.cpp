@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <numeric>
 #include <span>
 
@@ -36,6 +37,8 @@ constexpr std::size_t fewest_faces = 200;
 /// correlations of 0.1 to 0.2, or medians of less than this part of the noise that was estimated.
 constexpr std::size_t few_faces = 10'000;
 constexpr float least_part_of_noise = 0.2F;
+/// Squared chord of normals that are equal up to rounding.
+constexpr double same_normal = 1e-12;
 /// The mean motion around a vertex up to which it stays, and from which on it goes all the way.
 constexpr float calm = 0.002F;
 constexpr float restless = 0.005F;
@@ -119,9 +122,13 @@ Components all_together(const PolygonMesh& mesh)
     return all;
 }
 
-/// @param faces of a component.
-bool is_noisy(const Motion& motion, std::span<const Index> faces)
+/// @param of_component its faces. @param is_flat #V: see flat_vertices.
+bool is_noisy(const Motion& motion, std::span<const Index> of_component, std::span<const std::uint8_t> is_flat)
 {
+    std::vector<Index> faces;
+    std::ranges::copy_if(of_component, std::back_inserter(faces), [&](Index f) {
+        return std::ranges::any_of(motion.mesh.face(f), [&](Index v) { return is_flat[v] == 0; });
+    });
     if (faces.size() < fewest_faces)
         return false;
     std::vector<float> of_vertices;
@@ -158,6 +165,26 @@ bool is_noisy(const Motion& motion, std::span<const Index> faces)
 
 }  // namespace
 
+std::vector<std::uint8_t> flat_vertices(const PolygonMesh& mesh, const Topology& topology, const Points& positions,
+                                        const Executor& exec)
+{
+    const auto normal_at = [&](Index corner) {
+        return Point(vector_area(mesh.face(topology.face_of[corner]), positions).stableNormalized());
+    };
+    std::vector<std::uint8_t> is_flat(usize(mesh.n_vertices()));
+    for_each(exec, mesh.n_vertices(), [&](Index v) {
+        const auto corners = topology.corners_at(v);
+        const auto is_like_first = [&](Index corner) {
+            // Faces need not be oriented alike.
+            const Point n = normal_at(corner);
+            const Point first = normal_at(corners[0]);
+            return std::min((n - first).squaredNorm(), (n + first).squaredNorm()) <= same_normal;
+        };
+        is_flat[v] = std::ranges::all_of(corners, is_like_first) ? 1 : 0;
+    });
+    return is_flat;
+}
+
 NoisyPlaces::NoisyPlaces(const PolygonMesh& mesh, const Topology& topology, const FaceAverages& averages, bool as_one)
     : averages_(&averages)
     , components_(as_one ? all_together(mesh) : face_components(mesh, topology))
@@ -165,12 +192,14 @@ NoisyPlaces::NoisyPlaces(const PolygonMesh& mesh, const Topology& topology, cons
 }
 
 std::vector<double> NoisyPlaces::find(const PolygonMesh& mesh, const Topology& topology, const Points& before,
-                                      const Points& after, const DenoisedNormals& found, const Executor& exec) const
+                                      const Points& after, const DenoisedNormals& found,
+                                      std::span<const std::uint8_t> is_flat, const Executor& exec) const
 {
     const Index n = mesh.n_vertices();
     const Motion motion(mesh, topology, before, after, found, exec);
     std::vector<std::uint8_t> noisy(usize(components_.count()));
-    for_each(exec, components_.count(), [&](Index c) { noisy[c] = is_noisy(motion, components_.nodes[c]) ? 1 : 0; });
+    for_each(exec, components_.count(),
+             [&](Index c) { noisy[c] = is_noisy(motion, components_.nodes[c], is_flat) ? 1 : 0; });
     FaceAverages::Rows near(mesh.n_faces(), 1);
     FaceAverages::Rows around(mesh.n_faces(), 1);
     for_each(exec, mesh.n_faces(), [&](Index f) {

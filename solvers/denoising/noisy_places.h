@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "partition/connected_components.h"
@@ -11,23 +13,29 @@
 
 namespace seamflow {
 
+/// 1 for the vertices whose faces lie in one plane up to rounding, such as those of a lake. They have no noise.
+/// @returns #V.
+std::vector<std::uint8_t> flat_vertices(const PolygonMesh& mesh, const Topology& topology, const Points& positions,
+                                        const Executor& exec = run_serially);
+
 /// Tells noise from shape by what a denoiser would take away.
 ///
 /// Noise moves most vertices of a component, and neighbours hardly alike (its residual is white); a detail that the
 /// denoiser takes for noise is somewhere, and moves neighbours alike. So a component has noise if the median of the
 /// lengths along the normals by which its vertices would move is not tiny, and the motions of neighbours are hardly
-/// correlated; or if the noise is so large that there is no doubt. Within a component, places where vertices would
-/// hardly move have no noise. No other component matters, and no single vertex does.
+/// correlated, apart from flat places; or if the noise is so large that there is no doubt. Within a component, places
+/// where vertices would hardly move have no noise. No other component matters, and no single vertex does.
 class NoisyPlaces {
   public:
     /// @param topology with twins; not needed later. @param averages of the same mesh; must outlive the object.
     /// @param as_one whether all components are judged as one.
     NoisyPlaces(const PolygonMesh& mesh, const Topology& topology, const FaceAverages& averages, bool as_one = false);
 
-    /// @param before, after #V by 3. @param found of the positions before.
+    /// @param before, after #V by 3. @param found of the positions before. @param is_flat #V: see flat_vertices.
     /// @returns #V: how much of its motion each vertex should make, from 0 to 1.
     [[nodiscard]] std::vector<double> find(const PolygonMesh& mesh, const Topology& topology, const Points& before,
                                            const Points& after, const DenoisedNormals& found,
+                                           std::span<const std::uint8_t> is_flat,
                                            const Executor& exec = run_serially) const;
 
   private:

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -184,6 +185,12 @@ TEST_CASE("labels and other whole numbers are averaged and rounded with a remark
     CHECK(remarks[1] ==
           "the values of 'label', 'half', 'red' are rounded to the nearest whole numbers, as which the file "
           "holds them");
+    // They may be labels in a property of fractions, too; 0 and 1 may be shares.
+    for (const auto& [from, to] : {std::pair("int label", "float label"), std::pair("int half", "float half")})
+        text.replace(text.find(from), std::string(from).size(), to);
+    (void)w.directory.with("float.ply", text);
+    REQUIRE(w.smooth("float.ply out.ply --fields label,half --fwhm 10% --report report.json") == 0);
+    CHECK(w.json("report.json")["remarks"] == std::vector<std::string>{remarks[0]});
     CHECK(w.smooth("in.ply out.ply --fields quality --fwhm 2") == 3);
     CHECK(w.said().find("'quality' is a property of the faces, but fields are of the vertices") != std::string::npos);
 }

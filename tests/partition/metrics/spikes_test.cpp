@@ -1,6 +1,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include <doctest/doctest.h>
 
@@ -67,6 +68,40 @@ TEST_CASE("one look at all edges finds the same spikes and the same mean as two"
             }
             CHECK(spikes.empty() == (height == 0.0));
         }
+}
+
+TEST_CASE(
+    "a block of vertices far from all around it is one spike, and is filled from its rim; half of a surface is none")
+{
+    for (const PolygonMesh& plain :
+         {make_triangles(900), make_quads(900), make_hexagons(900), make_noisy_sphere(900)}) {
+        const double edge = mean_edge_length(plain);
+        const Point middle = plain.vertices.row(plain.n_vertices() / 2);
+        const Point far(0.0, 0.0, -9999.0 * edge);
+        for (const double radius : {1.2, 2.5}) {
+            std::vector<Index> block;
+            PolygonMesh mesh = plain;
+            for (Index v = 0; v < plain.n_vertices(); ++v)
+                if ((plain.vertices.row(v) - middle).norm() < radius * edge) {
+                    block.push_back(v);
+                    mesh.vertices.row(v) += far;
+                }
+            REQUIRE(block.size() > 2);
+            const std::vector<Spike> spikes = find_spikes(mesh, mesh.vertices);
+            REQUIRE(spikes.size() == block.size());
+            for (std::size_t i = 0; i < block.size(); ++i)
+                CHECK(spikes[i].vertex == block[i]);
+            const Points filled = without_spikes(mesh, make_topology(mesh), spikes, mesh.vertices);
+            CHECK((filled - plain.vertices).rowwise().norm().maxCoeff() < (1.0 + radius) * edge);
+        }
+    }
+    for (PolygonMesh halves : {make_quads(900), make_hexagons(900)}) {
+        const double middle = halves.vertices.col(0).mean();
+        for (auto row : halves.vertices.rowwise())
+            if (row.x() > middle)
+                row.z() -= 9999.0;
+        CHECK(find_spikes(halves, halves.vertices).empty());
+    }
 }
 
 TEST_CASE("the middle of a disc and the tip of a cone are no spikes, however many triangles they have")

@@ -71,6 +71,34 @@ void close(PolygonMesh& mesh, std::span<const Index> rim, Lid lid)
 
 }  // namespace
 
+TEST_CASE("a flat lake, however much of a terrain it covers, and blocks without data do not hide the noise of the rest")
+{
+    PolygonMesh truth = make_quads(6400);
+    truth.vertices *= 1.0 / mean_edge_length(truth);
+    for (auto row : truth.vertices.rowwise())
+        row.z() = 4.0 * std::sin(row.x() / 9.0) * std::cos(row.y() / 11.0);
+    const double noise = noise_of(with_noise(truth, 0.13)).deviation;
+    CHECK(noise > 0.1);
+    for (const double level : {0.0, 2.0, 2.8}) {
+        PolygonMesh mesh = with_noise(truth, 0.13);
+        Index n_land = 0;
+        for (Index v = 0; v < mesh.n_vertices(); ++v) {
+            if (truth.vertices(v, 2) < level)
+                mesh.vertices.row(v) << truth.vertices(v, 0), truth.vertices(v, 1), level;
+            else
+                ++n_land;
+        }
+        const SurfaceNoise found = noise_of(mesh);
+        CHECK(found.deviation == test::relative(noise, 0.3));
+        // The shore counts as land.
+        CHECK(found.part == test::relative(static_cast<double>(n_land) / mesh.n_vertices(), 0.35));
+    }
+    PolygonMesh mesh = with_noise(truth, 0.13);
+    for (const Index v : {2000, 2001, 3500, 5000, 5001})
+        mesh.vertices(v, 2) = -9999.0;
+    CHECK(noise_of(mesh).deviation == test::relative(noise, 0.05));
+}
+
 TEST_CASE("vertices of faces that reach far go no further than others, however these are cut into triangles")
 {
     constexpr Index m = 256;
