@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "partition/errors.h"
+#include "partition/metrics/spikes.h"
 
 namespace seamflow {
 
