@@ -8,7 +8,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
 readonly packages=(
     g++ cmake ninja-build pkg-config
-    libtbb-dev libeigen3-dev libsuitesparse-dev libopenblas-dev libmetis-dev libcgal-dev libopenmesh-dev
+    libtbb-dev libeigen3-dev libsuitesparse-dev libopenblas-dev libmetis-dev libopenmesh-dev
     libfmt-dev libxxhash-dev
     libhypre-dev libopenmpi-dev openmpi-bin libpng-dev zlib1g-dev
     doctest-dev libcli11-dev nlohmann-json3-dev
