@@ -11,7 +11,7 @@ namespace seamflow {
 
 /// For symmetric positive definite matrices, in the given order of the unknowns.
 /// @param upper the entries on and above the diagonal, the whole diagonal among them.
-/// @param factorisation not Umfpack.
+/// @param factorisation not Umfpack; is_available().
 /// @param tree if already known; otherwise empty.
 /// @param exec runs what several threads can do at once, in our own factorisation; empty: nothing is.
 /// @throws ComputationError if the analysis fails (memory).
@@ -21,6 +21,7 @@ std::unique_ptr<DirectSolver> make_symmetric_solver(SparsePattern upper, Factori
 
 /// For any matrix.
 /// @param pattern must outlive the solver.
+/// @param factorisation is_available().
 /// @throws ComputationError if the analysis fails (memory).
 std::unique_ptr<DirectSolver> make_general_solver(const SparsePattern& pattern, Factorisation factorisation);
 
