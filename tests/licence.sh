@@ -40,8 +40,10 @@ headers="$(ninja -C "$build" -t deps | sed -nE 's|^ +(/.*)$|\1|p' | sort -u)"
 [[ -n $headers ]] || found "no headers are known"
 while read -r header; do
     found "$header is included"
-done < <(grep -E '/suitesparse/|/CGAL/|/gmp|/mpfr' <<<"$headers" | grep -vE '/(amd|camd|SuiteSparse_config)\.h$' || true)
+done < <(grep -E '/suitesparse/|/CGAL/|/gmp|/mpfr' <<<"$headers" |
+    grep -vE '/(amd|camd|SuiteSparse_config)\.h$' || true)
 while read -r source; do
     found "$source may take of Eigen what is not under the MPL"
-done < <(grep '"command":' "$build/compile_commands.json" | grep -v -e -DEIGEN_MPL2_ONLY | sed -E 's/.* -c ([^ "]*).*/\1/' || true)
+done < <(grep '"command":' "$build/compile_commands.json" | grep -v -e -DEIGEN_MPL2_ONLY |
+    sed -E 's/.* -c ([^ "]*).*/\1/' || true)
 exit "$status"

@@ -83,7 +83,8 @@ class Wheel(unittest.TestCase):
     def test_its_own_libraries_are_loaded(self):
         maps = python("-c", "import seamflow; print(open('/proc/self/maps').read())")
         site = str(WORK / "site" / "seamflow")
-        for library in ("libtbb", "libmetis", "libfmt", "libamd", "libcamd", "libsuitesparseconfig", "libz", "libxxhash"):
+        for library in ("libtbb", "libmetis", "libfmt", "libamd", "libcamd", "libsuitesparseconfig", "libz",
+                        "libxxhash"):
             loaded = set(re.findall(rf"/\S*/{library}\.so\S*", maps))
             # Python's own zlib may be there already.
             self.assertTrue(loaded, library)
@@ -128,8 +129,8 @@ x, y = np.meshgrid(np.arange(n), np.arange(n))
 V = np.column_stack([x.ravel(), y.ravel(), np.sin(x.ravel()) * np.cos(y.ravel())]).astype(float)
 i = (np.arange(n - 1)[:, None] + n * np.arange(n - 1)).ravel()
 F = np.column_stack([i, i + 1, i + n + 1, i + n])
-results = [seamflow.smooth(V, F, laplacian="ptackova-velho", time_step=0.1, subdomains=4, approach="sweep", factorisation=f)[0]
-           for f in ("auto", "own")]
+options = dict(laplacian="ptackova-velho", time_step=0.1, subdomains=4, approach="sweep")
+results = [seamflow.smooth(V, F, factorisation=f, **options)[0] for f in ("auto", "own")]
 print(np.abs(results[0] - V).max() > 0.01, np.abs(results[0] - results[1]).max() < 1e-12)
 """), "True True\n")
 
