@@ -1,10 +1,12 @@
 #pragma once
 
 #include <atomic>
+#include <memory>
 #include <utility>
 #include <vector>
 
 #include "partition/executor.h"
+#include "partition/large_arrays.h"
 
 namespace seamflow {
 
@@ -14,12 +16,20 @@ class DisjointSets {
   public:
     /// At first each number is a set of its own.
     DisjointSets(Index n, const Executor& exec)
-        : towards_lowest_(usize(n))
+        : n_(n)
+        , towards_lowest_(uninitialised<Index>(usize(n)))
     {
-        for_each(exec, n, [&](Index i) { towards_lowest_[i].store(i, std::memory_order_relaxed); });
+        for_each(exec, n, [&](Index i) { towards_lowest_[i] = i; });
     }
 
-    [[nodiscard]] Index size() const { return static_cast<Index>(towards_lowest_.size()); }
+    [[nodiscard]] Index size() const { return n_; }
+
+    /// How many sets there are.
+    [[nodiscard]] Index count(const Executor& exec) const
+    {
+        return sum(
+            exec, n_, [&](Index i) { return next_of(i) == i ? 1 : 0; }, Index{0});
+    }
 
     /// The lowest number of the set that i is in; while sets are joined, one that is in it.
     Index find(Index i)
@@ -30,13 +40,16 @@ class DisjointSets {
             if (next == after)
                 return next;
             // Halves the path. Another thread may have done better.
-            towards_lowest_[i].compare_exchange_weak(next, after, std::memory_order_relaxed);
+            link(i).compare_exchange_weak(next, after, std::memory_order_relaxed);
             i = after;
         }
     }
 
     void join(Index a, Index b)
     {
+        // As of most pairs that are in one set already.
+        if (next_of(a) == next_of(b))
+            return;
         for (;;) {
             a = find(a);
             b = find(b);
@@ -46,7 +59,7 @@ class DisjointSets {
                 std::swap(a, b);
             // Unless another thread has joined the set of a to a lower one.
             Index expected = a;
-            if (towards_lowest_[a].compare_exchange_strong(expected, b, std::memory_order_relaxed))
+            if (link(a).compare_exchange_strong(expected, b, std::memory_order_relaxed))
                 return;
         }
     }
@@ -56,7 +69,7 @@ class DisjointSets {
     std::pair<std::vector<Index>, Index> numbered(const Executor& exec)
     {
         const std::vector<Index> lowest = select(exec, size(), [&](Index i) { return next_of(i) == i; });
-        std::vector<Index> number(towards_lowest_.size());
+        auto number = large_vector<Index>(usize(n_));
         const auto n = static_cast<Index>(lowest.size());
         for_each(exec, n, [&](Index set) { number[lowest[set]] = set; });
         for_each(exec, size(), [&](Index i) {
@@ -67,10 +80,12 @@ class DisjointSets {
     }
 
   private:
-    [[nodiscard]] Index next_of(Index i) const { return towards_lowest_[i].load(std::memory_order_relaxed); }
+    [[nodiscard]] std::atomic_ref<Index> link(Index i) const { return std::atomic_ref(towards_lowest_[i]); }
+    [[nodiscard]] Index next_of(Index i) const { return link(i).load(std::memory_order_relaxed); }
 
+    Index n_;
     /// Another number of the set, lower than the own one; the lowest has itself.
-    std::vector<std::atomic<Index>> towards_lowest_;
+    std::unique_ptr<Index[]> towards_lowest_;
 };
 
 }  // namespace seamflow

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "partition/index.h"
+#include "partition/large_arrays.h"
 
 namespace seamflow {
 
@@ -71,10 +72,10 @@ Lists<Value> make_lists(Index n_lists, ForEachEntry&& for_each_entry)
     Lists<Value> lists;
     auto& offsets = lists.offsets;
     // The begin of each list is stored one place later and advances to its end, which is the begin of the next.
-    offsets.assign(usize(n_lists) + 2, 0);
+    offsets = large_vector<Index>(usize(n_lists) + 2);
     for_each_entry([&](Index list, const Value&) { ++offsets[list + 2]; });
     std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
-    lists.values.resize(offsets.back());
+    lists.values = large_vector<Value>(usize(offsets.back()));
     for_each_entry([&](Index list, const Value& value) { lists.values[offsets[list + 1]++] = value; });
     offsets.pop_back();
     return lists;

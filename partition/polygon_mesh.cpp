@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "partition/errors.h"
+#include "partition/large_arrays.h"
 
 namespace seamflow {
 
@@ -94,9 +95,17 @@ std::vector<std::uint8_t> used_by_faces(const PolygonMesh& mesh, const Executor&
     return is_used;
 }
 
+Points uninitialised_points(Index n)
+{
+    Points points(n, 3);
+    prefer_large_pages(points.data(), usize(n) * 3 * sizeof(double));
+    return points;
+}
+
 void copy(const Executor& exec, const Points& from, Points& to)
 {
-    to.resize(from.rows(), 3);
+    if (to.rows() != from.rows())
+        to = uninitialised_points(static_cast<Index>(from.rows()));
     for_each_block(exec, static_cast<Index>(from.rows()), [&](Index, Index begin, Index end) {
         to.middleRows(begin, end - begin) = from.middleRows(begin, end - begin);
     });

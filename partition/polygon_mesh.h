@@ -52,6 +52,9 @@ void require_valid(const PolygonMesh& mesh, const Executor& exec = run_serially)
 /// @pre every vertex named by a face exists.
 std::vector<std::uint8_t> used_by_faces(const PolygonMesh& mesh, const Executor& exec = run_serially);
 
+/// #V by 3, in large pages where the system has them; the positions are still to be set.
+Points uninitialised_points(Index n);
+
 /// Copies `from` to `to`.
 /// @param from, to #V by 3.
 void copy(const Executor& exec, const Points& from, Points& to);

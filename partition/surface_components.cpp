@@ -20,13 +20,21 @@ IndexLists SurfaceComponents::vertices() const
     });
 }
 
-SurfaceComponents surface_components(const PolygonMesh& mesh, const Executor& exec)
+namespace {
+
+/// Joins the vertices of each face.
+void join_faces(const PolygonMesh& mesh, const Executor& exec, DisjointSets& sets)
 {
-    DisjointSets sets(mesh.n_vertices(), exec);
     for_each(exec, mesh.n_faces(), [&](Index f) {
-        for (const Index v : mesh.face(f))
-            sets.join(mesh.face(f).front(), v);
+        const std::span<const Index> corners = mesh.face(f);
+        for (std::size_t k = 1; k < corners.size(); ++k)
+            sets.join(corners.front(), corners[k]);
     });
+}
+
+/// @param sets after join_faces.
+SurfaceComponents list_components(const PolygonMesh& mesh, const Executor& exec, DisjointSets& sets)
+{
     std::vector<Index> set_of;
     Index n_sets = 0;
     std::tie(set_of, n_sets) = sets.numbered(exec);
@@ -53,6 +61,22 @@ SurfaceComponents surface_components(const PolygonMesh& mesh, const Executor& ex
     for_each(exec, mesh.n_vertices(), [&](Index v) { set_of[v] = number[set_of[v]]; });
     found.of_vertex = std::move(set_of);
     return found;
+}
+
+}  // namespace
+
+SurfaceComponents surface_components(const PolygonMesh& mesh, const Executor& exec)
+{
+    DisjointSets sets(mesh.n_vertices(), exec);
+    join_faces(mesh, exec, sets);
+    return list_components(mesh, exec, sets);
+}
+
+SurfaceComponents surface_components_if_several(const PolygonMesh& mesh, const Executor& exec)
+{
+    DisjointSets sets(mesh.n_vertices(), exec);
+    join_faces(mesh, exec, sets);
+    return sets.count(exec) > 1 ? list_components(mesh, exec, sets) : SurfaceComponents();
 }
 
 double largest_diagonal(const PolygonMesh& mesh, const Executor& exec)

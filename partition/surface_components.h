@@ -24,6 +24,9 @@ struct SurfaceComponents {
 /// @pre every vertex named by a face exists.
 SurfaceComponents surface_components(const PolygonMesh& mesh, const Executor& exec = run_serially);
 
+/// The same, or nothing where all vertices are in one: that is found sooner than listed.
+SurfaceComponents surface_components_if_several(const PolygonMesh& mesh, const Executor& exec = run_serially);
+
 /// Of the boxes around the components, in length: the size of what a surface consists of, however far apart that is. 0
 /// without faces.
 double largest_diagonal(const PolygonMesh& mesh, const Executor& exec = run_serially);

@@ -12,6 +12,7 @@
 
 #include "partition/errors.h"
 #include "partition/index_lists.h"
+#include "partition/large_arrays.h"
 
 namespace seamflow {
 
@@ -166,7 +167,7 @@ FaceOfHalfedge::FaceOfHalfedge(const PolygonMesh& mesh, const Executor& exec)
         multiplier_ = (std::uint64_t{1} << shift_) / static_cast<std::uint64_t>(degree_) + 1;
         return;
     }
-    faces_.resize(mesh.face_vertices.size());
+    faces_ = large_vector<Index>(mesh.face_vertices.size());
     for_each(exec, mesh.n_faces(), [&](Index f) {
         std::fill(faces_.begin() + mesh.face_offsets[f], faces_.begin() + mesh.face_offsets[f + 1], f);
     });
@@ -180,7 +181,7 @@ Topology make_topology(const PolygonMesh& mesh, const Executor& exec)
         if (one_of_both == 0)
             list_corners(mesh, topology);
         else
-            topology.twin.assign(mesh.face_vertices.size(), -1);
+            topology.twin = large_vector<Index>(mesh.face_vertices.size(), -1);
     });
     std::atomic<bool> oriented = true;
     exec(mesh.n_vertices(), [&](Index begin, Index end) {

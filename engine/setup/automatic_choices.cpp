@@ -8,6 +8,7 @@
 #include "engine/options/option_table.h"
 #include "engine/setup/constraints.h"
 #include "solvers/laplacian/laplacian.h"
+#include "solvers/laplacian/symmetric_laplacian.h"
 
 namespace seamflow {
 
@@ -102,6 +103,18 @@ bool has_long_faces(const PolygonMesh& mesh)
         if (mesh.face_offsets[f + 1] - mesh.face_offsets[f] >= most)
             return true;
     return false;
+}
+
+/// Whether most entries of the rows would be those of faces with so many corners that factorisations give them
+/// auxiliary unknowns.
+bool has_dense_rows(const PolygonMesh& mesh, Laplacian laplacian)
+{
+    constexpr double most_entries_by_corners = 16.0;
+    double n_entries = 0.0;
+    for (Index f = 0; f < mesh.n_faces(); ++f)
+        if (const std::size_t n = mesh.face(f).size(); n > most_corners_without_auxiliary)
+            n_entries += static_cast<double>(n) * static_cast<double>(n);
+    return traits_of(laplacian).reach == Reach::Faces && n_entries > most_entries_by_corners * mesh.n_corners();
 }
 
 bool has_polygons(const PolygonMesh& mesh)
@@ -222,12 +235,14 @@ ApproachChoice choose_approach(const PolygonMesh& mesh, const Topology& topology
     const ApproachChoice decomposed = in_sub_meshes(tolerance);
     ApproachChoice choice{.size = flow};
     choice.costs = {predict_cost(Approach::Undecomposed, flow, options.accuracy.tolerance)};
+    // Γ between sub-meshes on such a face has all of its corners, and the Schur complement all of their pairs.
+    const bool is_dense = has_dense_rows(mesh, options.laplacian);
     const double to_reach = options.accuracy.tolerance.value_or(tolerance_by_gradients(options, size));
-    if (options.flow == FlowEquation::MeanCurvature && !attaches(options.motion) &&
+    if (options.flow == FlowEquation::MeanCurvature && !attaches(options.motion) && !is_dense &&
         safety_of_prediction * predicted_iterations(flow, to_reach) <= options.accuracy.converge_iterations)
         choice.costs.push_back(predict_cost(Approach::ConjugateGradients, flow, to_reach));
     const SubdomainNeeds& needs = needs_of(options.laplacian, decomposed.tolerance.has_value());
-    if (choose_subdomains(size, options.time_step, needs).count > 1 || earlier == decomposed.approach)
+    if ((choose_subdomains(size, options.time_step, needs).count > 1 && !is_dense) || earlier == decomposed.approach)
         choice.costs.push_back(predict_cost(decomposed.approach, flow, decomposed.tolerance));
     std::ranges::stable_sort(choice.costs, {}, [&](const PredictedCost& cost) { return cost.of(options.steps); });
     const auto stays = std::ranges::find(choice.costs, earlier, &PredictedCost::approach);

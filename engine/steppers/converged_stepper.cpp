@@ -22,7 +22,6 @@ ConvergedStepper::ConvergedStepper(const PolygonMesh& mesh, Index n_sub_meshes, 
                                    double parts_of_equation, Progress& progress)
     : time_step_(options.time_step)
     , filter_(filter_of(options))
-    , positions_(mesh.vertices)
     , seconds_(usize(n_sub_meshes) + 1)
     , graph_([this](const ScheduledTask& task) { task.kind == TaskKind::SolveInterface ? solve() : perform(task); },
              options.report.record_schedule, progress)
@@ -31,6 +30,7 @@ ConvergedStepper::ConvergedStepper(const PolygonMesh& mesh, Index n_sub_meshes, 
     , stop_{options.accuracy.tolerance.value_or(tolerance_without_interface), options.accuracy.converge_iterations}
     , loops_(parts_of_equation, progress)
 {
+    copy(run_in_parallel, mesh.vertices, positions_);
     graph_.add_dependency(root_, equation_solved_);
 }
 

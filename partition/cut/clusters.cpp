@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "partition/connected_components.h"
+#include "partition/large_arrays.h"
 
 namespace seamflow {
 
@@ -242,7 +243,7 @@ InnerClusters keep_inner(const std::vector<Grown>& grown, std::vector<Index> fac
         clusters.faces.values = std::move(faces);
         return inner;
     }
-    clusters.faces.values.resize(faces.size());
+    clusters.faces.values = large_vector<Index>(faces.size());
     std::vector<Index> first_of_chunk;
     for (const Grown& chunk : grown) {
         first_of_chunk.push_back(clusters.size());
@@ -292,9 +293,9 @@ FaceClusters grow_clusters(const PolygonMesh& mesh, const Topology& topology, In
     std::vector<Index> faces;
     for_each(exec, 2, [&](Index one_of_both) {
         if (one_of_both == 0)
-            cluster_of.assign(mesh.n_faces(), -1);
+            cluster_of = large_vector<Index>(usize(mesh.n_faces()), -1);
         else
-            faces.resize(mesh.n_faces());
+            faces = large_vector<Index>(usize(mesh.n_faces()));
     });
     const std::vector<Chunk> chunks = chunks_of(mesh, topology, weight, chunk);
     std::vector<Grown> grown(chunks.size());

@@ -12,6 +12,7 @@
 #include "partition/cut/refine.h"
 #include "partition/errors.h"
 #include "partition/labels.h"
+#include "partition/large_arrays.h"
 #include "partition/repair/repair.h"
 
 namespace seamflow {
@@ -26,7 +27,7 @@ std::string number_of(std::int64_t n, std::string_view thing)
 Cut uncut(const PolygonMesh& mesh)
 {
     Cut cut;
-    cut.labels.assign(mesh.n_faces(), 0);
+    cut.labels = large_vector<Index>(usize(mesh.n_faces()));
     cut.n_parts = mesh.n_faces() > 0 ? 1 : 0;
     return cut;
 }

@@ -109,7 +109,7 @@ void read_pairs(TextScanner scanner, EdgeList& list)
 std::vector<Edge> read_edges(const std::filesystem::path& path, Index n_vertices)
 {
     const std::optional<FileFormat> format = format_of(path);
-    if (format == FileFormat::Off || format == FileFormat::Stl)
+    if (format && format != FileFormat::Obj && format != FileFormat::Ply)
         throw InputError(path.string() + ": the format has no edges of its own; use OBJ (lines l), PLY (element edge), "
                                          "or a text file with two vertex numbers per line");
     const InputFile file{OpenFile(path)};

@@ -13,7 +13,7 @@ namespace seamflow {
 /// @param n_vertices of the mesh.
 /// @returns in the order of the file; each is between two vertices of the mesh, whether or not faces have it.
 /// @throws InputError naming file and line or element, and what to do; also where an .obj or .ply file has none, and
-/// for an .off or .stl file, which cannot have any.
+/// for a file of another format of meshes, which cannot have any.
 std::vector<Edge> read_edges(const std::filesystem::path& path, Index n_vertices);
 
 }  // namespace seamflow

@@ -13,11 +13,12 @@
 /// Kinds of mesh files.
 namespace seamflow {
 
-/// The file formats for reading and writing. All hold faces of any number of sides except STL, which holds triangles.
-enum class FileFormat { Obj, Off, Ply, Stl };
+/// The file formats for reading and writing. All hold faces of any number of sides except STL and glTF (Glb, Gltf),
+/// which hold triangles.
+enum class FileFormat { Obj, Off, Ply, Stl, Glb, Gltf };
 
 /// How the numbers of a file are stored. OBJ is always Ascii; so is OFF, except that write_mesh_like keeps binary OFF
-/// binary; STL is Ascii or BinaryLittleEndian.
+/// binary; STL is Ascii or BinaryLittleEndian; glTF is always BinaryLittleEndian.
 enum class Encoding { Ascii, BinaryLittleEndian, BinaryBigEndian };
 
 /// Format and encoding of one file.
@@ -35,18 +36,21 @@ struct FormatTraits {
     std::string_view name;
     /// In lower case.
     std::string_view extension;
-    /// It has this encoding and those before it.
+    /// It has these encodings and those between them.
+    Encoding first_encoding;
     Encoding last_encoding;
     /// Whether its faces may have more than three sides.
     bool holds_polygons;
 };
 
 /// One for each FileFormat, in its order.
-inline constexpr std::array<FormatTraits, 4> format_traits = {{
-    {FileFormat::Obj, "OBJ", ".obj", Encoding::Ascii, true},
-    {FileFormat::Off, "OFF", ".off", Encoding::Ascii, true},
-    {FileFormat::Ply, "PLY", ".ply", Encoding::BinaryBigEndian, true},
-    {FileFormat::Stl, "STL", ".stl", Encoding::BinaryLittleEndian, false},
+inline constexpr std::array<FormatTraits, 6> format_traits = {{
+    {FileFormat::Obj, "OBJ", ".obj", Encoding::Ascii, Encoding::Ascii, true},
+    {FileFormat::Off, "OFF", ".off", Encoding::Ascii, Encoding::Ascii, true},
+    {FileFormat::Ply, "PLY", ".ply", Encoding::Ascii, Encoding::BinaryBigEndian, true},
+    {FileFormat::Stl, "STL", ".stl", Encoding::Ascii, Encoding::BinaryLittleEndian, false},
+    {FileFormat::Glb, "glTF", ".glb", Encoding::BinaryLittleEndian, Encoding::BinaryLittleEndian, false},
+    {FileFormat::Gltf, "glTF", ".gltf", Encoding::BinaryLittleEndian, Encoding::BinaryLittleEndian, false},
 }};
 
 const FormatTraits& traits_of(FileFormat format);
@@ -60,7 +64,7 @@ enum class FormatGroup {
     Text,
 };
 
-/// The extensions of the formats, for help and messages: ".obj, .off, .ply or .stl".
+/// The extensions of the formats, for help and messages: ".obj, .off, .ply, .stl, .glb or .gltf".
 std::string extensions_of(FormatGroup group = FormatGroup::All);
 
 /// The format that the extension of a path names, in upper or lower case, perhaps followed by `.gz`; nothing if it

@@ -12,6 +12,7 @@
 #include <xxhash.h>
 
 #include "partition/errors.h"
+#include "partition/formats/gltf.h"
 #include "partition/formats/obj.h"
 #include "partition/formats/off.h"
 #include "partition/formats/ply.h"
@@ -134,10 +135,35 @@ struct Format {
     /// See extras_of.
     std::vector<std::string> (*extras)(const std::filesystem::path& path, std::string_view content,
                                        const Slicing& slicing);
+    /// The file with others that belong to it, or nothing if none do; null: none ever do.
+    std::optional<OpenFile> (*with_others)(const OpenFile& file, std::string_view content) = nullptr;
+};
+
+/// @tparam format Glb or Gltf.
+template <FileFormat format>
+constexpr Format gltf_functions = {
+    .read = [](const std::filesystem::path& path, std::string_view content, const Slicing& slicing,
+               FaultLog* faults) -> MeshFile {
+        return {read_gltf(path, content, slicing, faults), {format, Encoding::BinaryLittleEndian}};
+    },
+    .require_fits =
+        [](const std::filesystem::path& path, const PolygonMesh& mesh, Encoding) {
+            require_fits_gltf(path, mesh);
+            return std::vector<std::string>();
+        },
+    .write = [](OutputFile& file, const PolygonMesh& mesh, Encoding,
+                const Slicing& slicing) { write_gltf(file, mesh, format, slicing); },
+    .rewrite = [](OutputFile& file, const std::filesystem::path& path, std::string_view content,
+                  const PolygonMesh& mesh, const Slicing& slicing, const FileFields&,
+                  double seam_distance) { return rewrite_gltf(file, path, content, mesh, slicing, seam_distance); },
+    .read_fields = nullptr,
+    .extras = [](const std::filesystem::path& path, std::string_view content,
+                 const Slicing&) { return extras_of_gltf(path, content); },
+    .with_others = with_gltf_buffers,
 };
 
 /// One for each FileFormat, in its order.
-constexpr std::array<Format, 4> all_formats = {{
+constexpr std::array<Format, 6> all_formats = {{
     {.read = [](const std::filesystem::path& path, std::string_view content, const Slicing& slicing,
                 FaultLog* faults) -> MeshFile {
          return {read_obj(path, content, slicing, faults), {FileFormat::Obj, Encoding::Ascii}};
@@ -175,11 +201,15 @@ constexpr std::array<Format, 4> all_formats = {{
                    double) { return rewrite_stl(file, path, content, mesh, slicing); },
      .read_fields = nullptr,
      .extras = extras_of_stl},
+    gltf_functions<FileFormat::Glb>,
+    gltf_functions<FileFormat::Gltf>,
 }};
 
 /// The format of content without a file name. OBJ has no signature.
 FileFormat recognised_format(std::string_view content)
 {
+    if (content.starts_with("glTF"))
+        return FileFormat::Glb;
     constexpr std::size_t head = 4096;
     TextScanner scanner({}, content.substr(0, head));
     const std::string_view word = scanner.next_line() ? scanner.token() : std::string_view();
@@ -187,6 +217,8 @@ FileFormat recognised_format(std::string_view content)
         return FileFormat::Ply;
     if (is_stl(content))
         return FileFormat::Stl;
+    if (word.starts_with('{'))
+        return FileFormat::Gltf;
     return word.ends_with("OFF") ? FileFormat::Off : FileFormat::Obj;
 }
 
@@ -195,17 +227,28 @@ const Format& functions_of(FileFormat format)
     return all_formats[static_cast<std::size_t>(format)];
 }
 
-/// @param format nothing: it is recognised from the content.
+/// @param open with all that belongs to it.
 /// @param faults null: they are thrown. With faults other than those of faces, the file is not a source for others.
+MeshFile read_whole(OpenFile open, const InputFile& input, FileFormat format, const Executor& exec, FaultLog* faults)
+{
+    MeshFile file = functions_of(format).read(open.path(), input.content(), {exec}, faults);
+    if (faults == nullptr || faults->of_faces_alone)
+        file.source = std::make_shared<MeshSource>(std::move(open), input.content(), file.mesh, file.kind, exec);
+    return file;
+}
+
+/// @param format nothing: it is recognised from the content. @param faults see read_whole.
 MeshFile read_open(OpenFile open, std::optional<FileFormat> format, const Executor& exec, FaultLog* faults)
 {
     const InputFile input(open);
     if (!format)
         format = recognised_format(input.content());
-    MeshFile file = functions_of(*format).read(open.path(), input.content(), {exec}, faults);
-    if (faults == nullptr || faults->of_faces_alone)
-        file.source = std::make_shared<MeshSource>(std::move(open), input.content(), file.mesh, file.kind, exec);
-    return file;
+    if (const auto with_others = functions_of(*format).with_others; with_others != nullptr)
+        if (auto all = with_others(open, input.content())) {
+            const InputFile content(*all);
+            return read_whole(std::move(*all), content, *format, exec, faults);
+        }
+    return read_whole(std::move(open), input, *format, exec, faults);
 }
 
 /// Finds the format and reads; a lack of memory is reported with the name of the file.
@@ -224,10 +267,11 @@ MeshFile read(const std::filesystem::path& path, const Executor& exec, FaultLog*
 void require_encoding(const FileKind& kind)
 {
     const FormatTraits& format = traits_of(kind.format);
-    if (kind.encoding <= format.last_encoding)
+    if (kind.encoding >= format.first_encoding && kind.encoding <= format.last_encoding)
         return;
     std::vector<std::string_view> names{"Ascii", "BinaryLittleEndian", "BinaryBigEndian"};
     names.resize(static_cast<std::size_t>(format.last_encoding) + 1);
+    names.erase(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(format.first_encoding));
     throw OptionError(fmt::format("encoding must be {} for {} files", choice_of(names), format.name));
 }
 
@@ -325,9 +369,10 @@ FileFields read_fields(const MeshSource& source, std::span<const std::string> na
     const FileFormat kind = source.kind().format;
     const Format& format = functions_of(kind);
     if (format.read_fields == nullptr)
-        throw InputError(fmt::format("{}: {} files have no numbers of vertices besides positions; convert the mesh and "
-                                     "its data to PLY",
-                                     source.path().string(), traits_of(kind).name));
+        throw InputError(
+            fmt::format("{}: no numbers of vertices besides positions are read from {} files; convert the mesh "
+                        "and its data to PLY",
+                        source.path().string(), traits_of(kind).name));
     const InputFile input = source.read_again(exec);
     return format.read_fields(source.path(), input.content(), names, {exec});
 }

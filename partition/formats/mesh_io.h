@@ -16,13 +16,14 @@
 
 namespace seamflow {
 
-/// Reads OBJ, OFF, PLY or STL; the format follows from the extension (upper or lower case), the encoding from the file
-/// itself. Coordinates are read in double precision, correctly rounded. Corners of STL facets with equal coordinates
-/// become one vertex, numbered in order of appearance. Content besides the surface (texture coordinates, normals,
-/// colours, materials, groups, points and lines) is skipped here, but write_mesh_like copies it. A file with vertices
-/// but without faces is read. The file stays open (see MeshFile::source), but its content is not kept in memory. A file
-/// compressed by gzip is unpacked, whatever its name; `.gz` may follow the extension. `-` is standard input, whose
-/// format is recognised from its content. Only these two are kept, unpacked, in memory.
+/// Reads OBJ, OFF, PLY, STL or glTF; the format follows from the extension (upper or lower case), the encoding from the
+/// file itself. Coordinates are read in double precision, correctly rounded. Corners of STL facets with equal
+/// coordinates become one vertex, numbered in order of appearance. Content besides the surface (texture coordinates,
+/// normals, colours, materials, groups, points and lines) is skipped here, but write_mesh_like copies it. A file with
+/// vertices but without faces is read. The file stays open (see MeshFile::source), but its content is not kept in
+/// memory. A file compressed by gzip is unpacked, whatever its name; `.gz` may follow the extension. `-` is standard
+/// input, whose format is recognised from its content. Only these two, and glTF files with buffers in other files or in
+/// their text, are kept, unpacked, in memory.
 /// @param exec runs the work on slices; seamflow::run_in_parallel uses all threads. Here and in the functions below,
 ///        the result never depends on it.
 /// @throws InputError naming file, line or byte or element, reason and remedy; no part of the surface is skipped
@@ -55,7 +56,8 @@ std::vector<std::string> write_mesh(const std::filesystem::path& path, const Pol
 /// groups, colours, comments, further elements and properties, their order, and the line ends stay byte for byte, as do
 /// the digits of every coordinate that is bitwise equal. Normals are updated to the new surface where possible: normals
 /// of the vertices of PLY and OFF files, and those of an OBJ file that belong to one vertex or to one face. Kind and
-/// types are those of the file: floats in a binary file mean rounding; whole numbers become doubles. Facets of STL
+/// types are those of the file: floats in a binary file mean rounding; whole numbers become doubles. Buffers of a glTF
+/// file that are in other files are written beside the result, to files of new names (see rewrite_gltf). Facets of STL
 /// files that thereby become lines stay. The file may be written over itself.
 /// @param mesh with as many vertices as the file and the same faces.
 /// @param seam_distance across seams of this width (see weld), in length, shading that was

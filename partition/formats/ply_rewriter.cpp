@@ -24,13 +24,13 @@ namespace seamflow {
 namespace {
 
 /// The numbers of a vertex that are rewritten; those of FileFields follow them.
-constexpr std::array<std::string_view, 6> columns = {"x", "y", "z", "nx", "ny", "nz"};
-constexpr auto first_field = static_cast<Index>(columns.size());
+constexpr std::array<std::string_view, 6> names_of_columns = {"x", "y", "z", "nx", "ny", "nz"};
+constexpr auto first_field = static_cast<Index>(names_of_columns.size());
 
 /// How one property of the vertices changes when a file is rewritten. Changes beyond the last property are properties
 /// that are added.
 struct Change {
-    /// Of `columns`; from 6 on: a column of FileFields; -1: it stays.
+    /// Of `names_of_columns`; from 6 on: a column of FileFields; -1: it stays.
     Index column = -1;
     /// The type of the number in the file that is written.
     PlyType type = PlyType::Float64;
@@ -50,7 +50,7 @@ Normals normals_of(const PlyElement& vertices)
     Index n_found = 0;
     Index n_usable = 0;
     for (const PlyProperty& property : vertices.properties) {
-        if (std::find(columns.begin() + 3, columns.end(), property.name) == columns.end())
+        if (std::find(names_of_columns.begin() + 3, names_of_columns.end(), property.name) == names_of_columns.end())
             continue;
         ++n_found;
         n_usable += !property.length_type && !is_integer(property.type) ? 1 : 0;
@@ -60,13 +60,13 @@ Normals normals_of(const PlyElement& vertices)
 
 std::vector<Change> changes_of(const PlyElement& vertices, const std::array<bool, 3>& fits, bool with_normals)
 {
-    const auto n_columns = with_normals ? columns.end() : columns.begin() + 3;
+    const auto n_columns = with_normals ? names_of_columns.end() : names_of_columns.begin() + 3;
     std::vector<Change> changes;
     for (const PlyProperty& property : vertices.properties) {
-        const auto column = std::find(columns.begin(), n_columns, property.name);
+        const auto column = std::find(names_of_columns.begin(), n_columns, property.name);
         Change change;
         if (column != n_columns) {
-            change = {static_cast<Index>(column - columns.begin()), property.type};
+            change = {static_cast<Index>(column - names_of_columns.begin()), property.type};
             if (change.column < 3 && !fits[change.column])
                 change.type = PlyType::Float64;
         }
@@ -275,9 +275,10 @@ std::array<bool, 3> coordinates_fit(const PlyElement& vertices, const Points& po
     if (positions.rows() == 0)
         return fits;
     for (const PlyProperty& property : vertices.properties)
-        if (const auto column = std::find(columns.begin(), columns.begin() + 3, property.name);
-            column != columns.begin() + 3)
-            fits[column - columns.begin()] = can_hold(property.type, positions.col(column - columns.begin()));
+        if (const auto column = std::find(names_of_columns.begin(), names_of_columns.begin() + 3, property.name);
+            column != names_of_columns.begin() + 3)
+            fits[column - names_of_columns.begin()] =
+                can_hold(property.type, positions.col(column - names_of_columns.begin()));
     return fits;
 }
 
@@ -290,7 +291,7 @@ std::vector<std::string> rewrite_ply(OutputFile& file, const std::filesystem::pa
     TextScanner scanner(path, content, ply_syntax);
     const PlyHeader header = read_ply_header(scanner);
     const PlyElement& vertices = *header.element("vertex");
-    const bool are_given = std::any_of(columns.begin() + 3, columns.end(),
+    const bool are_given = std::any_of(names_of_columns.begin() + 3, names_of_columns.end(),
                                        [&](std::string_view name) { return fields.column(name) >= 0; });
     const Normals kind = are_given ? Normals::None : normals_of(vertices);
     std::vector<Change> changes =

@@ -186,11 +186,11 @@ std::optional<WholeRange> range_of(const FileFields& fields, Index column)
 /// The columns red, green and blue, where they were read as colours and each vertex has one.
 std::optional<std::array<Index, 3>> columns_of_colours(const FileFields& fields)
 {
-    std::array<Index, 3> columns{};
-    std::ranges::transform(std::array{"red", "green", "blue"}, columns.begin(),
+    std::array<Index, 3> places{};
+    std::ranges::transform(std::array{"red", "green", "blue"}, places.begin(),
                            [&](const char* name) { return fields.column(name); });
     constexpr double most_whole = 65535.0;
-    for (const Index c : columns) {
+    for (const Index c : places) {
         if (c < 0 || fields.values.col(c).hasNaN())
             return {};
         const auto range = range_of(fields, c);
@@ -198,24 +198,24 @@ std::optional<std::array<Index, 3>> columns_of_colours(const FileFields& fields)
         if (!is_whole && (usize(c) >= fields.decimals.size() || fields.decimals[c] != Decimals::SingleText))
             return {};
     }
-    return columns;
+    return places;
 }
 
 /// Takes these columns out of the fields.
 /// @returns #V colours.
-std::vector<Colour> take_colours(FileFields& fields, const std::array<Index, 3>& columns)
+std::vector<Colour> take_colours(FileFields& fields, const std::array<Index, 3>& places)
 {
     std::vector<Colour> colours(static_cast<std::size_t>(fields.values.rows()));
-    for (std::size_t k = 0; k < columns.size(); ++k) {
-        const double all = range_of(fields, columns[k]).value_or(WholeRange{0.0, 1.0}).largest;
+    for (std::size_t k = 0; k < places.size(); ++k) {
+        const double all = range_of(fields, places[k]).value_or(WholeRange{0.0, 1.0}).largest;
         for (std::size_t v = 0; v < colours.size(); ++v)
             colours[v][k] = static_cast<std::uint8_t>(
-                std::lround(255.0 * std::clamp(fields.values(static_cast<Index>(v), columns[k]) / all, 0.0, 1.0)));
+                std::lround(255.0 * std::clamp(fields.values(static_cast<Index>(v), places[k]) / all, 0.0, 1.0)));
     }
     FileFields others;
     std::vector<Eigen::Index> kept;
     for (std::size_t c = 0; c < fields.names.size(); ++c)
-        if (std::ranges::find(columns, static_cast<Index>(c)) == columns.end()) {
+        if (std::ranges::find(places, static_cast<Index>(c)) == places.end()) {
             others.names.push_back(fields.names[c]);
             kept.push_back(static_cast<Eigen::Index>(c));
         }
@@ -229,11 +229,11 @@ std::vector<Colour> take_colours(FileFields& fields, const std::array<Index, 3>&
 void write_ply(OutputFile& file, const PolygonMesh& mesh, Encoding encoding, const Slicing& slicing,
                const FileFields& fields)
 {
-    const auto columns = columns_of_colours(fields);
-    if (!columns)
+    const auto places = columns_of_colours(fields);
+    if (!places)
         return write_ply(file, mesh, encoding, slicing, {.vertex_fields = &fields});
     FileFields others = fields;
-    const std::vector<Colour> colours = take_colours(others, *columns);
+    const std::vector<Colour> colours = take_colours(others, *places);
     write_ply(file, mesh, encoding, slicing, {.vertex_colours = colours, .vertex_fields = &others});
 }
 

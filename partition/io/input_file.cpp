@@ -99,7 +99,7 @@ bool is_input_stream(const std::filesystem::path& path)
            name.starts_with("/proc/self/fd/");
 }
 
-OpenFile::OpenFile(const std::filesystem::path& path)
+OpenFile::OpenFile(const std::filesystem::path& path, Packing packing)
     : path_(is_standard_stream(path) ? "standard input" : path)
 {
     if (!is_input_stream(path))
@@ -111,8 +111,22 @@ OpenFile::OpenFile(const std::filesystem::path& path)
     if (is_input_stream(path))
         collect();
     std::array<char, 2> begin{};
-    if (is_gzip({begin.data(), read(begin.data(), begin.size(), 0)}))
+    if (packing == Packing::Unpack && is_gzip({begin.data(), read(begin.data(), begin.size(), 0)}))
         unpack();
+}
+
+OpenFile::OpenFile(const std::filesystem::path& path, int descriptor)
+    : path_(path)
+    , descriptor_(descriptor)
+{
+}
+
+OpenFile OpenFile::in_memory(const std::filesystem::path& path, std::span<const std::string_view> pieces)
+{
+    MemoryFile file(path);
+    for (const std::string_view piece : pieces)
+        file.append(piece);
+    return {path, file.release()};
 }
 
 /// Reads a stream into memory.

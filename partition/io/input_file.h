@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <string_view>
 
 namespace seamflow {
@@ -22,9 +23,18 @@ bool is_input_stream(const std::filesystem::path& path);
 /// memory.
 class OpenFile {
   public:
+    /// Whether a file that begins as gzip does is unpacked.
+    enum class Packing { Unpack, Keep };
+
     /// @param path `-` for standard input.
     /// @throws InputError naming the file and the system's reason; also if it is empty, or not a regular file.
-    explicit OpenFile(const std::filesystem::path& path);
+    explicit OpenFile(const std::filesystem::path& path, Packing packing = Packing::Unpack);
+
+    /// Pieces of content, one after the other, in memory.
+    /// @param path for messages only.
+    /// @throws InputError
+    static OpenFile in_memory(const std::filesystem::path& path, std::span<const std::string_view> pieces);
+
     OpenFile(OpenFile&& other) noexcept;
     OpenFile(const OpenFile&) = delete;
     OpenFile& operator=(OpenFile&&) = delete;
@@ -47,6 +57,7 @@ class OpenFile {
     std::size_t read(char* bytes, std::size_t n, std::size_t offset) const;
 
   private:
+    OpenFile(const std::filesystem::path& path, int descriptor);
     void collect();
     void unpack();
 

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "partition/io/slices.h"
+#include "partition/large_arrays.h"
 #include "partition/point_numbers.h"
 
 namespace seamflow {
@@ -21,15 +22,6 @@ template <class Real>
 Index share_of(const std::array<Real, 3>& point)
 {
     return static_cast<Index>(BasicPointNumbers<Real>::hash_of(point) >> (64U - share_bits));
-}
-
-/// For n values, in large pages where the system has them; these are still to be set.
-template <class Value>
-std::unique_ptr<Value[]> uninitialised(Index n)
-{
-    auto values = std::make_unique_for_overwrite<Value[]>(usize(n));
-    prefer_large_pages(values.get(), usize(n) * sizeof(Value));
-    return values;
 }
 
 /// The points of all lists, one share after the other, within a share as they come.
@@ -60,8 +52,8 @@ Shares<Real> divide(std::span<const std::vector<std::array<Real, 3>>> lists, con
     Shares<Real> shares;
     for (Index share = 0; share <= n_shares; ++share)
         shares.begin.push_back(places[usize(share) * lists.size()]);
-    shares.points = uninitialised<std::array<Real, 3>>(begin.back());
-    shares.origins = uninitialised<Index>(begin.back());
+    shares.points = uninitialised<std::array<Real, 3>>(usize(begin.back()));
+    shares.origins = uninitialised<Index>(usize(begin.back()));
     for_each(exec, n_lists, [&](Index i) {
         std::array<Index, n_shares> next{};
         for (Index share = 0; share < n_shares; ++share)
@@ -81,7 +73,7 @@ std::unique_ptr<Index[]> first_equal(std::span<const std::vector<std::array<Real
                                      const std::vector<Index>& begin, const Executor& exec)
 {
     const Shares<Real> shares = divide(lists, begin, exec);
-    auto first = uninitialised<Index>(begin.back());
+    auto first = uninitialised<Index>(usize(begin.back()));
     for_each(exec, n_shares, [&](Index share) {
         const auto n = usize(shares.begin[share + 1] - shares.begin[share]);
         const Index* const origins = shares.origins.get() + shares.begin[share];
@@ -112,7 +104,7 @@ NumberedPoints number_together(std::span<const std::vector<std::array<Real, 3>>>
     });
     std::partial_sum(n_new.begin(), n_new.end(), n_new.begin());
     result.points = uninitialised_points(n_new.back());
-    result.numbers = uninitialised<Index>(result.begin.back());
+    result.numbers = uninitialised<Index>(usize(result.begin.back()));
     for_each(exec, n_lists, [&](Index i) {
         Index next = n_new[i];
         for (Index k = result.begin[i]; k < result.begin[i + 1]; ++k) {

@@ -41,6 +41,9 @@ class OutputFile final : public ByteWriter {
     /// As it was named, for messages; "standard output" for that.
     [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 
+    /// Whether it is standard output.
+    [[nodiscard]] bool is_stream() const { return is_stream_; }
+
     /// The temporary name, if it has one.
     [[nodiscard]] const std::filesystem::path& temporary() const { return temporary_; }
 

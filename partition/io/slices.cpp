@@ -1,14 +1,13 @@
 #include "partition/io/slices.h"
 
 #include <algorithm>
-#include <cstdint>
 #include <limits>
 #include <numeric>
 #include <span>
 #include <utility>
 #include <vector>
 
-#include <sys/mman.h>
+#include "partition/large_arrays.h"
 
 namespace seamflow {
 
@@ -28,8 +27,7 @@ void make_room(std::vector<Value>& values, std::span<const PolygonMesh> parts, I
     if (sum <= values.capacity())
         return;
     constexpr std::size_t most_growth = 8;
-    values.reserve(sum + std::min(usize(n_to_follow) * largest, most_growth * sum));
-    prefer_large_pages(values.data(), values.capacity() * sizeof(Value));
+    reserve_large(values, sum + std::min(usize(n_to_follow) * largest, most_growth * sum));
 }
 
 /// @param n_to_follow number of parts that will be appended afterwards.
@@ -49,17 +47,6 @@ void append(PolygonMesh& mesh, std::span<const PolygonMesh> parts, Index n_to_fo
 
 }  // namespace
 
-void prefer_large_pages(void* memory, std::size_t n_bytes)
-{
-    constexpr std::uintptr_t page = std::uintptr_t{1} << 21;
-    const std::uintptr_t begin = (reinterpret_cast<std::uintptr_t>(memory) + page - 1) / page * page;
-    const std::uintptr_t end = (reinterpret_cast<std::uintptr_t>(memory) + n_bytes) / page * page;
-#ifdef MADV_HUGEPAGE
-    if (begin < end)
-        static_cast<void>(::madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE));
-#endif
-}
-
 Index sum_of_counts(std::int64_t a, std::int64_t b)
 {
     if (a + b > std::numeric_limits<Index>::max())
@@ -78,13 +65,6 @@ std::vector<std::int64_t> count_lines(const TextScanner& whole, std::span<const 
     });
     std::partial_sum(first.begin(), first.end(), first.begin());
     return first;
-}
-
-Points uninitialised_points(Index n)
-{
-    Points points(n, 3);
-    prefer_large_pages(points.data(), usize(n) * 3 * sizeof(double));
-    return points;
 }
 
 void append_faces(PolygonMesh& mesh, Index n, const Executor& exec,

@@ -43,10 +43,6 @@ void write_elements(OutputFile& file, Index n, Index per_slice, const Executor& 
     });
 }
 
-/// Asks the system for large pages for memory that has not been touched yet. It may ignore this. To touch memory in
-/// small pages for the first time takes longer than to copy it.
-void prefer_large_pages(void* memory, std::size_t n_bytes);
-
 /// The sum of two numbers of elements.
 /// @throws InputError if there are more than 2^31 - 1.
 Index sum_of_counts(std::int64_t a, std::int64_t b);
@@ -54,9 +50,6 @@ Index sum_of_counts(std::int64_t a, std::int64_t b);
 /// How many lines with a token there are before each slice of a text and, at the end, in all of them.
 std::vector<std::int64_t> count_lines(const TextScanner& whole, std::span<const std::string_view> slices,
                                       const Executor& exec);
-
-/// #V by 3, in large pages where the system has them; the positions are still to be set.
-Points uninitialised_points(Index n);
 
 /// Reads the faces of n slices, several at a time, and appends them to those of the mesh.
 /// @param read called with a slice and an empty mesh, which gets the faces of the slice.

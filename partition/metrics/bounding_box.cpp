@@ -1,8 +1,6 @@
 #include "partition/metrics/bounding_box.h"
 
-#include <cstdint>
 #include <limits>
-#include <vector>
 
 namespace seamflow {
 
@@ -19,9 +17,13 @@ BoundingBox empty_box()
 
 BoundingBox box_of_faces(const PolygonMesh& mesh, const Points& positions, const Executor& exec)
 {
-    const std::vector<std::uint8_t> is_used = used_by_faces(mesh, exec);
+    return box_of_vertices(positions, used_by_faces(mesh, exec), exec);
+}
+
+BoundingBox box_of_vertices(const Points& positions, std::span<const std::uint8_t> is_used, const Executor& exec)
+{
     const BoundingBox box = reduce(
-        exec, mesh.n_vertices(), empty_box(),
+        exec, static_cast<Index>(positions.rows()), empty_box(),
         [&](BoundingBox& part, Index v) {
             const Point position = positions.row(v);
             if (is_used[v] == 0 || !position.allFinite())

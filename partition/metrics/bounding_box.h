@@ -1,5 +1,9 @@
 #pragma once
 
+#include <cstdint>
+#include <span>
+#include <vector>
+
 #include "partition/polygon_mesh.h"
 #include "partition/vector_area.h"
 
@@ -18,6 +22,11 @@ struct BoundingBox {
 /// point where nothing is left.
 /// @param positions #V by 3. @pre every vertex named by a face exists.
 BoundingBox box_of_faces(const PolygonMesh& mesh, const Points& positions, const Executor& exec = run_serially);
+
+/// The same where it is known already which vertices these are.
+/// @param is_used #V (see used_by_faces).
+BoundingBox box_of_vertices(const Points& positions, std::span<const std::uint8_t> is_used,
+                            const Executor& exec = run_serially);
 
 /// The same for the mesh's own positions.
 BoundingBox box_of_faces(const PolygonMesh& mesh, const Executor& exec = run_serially);

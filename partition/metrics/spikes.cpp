@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <span>
+#include <utility>
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
@@ -51,7 +52,8 @@ struct Around {
     }
 };
 
-/// The corner of a face whose edges are both that much longer than all others; -1 if there is none.
+}  // namespace
+
 Index needle_tip(std::span<const Index> corners, const Points& positions)
 {
     // The shortest edge of such a face is not at the tip, and the longest one is.
@@ -78,8 +80,6 @@ Index needle_tip(std::span<const Index> corners, const Points& positions)
     return -1;
 }
 
-}  // namespace
-
 std::vector<Spike> find_spikes(const PolygonMesh& mesh, const Points& positions, const Executor& exec)
 {
     using Tips = std::vector<Index>;
@@ -90,6 +90,11 @@ std::vector<Spike> find_spikes(const PolygonMesh& mesh, const Points& positions,
                 found.push_back(tip);
         },
         [](Tips& all, const Tips& part) { all.insert(all.end(), part.begin(), part.end()); });
+    return spikes_among(mesh, positions, std::move(tips));
+}
+
+std::vector<Spike> spikes_among(const PolygonMesh& mesh, const Points& positions, std::vector<Index> tips)
+{
     if (tips.empty())
         return {};
     sort_unique(tips);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "partition/executor.h"
@@ -20,6 +21,15 @@ struct Spike {
 /// about as long as measuring all edges.
 /// @param positions #V by 3.
 std::vector<Spike> find_spikes(const PolygonMesh& mesh, const Points& positions, const Executor& exec = run_serially);
+
+/// The corner of a face whose two edges are both more than ten times as long as its others, as at a spike; -1 if there
+/// is none.
+/// @param corners the face. @param positions #V by 3.
+Index needle_tip(std::span<const Index> corners, const Points& positions);
+
+/// The spikes among some vertices, ascending.
+/// @param tips all that are a needle_tip of a face, in any order, perhaps repeated.
+std::vector<Spike> spikes_among(const PolygonMesh& mesh, const Points& positions, std::vector<Index> tips);
 
 /// A sentence about them for the user.
 /// @param spikes at least one.

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <string>
 
 #include <fmt/format.h>
 
 #include "partition/errors.h"
-#include "partition/metrics/spikes.h"
 
 namespace seamflow {
 
@@ -19,15 +19,19 @@ struct LengthsOfEdges {
     double total = 0.0;
     double longest = 0.0;
     Index n = 0;
+    /// See needle_tip.
+    std::vector<Index> tips = {};
 };
 
 /// @param is_left_out #V, or empty: vertices whose edges do not count.
-LengthsOfEdges measure_edges(const PolygonMesh& mesh, const Points& positions,
-                             std::span<const std::uint8_t> is_left_out, const Executor& exec)
+LengthsOfEdges add_up_edges(const PolygonMesh& mesh, const Points& positions, std::span<const std::uint8_t> is_left_out,
+                            const Executor& exec)
 {
     const auto add_face = [&](LengthsOfEdges& lengths, Index f) {
         const auto corners = mesh.face(f);
         double around = 0.0;
+        double longest = 0.0;
+        double shortest = std::numeric_limits<double>::infinity();
         for (std::size_t k = 0; k < corners.size(); ++k) {
             const Index from = corners[k];
             const Index to = corners[k + 1 < corners.size() ? k + 1 : 0];
@@ -35,17 +39,49 @@ LengthsOfEdges measure_edges(const PolygonMesh& mesh, const Points& positions,
                 continue;
             const double length = (positions.row(to) - positions.row(from)).norm();
             around += length;
-            lengths.longest = std::max(lengths.longest, length);
+            longest = std::max(longest, length);
+            shortest = std::min(shortest, length);
             ++lengths.n;
         }
         lengths.total += around;
+        lengths.longest = std::max(lengths.longest, longest);
+        // Few faces have edges that differ so much.
+        constexpr double much = 5.0;
+        if (is_left_out.empty() && longest > much * shortest)
+            if (const Index tip = needle_tip(corners, positions); tip >= 0)
+                lengths.tips.push_back(tip);
     };
     return reduce(exec, mesh.n_faces(), LengthsOfEdges{}, add_face,
                   [](LengthsOfEdges& all, const LengthsOfEdges& part) {
                       all.total += part.total;
                       all.longest = std::max(all.longest, part.longest);
                       all.n += part.n;
+                      all.tips.insert(all.tips.end(), part.tips.begin(), part.tips.end());
                   });
+}
+
+double mean_of(const LengthsOfEdges& edges)
+{
+    return edges.n > 0 ? edges.total / edges.n : 0.0;
+}
+
+/// Whether spikes would count much in the mean.
+bool has_long_edges(const LengthsOfEdges& edges)
+{
+    constexpr double long_in_means = 4.0;
+    return edges.longest > long_in_means * mean_of(edges);
+}
+
+double mean_without(const std::vector<Spike>& spikes, const LengthsOfEdges& all, const PolygonMesh& mesh,
+                    const Points& positions, const Executor& exec)
+{
+    if (spikes.empty() || !has_long_edges(all))
+        return mean_of(all);
+    std::vector<std::uint8_t> is_spike(usize(mesh.n_vertices()), 0);
+    for (const Spike& spike : spikes)
+        is_spike[spike.vertex] = 1;
+    const LengthsOfEdges others = add_up_edges(mesh, positions, is_spike, exec);
+    return others.n > 0 ? mean_of(others) : mean_of(all);
 }
 
 }  // namespace
@@ -57,19 +93,18 @@ double mean_edge_length(const PolygonMesh& mesh)
 
 double mean_edge_length(const PolygonMesh& mesh, const Points& positions, const Executor& exec)
 {
-    const LengthsOfEdges all = measure_edges(mesh, positions, {}, exec);
-    const double mean = all.n > 0 ? all.total / all.n : 0.0;
-    constexpr double long_in_means = 4.0;
-    if (!(all.longest > long_in_means * mean))
-        return mean;
-    const std::vector<Spike> spikes = find_spikes(mesh, positions, exec);
-    if (spikes.empty())
-        return mean;
-    std::vector<std::uint8_t> is_spike(usize(mesh.n_vertices()), 0);
-    for (const Spike& spike : spikes)
-        is_spike[spike.vertex] = 1;
-    const LengthsOfEdges others = measure_edges(mesh, positions, is_spike, exec);
-    return others.n > 0 ? others.total / others.n : mean;
+    const LengthsOfEdges all = add_up_edges(mesh, positions, {}, exec);
+    return has_long_edges(all) ? mean_without(spikes_among(mesh, positions, all.tips), all, mesh, positions, exec)
+                               : mean_of(all);
+}
+
+EdgeMeasures measure_edges(const PolygonMesh& mesh, const Points& positions, const Executor& exec)
+{
+    const LengthsOfEdges all = add_up_edges(mesh, positions, {}, exec);
+    EdgeMeasures measures;
+    measures.spikes = spikes_among(mesh, positions, all.tips);
+    measures.mean = mean_without(measures.spikes, all, mesh, positions, exec);
+    return measures;
 }
 
 VertexDistance vertex_distance(const PolygonMesh& mesh, const Points& reference, const Points& candidate)

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <vector>
+
 #include "partition/executor.h"
+#include "partition/metrics/spikes.h"
 #include "partition/polygon_mesh.h"
 
 namespace seamflow {
@@ -22,6 +25,17 @@ double mean_edge_length(const PolygonMesh& mesh);
 
 /// As above for positions other than the mesh's own, #V by 3.
 double mean_edge_length(const PolygonMesh& mesh, const Points& positions, const Executor& exec = run_serially);
+
+/// Found in one look at all edges.
+struct EdgeMeasures {
+    /// See mean_edge_length.
+    double mean = 0.0;
+    /// See find_spikes.
+    std::vector<Spike> spikes;
+};
+
+/// @param positions #V by 3.
+EdgeMeasures measure_edges(const PolygonMesh& mesh, const Points& positions, const Executor& exec = run_serially);
 
 /// Distances between `candidate` and `reference`, #V by 3 each, over all vertices that faces use, and over
 /// all where there are no faces; `mesh` gives the faces.

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "partition/labels.h"
+#include "partition/large_arrays.h"
 #include "partition/repair/loose_components.h"
 #include "partition/repair/pinches.h"
 
@@ -115,7 +116,7 @@ bool mend_in_rounds(const PolygonMesh& mesh, const Topology& topology, Suspects 
 
 std::unique_ptr<Index[]> copy_of(const std::vector<Index>& labels, const Executor& exec)
 {
-    auto copy = std::make_unique_for_overwrite<Index[]>(labels.size());
+    auto copy = uninitialised<Index>(labels.size());
     for_each(exec, static_cast<Index>(labels.size()), [&](Index f) { copy[f] = labels[f]; });
     return copy;
 }

@@ -81,13 +81,14 @@ void require_files(const std::vector<fs::path>& paths)
 
 void require_storable(const PolygonMesh& mesh, const fs::path& path, const FileKind& kind)
 {
-    if (kind.format != FileFormat::Stl)
+    const FormatTraits& format = traits_of(kind.format);
+    if (format.holds_polygons)
         return;
     for (Index f = 0; f < mesh.n_faces(); ++f)
         if (mesh.face(f).size() > 3)
-            refuse(path, fmt::format("STL holds triangles only, and face {} has {} sides; choose {}", f,
+            refuse(path, fmt::format("{} holds triangles only, and face {} has {} sides; choose {}", format.name, f,
                                      mesh.face(f).size(), extensions_of(FormatGroup::Polygons)));
-    if (has_isolated_vertices(mesh))
+    if (kind.format == FileFormat::Stl && has_isolated_vertices(mesh))
         refuse(path, "STL cannot hold vertices without faces; choose " + extensions_of(FormatGroup::Polygons));
 }
 

@@ -5,7 +5,6 @@
 #include <new>
 
 #include "partition/errors.h"
-#include "samples/process/blas_threads.h"
 #include "samples/process/option_words.h"
 
 namespace seamflow {
@@ -46,7 +45,6 @@ int run_program(const char* program, const std::function<ExitStatus()>& body)
 {
     ExitStatus status = ExitStatus::Success;
     try {
-        do_without_blas_threads_where_limited();
         status = body();
     } catch (...) {
         status = tell(program, current_failure());

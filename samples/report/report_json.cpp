@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "engine/options/option_names.h"
+#include "samples/process/page_faults.h"
 #include "samples/report/json_parts.h"
 #include "samples/report/smoothing_request.h"
 
@@ -183,6 +184,7 @@ std::string smooth_report_json(const RunRecord& run, const FlowReport& report)
     json["choices"] = report.choices;
     json["remarks"] = report.remarks;
     json["peak_memory_bytes"] = peak_memory_of(run);
+    json["page_faults"] = page_faults();
     add_ranks(json, run.ranks);
     return text_of(json);
 }

@@ -1,7 +1,10 @@
 #include "samples/report/smoothing_request.h"
 
 #include <cmath>
+#include <cstdint>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "partition/errors.h"
 #include "partition/metrics/bounding_box.h"
@@ -22,7 +25,12 @@ double require_step(double time_step, const char* option)
 
 MeshScale measure_scale(const PolygonMesh& mesh, const Executor& exec)
 {
-    return {.mean_edge = mean_edge_length(mesh, mesh.vertices, exec), .diagonal = box_of_faces(mesh, exec).diagonal()};
+    const std::vector<std::uint8_t> is_used = used_by_faces(mesh, exec);
+    EdgeMeasures edges = measure_edges(mesh, mesh.vertices, exec);
+    return {.mean_edge = edges.mean,
+            .diagonal = box_of_vertices(mesh.vertices, is_used, exec).diagonal(),
+            .unused_vertices = select(exec, mesh.n_vertices(), [&](Index v) { return is_used[v] == 0; }),
+            .spikes = std::move(edges.spikes)};
 }
 
 double time_step_of(const SmoothingRequest& request, const MeshScale& scale, int steps, const StepFilter& filter)

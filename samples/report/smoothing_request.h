@@ -1,8 +1,10 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "engine/setup/smoothed_radius.h"
+#include "partition/metrics/spikes.h"
 #include "partition/polygon_mesh.h"
 
 namespace seamflow {
@@ -10,8 +12,11 @@ namespace seamflow {
 /// The sizes of a mesh by which amounts of smoothing are measured, in units of length.
 struct MeshScale {
     double mean_edge = 0.0;
-    /// Of the bounding box of all vertices.
+    /// Of the bounding box of all vertices that faces use.
     double diagonal = 0.0;
+    /// Vertices that no face uses, ascending, which lie in no box.
+    std::vector<Index> unused_vertices = {};
+    std::vector<Spike> spikes = {};
 };
 
 MeshScale measure_scale(const PolygonMesh& mesh, const Executor& exec = run_serially);

@@ -26,7 +26,7 @@ class Surface {
     Surface(const PolygonMesh& mesh, const Executor& exec)
         : mesh_(mesh)
         , exec_(exec)
-        , bodies_(surface_components(mesh, exec))
+        , bodies_(surface_components_if_several(mesh, exec))
         , has_volume_(encloses_volume(mesh, exec))
     {
         for (Index c = 0; c < bodies_.count() && bodies_.count() > 1; ++c)
@@ -105,6 +105,7 @@ class Surface {
 
     const PolygonMesh& mesh_;
     const Executor& exec_;
+    /// None where all vertices are in one.
     SurfaceComponents bodies_;
     /// Per body, if there are several: whether it encloses a volume.
     std::vector<std::uint8_t> is_closed_;
@@ -140,7 +141,6 @@ void find_crossings(const PolygonMesh& mesh, const Points& before, SurfaceChange
 }  // namespace
 
 SurfaceChangeMeter::SurfaceChangeMeter(const PolygonMesh& mesh, const Executor& exec)
-    : positions_(mesh.n_vertices(), 3)
 {
     copy(exec, mesh.vertices, positions_);
 }

@@ -262,7 +262,7 @@ ExitStatus run_fields(SmoothCommand& command, RunRecord& run, RankGroup* ranks)
     for (const auto& remarks :
          {remarks_on_losses(command.output, true, file, exec), write_fields(command, file, fields, exec)})
         summary.report.remarks.insert(summary.report.remarks.end(), remarks.begin(), remarks.end());
-    remark_on_vertices(file.mesh, exec, summary.report.remarks);
+    remark_on_vertices(file.mesh, run.scale, exec, summary.report.remarks);
     summary.after = ranges_of_columns(fields.values);
     if (left_out.count > 0)
         summary.report.remarks.push_back(remark_on_faces(left_out, command.output, true, file.kind));

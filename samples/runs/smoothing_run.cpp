@@ -122,18 +122,17 @@ std::string remark_on_far_vertices(const std::vector<Index>& vertices)
 
 }  // namespace
 
-void remark_on_vertices(const PolygonMesh& mesh, const Executor& exec, std::vector<std::string>& remarks)
+void remark_on_vertices(const PolygonMesh& mesh, const MeshScale& scale, const Executor& exec,
+                        std::vector<std::string>& remarks)
 {
-    const std::vector<std::uint8_t> is_used = used_by_faces(mesh, exec);
-    const auto unused = select(exec, mesh.n_vertices(), [&](Index v) { return is_used[v] == 0; });
-    if (const std::vector<Index> far = far_from_faces(mesh, unused, exec); !far.empty())
+    if (const std::vector<Index> far = far_from_faces(mesh, scale.unused_vertices, exec); !far.empty())
         remarks.push_back(remark_on_far_vertices(far));
 }
 
 void resolve_amount(SmoothCommand& command, const PolygonMesh& mesh, const Executor& exec, RunRecord& run)
 {
     run.scale = measure_scale(mesh, exec);
-    remark_on_vertices(mesh, exec, run.remarks);
+    remark_on_vertices(mesh, run.scale, exec, run.remarks);
     resolve_lengths(command, run);
     if (command.chooses_amount)
         choose_amount(command, mesh, exec, run);
@@ -141,9 +140,8 @@ void resolve_amount(SmoothCommand& command, const PolygonMesh& mesh, const Execu
         command.options.time_step =
             time_step_of(command.amount, run.scale, command.options.steps, filter_of(command.options));
     // What removes noise names them itself.
-    const bool looks = !command.options.denoise;
-    if (const auto spikes = looks ? find_spikes(mesh, mesh.vertices, exec) : std::vector<Spike>(); !spikes.empty())
-        run.remarks.push_back(remark_on_spikes(spikes));
+    if (!command.options.denoise && !run.scale.spikes.empty())
+        run.remarks.push_back(remark_on_spikes(run.scale.spikes));
     feather(command, mesh, exec, run, command.options.motion.strength);
     // As the identity of checkpoints has it.
     command.options.uniform_edge = uniform_edge_of(command.options, mesh);

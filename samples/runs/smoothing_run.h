@@ -32,7 +32,8 @@ void resolve_lengths(SmoothCommand& command, RunRecord& run);
 double seam_distance_of(const SmoothCommand& command);
 
 /// Adds a remark on vertices that count in no length because no face uses them, where they lie far away.
-void remark_on_vertices(const PolygonMesh& mesh, const Executor& exec, std::vector<std::string>& remarks);
+void remark_on_vertices(const PolygonMesh& mesh, const MeshScale& scale, const Executor& exec,
+                        std::vector<std::string>& remarks);
 
 /// Computes the values of `command` that depend on the mesh: an amount that depends on its size or noise, and an
 /// attachment; records them in `run`.

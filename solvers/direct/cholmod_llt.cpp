@@ -4,7 +4,6 @@
 #include <cholmod.h>
 
 #include "solvers/direct/foreign_solvers.h"
-#include "solvers/platform/blas_work_area.h"
 
 namespace seamflow {
 
@@ -148,7 +147,6 @@ class CholmodLlt final : public DirectSolver {
         cholmod_sparse matrix = matrix_;
         matrix.x = const_cast<double*>(values.data());
         matrix.xtype = CHOLMOD_REAL;
-        const BlasWorkArea turn;
         Interface::factorize(&matrix, factor_.get(), &common);
         require_ok(common, "factorisation");
         if (common.status == CHOLMOD_OK)
@@ -171,7 +169,6 @@ class CholmodLlt final : public DirectSolver {
         right.dtype = CHOLMOD_DOUBLE;
         CholmodWorkspace::State& kept = workspace.cholmod.state();
         cholmod_common& common = Interface::common(workspace.cholmod);
-        const BlasWorkArea turn;
         Interface::solve(CHOLMOD_A, factor_.get(), &right, nullptr, &kept.solution, nullptr, &kept.first, &kept.second,
                          &common);
         require_ok(common, "solution");

@@ -33,7 +33,8 @@ FactorNumbers<Number> take_numbers(FactorMemory& memory, std::size_t n)
     return {static_cast<Number*>(numbers), {&memory, n}};
 }
 
-/// Memory that is taken from the heap once and reused, each block by one factor at a time. For one thread at a time.
+/// Memory that is taken from the heap once and reused, each block by one factor at a time. Blocks are parts of slabs,
+/// in large pages where the system has them. For one thread at a time.
 class FactorPool : public FactorMemory {
   public:
     /// @param least_bytes of a block: those of the largest factor, so that any block fits any factor; 0: each block
@@ -43,7 +44,7 @@ class FactorPool : public FactorMemory {
     {
     }
 
-    /// Bytes taken from the heap so far.
+    /// Bytes of all blocks. Slabs have at most twice as many.
     [[nodiscard]] std::size_t bytes() const { return bytes_; }
 
   protected:
@@ -52,16 +53,22 @@ class FactorPool : public FactorMemory {
 
   private:
     struct Blocks {
-        std::vector<std::unique_ptr<std::byte[]>> all;
+        std::size_t n = 0;
         /// Most recently used last.
         std::vector<void*> free;
     };
+
+    void* cut_off(std::size_t size);
 
     [[nodiscard]] bool do_is_equal(const FactorMemory& other) const noexcept override { return this == &other; }
 
     std::size_t least_bytes_;
     std::size_t bytes_ = 0;
     std::map<std::size_t, Blocks> blocks_of_size_;
+    std::vector<std::unique_ptr<std::byte[]>> slabs_;
+    /// What is left of the last slab.
+    std::byte* rest_ = nullptr;
+    std::size_t rest_bytes_ = 0;
 };
 
 }  // namespace seamflow

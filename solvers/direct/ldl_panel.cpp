@@ -139,7 +139,7 @@ template <Index Columns, class Number>
     Number inverse[Columns];
     Number factor[Columns][Columns];
     Number* row = top;
-    bool positive = true;
+    bool sound = true;
     for (Index i = 0; i < Columns; ++i, row += width) {
         for (Index c = 0; c < i; ++c) {
             for (Index k = 0; k < c; ++k)
@@ -150,7 +150,7 @@ template <Index Columns, class Number>
             row[i] -= row[c] * factor[i][c];
             row[c] = factor[i][c];
         }
-        positive &= row[i] > Number{0} && std::isfinite(row[i]);
+        sound &= row[i] != Number{0} && std::isfinite(row[i]);
         inverse[i] = Number{1} / row[i];
     }
     const auto n_rows = static_cast<Index>(panel.rows.size());
@@ -164,7 +164,7 @@ template <Index Columns, class Number>
         for (Index c = 0; c < Columns; ++c)
             row[c] = scaled[c] * inverse[c];
     }
-    return positive;
+    return sound;
 }
 
 template <class Number>

@@ -29,7 +29,7 @@ void subtract_update(const LdlPanel<Number>& earlier, Index place, Index n_colum
 
 /// Factorises a block from which all earlier contributions have been subtracted.
 /// @param width see with_simd_width: the result is the same with any.
-/// @returns whether all of D is positive and finite.
+/// @returns whether D is finite and nowhere 0.
 template <class Number>
 bool factorise_panel(const LdlPanel<Number>& panel, Index width = register_width());
 

@@ -40,13 +40,17 @@ double scale_of(std::span<const double> values)
     return power_of_two_near(largest);
 }
 
-/// Whether one of a panel's pivots is smaller than that fraction of the matrix's diagonal.
+/// Whether one of a panel's pivots is not of the expected sign, or smaller than that fraction of the matrix's diagonal.
 template <class Number>
-bool has_small_pivot(const LdlPanel<Number>& panel, const std::vector<double>& diagonal, Number least_pivot)
+bool has_small_pivot(const LdlPanel<Number>& panel, const std::vector<double>& diagonal, Number least_pivot,
+                     Pivots pivots)
 {
     bool is_small = false;
-    for (Index c = 0; c < panel.width; ++c)
-        is_small |= panel.values[usize(c) * usize(panel.width + 1)] < least_pivot * static_cast<Number>(diagonal[c]);
+    for (Index c = 0; c < panel.width; ++c) {
+        const Number pivot = panel.values[usize(c) * usize(panel.width + 1)];
+        const auto sign = static_cast<Number>(pivots == Pivots::LikeDiagonal && diagonal[c] < 0.0 ? -1.0 : 1.0);
+        is_small |= !(sign * pivot > Number{0}) || sign * pivot < least_pivot * sign * static_cast<Number>(diagonal[c]);
+    }
     return is_small;
 }
 
@@ -81,11 +85,12 @@ void find_target_rows(std::span<const Index> rows, std::span<const Index> among,
 }  // namespace
 
 LdlSolver::LdlSolver(const SparsePattern& upper, std::optional<Index> n_last, const EliminationTree& tree,
-                     Executor exec)
+                     Executor exec, Pivots pivots)
     : n_last_(n_last.value_or(0))
     , has_rows_(n_last.has_value())
     , pattern_(make_symmetric_symbolic_factor(upper, n_last_, tree, places_, most_columns(exec)))
     , exec_(std::move(exec))
+    , pivots_(pivots)
 {
     assert((!exec_ || !has_rows_) && "several threads factorise matrices without last unknowns");
     panels_.reserve(pattern_.first.size());
@@ -169,15 +174,15 @@ std::optional<LdlFactor<Number>> LdlSolver::factorise(std::span<const double> va
         (place < n_factor_numbers() ? factor[place] : last[place - n_factor_numbers()]) =
             static_cast<Number>(inverse * values[k]);
     }
-    bool is_positive = !schedule_.exists() || factorise_by_subtrees(factor, least_pivot);
+    bool has_pivots = !schedule_.exists() || factorise_by_subtrees(factor, least_pivot);
     const Index n_in_order = schedule_.exists() ? 0 : pattern_.n_supernodes();
-    for (Index b = 0; b < n_in_order && is_positive; ++b) {
+    for (Index b = 0; b < n_in_order && has_pivots; ++b) {
         LdlPanel<Number> block = panel(factor, b);
         if (panels_[b] == n_factor_numbers())
             block.values = last.data();
-        is_positive = factorise_supernode(b, block, factor, workspace, least_pivot);
+        has_pivots = factorise_supernode(b, block, factor, workspace, least_pivot);
     }
-    return is_positive ? std::optional(LdlFactor<Number>(*this, std::move(numbers), scale)) : std::nullopt;
+    return has_pivots ? std::optional(LdlFactor<Number>(*this, std::move(numbers), scale)) : std::nullopt;
 }
 
 void LdlSolver::enlarge(LdlWorkspace& workspace) const
@@ -195,7 +200,7 @@ bool LdlSolver::factorise_supernode(Index supernode, const LdlPanel<Number>& pan
 {
     copy_diagonal(panel, workspace.diagonal);
     subtract_updates(panel, supernode, factor, workspace);
-    return factorise_panel(panel) && !has_small_pivot(panel, workspace.diagonal, least_pivot);
+    return factorise_panel(panel) && !has_small_pivot(panel, workspace.diagonal, least_pivot, pivots_);
 }
 
 template <class Number>
@@ -212,14 +217,14 @@ bool LdlSolver::factorise_by_subtrees(Number* factor, Number least_pivot) const
 {
     const auto n_groups = schedule_.groups.size();
     const auto n_above = static_cast<Index>(schedule_.above.size());
-    std::vector<std::uint8_t> is_positive(usize(n_groups), 0);
+    std::vector<std::uint8_t> has_pivots(usize(n_groups), 0);
     exec_(n_groups, [&](Index begin, Index end) {
         LdlWorkspace workspace;
         enlarge(workspace);
         for (Index group = begin; group < end; ++group)
-            is_positive[group] = factorise_in_order(schedule_.groups[group], factor, workspace, least_pivot) ? 1 : 0;
+            has_pivots[group] = factorise_in_order(schedule_.groups[group], factor, workspace, least_pivot) ? 1 : 0;
     });
-    if (std::ranges::find(is_positive, 0) != is_positive.end())
+    if (std::ranges::find(has_pivots, 0) != has_pivots.end())
         return false;
     std::vector<std::vector<double>> diagonals(usize(n_above));
     exec_(n_above, [&](Index begin, Index end) {
@@ -233,7 +238,7 @@ bool LdlSolver::factorise_by_subtrees(Number* factor, Number least_pivot) const
     });
     for (Index i = 0; i < n_above; ++i) {
         const LdlPanel<Number> earlier = panel(factor, schedule_.above[i]);
-        if (!factorise_panel(earlier) || has_small_pivot(earlier, diagonals[i], least_pivot))
+        if (!factorise_panel(earlier) || has_small_pivot(earlier, diagonals[i], least_pivot, pivots_))
             return false;
         subtract_from_targets(i, factor);
     }

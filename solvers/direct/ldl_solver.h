@@ -36,6 +36,10 @@ using DenseLdl = Eigen::Map<const Eigen::Matrix<Number, Eigen::Dynamic, Eigen::D
 template <class Number>
 class LdlFactor;
 
+/// What the pivots of a matrix are expected to be: positive, as those of one that is positive definite; or of the signs
+/// of its diagonal, as those of one that is quasi-definite (Vanderbei, Symmetric Quasidefinite Matrices, 1995).
+enum class Pivots { Positive, LikeDiagonal };
+
 /// LDLᵀ factorisation of symmetric sparse matrices of one pattern, in the given order of the unknowns. All except the
 /// numbers is known in advance. Different threads may factorise at the same time, each with a workspace of its own; or
 /// several threads factorise one matrix, and the result does not depend on their number.
@@ -46,10 +50,11 @@ class LdlSolver {
     /// @param n_last number of unknowns that are kept together at the end; factors have rows() then.
     /// @param tree if already known and no unknowns are kept together; otherwise empty.
     /// @param exec runs what several threads can do at once; empty: nothing is.
+    /// @param pivots other ones end a factorisation.
     /// @pre no unknowns are kept together if there is an `exec`.
     /// @throws ComputationError if the factor would have 2³¹ entries or more.
     explicit LdlSolver(const SparsePattern& upper, std::optional<Index> n_last = {}, const EliminationTree& tree = {},
-                       Executor exec = {});
+                       Executor exec = {}, Pivots pivots = Pivots::Positive);
 
     [[nodiscard]] Index n() const { return pattern_.n(); }
 
@@ -64,7 +69,7 @@ class LdlSolver {
     /// @param values one per entry of the pattern; needed only during the call.
     /// @param memory must outlive the factor, as must the solver.
     /// @param least_pivot relative to the diagonal entry of the matrix: a smaller pivot has lost too many digits.
-    /// @returns nothing if the matrix is not positive definite, or a pivot is too small.
+    /// @returns nothing if a pivot is too small, or not of the expected sign.
     template <class Number>
     [[nodiscard]] std::optional<LdlFactor<Number>> factorise(std::span<const double> values, FactorMemory& memory,
                                                              LdlWorkspace& workspace, Number least_pivot = {}) const;
@@ -136,6 +141,7 @@ class LdlSolver {
     /// Per supernode; where there is a schedule, by supernodes that are in groups.
     Lists<Update> updates_;
     Executor exec_;
+    Pivots pivots_;
     EliminationSchedule schedule_;
     /// Per supernode above the groups: what it updates, all above them.
     Lists<Target> targets_;

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "solvers/direct/foreign_solvers.h"
-#include "solvers/direct/ldl_solver.h"
 #include "solvers/direct/lu_solver.h"
 
 namespace seamflow {
@@ -21,8 +20,8 @@ constexpr Index most_unknowns_for_lu = 20'000;
 
 class OwnLdl final : public DirectSolver {
   public:
-    OwnLdl(const SparsePattern& upper, const EliminationTree& tree, Executor exec)
-        : solver_(upper, {}, tree, std::move(exec))
+    OwnLdl(const SparsePattern& upper, const EliminationTree& tree, Executor exec, Pivots pivots)
+        : solver_(upper, {}, tree, std::move(exec), pivots)
     {
     }
 
@@ -99,14 +98,14 @@ class OwnLu final : public DirectSolver {
 
 std::unique_ptr<DirectSolver> make_symmetric_solver(SparsePattern upper, Factorisation factorisation,
                                                     SolverWorkspace& workspace, const EliminationTree& tree,
-                                                    Executor exec)
+                                                    Executor exec, Pivots pivots)
 {
     if (factorisation == Factorisation::Automatic)
         factorisation = upper.n() <= most_unknowns_for_ldl || !is_available(Factorisation::Cholmod)
                             ? Factorisation::Own
                             : Factorisation::Cholmod;
-    if (factorisation == Factorisation::Own)
-        return std::make_unique<OwnLdl>(upper, tree, std::move(exec));
+    if (factorisation == Factorisation::Own || pivots == Pivots::LikeDiagonal)
+        return std::make_unique<OwnLdl>(upper, tree, std::move(exec), pivots);
     assert(factorisation == Factorisation::Cholmod && "no other has symmetric matrices");
     return make_cholmod_llt(std::move(upper), workspace.cholmod);
 }

@@ -4,20 +4,22 @@
 
 #include "partition/executor.h"
 #include "solvers/direct/direct_solver.h"
+#include "solvers/direct/ldl_solver.h"
 #include "solvers/sparse/sparse_pattern.h"
 #include "solvers/sparse/symbolic_factor.h"
 
 namespace seamflow {
 
-/// For symmetric positive definite matrices, in the given order of the unknowns.
+/// For symmetric matrices that are positive definite or quasi-definite (see Pivots), in the given order of the
+/// unknowns.
 /// @param upper the entries on and above the diagonal, the whole diagonal among them.
-/// @param factorisation not Umfpack; is_available().
+/// @param factorisation is_available(), and not Umfpack; CHOLMOD's takes positive pivots alone, else our own is used.
 /// @param tree if already known; otherwise empty.
 /// @param exec runs what several threads can do at once, in our own factorisation; empty: nothing is.
 /// @throws ComputationError if the analysis fails (memory).
 std::unique_ptr<DirectSolver> make_symmetric_solver(SparsePattern upper, Factorisation factorisation,
                                                     SolverWorkspace& workspace, const EliminationTree& tree = {},
-                                                    Executor exec = {});
+                                                    Executor exec = {}, Pivots pivots = Pivots::Positive);
 
 /// For any matrix.
 /// @param pattern must outlive the solver.

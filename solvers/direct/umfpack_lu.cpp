@@ -6,7 +6,6 @@
 #include <umfpack.h>
 
 #include "solvers/direct/foreign_solvers.h"
-#include "solvers/platform/blas_work_area.h"
 
 namespace seamflow {
 
@@ -140,7 +139,6 @@ class UmfpackLu final : public DirectSolver {
     {
         numeric_ = {nullptr, values, &way};
         void* numbers = nullptr;
-        const BlasWorkArea turn;
         const int status =
             static_cast<int>(Interface::numeric(view_.offsets(), view_.rows(), values.data(), way.symbolic.get(),
                                                 &numbers, way.control.data(), info_.data()));

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <span>
 #include <vector>
 
@@ -60,6 +61,14 @@ struct AlexaWardetzky {
         /// |f|: W1 of eq. 15 divides by it.
         [[nodiscard]] double divisor() const { return area_; }
         [[nodiscard]] Row row(std::size_t i, double scale) const { return {scale * bisectors_(i), bisectors_}; }
+        /// See kernels.h: S = 0, C = B / √|f|, D = -1.
+        [[nodiscard]] static RingEntries ring(std::size_t) { return {}; }
+        [[nodiscard]] static std::array<double, 3> auxiliary() { return {-1.0, -1.0, -1.0}; }
+        [[nodiscard]] std::array<double, 3> coupling(std::size_t k) const
+        {
+            const Point c = bisectors_(k) / std::sqrt(area_);
+            return {c[0], c[1], c[2]};
+        }
         [[nodiscard]] Point difference(std::size_t i, std::size_t k) const
         {
             return positions_.row(corners_[k]) - positions_.row(corners_[i]);

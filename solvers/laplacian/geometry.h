@@ -23,6 +23,12 @@ inline double corner_area(double face_area, std::size_t p)
     return face_area / static_cast<double>(p);
 }
 
+/// Entries of a symmetric matrix on a ring of corners: at a corner, and at it and the next one.
+struct RingEntries {
+    double here = 0.0;
+    double to_next = 0.0;
+};
+
 /// Mean of a polygon's corners.
 inline Point centroid(std::span<const Index> corners, const Points& positions)
 {

@@ -33,6 +33,9 @@ concept EdgeKernel = requires
 /// - `mass(k)`: what the face adds to M at corner k, equal to `corner_mass(size, number of corners)`;
 /// - `difference(i, k)`: V_k - V_i, for i < k.
 ///
+/// For faces with many corners K is also S - C D⁻¹ Cᵀ, with n numbers for each of its matrices: S has the entries
+/// `ring(k)`, D is the diagonal matrix `auxiliary()`, of either sign, and C has the rows `coupling(k)`.
+///
 /// If it also has a class `Triangle`, made from three corners, that provides the same for triangles in fewer
 /// operations.
 template <class Kernel>

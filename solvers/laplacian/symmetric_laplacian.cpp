@@ -38,6 +38,28 @@ void with_product(const StiffnessProduct* product, AssembleWith&& assemble_with)
         add_with([](const Point& difference, const Point& increment) -> Point { return difference + increment; });
 }
 
+/// Adds the share of an auxiliary unknown, the i-th of whose n entries of C is that of vertex(i): with
+/// u = V - V₀ + X - X₀, V₀ a corner's, -c (cᵀ u) / d, and what the rows of S lack to sum to zero.
+/// @param d its entry of D.
+template <class VertexOf, class EntryOf>
+void add_auxiliary(const StiffnessProduct& product, const Points& positions, std::size_t n, VertexOf&& vertex,
+                   EntryOf&& entry, double d)
+{
+    const Index first = vertex(0);
+    const auto u = [&](Index v) -> Point {
+        const Point increment = product.increments.row(v) - product.increments.row(first);
+        return product.of_increments_alone ? increment : positions.row(v) - positions.row(first) + increment;
+    };
+    Point mean = Point::Zero();
+    double total = 0.0;
+    for (std::size_t i = 0; i < n; ++i) {
+        mean -= entry(i) / d * u(vertex(i));
+        total -= entry(i) / d;
+    }
+    for (std::size_t i = 0; i < n; ++i)
+        product.result.row(vertex(i)) += entry(i) * (mean - total * u(vertex(i)));
+}
+
 /// K from edges. An edge on the boundary counts half, like one of its two half-edges.
 /// @tparam Number of a vertex: as short as possible, because edges take much of a flow's memory.
 template <EdgeKernel Kernel, class Number>
@@ -152,21 +174,36 @@ class SymmetricEdges final : public SymmetricLaplacian {
 template <FaceKernel Kernel>
 class SymmetricFaces final : public SymmetricLaplacian {
   public:
-    explicit SymmetricFaces(const FacesOnBothSides& faces)
+    SymmetricFaces(const FacesOnBothSides& faces, std::size_t most_corners)
         : lists_{faces.own}
+        , n_vertices_(faces.n_vertices)
+        , most_corners_(most_corners)
     {
         if (faces.contributions == Contributions::BothSides)
             lists_.push_back(faces.beyond);
+        for (Index f = 0; f < faces.own.size(); ++f)
+            n_auxiliary_ += has_auxiliary(lists_[0], faces.own[f]) ? n_of_face : 0;
     }
 
     [[nodiscard]] bool uses_faces() const override { return true; }
 
+    [[nodiscard]] Index n_auxiliary() const override { return n_auxiliary_; }
+
     [[nodiscard]] std::vector<VertexPair> pairs() const override
     {
         std::vector<VertexPair> pairs;
+        Index auxiliary = n_vertices_;
         for (const IndexListsView& faces : lists_)
             for (Index f = 0; f < faces.size(); ++f) {
                 const auto corners = faces[f];
+                if (has_auxiliary(faces, corners)) {
+                    for (std::size_t i = 0; i < corners.size(); ++i)
+                        pairs.push_back({corners[i], corners[i + 1 == corners.size() ? 0 : i + 1]});
+                    for (Index j = 0; j < n_of_face; ++j, ++auxiliary)
+                        for (const Index v : corners)
+                            pairs.push_back({v, auxiliary});
+                    continue;
+                }
                 for (std::size_t i = 0; i < corners.size(); ++i)
                     for (std::size_t k = i + 1; k < corners.size(); ++k)
                         pairs.push_back({corners[i], corners[k]});
@@ -178,7 +215,8 @@ class SymmetricFaces final : public SymmetricLaplacian {
     {
         for (const IndexListsView& faces : lists_)
             for (Index f = 0; f < faces.size(); ++f)
-                action(faces[f].size() * (faces[f].size() - 1) / 2);
+                action(has_auxiliary(faces, faces[f]) ? faces[f].size() * (1 + usize(n_of_face))
+                                                      : faces[f].size() * (faces[f].size() - 1) / 2);
     }
 
     void assemble(const Points& positions, double factor, std::span<const Index> slots, std::span<double> values,
@@ -187,7 +225,30 @@ class SymmetricFaces final : public SymmetricLaplacian {
         std::fill(diagonal.begin(), diagonal.end(), 0.0);
         std::fill(mass.begin(), mass.end(), 0.0);
         const Index* slot = slots.data();
+        Index auxiliary = n_vertices_;
         with_product(product, [&](auto&& add_to_product) {
+            const auto add_with_auxiliary = [&](const auto& face) {
+                const std::size_t n = face.size();
+                for (std::size_t i = 0; i < n; ++i) {
+                    const std::size_t next = i + 1 == n ? 0 : i + 1;
+                    const RingEntries ring = face.ring(i);
+                    diagonal[face.corner(i)] += factor * ring.here;
+                    mass[face.corner(i)] += face.mass(i);
+                    add_to_product(face.corner(i), face.corner(next), factor * ring.to_next, face.difference(i, next));
+                    values[*slot++] += factor * ring.to_next;
+                }
+                const auto divisors = face.auxiliary();
+                for (std::size_t j = 0; j < divisors.size(); ++j, ++auxiliary) {
+                    diagonal[auxiliary] = factor * divisors[j];
+                    const auto entry = [&](std::size_t i) { return factor * face.coupling(i)[j]; };
+                    for (std::size_t i = 0; i < n; ++i)
+                        values[*slot++] += entry(i);
+                    if (product != nullptr)
+                        add_auxiliary(
+                            *product, positions, n, [&](std::size_t i) { return face.corner(i); }, entry,
+                            diagonal[auxiliary]);
+                }
+            };
             const auto add = [&](const auto& face) {
                 const double scale = factor / face.divisor();
                 for (std::size_t i = 0; i < face.size(); ++i) {
@@ -204,7 +265,11 @@ class SymmetricFaces final : public SymmetricLaplacian {
             };
             for (const IndexListsView& faces : lists_)
                 for (Index f = 0; f < faces.size(); ++f)
-                    measure_face<Kernel>(faces[f], positions, scratch_, add);
+                    if (has_auxiliary(faces, faces[f]))
+                        add_with_auxiliary(
+                            Kernel::whole_polygon(faces[f], positions, Kernel::size(faces[f], positions), scratch_));
+                    else
+                        measure_face<Kernel>(faces[f], positions, scratch_, add);
         });
     }
 
@@ -221,7 +286,21 @@ class SymmetricFaces final : public SymmetricLaplacian {
     }
 
   private:
+    using LargeFace = decltype(Kernel::whole_polygon({}, std::declval<const Points&>(), 0.0,
+                                                     std::declval<typename Kernel::Scratch&>()));
+    static constexpr Index n_of_face =
+        static_cast<Index>(std::tuple_size_v<decltype(std::declval<LargeFace>().auxiliary())>);
+
+    /// Of the faces beyond, other sub-meshes need the entries.
+    [[nodiscard]] bool has_auxiliary(const IndexListsView& of, std::span<const Index> corners) const
+    {
+        return corners.size() > most_corners_ && &of == lists_.data();
+    }
+
     std::vector<IndexListsView> lists_;
+    Index n_vertices_;
+    std::size_t most_corners_;
+    Index n_auxiliary_ = 0;
     typename Kernel::Scratch scratch_;
 };
 
@@ -237,7 +316,8 @@ class KeptStiffness final : public SymmetricLaplacian {
                   bool keeps_mass)
         : laplacian_(std::move(laplacian))
         , pairs_(laplacian_->pairs())
-        , diagonal_(n_vertices)
+        , n_vertices_(n_vertices)
+        , diagonal_(n_vertices + laplacian_->n_auxiliary())
         , keeps_mass_(keeps_mass)
     {
         KeptStiffness::keep(positions);
@@ -262,18 +342,31 @@ class KeptStiffness final : public SymmetricLaplacian {
 
     void weigh(const SquaredDifference& squared_difference) override
     {
-        if (unweighted_.empty())
+        if (unweighted_.empty()) {
             unweighted_ = entries_;
+            unweighted_auxiliary_.assign(diagonal_.begin() + n_vertices_, diagonal_.end());
+        }
         std::ranges::fill(diagonal_, 0.0);
         std::size_t begin = 0;
         laplacian_->for_each_element([&](std::size_t n) {
-            double largest = 0.0;
-            for (std::size_t i = begin; i < begin + n; ++i)
-                largest = std::max(largest, squared_difference(pairs_[i].first, pairs_[i].second));
-            for (std::size_t i = begin; i < begin + n; ++i) {
+            const double largest = largest_difference(begin, begin + n, squared_difference);
+            std::size_t i = begin;
+            for (; i < begin + n && !is_auxiliary(pairs_[i].second); ++i) {
                 entries_[i] = unweighted_[i] / (1.0 + largest);
                 diagonal_[pairs_[i].first] -= entries_[i];
                 diagonal_[pairs_[i].second] -= entries_[i];
+            }
+            for (std::size_t end = i; i < begin + n; i = end) {
+                const Index auxiliary = pairs_[i].second;
+                const double d = unweighted_auxiliary_[auxiliary - n_vertices_];
+                double total = 0.0;
+                for (; end < begin + n && pairs_[end].second == auxiliary; ++end)
+                    total -= unweighted_[end] / d;
+                diagonal_[auxiliary] = d / (1.0 + largest);
+                for (std::size_t k = i; k < end; ++k) {
+                    entries_[k] = unweighted_[k] / (1.0 + largest);
+                    diagonal_[pairs_[k].first] -= total * entries_[k];
+                }
             }
             begin += n;
         });
@@ -281,6 +374,7 @@ class KeptStiffness final : public SymmetricLaplacian {
 
     [[nodiscard]] bool uses_faces() const override { return laplacian_->uses_faces(); }
     [[nodiscard]] std::vector<VertexPair> pairs() const override { return pairs_; }
+    [[nodiscard]] Index n_auxiliary() const override { return laplacian_->n_auxiliary(); }
 
     void assemble(const Points& positions, double factor, std::span<const Index> slots, std::span<double> values,
                   std::span<double> diagonal, std::span<double> mass, const StiffnessProduct* product) override
@@ -288,17 +382,28 @@ class KeptStiffness final : public SymmetricLaplacian {
         measure_mass(positions, mass);
         for (std::size_t v = 0; v < diagonal_.size(); ++v) {
             diagonal[v] = factor * diagonal_[v];
-            if (!mass_.empty())
+            if (!mass_.empty() && !is_auxiliary(static_cast<Index>(v)))
                 mass[v] = std::max(mass[v], least_kept_mass * diagonal[v]);
         }
         with_product(product, [&](auto&& add_to_product) {
             for (std::size_t i = 0; i < pairs_.size(); ++i) {
                 const double entry = factor * entries_[i];
                 const auto [v, w] = pairs_[i];
-                add_to_product(v, w, entry, positions.row(w) - positions.row(v));
+                if (!is_auxiliary(w))
+                    add_to_product(v, w, entry, positions.row(w) - positions.row(v));
                 values[slots[i]] += entry;
             }
         });
+        for (std::size_t begin = 0, end = 0; product != nullptr && n_auxiliary() > 0 && begin < pairs_.size();
+             begin = end) {
+            const Index auxiliary = pairs_[begin].second;
+            for (end = begin; end < pairs_.size() && pairs_[end].second == auxiliary;)
+                ++end;
+            if (is_auxiliary(auxiliary))
+                add_auxiliary(
+                    *product, positions, end - begin, [&](std::size_t i) { return pairs_[begin + i].first; },
+                    [&](std::size_t i) { return factor * entries_[begin + i]; }, diagonal[auxiliary]);
+        }
     }
 
     void measure_mass(const Points& positions, std::span<double> mass) const override
@@ -310,12 +415,28 @@ class KeptStiffness final : public SymmetricLaplacian {
     }
 
   private:
+    [[nodiscard]] bool is_auxiliary(Index v) const { return v >= n_vertices_; }
+
+    /// Of any two vertices of the element that has the pairs [begin, end).
+    [[nodiscard]] double largest_difference(std::size_t begin, std::size_t end,
+                                            const SquaredDifference& squared_difference) const
+    {
+        const bool has_all_pairs = begin == end || !is_auxiliary(pairs_[end - 1].second);
+        double largest = 0.0;
+        for (std::size_t i = begin; i < end && !is_auxiliary(pairs_[i].second); ++i)
+            for (std::size_t k = i; k < (has_all_pairs ? i + 1 : end) && !is_auxiliary(pairs_[k].second); ++k)
+                largest = std::max(largest, squared_difference(pairs_[i].first, pairs_[k].second));
+        return largest;
+    }
+
     std::unique_ptr<SymmetricLaplacian> laplacian_;
     std::vector<VertexPair> pairs_;
-    /// Per pair; and before they were weighed, if they are.
+    Index n_vertices_;
+    /// Per pair; and before they were weighed, if they are, with the diagonal of the auxiliary unknowns.
     std::vector<double> entries_;
     std::vector<double> unweighted_;
-    /// Per vertex; M is empty if it follows the mesh.
+    std::vector<double> unweighted_auxiliary_;
+    /// Per vertex and auxiliary unknown; M is empty if it follows the mesh.
     std::vector<double> diagonal_;
     std::vector<double> mass_;
     bool keeps_mass_;
@@ -330,7 +451,7 @@ std::unique_ptr<SymmetricLaplacian> keep_stiffness(std::unique_ptr<SymmetricLapl
 }
 
 std::unique_ptr<SymmetricLaplacian> make_symmetric_laplacian(const ScaledLaplacian& laplacian,
-                                                             const FacesOnBothSides& faces)
+                                                             const FacesOnBothSides& faces, std::size_t most_corners)
 {
     return with_kernel(laplacian, [&]<class Kernel>(Kernel kernel) -> std::unique_ptr<SymmetricLaplacian> {
         if constexpr (EdgeKernel<Kernel>) {
@@ -338,7 +459,7 @@ std::unique_ptr<SymmetricLaplacian> make_symmetric_laplacian(const ScaledLaplaci
                 return std::make_unique<SymmetricEdges<Kernel, std::uint16_t>>(kernel, faces);
             return std::make_unique<SymmetricEdges<Kernel, Index>>(kernel, faces);
         } else if constexpr (FaceKernel<Kernel>)
-            return std::make_unique<SymmetricFaces<Kernel>>(faces);
+            return std::make_unique<SymmetricFaces<Kernel>>(faces, most_corners);
         else
             throw OptionError("the Laplacian is not symmetric");
     });

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <span>
 #include <vector>
@@ -22,12 +24,24 @@ struct StiffnessProduct {
     bool of_increments_alone = false;
 };
 
+/// With more corners a face gets auxiliary unknowns (see SymmetricLaplacian), where these are wanted; with fewer, the
+/// entries of its K are cheaper.
+inline constexpr std::size_t most_corners_without_auxiliary = 64;
+
 /// How much two vertices differ, squared.
 using SquaredDifference = std::function<double(Index v, Index w)>;
 
 /// A Laplacian that is M⁻¹ K with M diagonal and positive and K symmetric and positive semi-definite: Δ_F with M = Σ‖e‖
 /// / val, Δ_A and Δ_B with M the areas of the vertices, Δ_U with M their degrees. Assembled from faces, repeatedly as
 /// the mesh moves.
+///
+/// K of a face of n corners has n² entries. With auxiliary unknowns Y of some faces it is S - C D⁻¹ Cᵀ, a few numbers
+/// for each corner, where D is diagonal, of either sign. Then the matrices are those of
+///
+///     | M + dt S   dt C | | X |   | B |
+///     |  dt Cᵀ     dt D | | Y | = | 0 |   with  (M + dt K) X = B,
+///
+/// which is quasi-definite: L D Lᵀ exists in any order, with pivots of the signs of the diagonal (Vanderbei 1995).
 class SymmetricLaplacian {
   public:
     virtual ~SymmetricLaplacian() = default;
@@ -39,10 +53,15 @@ class SymmetricLaplacian {
     /// repeated.
     [[nodiscard]] virtual std::vector<VertexPair> pairs() const = 0;
 
-    /// values[slots[i]] += factor · (contribution to the i-th of `pairs`), diagonal[v] = factor · K_vv, mass[v] = M_v.
+    /// The number of auxiliary unknowns, which follow the vertices. In `pairs` they are second, those of each in one
+    /// piece.
+    [[nodiscard]] virtual Index n_auxiliary() const { return 0; }
+
+    /// values[slots[i]] += factor · (contribution to the i-th of `pairs`), diagonal[v] = factor · K_vv (or S_vv, or
+    /// D_vv), mass[v] = M_v, and 0 of auxiliary unknowns.
     /// @param positions at least #V by 3.
     /// @param slots one place per pair. Unwanted pairs all point to one place that is never read.
-    /// @param diagonal, mass #V.
+    /// @param diagonal, mass #V + n_auxiliary().
     /// @param product may be nullptr.
     virtual void assemble(const Points& positions, double factor, std::span<const Index> slots,
                           std::span<double> values, std::span<double> diagonal, std::span<double> mass,
@@ -64,8 +83,10 @@ class SymmetricLaplacian {
 
 /// @param laplacian a symmetric one.
 /// @param faces the arrays of their lists must outlive the result if it uses them, the twins need not.
-std::unique_ptr<SymmetricLaplacian> make_symmetric_laplacian(const ScaledLaplacian& laplacian,
-                                                             const FacesOnBothSides& faces);
+/// @param most_corners own faces of more have auxiliary unknowns.
+std::unique_ptr<SymmetricLaplacian>
+make_symmetric_laplacian(const ScaledLaplacian& laplacian, const FacesOnBothSides& faces,
+                         std::size_t most_corners = std::numeric_limits<std::size_t>::max());
 
 /// The same with the K of fixed positions, which is assembled once.
 /// @param n_vertices of all.

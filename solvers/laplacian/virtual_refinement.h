@@ -248,6 +248,15 @@ struct VirtualRefinement {
         {
             return {of_fan_(i), i, size(), at_virtual_, scale, of_fan_};
         }
+        /// See kernels.h: with f the column of the virtual vertex in F and φ its diagonal entry, K = F + f wᵀ + w fᵀ +
+        /// φ w wᵀ = F - f fᵀ / φ + (f + φ w) (f + φ w)ᵀ / φ.
+        [[nodiscard]] RingEntries ring(std::size_t k) const { return {of_fan_(k).diagonal, of_fan_(k).to_next}; }
+        [[nodiscard]] std::array<double, 2> auxiliary() const { return {at_virtual_, -at_virtual_}; }
+        [[nodiscard]] std::array<double, 2> coupling(std::size_t k) const
+        {
+            const Corner corner = of_fan_(k);
+            return {corner.to_virtual, corner.to_virtual + at_virtual_ * corner.weight};
+        }
         [[nodiscard]] Point difference(std::size_t i, std::size_t k) const
         {
             return positions_.row(corners_[k]) - positions_.row(corners_[i]);

@@ -1,6 +1,8 @@
 #include "solvers/normals/vertex_fit.h"
 
 #include <algorithm>
+#include <limits>
+#include <vector>
 
 #include <Eigen/LU>
 
@@ -16,6 +18,41 @@ constexpr double most_relaxation = 0.1;
 constexpr double fit_momentum = 0.5;
 /// A direction is half free at a vertex where the mean of the squared cosines between it and the normals is this much.
 constexpr double half_free = 1e-3;
+/// From how many times the distance of the nearest face on one counts less.
+constexpr double far_away = 4.0;
+
+/// Per corner, the weight of its face at the vertex: 1, or less where its centroid is far away (fans of slivers, say).
+/// What an error of its normal moves the vertex by grows with the distance, and so does what relaxation does.
+/// @returns empty if all are 1.
+std::vector<float> weights_of_corners(const PolygonMesh& mesh, const Topology& topology, const Points& positions,
+                                      const Points& centroids, const Executor& exec)
+{
+    std::vector<double> reach(usize(mesh.n_vertices()));
+    const auto squared_distance = [&](Index v, Index corner) {
+        return (centroids.row(topology.face_of[corner]) - positions.row(v)).squaredNorm();
+    };
+    const bool none = sum(exec, mesh.n_vertices(), [&](Index v) {
+                          double nearest = std::numeric_limits<double>::infinity();
+                          double furthest = 0.0;
+                          for (const Index corner : topology.corners_at(v)) {
+                              const double squared = squared_distance(v, corner);
+                              nearest = std::min(nearest, squared);
+                              furthest = std::max(furthest, squared);
+                          }
+                          reach[v] = far_away * far_away * nearest;
+                          return furthest > reach[v] ? 1.0 : 0.0;
+                      }) == 0.0;
+    std::vector<float> weights;
+    if (none)
+        return weights;
+    weights.resize(usize(mesh.n_corners()), 1.0F);
+    for_each(exec, mesh.n_vertices(), [&](Index v) {
+        for (const Index corner : topology.corners_at(v))
+            if (const double squared = squared_distance(v, corner); squared > reach[v])
+                weights[corner] = static_cast<float>(reach[v] / squared);
+    });
+    return weights;
+}
 
 /// The faces to fit vertices to.
 struct WantedFaces {
@@ -23,12 +60,14 @@ struct WantedFaces {
     const Topology& topology;
     const Points& normals;
     Points centroids;
+    /// See weights_of_corners.
+    std::vector<float> weights;
 };
 
 /// The step of one vertex.
 Point fitting_step(const WantedFaces& faces, const Points& positions, Index v, double relaxation)
 {
-    const auto& [mesh, topology, normals, centroids] = faces;
+    const auto& [mesh, topology, normals, centroids, weights] = faces;
     const Point here = positions.row(v);
     Point fit = Point::Zero();
     Point towards_neighbours = Point::Zero();
@@ -37,12 +76,13 @@ Point fitting_step(const WantedFaces& faces, const Points& positions, Index v, d
     for (const Index corner : corners) {
         const Index f = topology.face_of[corner];
         const Point normal = normals.row(f);
-        fit += normal * normal.dot(centroids.row(f) - here);
+        const double weight = weights.empty() ? 1.0 : weights[corner];
+        fit += weight * normal.dot(centroids.row(f) - here) * normal;
         if (relaxation == 0.0)
             continue;
         squared_cosines += normal.transpose() * normal;
         for (const Index end : {topology.next(mesh, corner), topology.previous(mesh, corner)})
-            towards_neighbours += 0.5 * (positions.row(mesh.face_vertices[end]) - here);
+            towards_neighbours += 0.5 * weight * (positions.row(mesh.face_vertices[end]) - here);
     }
     const auto n = static_cast<double>(corners.size());
     if (relaxation == 0.0)
@@ -58,10 +98,12 @@ void fit_vertices(const PolygonMesh& mesh, const Topology& topology, const Featu
 {
     // Relaxation goes as far as chords of noise are long, up to a limit that folds hardly any face.
     const double relaxation = std::min(wanted.noise, most_relaxation);
-    WantedFaces faces{mesh, topology, wanted.normals, Points(mesh.n_faces(), 3)};
+    WantedFaces faces{mesh, topology, wanted.normals, Points(mesh.n_faces(), 3), {}};
     Points before = vertices;
     for (int i = 0; i < wanted.relaxing_rounds + wanted.plain_rounds; ++i) {
         for_each(exec, mesh.n_faces(), [&](Index f) { faces.centroids.row(f) = centroid(mesh.face(f), vertices); });
+        if (i == 0)
+            faces.weights = weights_of_corners(mesh, topology, vertices, faces.centroids, exec);
         before.swap(vertices);
         for_each(exec, mesh.n_vertices(), [&](Index v) {
             if (!topology.moves(v))

@@ -1,7 +1,6 @@
 #include "solvers/systems/block_row_matrix.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -11,6 +10,7 @@
 #include <utility>
 
 #include "partition/errors.h"
+#include "partition/large_arrays.h"
 
 namespace seamflow {
 
@@ -23,12 +23,6 @@ constexpr float part_of_fill = 0.8F;
 /// Relative to the diagonal.
 constexpr float least_pivot = 0.1F;
 
-template <class Value>
-void reserve(std::unique_ptr<Value[]>& buffer, Index n)
-{
-    buffer = std::make_unique_for_overwrite<Value[]>(n);
-}
-
 /// 0 where the denominator is not positive.
 Eigen::Array4f quotients(const Eigen::Array4d& numerators, const Eigen::Array4d& denominators)
 {
@@ -40,26 +34,23 @@ Eigen::Array4f quotients(const Eigen::Array4d& numerators, const Eigen::Array4d&
 BlockRowMatrix::BlockRowMatrix(std::vector<Index> blocks, const Pattern& pattern, const Executor& exec)
     : blocks_(std::move(blocks))
 {
-    // For each block, the columns of all rows, and where those in the block, those above the diagonal and those behind
-    // the block begin.
-    struct Lists {
-        IndexLists rows;
-        std::vector<std::array<Index, 3>> parts;
-    };
-    std::vector<Lists> lists(blocks_.size() - 1);
+    // For each block, the columns of all rows.
+    std::vector<IndexLists> lists(blocks_.size() - 1);
     for (std::vector<Index>* begin : {&lower_.begin, &upper_.begin, &outer_.begin})
-        begin->assign(usize(n_rows()) + 1, 0);
+        *begin = large_vector<Index>(usize(n_rows()) + 1);
     for_each_block(exec, [&](Index block, Index begin, Index end) {
-        lists[block] = {pattern(block), {}};
+        lists[block] = pattern(block);
         for (Index i = begin; i < end; ++i) {
-            const std::span<const Index> columns = lists[block].rows[i - begin];
-            const std::array parts{place_in(columns, begin), place_in(columns, i), place_in(columns, end)};
-            lists[block].parts.push_back(parts);
-            lower_.begin[i + 1] = parts[1] - parts[0];
-            upper_.begin[i + 1] = parts[2] - parts[1];
-            outer_.begin[i + 1] = static_cast<Index>(columns.size()) - parts[2] + parts[0];
+            const std::span<const Index> columns = lists[block][i - begin];
+            const Index first = place_in(columns, begin);
+            const Index diagonal = place_in(columns, i);
+            const Index last = place_in(columns, end);
+            lower_.begin[i + 1] = diagonal - first;
+            upper_.begin[i + 1] = last - diagonal;
+            outer_.begin[i + 1] = static_cast<Index>(columns.size()) - last + first;
         }
     });
+    const auto reserve = []<class Value>(Buffer<Value>& buffer, Index n) { buffer = uninitialised<Value>(usize(n)); };
     const auto reserve_entries = [&](auto& entries) {
         if (std::accumulate(entries.begin.begin(), entries.begin.end(), std::int64_t{0}) >
             std::numeric_limits<Index>::max())
@@ -73,15 +64,17 @@ BlockRowMatrix::BlockRowMatrix(std::vector<Index> blocks, const Pattern& pattern
     reserve_entries(upper_);
     reserve_entries(outer_);
     for_each_block(exec, [&](Index block, Index begin, Index end) {
-        const Lists of_block = std::move(lists[block]);
+        const IndexLists rows = std::move(lists[block]);
         for (Index i = begin; i < end; ++i) {
-            const auto columns = of_block.rows[i - begin].begin();
-            const auto parts = of_block.parts[i - begin];
+            const std::span<const Index> columns = rows[i - begin];
+            const auto first = std::ranges::find_if(columns, [&](Index column) { return column >= begin; });
+            const auto diagonal = first + (lower_.begin[i + 1] - lower_.begin[i]);
+            const auto last = diagonal + (upper_.begin[i + 1] - upper_.begin[i]);
             const auto inner = [&](Index column) { return static_cast<Inner>(column - begin); };
-            std::transform(columns + parts[0], columns + parts[1], lower_.columns.get() + lower_.begin[i], inner);
-            std::transform(columns + parts[1], columns + parts[2], upper_.columns.get() + upper_.begin[i], inner);
-            const auto place = std::copy(columns, columns + parts[0], outer_.columns.get() + outer_.begin[i]);
-            std::copy(columns + parts[2], of_block.rows[i - begin].end(), place);
+            std::transform(first, diagonal, lower_.columns.get() + lower_.begin[i], inner);
+            std::transform(diagonal, last, upper_.columns.get() + upper_.begin[i], inner);
+            const auto place = std::copy(columns.begin(), first, outer_.columns.get() + outer_.begin[i]);
+            std::copy(last, columns.end(), place);
         }
     });
     // In the memory that the lists have left.

@@ -106,7 +106,6 @@ class BlockRowMatrix {
     Result iterate(const Eigen::Array4d& squared, double goal, int most_iterations, const Executor& exec);
 
   private:
-    /// Filled by all threads, not by the one that allocates it.
     template <class Value>
     using Buffer = std::unique_ptr<Value[]>;
     /// Of a block, so that columns are short.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 #include <utility>
 
@@ -22,15 +23,17 @@ NeumannSystem::NeumannSystem(const SubMesh& sub_mesh, IndexLists faces, const Sc
                              const FlowTerms& terms)
     : n_interface_(sub_mesh.interface.size())
     , faces_(std::move(faces))
-    , matrix_{make_symmetric_laplacian(laplacian, {faces_, sub_mesh.interface.halo_faces, sub_mesh.twin,
-                                                   sub_mesh.n_vertices + sub_mesh.n_halo, Contributions::OwnFaces}),
+    , matrix_{make_symmetric_laplacian(laplacian,
+                                       {faces_, sub_mesh.interface.halo_faces, sub_mesh.twin,
+                                        sub_mesh.n_vertices + sub_mesh.n_halo, Contributions::OwnFaces},
+                                       most_corners_without_auxiliary),
               sub_mesh.n_vertices + sub_mesh.n_halo}
-    , solver_(number_unknowns(sub_mesh), n_interface_)
+    , solver_(number_unknowns(sub_mesh), n_interface_, {}, {}, matrix_.pivots())
 {
     const std::span<const Index> local_to_global = sub_mesh.local_to_global;
     matrix_.screening = make_screening(terms, local_to_global.first(usize(sub_mesh.n_vertices)));
     if (terms.keeps_stiffness)
-        matrix_.laplacian = keep_stiffness(std::move(matrix_.laplacian), matrix_.n_vertices,
+        matrix_.laplacian = keep_stiffness(std::move(matrix_.laplacian), sub_mesh.n_vertices + sub_mesh.n_halo,
                                            rows_of(*terms.first, sub_mesh.local_to_global), terms.keeps_mass);
     if (!matrix_.laplacian->uses_faces())
         faces_ = {};
@@ -43,17 +46,21 @@ SparsePattern NeumannSystem::number_unknowns(const SubMesh& sub_mesh)
     std::vector<bool> on_interface(sub_mesh.n_vertices, false);
     for (const Index v : sub_mesh.interface.vertices)
         on_interface[v] = true;
-    std::vector<Index> unknown_of(sub_mesh.n_vertices, -1);
+    std::vector<Index> unknown_of(usize(matrix_.n_vertices), -1);
+    for (Index v = 0; v < sub_mesh.n_vertices; ++v)
+        unknown_of[v] = sub_mesh.fixed[v] == 0 ? 0 : -1;
+    const std::vector<VertexPair> pairs = matrix_.laplacian->pairs();
+    append_auxiliary_unknowns(pairs, matrix_.laplacian->n_auxiliary(), unknown_of);
+    matrix_.n_vertices = static_cast<Index>(unknown_of.size());
     std::vector<Index> vertices;
     std::vector<bool> is_last;
-    for (Index v = 0; v < sub_mesh.n_vertices; ++v)
-        if (sub_mesh.fixed[v] == 0) {
+    for (Index v = 0; v < matrix_.n_vertices; ++v)
+        if (unknown_of[v] == 0) {
             unknown_of[v] = static_cast<Index>(vertices.size());
             vertices.push_back(v);
-            is_last.push_back(on_interface[v]);
+            is_last.push_back(v < sub_mesh.n_vertices && on_interface[v]);
         }
-    const PairsOfUnknowns pairs_of =
-        pairs_of_unknowns(matrix_.laplacian->pairs(), unknown_of, static_cast<Index>(vertices.size()));
+    const PairsOfUnknowns pairs_of = pairs_of_unknowns(pairs, unknown_of, static_cast<Index>(vertices.size()));
     std::vector<Index> order(vertices.size());
     std::iota(order.begin(), order.end(), 0);
     order = elimination_ordering(upper_pattern(pairs_of, order).pattern, is_last);
@@ -63,6 +70,9 @@ SparsePattern NeumannSystem::number_unknowns(const SubMesh& sub_mesh)
     matrix_.vertex_of.reserve(order.size());
     for (const Index u : order)
         matrix_.vertex_of.push_back(vertices[u]);
+    if (matrix_.laplacian->n_auxiliary() > 0)
+        std::ranges::copy_if(matrix_.vertex_of, std::back_inserter(unknown_vertices_),
+                             [&](Index v) { return matrix_.is_vertex(v); });
     auto [pattern, slots] = upper_pattern(pairs_of, order);
     matrix_.column_offsets = pattern.column_offsets;
     std::replace(slots.begin(), slots.end(), Index{-1}, matrix_.n_entries());
@@ -78,10 +88,10 @@ NeumannSystem::Assembled NeumannSystem::assemble(const Points& positions, const 
     const StiffnessProduct product{increments, residual};
     // r = -dt K (Vᵏ + X) - M X - dt M w (Vᵏ + X - V⁰)
     const std::span<double> matrix = matrix_.fill(positions, time_step, 0, workspace, &product);
-    for (const Index v : matrix_.vertex_of)
+    for (const Index v : unknowns())
         residual.row(v) = -residual.row(v) - workspace.mass[v] * increments.row(v);
     const Screening& screening = matrix_.screening;
-    for (const Index v : screening.exists() ? std::span(matrix_.vertex_of) : std::span<const Index>())
+    for (const Index v : screening.exists() ? std::span(unknowns()) : std::span<const Index>())
         residual.row(v) -= workspace.mass[v] * time_step * screening.weight(v) *
                            ((positions.row(v) - screening.first.row(v)) + increments.row(v));
     leave_out_held(matrix, increments, residual);
@@ -95,7 +105,7 @@ NeumannSystem::Assembled NeumannSystem::assemble(const Points& positions, const 
     set_rows(residual, matrix_.n_vertices);
     const StiffnessProduct product{increments, residual, true};
     const std::span<double> matrix = matrix_.fill(positions, time_step, 0, workspace, &product);
-    for (const Index v : matrix_.vertex_of)
+    for (const Index v : unknowns())
         residual.row(v) =
             -residual.row(v) -
             workspace.mass[v] * ((1.0 + time_step * matrix_.screening.weight(v)) * increments.row(v) - data.row(v));
@@ -169,15 +179,15 @@ void NeumannSystem::condense(const Assembled& equations, Factor& factor, Eigen::
             const double inverse = 1.0 / scale;
             Number* const rows = numbers.rows();
             std::fill_n(rows, usize(ldl_row) * usize(matrix_.n()), Number{});
-            for (Index u = 0; u < n_interior(); ++u) {
+            for (Index u = 0; u < n_before_interface(); ++u) {
                 const double* const residual = equations.residual.row(matrix_.vertex_of[u]).data();
                 for (Index c = 0; c < 3; ++c)
                     rows[ldl_row * u + c] = static_cast<Number>(inverse * residual[c]);
             }
             numbers.forward_substitute();
-            for (Index u = n_interior(); u < matrix_.n(); ++u)
+            for (Index u = n_before_interface(); u < matrix_.n(); ++u)
                 for (Index c = 0; c < 3; ++c)
-                    on_interface(u - n_interior(), c) =
+                    on_interface(u - n_before_interface(), c) =
                         equations.residual(matrix_.vertex_of[u], c) + scale * rows[ldl_row * u + c];
         },
         factor.numbers_);
@@ -191,10 +201,12 @@ void NeumannSystem::back_substitute(Factor& factor, const Points& on_interface, 
             Number* const rows = numbers.rows();
             for (Index i = 0; i < n_interface_; ++i)
                 for (Index c = 0; c < 3; ++c)
-                    rows[ldl_row * (n_interior() + i) + c] = static_cast<Number>(inverse * on_interface(i, c));
+                    rows[ldl_row * (n_before_interface() + i) + c] = static_cast<Number>(inverse * on_interface(i, c));
             numbers.back_substitute();
             bool is_finite = true;
-            for (Index u = 0; u < n_interior(); ++u) {
+            for (Index u = 0; u < n_before_interface(); ++u) {
+                if (!matrix_.is_vertex(matrix_.vertex_of[u]))
+                    continue;
                 double* const row = increments.row(matrix_.vertex_of[u]).data();
                 for (Index c = 0; c < 3; ++c) {
                     row[c] += factor.unit_ * rows[ldl_row * u + c];

@@ -40,11 +40,14 @@ class NeumannSystem {
     /// Number of vertices on Γ.
     [[nodiscard]] Index n_interface() const { return n_interface_; }
 
-    /// Number of the other unknowns.
-    [[nodiscard]] Index n_interior() const { return matrix_.n() - n_interface_; }
+    /// Number of the other vertices that may move.
+    [[nodiscard]] Index n_interior() const { return static_cast<Index>(unknowns().size()) - n_interface_; }
 
     /// The own vertices that may move, in the order of the unknowns: the interior, then Γ in its own order.
-    [[nodiscard]] const std::vector<Index>& unknowns() const { return matrix_.vertex_of; }
+    [[nodiscard]] const std::vector<Index>& unknowns() const
+    {
+        return unknown_vertices_.empty() ? matrix_.vertex_of : unknown_vertices_;
+    }
 
     /// Size of a factor, in bytes.
     /// @tparam Number float or double.
@@ -118,6 +121,7 @@ class NeumannSystem {
 
   private:
     SparsePattern number_unknowns(const SubMesh& sub_mesh);
+    [[nodiscard]] Index n_before_interface() const { return matrix_.n() - n_interface_; }
     void leave_out_held(std::span<double> matrix, const Points& increments, Points& residual) const;
 
     Index n_interface_;
@@ -127,6 +131,8 @@ class NeumannSystem {
     /// If the Laplacian uses them.
     IndexLists faces_;
     SymmetricMatrix matrix_;
+    /// Of the matrix's unknowns, where some are auxiliary; else empty.
+    std::vector<Index> unknown_vertices_;
     LdlSolver solver_;
 };
 

@@ -39,6 +39,15 @@ PairsOfUnknowns pairs_of_unknowns(const std::vector<VertexPair>& pairs, const st
             pairs.size()};
 }
 
+void append_auxiliary_unknowns(const std::vector<VertexPair>& pairs, Index n_auxiliary, std::vector<Index>& unknown_of)
+{
+    const auto first = static_cast<Index>(unknown_of.size());
+    unknown_of.resize(usize(first + n_auxiliary), -1);
+    for (const auto& [v, w] : n_auxiliary > 0 ? std::span(pairs) : std::span<const VertexPair>())
+        if (w >= first && unknown_of[v] >= 0)
+            unknown_of[w] = 0;
+}
+
 SparsePattern neighbours_of(const PairsOfUnknowns& pairs)
 {
     SparsePattern neighbours;
@@ -105,6 +114,10 @@ std::span<double> SymmetricMatrix::fill(const Points& positions, double time_ste
     laplacian->assemble(positions, time_step, slots, workspace.values, workspace.diagonal, workspace.mass, product);
     for (Index u = 0; u < n(); ++u) {
         const Index v = vertex_of[u];
+        if (!is_vertex(v)) {
+            workspace.values[diagonal_slot(u)] = workspace.diagonal[v];
+            continue;
+        }
         workspace.mass[v] /= screening.step_scale(v);
         workspace.values[diagonal_slot(u)] =
             workspace.mass[v] * (1.0 + time_step * screening.weight(v)) + workspace.diagonal[v];

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "partition/index_lists.h"
+#include "solvers/direct/ldl_solver.h"
 #include "solvers/direct/solver_workspace.h"
 #include "solvers/laplacian/symmetric_laplacian.h"
 #include "solvers/sparse/sparse_pattern.h"
@@ -34,6 +35,10 @@ PairsOfUnknowns pairs_of_unknowns(const std::vector<VertexPair>& pairs, const st
 /// All entries off the diagonal of the symmetric matrix, each once; rows in any order.
 SparsePattern neighbours_of(const PairsOfUnknowns& pairs);
 
+/// Makes those auxiliary unknowns (see SymmetricLaplacian) unknowns that are coupled with one.
+/// @param unknown_of per vertex, 0 or more, or -1; gets 0 or -1 for each auxiliary unknown.
+void append_auxiliary_unknowns(const std::vector<VertexPair>& pairs, Index n_auxiliary, std::vector<Index>& unknown_of);
+
 /// The upper triangle of the symmetric matrix with its diagonal, and the places of pairs of vertices in it.
 struct UpperPattern {
     SparsePattern pattern;
@@ -48,7 +53,7 @@ UpperPattern upper_pattern(const PairsOfUnknowns& pairs, const std::vector<Index
 /// Laplacian over the step scale (see Screening).
 struct SymmetricMatrix {
     std::unique_ptr<SymmetricLaplacian> laplacian;
-    /// Of the sub-mesh, its halo included.
+    /// Of the sub-mesh, its halo included, and the auxiliary unknowns behind them.
     Index n_vertices = 0;
     /// Per unknown, in the elimination ordering.
     std::vector<Index> vertex_of{};
@@ -61,6 +66,15 @@ struct SymmetricMatrix {
 
     [[nodiscard]] Index n() const { return static_cast<Index>(vertex_of.size()); }
     [[nodiscard]] Index n_entries() const { return column_offsets.back(); }
+
+    /// Whether an unknown's "vertex" is one, not auxiliary.
+    [[nodiscard]] bool is_vertex(Index v) const { return v < n_vertices - laplacian->n_auxiliary(); }
+
+    /// What its factorisation has.
+    [[nodiscard]] Pivots pivots() const
+    {
+        return laplacian->n_auxiliary() > 0 ? Pivots::LikeDiagonal : Pivots::Positive;
+    }
 
     /// The diagonal entry of an unknown, the last of its column.
     [[nodiscard]] Index diagonal_slot(Index unknown) const { return column_offsets[unknown + 1] - 1; }

@@ -13,40 +13,47 @@ namespace seamflow {
 
 SymmetricSystem::SymmetricSystem(const SystemParts& parts, SymmetricRows rows, SolverWorkspace& workspace)
     : sub_mesh_(&parts.sub_mesh)
-    , matrix_{make_symmetric_laplacian(parts.laplacian, {sub_mesh_->face_vertices, sub_mesh_->interface.halo_faces,
-                                                         parts.twin, sub_mesh_->n_vertices + sub_mesh_->n_halo}),
+    , matrix_{make_symmetric_laplacian(parts.laplacian,
+                                       {sub_mesh_->face_vertices, sub_mesh_->interface.halo_faces, parts.twin,
+                                        sub_mesh_->n_vertices + sub_mesh_->n_halo},
+                                       most_corners_without_auxiliary),
               sub_mesh_->n_vertices + sub_mesh_->n_halo}
 {
     const std::span<const Index> local_to_global = sub_mesh_->local_to_global;
     matrix_.screening = make_screening(parts.terms, local_to_global.first(usize(sub_mesh_->n_vertices)));
     if (parts.terms.keeps_stiffness)
         matrix_.laplacian =
-            keep_stiffness(std::move(matrix_.laplacian), matrix_.n_vertices,
+            keep_stiffness(std::move(matrix_.laplacian), sub_mesh_->n_vertices + sub_mesh_->n_halo,
                            rows_of(*parts.terms.first, sub_mesh_->local_to_global), parts.terms.keeps_mass);
     std::vector<Index> unknown_of;
-    number_unknowns(rows, unknown_of);
     const std::vector<VertexPair> pairs = matrix_.laplacian->pairs();
+    number_unknowns(rows, pairs, unknown_of);
     EliminationTree tree;
     SparsePattern upper = list_entries(pairs, unknown_of, tree);
     matrix_.column_offsets = upper.column_offsets;
     list_couplings(pairs, unknown_of);
     if (rows == SymmetricRows::Transmission)
         list_interface(upper, unknown_of);
-    solver_ = make_symmetric_solver(std::move(upper), parts.factorisation, workspace, tree, parts.exec);
+    solver_ =
+        make_symmetric_solver(std::move(upper), parts.factorisation, workspace, tree, parts.exec, matrix_.pivots());
 }
 
 /// In the order of the vertices.
-/// @param unknown_of receives one entry per own vertex, -1 where it is not an unknown.
-void SymmetricSystem::number_unknowns(SymmetricRows rows, std::vector<Index>& unknown_of)
+/// @param unknown_of receives one entry per own vertex, vertex of the halo and auxiliary unknown, -1 where it is not an
+///        unknown.
+void SymmetricSystem::number_unknowns(SymmetricRows rows, const std::vector<VertexPair>& pairs,
+                                      std::vector<Index>& unknown_of)
 {
-    unknown_of.assign(sub_mesh_->n_vertices, 0);
+    unknown_of.assign(usize(matrix_.n_vertices), -1);
     for (Index v = 0; v < sub_mesh_->n_vertices; ++v)
-        if (sub_mesh_->fixed[v] != 0)
-            unknown_of[v] = -1;
+        if (sub_mesh_->fixed[v] == 0)
+            unknown_of[v] = 0;
     if (rows == SymmetricRows::Dirichlet)
         for (const Index v : sub_mesh_->interface.vertices)
             unknown_of[v] = -1;
-    for (Index v = 0; v < sub_mesh_->n_vertices; ++v)
+    append_auxiliary_unknowns(pairs, matrix_.laplacian->n_auxiliary(), unknown_of);
+    matrix_.n_vertices = static_cast<Index>(unknown_of.size());
+    for (Index v = 0; v < matrix_.n_vertices; ++v)
         if (unknown_of[v] == 0) {
             unknown_of[v] = static_cast<Index>(matrix_.vertex_of.size());
             matrix_.vertex_of.push_back(v);
@@ -75,7 +82,7 @@ SparsePattern SymmetricSystem::list_entries(const std::vector<VertexPair>& pairs
 /// Couplings that are not in the matrix; those beyond Γ by the vertices of Γ.
 void SymmetricSystem::list_couplings(const std::vector<VertexPair>& pairs, const std::vector<Index>& unknown_of)
 {
-    const auto is_unknown = [&](Index v) { return v < sub_mesh_->n_vertices && unknown_of[v] >= 0; };
+    const auto is_unknown = [&](Index v) { return unknown_of[v] >= 0; };
     const auto unknown_first = [&](VertexPair pair) {
         return is_unknown(pair.first) ? pair : VertexPair{pair.second, pair.first};
     };
@@ -240,7 +247,8 @@ void SymmetricSystem::solve(const Factor& factor, const Points& positions, Point
     factor.solve(workspace.right_hand_side, workspace.solution, workspace);
     require_finite_result(workspace.solution.allFinite());
     for (Index u = 0; u < matrix_.n(); ++u)
-        solution.row(matrix_.vertex_of[u]) = workspace.solution.row(u);
+        if (matrix_.is_vertex(matrix_.vertex_of[u]))
+            solution.row(matrix_.vertex_of[u]) = workspace.solution.row(u);
     for (std::size_t i = 0; i + 1 < rows_.size(); ++i)
         if (rows_[i].role == InterfaceRole::Follows)
             solution.row(vertex_at(i)) = workspace.right_hand_side.row(rows_[i].unknown);
@@ -250,11 +258,13 @@ void SymmetricSystem::fill_right_hand_side(const Points& positions, const Points
 {
     set_rows(right, matrix_.n());
     for (Index u = 0; u < matrix_.n(); ++u)
-        right.row(u) = mass_[u] * positions.row(matrix_.vertex_of[u]);
+        right.row(u) = matrix_.is_vertex(matrix_.vertex_of[u]) ? Point(mass_[u] * positions.row(matrix_.vertex_of[u]))
+                                                               : Point(Point::Zero());
     const Screening& screening = matrix_.screening;
     for (Index u = 0; pulls_ && u < matrix_.n(); ++u) {
         const Index v = matrix_.vertex_of[u];
-        right.row(u) += mass_[u] * time_step_ * screening.weight(v) * screening.first.row(v);
+        if (matrix_.is_vertex(v))
+            right.row(u) += mass_[u] * time_step_ * screening.weight(v) * screening.first.row(v);
     }
     for (const Coupling& coupling : fixed_)
         right.row(coupling.unknown) -= coupling.value * known.row(coupling.vertex);

@@ -68,7 +68,7 @@ class SymmetricSystem final : public SubMeshSystem {
         Point beyond = Point::Zero();
     };
 
-    void number_unknowns(SymmetricRows rows, std::vector<Index>& unknown_of);
+    void number_unknowns(SymmetricRows rows, const std::vector<VertexPair>& pairs, std::vector<Index>& unknown_of);
     SparsePattern list_entries(const std::vector<VertexPair>& pairs, std::vector<Index>& unknown_of,
                                EliminationTree& tree);
     void list_couplings(const std::vector<VertexPair>& pairs, const std::vector<Index>& unknown_of);

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "partition/cut/boxes.h"
+#include "partition/large_arrays.h"
 
 namespace seamflow {
 
@@ -30,7 +31,7 @@ Index number_of_blocks(Index n_rows)
 IndexLists consecutive_blocks(Index n_rows, Index n_blocks)
 {
     IndexLists blocks;
-    blocks.values.resize(usize(n_rows));
+    blocks.values = large_vector<Index>(usize(n_rows));
     std::iota(blocks.values.begin(), blocks.values.end(), 0);
     for (Index block = 1; block <= n_blocks; ++block)
         blocks.offsets.push_back(static_cast<Index>(std::int64_t{n_rows} * block / n_blocks));
@@ -40,7 +41,7 @@ IndexLists consecutive_blocks(Index n_rows, Index n_blocks)
 /// The fraction of the edges of faces whose ends are in different blocks.
 double part_between(const PolygonMesh& mesh, const IndexLists& blocks, const Executor& exec)
 {
-    std::vector<Index> block_of(usize(mesh.n_vertices()));
+    auto block_of = large_vector<Index>(usize(mesh.n_vertices()));
     for_each(exec, blocks.size(),
              [&](Index block) { std::fill_n(block_of.begin() + blocks.offsets[block], blocks[block].size(), block); });
     const double n_between = sum(exec, mesh.n_faces(), [&](Index f) {
@@ -87,7 +88,7 @@ IndexLists make_blocks(const PolygonMesh& mesh, const Topology& topology, bool h
 
 std::vector<Index> make_row_of(const IndexLists& blocks, Index n_vertices, const Executor& exec)
 {
-    std::vector<Index> row_of(usize(n_vertices), -1);
+    auto row_of = large_vector<Index>(usize(n_vertices), -1);
     for_each(exec, static_cast<Index>(blocks.values.size()), [&](Index i) { row_of[blocks.values[i]] = i; });
     return row_of;
 }
@@ -161,6 +162,10 @@ BlockRowMatrix make_matrix(const PolygonMesh& mesh, const Topology& topology, co
             [&](Index block) {
                 RowPattern pattern(mesh, topology, rows.row_of, reach);
                 IndexLists columns;
+                const auto n_rows = usize(begin[block + 1] - begin[block]);
+                columns.offsets.reserve(n_rows + 1);
+                // Of triangles, a vertex has as many neighbours as corners.
+                columns.values.reserve(n_rows * mesh.face_vertices.size() / usize(std::max(mesh.n_vertices(), 1)));
                 for (Index i = begin[block]; i < begin[block + 1]; ++i) {
                     if (topology.moves(vertices.values[i])) {
                         const std::vector<Index>& row = pattern.list(vertices.values[i]);

@@ -9,10 +9,14 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
+
+#include "partition/formats/gltf_content.h"
 #include "partition/formats/mesh_io.h"
 #include "partition/formats/palette.h"
 #include "partition/io/byte_order.h"
 #include "tests/fuzz/seeds.h"
+#include "tests/support/gltf_files.h"
 
 namespace {
 
@@ -165,6 +169,59 @@ void make_stl(const std::filesystem::path& root)
                  "\\x00\\x00\\x80\\x7f"});
 }
 
+void make_gltf(const std::filesystem::path& root)
+{
+    const Seeds binary(root, "glb");
+    const Seeds text(root, "gltf");
+    write_mesh(binary.path("plain.glb"), two_triangles(), {FileFormat::Glb, Encoding::BinaryLittleEndian});
+    write_mesh(text.path("plain.gltf"), two_triangles(), {FileFormat::Gltf, Encoding::BinaryLittleEndian});
+    GltfMaker maker;
+    const int view = maker.view(bytes_of(std::vector<float>{0, 0, 0, 0, 0, 1, 1, 0, 0.5F, 0, 0, 1, 0, 1, 0, 0, 0, 1}),
+                                R"("byteStride":24)");
+    const std::string attributes =
+        fmt::format(R"("attributes":{{"POSITION":{},"NORMAL":{}}})",
+                    maker.accessor(view, 5126, 3, "VEC3", R"("min":[0,0,0],"max":[1,1,0.5])"),
+                    maker.accessor(view, 5126, 3, "VEC3", R"("byteOffset":12)"));
+    const int bytes = maker.indices(std::vector<unsigned char>{0, 1, 2});
+    const int shorts = maker.indices(std::vector<unsigned short>{0, 1, 2, 2, 0});
+    maker.mesh({fmt::format(R"({{{},"indices":{}}})", attributes, bytes), "{" + attributes + R"(,"mode":6})",
+                fmt::format(R"({{{},"indices":{},"mode":5,"targets":[{{"POSITION":0}}]}})", attributes, shorts)});
+    maker.mesh({"{" + attributes + R"(,"mode":0})"});
+    maker.more = R"("nodes":[{"mesh":0}],"skins":[{}])";
+    binary.add("all.glb", maker.glb());
+    const std::string data = gltf_data("data:application/octet-stream;base64", maker.bytes());
+    text.add("all.gltf", maker.text(data));
+    binary.add("data.glb", GltfMaker::glb(maker.text(data), "chunk"));
+    const std::vector<std::string> words = {R"(\"accessors\":[)",
+                                            R"(\"attributes\":{)",
+                                            R"(\"bufferView\":)",
+                                            R"(\"bufferViews\":[)",
+                                            R"(\"buffers\":[)",
+                                            R"(\"byteLength\":)",
+                                            R"(\"byteOffset\":)",
+                                            R"(\"byteStride\":4)",
+                                            R"(\"componentType\":5126)",
+                                            R"(\"count\":)",
+                                            R"(\"indices\":)",
+                                            R"(\"max\":[)",
+                                            R"(\"meshes\":[)",
+                                            R"(\"min\":[)",
+                                            R"(\"mode\":5)",
+                                            R"(\"NORMAL\":)",
+                                            R"(\"POSITION\":)",
+                                            R"(\"primitives\":[)",
+                                            R"(\"sparse\":{)",
+                                            R"(\"type\":\"VEC3\")",
+                                            R"(\"uri\":\"data:;base64,)",
+                                            "5121",
+                                            "5123",
+                                            "5125",
+                                            "9007199254740992",
+                                            "1e300"};
+    binary.words(words);
+    text.words(words);
+}
+
 void make_lists(const std::filesystem::path& root)
 {
     const Seeds labels(root, "labels");
@@ -196,6 +253,7 @@ int main(int n, char** arguments)
         make_off(root);
         make_ply(root);
         make_stl(root);
+        make_gltf(root);
         make_lists(root);
         return 0;
     } catch (const std::exception& error) {

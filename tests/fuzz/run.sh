@@ -7,7 +7,7 @@
 #
 # N: in all, 300 unless told, and a second for each harness at least; as many of them run at once as there are
 # processors.
-# HARNESS: obj, off, ply, stl, labels, vertex_set, checkpoint; all but checkpoint, which needs the whole library,
+# HARNESS: obj, off, ply, stl, glb, gltf, labels, vertex_set, checkpoint; all but checkpoint, which needs the whole library,
 # unless told.
 
 set -euo pipefail
@@ -28,14 +28,14 @@ while (($# > 0)); do
         seconds="$((10#$2))"
         shift 2
         ;;
-    obj | off | ply | stl | labels | vertex_set | checkpoint)
+    obj | off | ply | stl | glb | gltf | labels | vertex_set | checkpoint)
         harnesses+=("$1")
         shift
         ;;
     *) usage ;;
     esac
 done
-((${#harnesses[@]} > 0)) || harnesses=(obj off ply stl labels vertex_set)
+((${#harnesses[@]} > 0)) || harnesses=(obj off ply stl glb gltf labels vertex_set)
 
 fuzzer_packages() {
     any_command clang++ || echo clang

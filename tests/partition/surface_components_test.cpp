@@ -33,6 +33,18 @@ TEST_CASE("bodies are connected by vertices, and numbered by the lowest of them;
     CHECK(surface_components(PolygonMesh{}).count() == 0);
 }
 
+TEST_CASE("where there are several bodies they are the same, and where there is one it is not listed")
+{
+    const PolygonMesh one = make_noisy_sphere(200);
+    CHECK(surface_components(one).count() == 1);
+    CHECK(surface_components_if_several(one).count() == 0);
+    const PolygonMesh two = test::side_by_side({make_quads(100), one});
+    const SurfaceComponents found = surface_components_if_several(two);
+    CHECK(found.count() == 2);
+    CHECK(found.of_vertex == surface_components(two).of_vertex);
+    CHECK(found.faces.values == surface_components(two).faces.values);
+}
+
 TEST_CASE("the largest diagonal is that of the largest body, however far others are")
 {
     const PolygonMesh large = make_noisy_sphere(200);

@@ -25,7 +25,7 @@ void leave_out_of(test::Json& json)
 {
     if (json.is_object())
         for (const char* key : {"seconds", "reference_seconds", "threads", "live_factors", "factor_memory_bytes",
-                                "peak_memory_bytes", "ranks", "arguments", "date"})
+                                "peak_memory_bytes", "page_faults", "ranks", "arguments", "date"})
             json.erase(key);
     for (test::Json& one : json)
         if (one.is_structured())

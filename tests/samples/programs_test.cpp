@@ -140,6 +140,7 @@ TEST_CASE("the report of smooth has its keys")
                             "steps",
                             "displacement",
                             "peak_memory_bytes",
+                            "page_faults",
                             "subdomain_vertices",
                             "interface_vertices",
                             "repaired_faces",

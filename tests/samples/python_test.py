@@ -1,5 +1,6 @@
 """The Python package, beside the programs: python3 python_test.py SMOOTH GENERATE, with the package on PYTHONPATH."""
 
+import importlib.util
 import inspect
 import json
 import os
@@ -337,6 +338,120 @@ class SameBits(WithFolder):
             np.testing.assert_array_equal(seamflow.smooth(mesh, radius=0.5)[0], expected)
         with self.assertRaisesRegex(ValueError, "cells of type tetra"):
             seamflow.smooth(SimpleNamespace(points=V, cells=[SimpleNamespace(type="tetra", data=np.array(F))]))
+
+
+def needs(module):
+    """Leaves out a test where a package is missing, saying so."""
+    return unittest.skipUnless(importlib.util.find_spec(module), f"{module} is not installed")
+
+
+class ObjectsOfOtherPackages(unittest.TestCase):
+    """Each is smoothed, gets its positions back by the line in python.md, and then has them."""
+
+    TRIANGLES = np.array([face[:3] for face in SIDES] + [[face[0], *face[2:]] for face in SIDES], np.int32)
+
+    def setUp(self):
+        self.V = np.array(CUBE, np.float32) + np.float32(0.125)
+        self.expected = {kind: seamflow.smooth(self.V.astype(kind), self.TRIANGLES, radius=0.5)[0]
+                         for kind in (np.float32, np.float64)}
+        self.assertGreater(np.abs(self.expected[np.float64] - self.V).max(), 0.05)
+
+    def smoothed(self, mesh, kind):
+        V2, report = seamflow.smooth(mesh, radius=0.5)
+        self.assertEqual(V2.dtype, kind)
+        self.assertEqual(len(report["labels"]), 12)
+        np.testing.assert_array_equal(V2, self.expected[kind])
+        return V2
+
+    @needs("open3d")
+    def test_open3d(self):
+        import open3d
+
+        mesh = open3d.geometry.TriangleMesh(open3d.utility.Vector3dVector(self.V.astype(float)),
+                                            open3d.utility.Vector3iVector(self.TRIANGLES))
+        V2 = self.smoothed(mesh, np.float64)
+        np.testing.assert_array_equal(np.asarray(mesh.vertices), self.V)
+        mesh.vertices = open3d.utility.Vector3dVector(V2)
+        np.testing.assert_array_equal(np.asarray(mesh.vertices), V2)
+
+    @needs("open3d")
+    def test_open3d_tensors(self):
+        import open3d
+
+        mesh = open3d.t.geometry.TriangleMesh(open3d.core.Tensor(self.V), open3d.core.Tensor(self.TRIANGLES))
+        V2 = self.smoothed(mesh, np.float32)
+        mesh.vertex["positions"] = open3d.core.Tensor(V2)
+        np.testing.assert_array_equal(mesh.vertex["positions"].numpy(), V2)
+
+    @staticmethod
+    def poly_data(V, faces):
+        import vtk
+        from vtk.util.numpy_support import numpy_to_vtk
+
+        mesh = vtk.vtkPolyData()
+        points = vtk.vtkPoints()
+        points.SetData(numpy_to_vtk(V, deep=True))
+        mesh.SetPoints(points)
+        lines, cells = vtk.vtkCellArray(), vtk.vtkCellArray()
+        lines.InsertNextCell(2, [0, 1])
+        mesh.SetLines(lines)
+        for face in faces:
+            cells.InsertNextCell(len(face), [int(v) for v in face])
+        mesh.SetPolys(cells)
+        return mesh
+
+    @needs("vtk")
+    def test_vtk(self):
+        from vtk.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+
+        for kind in (np.float32, np.float64):
+            mesh = self.poly_data(self.V.astype(kind), self.TRIANGLES)
+            V2 = self.smoothed(mesh, kind)
+            mesh.GetPoints().SetData(numpy_to_vtk(V2, deep=True))
+            np.testing.assert_array_equal(vtk_to_numpy(mesh.GetPoints().GetData()), V2)
+
+    @needs("vtk")
+    def test_vtk_polygons(self):
+        mixed = [list(SIDES[0][:3]), [SIDES[0][0], *SIDES[0][2:]], *[list(face) for face in SIDES[1:]]]
+        V = self.V.astype(float)
+        for faces in (mixed, SIDES):
+            np.testing.assert_array_equal(seamflow.smooth(self.poly_data(V, faces), radius=0.5)[0],
+                                          seamflow.smooth(V, [list(face) for face in faces], radius=0.5)[0])
+        with self.assertRaisesRegex(ValueError, "no faces"):
+            seamflow.smooth(self.poly_data(V, []), radius=0.5)
+        strips = self.poly_data(V, SIDES)
+        strips.SetStrips(strips.GetPolys())
+        with self.assertRaisesRegex(ValueError, "vtkTriangleFilter"):
+            seamflow.smooth(strips, radius=0.5)
+
+    @needs("pyvista")
+    def test_pyvista(self):
+        import pyvista
+
+        mesh = pyvista.PolyData(self.V, np.insert(self.TRIANGLES, 0, 3, axis=1).ravel())
+        V2 = self.smoothed(mesh, np.float32)
+        mesh.points = V2
+        np.testing.assert_array_equal(mesh.points, V2)
+
+    @needs("nibabel")
+    def test_nibabel(self):
+        from nibabel.gifti import GiftiDataArray, GiftiImage
+
+        surface = GiftiImage(darrays=[GiftiDataArray(self.V, intent="NIFTI_INTENT_POINTSET"),
+                                      GiftiDataArray(self.TRIANGLES, intent="NIFTI_INTENT_TRIANGLE")])
+        V2 = self.smoothed(surface, np.float32)
+        surface.get_arrays_from_intent("NIFTI_INTENT_POINTSET")[0].data = V2
+        np.testing.assert_array_equal(surface.agg_data("pointset"), V2)
+
+        columns = np.stack([self.V[:, 0], self.V[:, 1] ** 2], axis=-1)
+        arrays = [GiftiDataArray(np.ascontiguousarray(column), intent="NIFTI_INTENT_SHAPE") for column in columns.T]
+        for data, fields in ((GiftiImage(darrays=arrays), columns), (GiftiImage(darrays=arrays[1:]), columns[:, 1])):
+            expected, _ = seamflow.diffuse(V2, self.TRIANGLES, fields, fwhm=0.5)
+            smooth, _ = seamflow.diffuse(surface, None, data, fwhm=0.5)
+            np.testing.assert_array_equal(smooth, expected)
+            self.assertGreater(np.abs(smooth - fields).max(), 0.01)
+        with self.assertRaisesRegex(ValueError, "0 arrays of intent NIFTI_INTENT_POINTSET"):
+            seamflow.smooth(data, radius=0.5)
 
 
 class Seams(unittest.TestCase):

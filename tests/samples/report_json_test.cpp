@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cstdint>
 #include <limits>
 #include <set>
 #include <sstream>
@@ -7,6 +8,8 @@
 
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
+#include <sys/mman.h>
+#include <unistd.h>
 
 #include "partition/version.h"
 #include "samples/report/report_json.h"
@@ -31,6 +34,22 @@ TEST_CASE("the numbers of a report read back to the same double")
     CHECK(json["steps"][0]["v_max_absolute"].get<double>() == 0.3);
     CHECK_FALSE(json["steps"][1].contains("v_mean"));
     CHECK(json["peak_memory_bytes"].get<std::int64_t>() > 0);
+}
+
+TEST_CASE("a report counts the pages of memory that were touched for the first time")
+{
+    const auto faults = [] {
+        return Json::parse(smooth_report_json(RunRecord{}, FlowReport{}))["page_faults"].get<std::int64_t>();
+    };
+    constexpr std::int64_t n_pages = 1000;
+    const auto page = static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+    void* const memory = ::mmap(nullptr, n_pages * page, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    REQUIRE(memory != MAP_FAILED);
+    static_cast<void>(::madvise(memory, n_pages * page, MADV_NOHUGEPAGE));
+    const std::int64_t before = faults();
+    std::fill_n(static_cast<volatile char*>(memory), n_pages * page, 'a');
+    CHECK(faults() - before >= n_pages);
+    ::munmap(memory, n_pages * page);
 }
 
 TEST_CASE("a report tells how many converged steps missed their tolerance, and which of them stagnated")

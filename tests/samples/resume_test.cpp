@@ -17,8 +17,8 @@ namespace {
 /// All that does not depend on time, nor on the command line.
 Json results_in(Json report)
 {
-    for (const char* key : {"date", "seconds", "arguments", "output", "peak_memory_bytes", "factor_memory_bytes",
-                            "live_factors", "threads"})
+    for (const char* key : {"date", "seconds", "arguments", "output", "peak_memory_bytes", "page_faults",
+                            "factor_memory_bytes", "live_factors", "threads"})
         report.erase(key);
     for (Json& step : report["steps"])
         for (const char* key : {"seconds", "reference_seconds"})

@@ -23,6 +23,7 @@ std::vector<std::pair<std::string, PolygonMesh>> meshes_to_cut()
             {"cylinder", make_cylinder(250)},
             {"torus", quad_torus(18, 12)},
             {"Möbius band", moebius_band(24, 6)},
+            {"cup", cup(80, 3)},
             {"several", side_by_side({quad_grid(8, 8), triangle_torus(9, 9), hourglass(), cylinder(8, 6)})}};
 }
 

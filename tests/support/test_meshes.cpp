@@ -103,6 +103,18 @@ PolygonMesh cylinder(Index m, Index n)
     return mesh;
 }
 
+PolygonMesh cup(Index m, Index n)
+{
+    PolygonMesh mesh = cylinder(m, n);
+    for (Index i = 0; i < mesh.n_vertices(); ++i)
+        mesh.vertices.row(i) *= 1.0 + 0.01 * (i * 37 % 11);
+    std::vector<Index> bottom;
+    for (Index i = m - 1; i >= 0; --i)
+        bottom.push_back(i);
+    mesh.add_face(bottom);
+    return mesh;
+}
+
 PolygonMesh moebius_band(Index m, Index n)
 {
     PolygonMesh mesh;

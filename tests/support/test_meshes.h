@@ -28,6 +28,9 @@ PolygonMesh cylinder(Index m, Index n);
 /// A Möbius band of m by n quads, m and n at least 3, that joins its ends with a half-turn.
 PolygonMesh moebius_band(Index m, Index n);
 
+/// A cylinder of m by n quads whose lower rim is closed by one polygon, not flat.
+PolygonMesh cup(Index m, Index n);
+
 /// A flat sheet of m by n hexagons; those at two sides have open neighbours on zigzag edges.
 PolygonMesh hexagon_sheet(Index m, Index n);
 

@@ -45,8 +45,8 @@ def smooth(V, F=None, *, fixed=None, labels=None, edges=None, attach_weights=Non
     """Smooths a mesh by mean curvature flow; with the same options the result has the same bits as that of the program
     `smooth`. Without an amount it finds the noise of each place and removes it.
 
-    V: positions, (#V, 3), of which a copy is smoothed; or, without F, a mesh that has .vertices and .faces (trimesh) or
-        .points and .cells (meshio).
+    V: positions, (#V, 3), of which a copy is smoothed; or, without F, a mesh of trimesh, meshio, Open3D, VTK or
+        PyVista, or a surface of nibabel (GIFTI). The mesh stays as it is.
     F: faces, (#F, 3) or (#F, 4) and so on, with the vertices of each numbered from 0; or a list of polygons.
     fixed: vertices that stay where they are, as a mask (#V, bool; or whole numbers, 0 and 1 alone) or by their numbers.
     labels: the sub-mesh of every face, (#F,), at least 0.
@@ -165,7 +165,8 @@ def diffuse(V, F=None, fields=None, *, fwhm=None, keep_edges=None, fill=False, b
     """Smooths fields on a surface by its heat equation, while the surface stays. All columns share one factorisation.
 
     V, F: as for smooth(); with a mesh in place of V, F is None.
-    fields: values at the vertices, (#V,) or (#V, n). NaN is no data: such vertices take no part and stay NaN.
+    fields: values at the vertices, (#V,) or (#V, n), or data of nibabel (GIFTI), a column for each array. NaN is no
+        data: such vertices take no part and stay NaN.
     fwhm: full width at half maximum of the smoothing, a length or "2%" of the diagonal; or give radius, time_step or
         time_step_edges. With fwhm, steps is 10 unless it is given.
     keep_edges: differences of fields well above this stay (Perona and Malik); all columns count together.
@@ -180,7 +181,7 @@ def diffuse(V, F=None, fields=None, *, fwhm=None, keep_edges=None, fill=False, b
     The other keywords are those options of smooth() that concern how steps are solved: laplacian ("virtual-refinement"
     unless told otherwise), steps, converge, approach, threads, weld and so on. Raises as smooth().
     """
-    values = np.asarray(fields)
+    values = np.asarray(_of_gifti(fields) if hasattr(fields, "darrays") else fields)
     if values.ndim not in (1, 2) or values.dtype.kind not in "fiu":
         raise ValueError(f"fields has to be real numbers, (#V,) or (#V, n), but is {values.dtype}, {values.shape}")
     if boundary not in ("free", "fixed"):
@@ -306,10 +307,16 @@ if smooth.__doc__:
 
 def _of_mesh(mesh):
     """Positions and faces of an object that has them."""
+    for attribute, read in (("GetPolys", _of_vtk), ("darrays", _of_gifti_surface), ("triangle", _of_tensors)):
+        if hasattr(mesh, attribute):
+            return read(mesh)
     if hasattr(mesh, "vertices") and hasattr(mesh, "faces"):
         return mesh.vertices, mesh.faces
+    if hasattr(mesh, "vertices") and hasattr(mesh, "triangles"):
+        return mesh.vertices, np.asarray(mesh.triangles)
     if not hasattr(mesh, "points") or not hasattr(mesh, "cells"):
-        raise TypeError("V and F are needed, or a mesh with .vertices and .faces, or with .points and .cells")
+        raise TypeError("V and F are needed, or a mesh of trimesh, meshio, Open3D, VTK, PyVista or nibabel: one with "
+                        ".vertices and .faces, for example")
     blocks = [(block.type, block.data) for block in mesh.cells if block.type not in ("vertex", "line")]
     for kind, _ in blocks:
         if kind not in ("triangle", "quad") and not kind.startswith("polygon"):
@@ -317,6 +324,43 @@ def _of_mesh(mesh):
     if len(blocks) == 1:
         return mesh.points, blocks[0][1]
     return mesh.points, [face for _, data in blocks for face in data]
+
+
+def _of_vtk(mesh):
+    """The polygons of a vtkPolyData, that of PyVista among them; its vertices and lines are no faces."""
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+
+    if mesh.GetStrips().GetNumberOfCells() > 0:
+        raise ValueError("the mesh has triangle strips: use vtkTriangleFilter first")
+    if mesh.GetPoints() is None:
+        raise ValueError("the mesh has no points")
+    offsets, corners = (vtk_to_numpy(array()) for array in (mesh.GetPolys().GetOffsetsArray,
+                                                            mesh.GetPolys().GetConnectivityArray))
+    sizes = np.diff(offsets)
+    same = len(sizes) > 0 and np.all(sizes == sizes[0])
+    faces = corners.reshape(len(sizes), -1) if same else np.split(corners, offsets[1:-1]) if len(sizes) > 0 else []
+    return vtk_to_numpy(mesh.GetPoints().GetData()), faces
+
+
+def _of_tensors(mesh):
+    """Those of a mesh of open3d.t."""
+    return mesh.vertex["positions"].cpu().numpy(), mesh.triangle["indices"].cpu().numpy()
+
+
+def _of_gifti_surface(image):
+    def only(intent):
+        arrays = image.get_arrays_from_intent(intent)
+        if len(arrays) != 1:
+            raise ValueError(f"the image has {len(arrays)} arrays of intent {intent}: a surface has one")
+        return arrays[0].data
+
+    return only("NIFTI_INTENT_POINTSET"), only("NIFTI_INTENT_TRIANGLE")
+
+
+def _of_gifti(image):
+    """The data arrays as columns; one alone as a list of numbers."""
+    columns = [array.data for array in image.darrays]
+    return columns[0] if len(columns) == 1 else np.stack(columns, axis=-1)
 
 
 def _whole(array):

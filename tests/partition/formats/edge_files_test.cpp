@@ -66,6 +66,7 @@ TEST_CASE("what is no edge is refused with the line and what to do")
     CHECK(refusal_of("a.obj", "v 0 0 0\n").starts_with("a.obj: the file has no edges of its own: lines l"));
     CHECK(refusal_of("a.off", "OFF\n").starts_with("a.off: the format has no edges"));
     CHECK(refusal_of("a.stl", "solid\n").starts_with("a.stl: the format has no edges"));
+    CHECK(refusal_of("a.glb", "glTF").starts_with("a.glb: the format has no edges"));
     const std::string ply = "ply\nformat ascii 1.0\nelement edge 1\nproperty int vertex1\n";
     CHECK(refusal_of("a.ply", ply + "end_header\n1\n")
               .starts_with("a.ply:3: the edges have no integer property vertex2"));

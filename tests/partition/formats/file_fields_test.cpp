@@ -577,7 +577,8 @@ TEST_CASE("fields: compressed files, STL files, and other formats")
     write_mesh(folder / "a.stl", file.mesh, {FileFormat::Stl, Encoding::Ascii});
     const MeshFile stl = read_mesh(folder / "a.stl");
     CHECK(complaint_of<InputError>(folder, [&] { read_fields(*stl.source, quality); }) ==
-          "a.stl: STL files have no numbers of vertices besides positions; convert the mesh and its data to PLY");
+          "a.stl: no numbers of vertices besides positions are read from STL files; convert the mesh and its data to "
+          "PLY");
     CHECK(
         complaint_of<OutputError>(folder, [&] { write_mesh_like(*stl.source, folder / "b.stl", stl.mesh, fields); }) ==
         "b.stl: cannot be written: STL files made here hold no fields of vertices; write a .ply file, which holds any");

@@ -24,7 +24,7 @@ struct Variant {
     bool single_precision;
 };
 
-constexpr std::array<Variant, 7> variants = {{
+constexpr std::array<Variant, 9> variants = {{
     {"a.obj", {FileFormat::Obj, Encoding::Ascii}, false, false},
     {"a.off", {FileFormat::Off, Encoding::Ascii}, false, false},
     {"a.ply", {FileFormat::Ply, Encoding::Ascii}, false, false},
@@ -32,6 +32,8 @@ constexpr std::array<Variant, 7> variants = {{
     {"a.ply", {FileFormat::Ply, Encoding::BinaryBigEndian}, false, false},
     {"a.stl", {FileFormat::Stl, Encoding::Ascii}, true, false},
     {"a.stl", {FileFormat::Stl, Encoding::BinaryLittleEndian}, true, true},
+    {"a.glb", {FileFormat::Glb, Encoding::BinaryLittleEndian}, true, true},
+    {"a.gltf", {FileFormat::Gltf, Encoding::BinaryLittleEndian}, true, true},
 }};
 
 /// A finite number of random sign, exponent and digits.
@@ -157,13 +159,14 @@ TEST_CASE("Files that cannot be opened")
     CHECK(contains(message_of_reading(folder.path() / "folder.obj"), "cannot be read: Is a directory"));
     CHECK(contains(complaint_about("empty.obj", ""), "empty.obj: the file is empty"));
     CHECK(contains(complaint_about("a.xyz", "v 0 0 0\n"),
-                   "a.xyz: the extension '.xyz' is not one of .obj, .off, .ply or .stl"));
+                   "a.xyz: the extension '.xyz' is not one of .obj, .off, .ply, .stl, .glb or .gltf"));
     CHECK(contains(complaint_about("a", "v 0 0 0\n"), "the extension '' is not one of"));
 }
 
 TEST_CASE("The extension may be in upper case")
 {
     CHECK(read_text("A.OBJ", "v 0 0 0\n").kind.format == FileFormat::Obj);
+    CHECK(format_of("a.GlTf") == FileFormat::Gltf);
     CHECK(read_text("a.OfF", "OFF 1 0 0\n0 0 0\n").kind.format == FileFormat::Off);
 }
 
@@ -183,14 +186,14 @@ TEST_CASE("The kind of an output follows its extension, and its source where the
     CHECK(kind_for_writing("b.ply", obj) == FileKind{FileFormat::Ply, Encoding::BinaryLittleEndian});
     CHECK_THROWS_WITH_AS(
         kind_for_writing("b.vtk", obj),
-        "b.vtk: the extension '.vtk' is not one of .obj, .off, .ply or .stl; give the file the extension of "
+        "b.vtk: the extension '.vtk' is not one of .obj, .off, .ply, .stl, .glb or .gltf; give the file the extension of "
         "its format",
         OptionError);
 }
 
 TEST_CASE("The formats are named by their extensions")
 {
-    CHECK(extensions_of() == ".obj, .off, .ply or .stl");
+    CHECK(extensions_of() == ".obj, .off, .ply, .stl, .glb or .gltf");
     CHECK(extensions_of(FormatGroup::Polygons) == ".obj, .off or .ply");
     CHECK(extensions_of(FormatGroup::Text) == ".obj or .off");
     CHECK(format_of("a.PlY") == FileFormat::Ply);

@@ -12,6 +12,7 @@
 
 #include "engine/tasks/parallel_executor.h"
 #include "partition/errors.h"
+#include "partition/formats/gltf.h"
 #include "partition/formats/obj.h"
 #include "partition/formats/off.h"
 #include "partition/formats/ply.h"
@@ -45,6 +46,9 @@ PolygonMesh read(FileFormat format, std::string_view content, const Slicing& sli
         return read_off("a", content, slicing, faults);
     case FileFormat::Ply:
         return read_ply("a", content, slicing, faults).mesh;
+    case FileFormat::Glb:
+    case FileFormat::Gltf:
+        return read_gltf("a", content, slicing, faults);
     case FileFormat::Stl:
         break;
     }
@@ -97,6 +101,8 @@ std::vector<std::string> rewrite(FileFormat format, OutputFile& file, std::strin
 {
     if (format == FileFormat::Obj)
         return rewrite_obj(file, "a", content, mesh, slicing);
+    if (format == FileFormat::Glb)
+        return rewrite_gltf(file, "a", content, mesh, slicing);
     return format == FileFormat::Off ? rewrite_off(file, "a", content, mesh, slicing)
                                      : rewrite_ply(file, "a", content, mesh, slicing);
 }
@@ -190,9 +196,9 @@ PolygonMesh any_mesh(std::uint32_t seed, bool triangles)
     return result;
 }
 
-constexpr std::array binary_kinds{FileKind{FileFormat::Ply, Encoding::BinaryLittleEndian},
-                                  FileKind{FileFormat::Ply, Encoding::BinaryBigEndian},
-                                  FileKind{FileFormat::Stl, Encoding::BinaryLittleEndian}};
+constexpr std::array binary_kinds{
+    FileKind{FileFormat::Ply, Encoding::BinaryLittleEndian}, FileKind{FileFormat::Ply, Encoding::BinaryBigEndian},
+    FileKind{FileFormat::Stl, Encoding::BinaryLittleEndian}, FileKind{FileFormat::Glb, Encoding::BinaryLittleEndian}};
 
 std::string binary_off(const PolygonMesh& mesh)
 {
@@ -214,7 +220,7 @@ std::vector<File> binary_files(std::uint32_t seed)
 {
     std::vector<File> files{{FileFormat::Off, binary_off(any_mesh(seed, false))}};
     for (const FileKind& kind : binary_kinds)
-        files.push_back({kind.format, written(any_mesh(seed, kind.format == FileFormat::Stl), kind)});
+        files.push_back({kind.format, written(any_mesh(seed, !traits_of(kind.format).holds_polygons), kind)});
     return files;
 }
 

@@ -48,6 +48,27 @@ TEST_CASE("a vertex far from its neighbours is a spike, on triangles and on poly
         }
 }
 
+TEST_CASE("one look at all edges finds the same spikes and the same mean as two")
+{
+    // How far vertices are rises with their numbers, so that only some are spikes.
+    for (const double height : {0.0, 3.0, 5.0, 9.0, 9999.0})
+        for (const PolygonMesh& plain : {make_triangles(900), make_hexagons(900), make_noisy_sphere(900)}) {
+            PolygonMesh mesh = plain;
+            const double edge = mean_edge_length(plain);
+            for (Index v = 5; v < mesh.n_vertices(); v += 97)
+                mesh.vertices.row(v) *= 1.0 + height * edge * v / 100.0;
+            const EdgeMeasures measures = measure_edges(mesh, mesh.vertices);
+            CHECK(measures.mean == mean_edge_length(mesh));
+            const std::vector<Spike> spikes = find_spikes(mesh, mesh.vertices);
+            REQUIRE(measures.spikes.size() == spikes.size());
+            for (std::size_t i = 0; i < spikes.size(); ++i) {
+                CHECK(measures.spikes[i].vertex == spikes[i].vertex);
+                CHECK(measures.spikes[i].distance == spikes[i].distance);
+            }
+            CHECK(spikes.empty() == (height == 0.0));
+        }
+}
+
 TEST_CASE("the middle of a disc and the tip of a cone are no spikes, however many triangles they have")
 {
     for (const Index n : {6, 100, 1000})

@@ -1,7 +1,10 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 #include <random>
+#include <span>
 #include <vector>
 
 #include <doctest/doctest.h>
@@ -49,7 +52,62 @@ PolygonMesh renumbered(PolygonMesh mesh)
     return mesh;
 }
 
+/// How the rims of a tube are closed: by one polygon, by triangles from one vertex, or in a zigzag.
+enum class Lid { Polygon, Fan, Zigzag };
+
+void close(PolygonMesh& mesh, std::span<const Index> rim, Lid lid)
+{
+    if (lid == Lid::Polygon)
+        return mesh.add_face(rim);
+    std::size_t first = lid == Lid::Fan ? 1 : 0;
+    std::size_t last = rim.size() - 1;
+    for (; lid == Lid::Fan && first < last; ++first)
+        mesh.add_face(std::array{rim[0], rim[first], rim[first + 1]});
+    for (bool from_first = true; first + 1 < last; from_first = !from_first) {
+        mesh.add_face(std::array{rim[first], from_first ? rim[first + 1] : rim[last - 1], rim[last]});
+        (from_first ? first : last) += from_first ? 1 : std::size_t{0} - 1;
+    }
+}
+
 }  // namespace
+
+TEST_CASE("vertices of faces that reach far go no further than others, however these are cut into triangles")
+{
+    constexpr Index m = 256;
+    constexpr Index n = 20;
+    constexpr double edge = 2.0 * std::numbers::pi / m;
+    PolygonMesh tube = test::cylinder(m, n);
+    tube.vertices.col(2) *= edge;
+    for (const double sigma : {0.1, 0.3})
+        for (const Lid lid : {Lid::Polygon, Lid::Fan, Lid::Zigzag}) {
+            CAPTURE(sigma);
+            CAPTURE(static_cast<int>(lid));
+            PolygonMesh noisy = test::with_gaussian_noise(tube, sigma, 3);
+            std::vector<Index> rim(usize(m));
+            std::iota(rim.rbegin(), rim.rend(), Index{0});
+            close(noisy, rim, lid);
+            std::iota(rim.begin(), rim.end(), m * n);
+            close(noisy, rim, lid);
+            const Topology topology = make_topology(noisy);
+            const Points result = MeshDenoiser(noisy, topology).denoise(noisy.vertices);
+            // From the circles of the rims, and from the side.
+            const auto error = [&](const Points& positions, Index v) {
+                const double out = positions.row(v).head<2>().norm() - 1.0;
+                const bool on_rim = v < m || v >= m * n;
+                return on_rim ? std::hypot(out, positions(v, 2) - tube.vertices(v, 2)) : std::abs(out);
+            };
+            const auto squares = [&](const Points& positions, Index begin, Index end) {
+                double total = 0.0;
+                for (Index v = begin; v < end; ++v)
+                    total += error(positions, v) * error(positions, v);
+                return total;
+            };
+            CHECK((result - noisy.vertices).rowwise().norm().maxCoeff() < 1.5 * edge);
+            CHECK(squares(result, 0, m) < 1.05 * squares(noisy.vertices, 0, m));
+            CHECK(squares(result, m * n, m * n + m) < 1.05 * squares(noisy.vertices, m * n, m * n + m));
+            CHECK(squares(result, m, m * n) < 0.4 * squares(noisy.vertices, m, m * n));
+        }
+}
 
 TEST_CASE("the noise of a mesh is measured from itself, from little to as large as the edges")
 {

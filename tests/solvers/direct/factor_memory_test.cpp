@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -96,6 +97,25 @@ TEST_CASE("blocks that are taken at the same time are apart and fit for doubles,
     const auto first_taken = take_numbers<std::byte>(pool, 8);
     CHECK(first_taken.get() == seventh);
     CHECK(take_numbers<std::byte>(pool, 8).get() == third);
+}
+
+TEST_CASE("blocks of many sizes are apart and fit for every number")
+{
+    FactorPool pool;
+    std::vector<FactorNumbers<std::byte>> taken;
+    std::size_t bytes = 0;
+    for (std::size_t size = 1; size < 3'000'000; size += 1 + size / 5) {
+        taken.push_back(take_numbers<std::byte>(pool, size));
+        bytes += size;
+        CHECK(reinterpret_cast<std::uintptr_t>(taken.back().get()) % alignof(std::max_align_t) == 0);
+        std::fill_n(taken.back().get(), size, static_cast<std::byte>(taken.size()));
+    }
+    CHECK(pool.bytes() == bytes);
+    for (std::size_t i = 0; i < taken.size(); ++i) {
+        const std::byte* const begin = taken[i].get();
+        CHECK(std::all_of(begin, begin + taken[i].get_deleter().n,
+                          [&](std::byte b) { return b == static_cast<std::byte>(i + 1); }));
+    }
 }
 
 TEST_CASE("a system takes memory for its factor when it factorises, no more than it says, and the factor gives it back")

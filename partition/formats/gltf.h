@@ -1,0 +1,59 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "partition/formats/mesh_file.h"
+#include "partition/io/fault_log.h"
+#include "partition/io/input_file.h"
+#include "partition/io/output_file.h"
+#include "partition/io/slices.h"
+#include "partition/polygon_mesh.h"
+
+namespace seamflow {
+
+/// A glTF 2.0 file together with the buffers that it names: those in other files and those in `data:` URIs.
+/// @param content of `file`: .glb or .gltf.
+/// @returns nothing if the file has all of them in its binary chunk; then its own content serves below.
+/// @throws InputError naming the file and the buffer.
+std::optional<OpenFile> with_gltf_buffers(const OpenFile& file, std::string_view content);
+
+/// Reads the triangles, strips and fans of all primitives of all meshes, each mesh in its own coordinates: the
+/// transforms of nodes are not applied. A set of positions that several primitives share is one set of vertices, and
+/// primitives that are alike are one; all else is passed over.
+/// @param path for messages only. @param content see with_gltf_buffers.
+/// @param faults if not null, collects faults instead of throwing.
+/// @throws InputError naming the element of the file, as in `meshes[0].primitives[1].indices`; also for positions that
+///         are compressed (Draco, meshopt), quantised or sparse.
+PolygonMesh read_gltf(const std::filesystem::path& path, std::string_view content, const Slicing& slicing,
+                      FaultLog* faults = nullptr);
+
+/// Checks that glTF can hold the mesh: triangles only, at least one, and all coordinates within single precision.
+/// @throws OutputError naming the face or vertex, and the remedy.
+void require_fits_gltf(const std::filesystem::path& path, const PolygonMesh& mesh);
+
+/// The last of these checks.
+void require_floats_for_gltf(const std::filesystem::path& path, const Points& vertices);
+
+/// Writes a file of one primitive: positions (float) and triangles.
+/// @param format Glb, or Gltf with the buffer in the file itself.
+/// @throws OutputError
+void write_gltf(OutputFile& file, const PolygonMesh& mesh, FileFormat format, const Slicing& slicing);
+
+/// Rewrites a file read by `read_gltf` with other positions. Normals become those of the new surface, and the bounds
+/// (min and max) of what has changed are updated; all else stays byte for byte. Buffers that are in other files are
+/// written to new files beside the result, which are never those of the input.
+/// @param path of the file that was read. @param content see with_gltf_buffers. @param mesh with the faces of the file.
+/// @param seam_distance see write_mesh_like.
+/// @returns remarks for the user, in sentences.
+/// @throws OutputError
+std::vector<std::string> rewrite_gltf(OutputFile& file, const std::filesystem::path& path, std::string_view content,
+                                      const PolygonMesh& mesh, const Slicing& slicing, double seam_distance = 0.0);
+
+/// Content besides the surface, in a few words each.
+std::vector<std::string> extras_of_gltf(const std::filesystem::path& path, std::string_view content);
+
+}  // namespace seamflow

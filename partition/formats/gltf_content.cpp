@@ -1,0 +1,446 @@
+#include "partition/formats/gltf_content.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "partition/errors.h"
+#include "partition/formats/gltf.h"
+#include "partition/io/byte_order.h"
+
+namespace seamflow {
+
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr std::string_view signature = "glTF";
+/// Begins a file with its buffers behind it, in memory. No file can begin so: this is no version of the format.
+constexpr std::string_view signature_with_buffers = "glTF\xff\xff\xff\xff";
+
+[[noreturn]] void refuse_gltf(const std::filesystem::path& path, const std::string& complaint)
+{
+    throw InputError(path.string() + ": " + complaint);
+}
+
+/// The number at an offset; 0 where the bytes end first.
+template <class Number>
+Number number_at(std::string_view bytes, std::size_t offset)
+{
+    return offset <= bytes.size() && bytes.size() - offset >= sizeof(Number)
+               ? from_bytes<Number>(bytes.data() + offset, std::endian::little)
+               : 0;
+}
+
+/// A piece that begins at an offset; cut off where the bytes end.
+std::string_view piece_at(std::string_view bytes, std::uint64_t offset, std::uint64_t size)
+{
+    return offset <= bytes.size() ? bytes.substr(offset, size) : std::string_view();
+}
+
+constexpr std::string_view base64_digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+
+constexpr auto base64_values = [] {
+    std::array<std::uint8_t, 256> values{};
+    values.fill(64);
+    for (std::size_t i = 0; i < base64_digits.size(); ++i)
+        values[static_cast<unsigned char>(base64_digits[i])] = static_cast<std::uint8_t>(i);
+    return values;
+}();
+
+/// @returns nothing if a character is no digit.
+std::optional<std::string> from_base64(std::string_view text)
+{
+    while (text.ends_with('='))
+        text.remove_suffix(1);
+    std::string bytes;
+    bytes.reserve(text.size() / 4 * 3 + 3);
+    std::uint32_t bits = 0;
+    int n_bits = 0;
+    for (const char c : text) {
+        const std::uint8_t value = base64_values[static_cast<unsigned char>(c)];
+        if (value >= base64_digits.size())
+            return std::nullopt;
+        bits = bits << 6 | value;
+        n_bits += 6;
+        if (n_bits >= 8) {
+            n_bits -= 8;
+            bytes += static_cast<char>(bits >> n_bits & 0xff);
+        }
+    }
+    return bytes;
+}
+
+std::string bytes_of_data(const GltfValue& uri)
+{
+    const std::string_view text = uri.text();
+    const std::size_t comma = text.find(',');
+    if (comma == std::string_view::npos || !text.substr(0, comma).ends_with(";base64"))
+        uri.fail("the data are not in base64; export the mesh again");
+    std::optional<std::string> bytes = from_base64(text.substr(comma + 1));
+    if (!bytes)
+        uri.fail("the data have characters that are not base64; export the mesh again");
+    return std::move(*bytes);
+}
+
+/// The bytes of a buffer that is in another file.
+InputFile bytes_of_file(const GltfContent& content, const GltfValue& uri)
+{
+    const std::filesystem::path name = gltf_name_of(uri.text());
+    if (name.empty() || name.is_absolute() || uri.text().find("://") != std::string::npos)
+        uri.fail(fmt::format("names {}, which is no file beside this one; put the buffer there and name it",
+                             in_quotes(uri.text())));
+    try {
+        return InputFile(OpenFile(content.path().parent_path() / name, OpenFile::Packing::Keep));
+    } catch (const InputError& error) {
+        uri.fail(error.what());
+    }
+}
+
+}  // namespace
+
+GltfValue GltfValue::operator[](const std::string& key) const
+{
+    const std::string name = name_.empty() ? key : name_ + '.' + key;
+    if (value_ == nullptr)
+        return {path_, nullptr, name};
+    if (!value_->is_object())
+        fail("expected an object { … }; export the mesh again");
+    const auto found = value_->find(key);
+    return {path_, found != value_->end() ? &*found : nullptr, name};
+}
+
+std::size_t GltfValue::size() const
+{
+    if (value_ == nullptr)
+        return 0;
+    if (!value_->is_array())
+        fail("expected a list [ … ]; export the mesh again");
+    return value_->size();
+}
+
+GltfValue GltfValue::at(std::size_t i) const
+{
+    return {path_, &(*value_)[i], fmt::format("{}[{}]", name_, i)};
+}
+
+std::vector<std::string> GltfValue::keys() const
+{
+    std::vector<std::string> keys;
+    if (value_ != nullptr && value_->is_object())
+        for (const auto& member : value_->items())
+            keys.push_back(member.key());
+    return keys;
+}
+
+std::uint64_t GltfValue::number() const
+{
+    if (value_ == nullptr)
+        fail("is missing; export the mesh again");
+    constexpr double most = 9007199254740992.0;
+    const double value = value_->is_number() ? value_->get<double>() : -1.0;
+    if (!(value >= 0.0 && value <= most) || value != std::floor(value))
+        fail(fmt::format("expected a whole number of at least 0, but found {}; export the mesh again",
+                         in_quotes(value_->is_structured() ? "a list" : value_->dump(-1, ' ', true))));
+    return static_cast<std::uint64_t>(value);
+}
+
+const std::string& GltfValue::text() const
+{
+    if (value_ == nullptr || !value_->is_string())
+        fail("expected text; export the mesh again");
+    return value_->get_ref<const std::string&>();
+}
+
+std::string GltfValue::position() const
+{
+    return name_.empty() ? path_.string() : path_.string() + ": " + name_;
+}
+
+GltfContent::GltfContent(const std::filesystem::path& path, std::string_view content)
+    : path_(path)
+{
+    take_apart(content);
+    try {
+        json_ = Json::parse(text_.begin(), text_.end());
+    } catch (const Json::parse_error& error) {
+        refuse_gltf(path_, fmt::format("byte {} of the JSON text: this is not JSON; export the mesh again",
+                                       std::max(error.byte, std::size_t{1}) - 1));
+    } catch (const Json::exception&) {
+        refuse_gltf(path_, "the JSON text has a number that is too large; export the mesh again");
+    }
+    const GltfValue version = root()["asset"]["version"];
+    if (version.is_there() && !version.text().starts_with("2."))
+        version.fail(fmt::format("is {}, but only glTF 2.0 is read; convert the file", in_quotes(version.text())));
+    const GltfValue list = root()["buffers"];
+    buffers_.resize(list.size());
+    if (!buffers_.empty() && !list.at(0)["uri"].is_there())
+        buffers_[0] = chunk_;
+    if (!content.starts_with(signature_with_buffers))
+        return;
+    // Behind the signature: the size of the file, the file, and so on for each buffer.
+    std::uint64_t next = signature_with_buffers.size() + sizeof(std::uint64_t) + file_.size();
+    for (std::string_view& buffer : buffers_) {
+        const auto size = number_at<std::uint64_t>(content, next);
+        if (size > 0)
+            buffer = piece_at(content, next + sizeof size, size);
+        next += sizeof size + size;
+    }
+}
+
+/// Finds the file, and the text and the binary chunk in it.
+void GltfContent::take_apart(std::string_view content)
+{
+    file_ = content;
+    if (content.starts_with(signature_with_buffers))
+        file_ = piece_at(content, signature_with_buffers.size() + sizeof(std::uint64_t),
+                         number_at<std::uint64_t>(content, signature_with_buffers.size()));
+    text_ = file_;
+    if (file_.starts_with(signature))
+        find_chunks();
+}
+
+void GltfContent::find_chunks()
+{
+    const auto version = number_at<std::uint32_t>(file_, signature.size());
+    if (version != 2)
+        refuse_gltf(
+            path_,
+            fmt::format("this is version {} of binary glTF, but only version 2 is read; convert the file", version));
+    const std::uint64_t length = number_at<std::uint32_t>(file_, 2 * sizeof(std::uint32_t));
+    if (length > file_.size())
+        refuse_gltf(path_, fmt::format("the file announces {} bytes, but has only {}; it has been cut off: export or "
+                                       "copy the mesh again",
+                                       length, file_.size()));
+    const std::string_view chunks = file_.substr(0, length);
+    const auto chunk_at = [&](std::size_t offset, std::string_view kind, const char* name) -> std::string_view {
+        const std::uint64_t size = number_at<std::uint32_t>(chunks, offset);
+        if (piece_at(chunks, offset + sizeof(std::uint32_t), kind.size()) != kind)
+            return {};
+        if (size > chunks.size() - offset - glb_chunk_header_bytes)
+            refuse_gltf(path_, fmt::format("the {} chunk announces {} bytes, but the file ends first; export or copy "
+                                           "the mesh again",
+                                           name, size));
+        return chunks.substr(offset + glb_chunk_header_bytes, size);
+    };
+    text_ = chunk_at(glb_header_bytes, "JSON", "JSON");
+    if (text_.data() == nullptr)
+        refuse_gltf(path_, "the file does not begin with a JSON chunk; export the mesh again");
+    chunk_ = chunk_at(glb_header_bytes + glb_chunk_header_bytes + text_.size(), std::string_view("BIN\0", 4), "binary");
+}
+
+GltfValue GltfContent::named_by(const GltfValue& number, const std::string& list) const
+{
+    const std::uint64_t i = number.number();
+    const GltfValue elements = root()[list];
+    if (i >= elements.size())
+        number.fail(
+            fmt::format("names {}[{}], but the file has {} of them; export the mesh again", list, i, elements.size()));
+    return elements.at(i);
+}
+
+std::optional<OpenFile> with_gltf_buffers(const OpenFile& file, std::string_view content)
+{
+    if (content.starts_with(signature_with_buffers))
+        refuse_gltf(file.path(), "this is no version of binary glTF; export the mesh again");
+    const GltfContent gltf(file.path(), content);
+    std::vector<std::string> decoded;
+    std::vector<InputFile> files;
+    std::vector<std::string_view> bytes;
+    decoded.reserve(gltf.n_buffers());
+    files.reserve(gltf.n_buffers());
+    bool are_within = true;
+    for (std::size_t i = 0; i < gltf.n_buffers(); ++i) {
+        const GltfValue uri = gltf.root()["buffers"].at(i)["uri"];
+        are_within &= !uri.is_there();
+        if (!uri.is_there())
+            bytes.emplace_back();
+        else if (is_gltf_data(uri.text()))
+            bytes.emplace_back(decoded.emplace_back(bytes_of_data(uri)));
+        else
+            bytes.emplace_back(files.emplace_back(bytes_of_file(gltf, uri)).content());
+    }
+    if (are_within)
+        return std::nullopt;
+    bytes.insert(bytes.begin(), content);
+    std::vector<std::array<char, sizeof(std::uint64_t)>> sizes;
+    sizes.reserve(bytes.size());
+    std::vector<std::string_view> pieces{signature_with_buffers};
+    for (const std::string_view part : bytes) {
+        const auto& size = sizes.emplace_back(to_bytes(std::uint64_t{part.size()}, std::endian::little));
+        pieces.emplace_back(size.data(), size.size());
+        pieces.push_back(part);
+    }
+    return OpenFile::in_memory(file.path(), pieces);
+}
+
+void write_glb_head(ByteWriter& file, std::string_view text, std::size_t n_behind)
+{
+    file.text(signature);
+    file.binary(std::uint32_t{2}, std::endian::little);
+    file.binary(static_cast<std::uint32_t>(glb_header_bytes + glb_chunk_header_bytes + text.size() + n_behind),
+                std::endian::little);
+    file.binary(static_cast<std::uint32_t>(text.size()), std::endian::little);
+    file.text("JSON");
+    file.text(text);
+}
+
+bool is_gltf_data(std::string_view uri)
+{
+    return uri.starts_with("data:");
+}
+
+std::string gltf_data(std::string_view head, std::string_view bytes)
+{
+    std::string text(head);
+    text.reserve(head.size() + 1 + (bytes.size() + 2) / 3 * 4);
+    text += ',';
+    for (std::size_t i = 0; i < bytes.size(); i += 3) {
+        std::uint32_t bits = 0;
+        for (std::size_t k = 0; k < 3; ++k)
+            bits = bits << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0U);
+        for (std::size_t k = 0; k < 4; ++k)
+            text += i + k <= bytes.size() ? base64_digits[bits >> (18 - 6 * k) & 63] : '=';
+    }
+    return text;
+}
+
+std::string gltf_uri_of(std::string_view name)
+{
+    std::string uri;
+    for (const char c : name)
+        if (static_cast<unsigned char>(c) <= ' ' ||
+            std::string_view("%\"\\#?<>^`{|}:\x7f").find(c) != std::string_view::npos)
+            uri += fmt::format("%{:02X}", static_cast<unsigned char>(c));
+        else
+            uri += c;
+    return uri;
+}
+
+std::string gltf_name_of(std::string_view uri)
+{
+    const auto digit = [&](std::size_t i) {
+        return i < uri.size() ? std::string_view("0123456789abcdef").find(static_cast<char>(uri[i] | 0x20))
+                              : std::string_view::npos;
+    };
+    std::string name;
+    for (std::size_t i = 0; i < uri.size(); ++i) {
+        const bool is_escape = uri[i] == '%' && digit(i + 1) < 16 && digit(i + 2) < 16;
+        name += is_escape ? static_cast<char>(digit(i + 1) << 4 | digit(i + 2)) : uri[i];
+        i += is_escape ? 2 : 0;
+    }
+    return name;
+}
+
+namespace {
+
+constexpr std::string_view json_blanks = " \t\r\n";
+
+/// Walks through the parts of a JSON text.
+class JsonWalk {
+  public:
+    explicit JsonWalk(std::string_view text)
+        : text_(text)
+    {
+        skip_blanks();
+    }
+
+    [[nodiscard]] bool is_at(char c) const { return next_ < text_.size() && text_[next_] == c; }
+
+    /// Skips one character and blanks behind it.
+    void skip()
+    {
+        ++next_;
+        skip_blanks();
+    }
+
+    /// The value that begins here, with the blanks behind it skipped.
+    std::string_view value()
+    {
+        const std::size_t begin = next_;
+        int depth = 0;
+        do {
+            const bool opens = is_at('{') || is_at('[');
+            const bool closes = is_at('}') || is_at(']');
+            depth += opens ? 1 : closes ? -1 : 0;
+            if (is_at('"'))
+                skip_string();
+            else if (opens || closes)
+                ++next_;
+            else
+                skip_to(depth > 0 ? "\"{}[]" : ",}] \t\r\n");
+        } while (depth > 0 && next_ < text_.size());
+        const std::string_view value = text_.substr(begin, next_ - begin);
+        skip_blanks();
+        return value;
+    }
+
+  private:
+    void skip_blanks() { next_ = std::min(text_.find_first_not_of(json_blanks, next_), text_.size()); }
+
+    void skip_to(const char* characters) { next_ = std::min(text_.find_first_of(characters, next_), text_.size()); }
+
+    void skip_string()
+    {
+        ++next_;
+        for (skip_to("\"\\"); is_at('\\'); skip_to("\"\\"))
+            next_ += 2;
+        next_ = std::min(next_ + 1, text_.size());
+    }
+
+    std::string_view text_;
+    std::size_t next_ = 0;
+};
+
+}  // namespace
+
+std::vector<GltfMember> gltf_members(std::string_view object)
+{
+    constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
+    if (object.starts_with(byte_order_mark))
+        object.remove_prefix(byte_order_mark.size());
+    std::vector<GltfMember> members;
+    JsonWalk walk(object);
+    if (!walk.is_at('{'))
+        return members;
+    for (walk.skip(); walk.is_at('"');) {
+        const std::string_view key = walk.value();
+        walk.skip();
+        members.push_back({Json::parse(key.begin(), key.end()).get<std::string>(), walk.value()});
+        if (walk.is_at(','))
+            walk.skip();
+    }
+    return members;
+}
+
+std::string_view gltf_member(std::string_view object, std::string_view key)
+{
+    std::string_view found;
+    // Of members with the same name the last one counts, as for the parser.
+    for (const GltfMember& member : gltf_members(object))
+        if (member.key == key)
+            found = member.value;
+    return found;
+}
+
+std::vector<std::string_view> gltf_elements(std::string_view array)
+{
+    std::vector<std::string_view> elements;
+    JsonWalk walk(array);
+    if (!walk.is_at('['))
+        return elements;
+    for (walk.skip(); !walk.is_at(']');) {
+        elements.push_back(walk.value());
+        if (elements.back().empty())
+            break;
+        if (walk.is_at(','))
+            walk.skip();
+    }
+    return elements;
+}
+
+}  // namespace seamflow

@@ -1,0 +1,138 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "partition/io/byte_writer.h"
+#include "partition/io/input_position.h"
+
+namespace seamflow {
+
+/// A value in the JSON text of a glTF file, or the lack of one; complaints name it as in `meshes[0].primitives[1]`.
+class GltfValue final : public InputPosition {
+  public:
+    /// @param path, value must outlive this object. @param name empty: the whole text.
+    GltfValue(const std::filesystem::path& path, const nlohmann::json* value, std::string name)
+        : path_(path)
+        , value_(value)
+        , name_(std::move(name))
+    {
+    }
+
+    [[nodiscard]] bool is_there() const { return value_ != nullptr; }
+    [[nodiscard]] const std::string& name() const { return name_; }
+
+    /// A member of an object.
+    /// @throws InputError if this is there, but no object.
+    [[nodiscard]] GltfValue operator[](const std::string& key) const;
+
+    /// Number of elements of an array; 0 if it is not there.
+    /// @throws InputError if this is there, but no array.
+    [[nodiscard]] std::size_t size() const;
+    /// @pre i < size().
+    [[nodiscard]] GltfValue at(std::size_t i) const;
+
+    /// The names of the members; none if it is not there.
+    [[nodiscard]] std::vector<std::string> keys() const;
+
+    /// A whole number of at least 0 that a double can hold.
+    /// @throws InputError if this is anything else, or is not there.
+    [[nodiscard]] std::uint64_t number() const;
+    [[nodiscard]] std::uint64_t number_or(std::uint64_t otherwise) const { return is_there() ? number() : otherwise; }
+
+    /// @throws InputError if this is not text.
+    [[nodiscard]] const std::string& text() const;
+
+    /// As it is.
+    [[nodiscard]] const nlohmann::json& json() const { return *value_; }
+
+  private:
+    [[nodiscard]] std::string position() const override;
+
+    const std::filesystem::path& path_;
+    const nlohmann::json* value_;
+    std::string name_;
+};
+
+/// A glTF file taken apart.
+class GltfContent {
+  public:
+    /// @param path for messages; must outlive this object, as must `content`: see with_gltf_buffers.
+    /// @throws InputError if it is not glTF 2.0.
+    GltfContent(const std::filesystem::path& path, std::string_view content);
+
+    /// As it was read.
+    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+    /// A .glb file, or the text of a .gltf file.
+    [[nodiscard]] std::string_view file() const { return file_; }
+    [[nodiscard]] bool is_binary() const { return file_.data() != text_.data(); }
+    /// The JSON text within the file.
+    [[nodiscard]] std::string_view text() const { return text_; }
+    /// The binary chunk within the file; empty if there is none.
+    [[nodiscard]] std::string_view chunk() const { return chunk_; }
+
+    /// The value of the whole text.
+    [[nodiscard]] GltfValue root() const { return {path_, &json_, ""}; }
+
+    /// The element that a number stands for.
+    /// @param list such as "accessors".
+    /// @throws InputError if there is none of that number.
+    [[nodiscard]] GltfValue named_by(const GltfValue& number, const std::string& list) const;
+
+    /// All bytes of a buffer, perhaps more than its length.
+    /// @pre it is in the list of buffers.
+    [[nodiscard]] std::string_view buffer(std::size_t i) const { return buffers_[i]; }
+    [[nodiscard]] std::size_t n_buffers() const { return buffers_.size(); }
+
+  private:
+    void take_apart(std::string_view content);
+    void find_chunks();
+
+    const std::filesystem::path& path_;
+    std::string_view file_;
+    std::string_view text_;
+    std::string_view chunk_;
+    std::vector<std::string_view> buffers_;
+    nlohmann::json json_;
+};
+
+constexpr std::size_t glb_header_bytes = 12;
+constexpr std::size_t glb_chunk_header_bytes = 8;
+
+/// Writes the header and the first chunk of a .glb file.
+/// @param text of a multiple of four bytes. @param n_behind the number of bytes that follow.
+void write_glb_head(ByteWriter& file, std::string_view text, std::size_t n_behind);
+
+/// Whether a buffer is in the file itself, as text, rather than in another.
+bool is_gltf_data(std::string_view uri);
+
+/// `data:` URI of some bytes.
+/// @param head what is before the comma.
+std::string gltf_data(std::string_view head, std::string_view bytes);
+
+/// A relative URI for the name of a file, and the name of such a URI.
+std::string gltf_uri_of(std::string_view name);
+std::string gltf_name_of(std::string_view uri);
+
+/// The parts of a JSON text that is known to be correct, as they are written.
+struct GltfMember {
+    std::string key;
+    std::string_view value;
+};
+
+/// The members of an object, or nothing for other values.
+std::vector<GltfMember> gltf_members(std::string_view object);
+/// The value of a member; empty if there is none.
+std::string_view gltf_member(std::string_view object, std::string_view key);
+/// The elements of an array, or nothing for other values.
+std::vector<std::string_view> gltf_elements(std::string_view array);
+
+}  // namespace seamflow

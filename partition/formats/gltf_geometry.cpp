@@ -1,0 +1,380 @@
+#include "partition/formats/gltf_geometry.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <set>
+#include <tuple>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace seamflow {
+
+namespace {
+
+constexpr std::array<std::pair<std::uint64_t, std::size_t>, 6> bytes_of_components = {
+    {{5120, 1}, {gltf_byte, 1}, {5122, 2}, {gltf_short, 2}, {gltf_int, 4}, {gltf_float, 4}}};
+
+constexpr std::array<std::pair<std::string_view, std::size_t>, 7> components_of_types = {
+    {{"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}, {"MAT2", 4}, {"MAT3", 9}, {"MAT4", 16}}};
+
+template <class Table, class Key>
+std::size_t found_in(const Table& table, const Key& key, const GltfValue& value)
+{
+    const auto found = std::ranges::find(table, key, [](const auto& row) { return row.first; });
+    if (found == table.end())
+        value.fail("is not known to glTF 2.0; export the mesh again");
+    return found->second;
+}
+
+/// The bytes of a view: the span of one element.
+GltfSpan view_of(const GltfContent& content, const GltfValue& view)
+{
+    for (const char* const extension : {"EXT_meshopt_compression", "KHR_meshopt_compression"})
+        if (view["extensions"][extension].is_there())
+            view.fail(fmt::format("is compressed by meshopt ({}); export the mesh without compression", extension));
+    static_cast<void>(content.named_by(view["buffer"], "buffers"));
+    const std::uint64_t buffer = view["buffer"].number();
+    const GltfValue length = content.root()["buffers"].at(buffer)["byteLength"];
+    const std::size_t there = content.buffer(buffer).size();
+    if (length.number() > there)
+        length.fail(fmt::format("is {}, but the buffer has only {}; it has been cut off: export or copy it again",
+                                length.number(), counted(there, "byte", "bytes")));
+    const std::uint64_t offset = view["byteOffset"].number_or(0);
+    const std::uint64_t size = view["byteLength"].number();
+    if (offset > length.number() || size > length.number() - offset)
+        view.fail(fmt::format("ends at byte {} of a buffer of {}; export the mesh again", offset + size,
+                              counted(length.number(), "byte", "bytes")));
+    return {.buffer = buffer, .offset = offset, .stride = view["byteStride"].number_or(0), .size = size, .count = 1};
+}
+
+/// The lists of a primitive's attributes, each looked up once.
+class Accessors {
+  public:
+    explicit Accessors(const GltfContent& content)
+        : content_(content)
+    {
+    }
+
+    const GltfSpan& operator()(const GltfValue& number)
+    {
+        const GltfValue accessor = content_.named_by(number, "accessors");
+        const auto [known, is_new] = spans_.try_emplace(number.number());
+        if (is_new)
+            known->second = span_of_gltf(content_, accessor);
+        return known->second;
+    }
+
+  private:
+    const GltfContent& content_;
+    std::map<std::uint64_t, GltfSpan> spans_;
+};
+
+/// Spans of vectors, joined where they share elements.
+class SharedVectors {
+  public:
+    /// @returns its number among those added.
+    std::size_t add(const GltfSpan& span, const std::string& name)
+    {
+        spans_.push_back(span);
+        names_.push_back(name);
+        return spans_.size() - 1;
+    }
+
+    /// To be called when all have been added.
+    /// @returns how many elements there are.
+    std::int64_t join();
+
+    [[nodiscard]] const std::vector<GltfVectors>& joined() const { return joined_; }
+    /// The number of the first element of a span among those of all.
+    [[nodiscard]] Index first_of(std::size_t span) const
+    {
+        const GltfVectors& all = joined_[of_span_[span]];
+        return all.first + static_cast<Index>((spans_[span].offset - all.span.offset) / all.span.stride);
+    }
+
+  private:
+    std::vector<GltfSpan> spans_;
+    std::vector<std::string> names_;
+    std::vector<std::size_t> of_span_;
+    std::vector<GltfVectors> joined_;
+};
+
+std::int64_t SharedVectors::join()
+{
+    // Those that can share elements follow each other.
+    std::vector<std::size_t> order(spans_.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::sort(order, {}, [&](std::size_t i) {
+        const GltfSpan& span = spans_[i];
+        return std::tuple(span.buffer, span.stride, span.offset % span.stride, span.offset, i);
+    });
+    constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+    std::vector<GltfSpan> lists;
+    std::vector<std::size_t> list_of(spans_.size());
+    for (const std::size_t i : order) {
+        const GltfSpan& span = spans_[i];
+        const bool shares = !lists.empty() && lists.back().buffer == span.buffer &&
+                            lists.back().stride == span.stride && span.offset < lists.back().end() &&
+                            (span.offset - lists.back().offset) % span.stride == 0;
+        if (!shares)
+            lists.push_back(span);
+        GltfSpan& list = lists.back();
+        list.count = std::max(list.count, (span.offset - list.offset) / span.stride + span.count);
+        list_of[i] = lists.size() - 1;
+    }
+    std::vector<std::size_t> place(lists.size(), none);
+    std::int64_t n = 0;
+    for (std::size_t i = 0; i < spans_.size(); ++i) {
+        std::size_t& there = place[list_of[i]];
+        if (there == none) {
+            there = joined_.size();
+            joined_.push_back({lists[list_of[i]], names_[i], static_cast<Index>(n)});
+            n += static_cast<std::int64_t>(joined_.back().span.count);
+            if (n > std::numeric_limits<Index>::max())
+                break;
+        }
+        of_span_.push_back(there);
+    }
+    return n;
+}
+
+/// Whether two spans have a byte in common.
+bool share_bytes(const GltfSpan& a, const GltfSpan& b)
+{
+    if (a.buffer != b.buffer || a.end() <= b.offset || b.end() <= a.offset)
+        return false;
+    if (a.stride != b.stride)
+        return true;
+    const std::size_t behind = (b.offset % a.stride + a.stride - a.offset % a.stride) % a.stride;
+    return behind < a.size || behind + b.size > a.stride;
+}
+
+/// A part of the surface in a buffer.
+struct OccupiedSpan {
+    GltfSpan span;
+    std::string name;
+    bool is_written = false;
+};
+
+/// Checks that no bytes that are written belong to two spans.
+void require_apart(const GltfContent& content, std::vector<OccupiedSpan> spans)
+{
+    std::ranges::sort(spans, {}, [](const OccupiedSpan& one) { return std::pair(one.span.buffer, one.span.offset); });
+    // Those before the current one that reach beyond its begin.
+    std::vector<const OccupiedSpan*> reaching;
+    for (const OccupiedSpan& one : spans) {
+        std::erase_if(reaching, [&](const OccupiedSpan* other) {
+            return other->span.buffer != one.span.buffer || other->span.end() <= one.span.offset;
+        });
+        for (const OccupiedSpan* const other : reaching)
+            if ((one.is_written || other->is_written) && share_bytes(one.span, other->span))
+                GltfValue(content.path(), nullptr, one.name)
+                    .fail("shares bytes with " + other->name + ", which would change with it; export the mesh again");
+        // Of spans that are only read one is enough where it reaches as far.
+        if (one.is_written || std::ranges::none_of(reaching, [&](const OccupiedSpan* other) {
+                return !other->is_written && other->span.end() >= one.span.end() && other->span == one.span;
+            }))
+            reaching.push_back(&one);
+    }
+}
+
+/// What is found while the primitives are walked through.
+class GeometryFinder {
+  public:
+    explicit GeometryFinder(const GltfContent& content)
+        : content_(content)
+        , accessors_(content)
+    {
+    }
+
+    void add(const GltfValue& primitive);
+    GltfGeometry finish();
+
+  private:
+    struct Found {
+        GltfPrimitive primitive;
+        std::size_t positions;
+        std::optional<std::size_t> normals;
+    };
+
+    const GltfSpan& positions_of(const GltfValue& primitive);
+    std::optional<std::size_t> normals_of(const GltfValue& attributes, const GltfSpan& positions);
+    void relate_normals(const Found& found);
+
+    const GltfContent& content_;
+    Accessors accessors_;
+    SharedVectors positions_;
+    SharedVectors normals_;
+    std::vector<OccupiedSpan> occupied_;
+    std::vector<Found> found_;
+    GltfGeometry geometry_;
+};
+
+const GltfSpan& GeometryFinder::positions_of(const GltfValue& primitive)
+{
+    if (primitive["extensions"]["KHR_draco_mesh_compression"].is_there())
+        primitive.fail("is compressed by Draco (KHR_draco_mesh_compression); export the mesh without compression");
+    const GltfValue number = primitive["attributes"]["POSITION"];
+    const GltfSpan& span = accessors_(number);
+    if (span.component != gltf_float)
+        number.fail("the positions are quantised (KHR_mesh_quantization) and cannot hold smooth ones; export the mesh "
+                    "without quantisation, or undo it (gltf-transform dequantize)");
+    if (span.n_components != 3)
+        number.fail("the positions are not three numbers each (VEC3); export the mesh again");
+    return span;
+}
+
+std::optional<std::size_t> GeometryFinder::normals_of(const GltfValue& attributes, const GltfSpan& positions)
+{
+    geometry_.has_tangents |= attributes["TANGENT"].is_there();
+    const GltfValue number = attributes["NORMAL"];
+    if (!number.is_there())
+        return std::nullopt;
+    const GltfValue accessor = content_.named_by(number, "accessors");
+    if (!accessor["sparse"].is_there() && accessor["bufferView"].is_there())
+        if (const GltfSpan& span = accessors_(number); span.component == gltf_float && span.n_components == 3 &&
+                                                       span.count == positions.count && span != positions)
+            return normals_.add(span, number.name());
+    geometry_.has_other_normals = true;
+    return std::nullopt;
+}
+
+void GeometryFinder::add(const GltfValue& primitive)
+{
+    const std::uint64_t mode = primitive["mode"].number_or(4);
+    if (mode < 4)
+        return;
+    if (mode > 6)
+        primitive["mode"].fail("is not known to glTF 2.0; export the mesh again");
+    const GltfValue attributes = primitive["attributes"];
+    const GltfSpan& positions = positions_of(primitive);
+    GltfPrimitive one;
+    one.mode = static_cast<GltfPrimitive::Mode>(mode);
+    one.name = attributes["POSITION"].name();
+    std::size_t n_corners = positions.count;
+    if (const GltfValue number = primitive["indices"]; number.is_there()) {
+        one.indices = accessors_(number);
+        one.name = number.name();
+        n_corners = one.indices->count;
+        const std::uint64_t type = one.indices->component;
+        if (one.indices->n_components != 1 || (type != gltf_byte && type != gltf_short && type != gltf_int))
+            number.fail("the indices are not whole numbers of 1, 2 or 4 bytes without sign; export the mesh again");
+    }
+    if (one.mode == GltfPrimitive::Mode::Triangles && n_corners % 3 != 0)
+        GltfValue(content_.path(), nullptr, one.name)
+            .fail(
+                fmt::format("has {} corners, which are not three for each triangle; export the mesh again", n_corners));
+    geometry_.has_morph_targets |= primitive["targets"].size() > 0;
+    const auto normals = normals_of(attributes, positions);
+    one.n_vertices = static_cast<Index>(std::min<std::size_t>(positions.count, std::numeric_limits<Index>::max()));
+    one.n_faces = one.mode == GltfPrimitive::Mode::Triangles ? static_cast<std::int64_t>(n_corners / 3)
+                                                             : std::max(static_cast<std::int64_t>(n_corners) - 2, {});
+    if (one.indices)
+        occupied_.push_back({*one.indices, one.name, false});
+    found_.push_back({std::move(one), positions_.add(positions, attributes["POSITION"].name()), normals});
+}
+
+/// A normal belongs to the vertex of the same number in the primitive.
+void GeometryFinder::relate_normals(const Found& found)
+{
+    constexpr Index unknown = -2;
+    constexpr Index several = -1;
+    const Index first = normals_.first_of(*found.normals);
+    for (Index i = 0; i < found.primitive.n_vertices; ++i) {
+        Index& vertex = geometry_.vertex_of_normal[usize(first + i)];
+        const Index here = found.primitive.first_vertex + i;
+        vertex = vertex == unknown || vertex == here ? here : several;
+    }
+}
+
+GltfGeometry GeometryFinder::finish()
+{
+    const auto require_few = [&](std::int64_t n, const char* what) {
+        if (n > std::numeric_limits<Index>::max())
+            content_.root().fail(fmt::format("the file has more than {} {}; divide the mesh into several files",
+                                             std::numeric_limits<Index>::max(), what));
+        return static_cast<Index>(n);
+    };
+    if (found_.empty())
+        content_.root().fail("has no triangles, strips or fans in its meshes; export a mesh with its surface");
+    geometry_.n_vertices = require_few(positions_.join(), "vertices");
+    geometry_.vertex_of_normal.assign(usize(require_few(normals_.join(), "normals")), -2);
+    // Vertices, mode, and buffer, offset, stride, count and type of the indices.
+    std::set<std::tuple<Index, Index, GltfPrimitive::Mode, std::array<std::uint64_t, 5>>> known;
+    for (Found& found : found_) {
+        found.primitive.first_vertex = positions_.first_of(found.positions);
+        if (found.normals)
+            relate_normals(found);
+        const GltfSpan indices = found.primitive.indices.value_or(GltfSpan{});
+        if (found.primitive.n_faces == 0 ||
+            !known
+                 .emplace(found.primitive.first_vertex, found.primitive.n_vertices, found.primitive.mode,
+                          std::array<std::uint64_t, 5>{indices.buffer, indices.offset, indices.stride, indices.count,
+                                                       indices.component})
+                 .second)
+            continue;
+        found.primitive.first_face = geometry_.n_faces;
+        geometry_.n_faces += found.primitive.n_faces;
+        geometry_.primitives.push_back(std::move(found.primitive));
+    }
+    require_few(3 * geometry_.n_faces, "corners of triangles");
+    geometry_.positions = positions_.joined();
+    geometry_.normals = normals_.joined();
+    for (const GltfVectors& list : geometry_.positions)
+        occupied_.push_back({list.span, list.name, true});
+    for (const GltfVectors& list : geometry_.normals)
+        occupied_.push_back({list.span, list.name, true});
+    require_apart(content_, std::move(occupied_));
+    return std::move(geometry_);
+}
+
+}  // namespace
+
+GltfSpan span_of_gltf(const GltfContent& content, const GltfValue& accessor)
+{
+    if (accessor["sparse"].is_there())
+        accessor.fail(
+            "is sparse, which is not read for positions and indices; export the mesh without sparse accessors");
+    if (!accessor["bufferView"].is_there())
+        accessor.fail("has no bufferView and so no data; export the mesh again");
+    const GltfValue view = content.named_by(accessor["bufferView"], "bufferViews");
+    const GltfSpan bytes = view_of(content, view);
+    const GltfValue type = accessor["type"];
+    GltfSpan span = bytes;
+    span.component = accessor["componentType"].number();
+    span.n_components = found_in(components_of_types, type.text(), type);
+    span.size = span.n_components * found_in(bytes_of_components, span.component, accessor["componentType"]);
+    span.stride = bytes.stride > 0 ? bytes.stride : span.size;
+    span.count = accessor["count"].number();
+    const std::uint64_t offset = accessor["byteOffset"].number_or(0);
+    span.offset += offset;
+    if (span.stride < span.size)
+        view["byteStride"].fail(fmt::format("is {}, but the elements of {} have {} bytes; export the mesh again",
+                                            span.stride, accessor.name(), span.size));
+    if (span.count == 0)
+        accessor["count"].fail("there is no element; export the mesh again");
+    if (offset > bytes.size || bytes.size - offset < span.size ||
+        span.count - 1 > (bytes.size - offset - span.size) / span.stride)
+        accessor.fail(fmt::format("its {} do not fit into {}, which has {}; export the mesh again",
+                                  counted(span.count, "element", "elements"), view.name(),
+                                  counted(bytes.size, "byte", "bytes")));
+    return span;
+}
+
+GltfGeometry geometry_of(const GltfContent& content)
+{
+    GeometryFinder finder(content);
+    const GltfValue meshes = content.root()["meshes"];
+    for (std::size_t m = 0; m < meshes.size(); ++m) {
+        const GltfValue primitives = meshes.at(m)["primitives"];
+        for (std::size_t p = 0; p < primitives.size(); ++p)
+            finder.add(primitives.at(p));
+    }
+    return finder.finish();
+}
+
+}  // namespace seamflow

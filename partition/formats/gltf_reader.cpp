@@ -1,0 +1,184 @@
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <span>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "partition/formats/gltf.h"
+#include "partition/formats/gltf_geometry.h"
+#include "partition/io/byte_order.h"
+#include "partition/io/mesh_builder.h"
+
+namespace seamflow {
+
+namespace {
+
+/// A place in a list of a file.
+class GltfPosition final : public InputPosition {
+  public:
+    explicit GltfPosition(const std::filesystem::path& path)
+        : path_(path)
+    {
+    }
+
+    /// @param list, element must live until the next call.
+    void enter(const std::string& list, std::string_view element, std::int64_t i)
+    {
+        list_ = list;
+        element_ = element;
+        i_ = i;
+    }
+
+  private:
+    [[nodiscard]] std::string position() const override
+    {
+        return fmt::format("{}: {}, {} {} (numbered from 0)", path_.string(), list_, element_, i_);
+    }
+
+    const std::filesystem::path& path_;
+    std::string_view list_;
+    std::string_view element_;
+    std::int64_t i_ = 0;
+};
+
+/// Reads the positions of vertices begin to end - 1.
+void read_gltf_positions(const GltfContent& content, const GltfGeometry& geometry, Index begin, Index end,
+                         GltfPosition& position, Points& vertices)
+{
+    auto list = std::ranges::upper_bound(geometry.positions, begin, {}, &GltfVectors::first) - 1;
+    for (Index v = begin; v < end; ++v) {
+        while (usize(v - list->first) >= list->span.count)
+            ++list;
+        const std::size_t i = usize(v - list->first);
+        const char* const bytes = content.buffer(list->span.buffer).data() + list->span.offset + i * list->span.stride;
+        for (Index k = 0; k < 3; ++k) {
+            const auto x = from_bytes<float>(bytes + usize(k) * sizeof(float), std::endian::little);
+            vertices(v, k) = double{x};
+            if (!std::isfinite(x)) {
+                position.enter(list->name, "vertex", static_cast<std::int64_t>(i));
+                position.fault("a coordinate is not a finite number; correct it or export the mesh again");
+            }
+        }
+    }
+}
+
+/// The corners of the triangles of a primitive.
+class GltfCorners {
+  public:
+    GltfCorners(const GltfContent& content, const GltfPrimitive& primitive)
+        : primitive_(primitive)
+        , bytes_(primitive.indices ? content.buffer(primitive.indices->buffer).data() + primitive.indices->offset
+                                   : nullptr)
+    {
+    }
+
+    /// The vertices of triangle t, numbered in the primitive.
+    [[nodiscard]] std::array<std::int64_t, 3> operator()(std::int64_t t) const
+    {
+        switch (primitive_.mode) {
+        case GltfPrimitive::Mode::Triangles:
+            return {index(3 * t), index(3 * t + 1), index(3 * t + 2)};
+        case GltfPrimitive::Mode::Strip:
+            // Every second one is written backwards.
+            return {index(t), index(t + 1 + t % 2), index(t + 2 - t % 2)};
+        case GltfPrimitive::Mode::Fan:
+            break;
+        }
+        return {index(t + 1), index(t + 2), index(0)};
+    }
+
+  private:
+    [[nodiscard]] std::int64_t index(std::int64_t i) const
+    {
+        if (bytes_ == nullptr)
+            return i;
+        const char* const first = bytes_ + static_cast<std::size_t>(i) * primitive_.indices->stride;
+        switch (primitive_.indices->component) {
+        case gltf_byte:
+            return static_cast<unsigned char>(*first);
+        case gltf_short:
+            return from_bytes<std::uint16_t>(first, std::endian::little);
+        default:
+            return from_bytes<std::uint32_t>(first, std::endian::little);
+        }
+    }
+
+    const GltfPrimitive& primitive_;
+    const char* bytes_;
+};
+
+/// Reads faces begin to end - 1. Strips and fans are joined by triangles without area, which are passed over.
+void read_gltf_faces(const GltfContent& content, const GltfGeometry& geometry, std::int64_t begin, std::int64_t end,
+                     GltfPosition& position, MeshBuilder& builder)
+{
+    auto primitive = std::ranges::upper_bound(geometry.primitives, begin, {}, &GltfPrimitive::first_face) - 1;
+    for (; begin < end; ++primitive) {
+        const GltfCorners corners(content, *primitive);
+        const std::int64_t n = std::min(end, primitive->first_face + primitive->n_faces) - primitive->first_face;
+        for (std::int64_t t = begin - primitive->first_face; t < n; ++t) {
+            position.enter(primitive->name, "triangle", t);
+            const std::array<std::int64_t, 3> given = corners(t);
+            if (primitive->mode != GltfPrimitive::Mode::Triangles &&
+                (given[0] == given[1] || given[1] == given[2] || given[2] == given[0]))
+                continue;
+            std::array<Index, 3> face;
+            for (std::size_t k = 0; k < 3; ++k) {
+                face[k] = builder.vertex(given[k], primitive->n_vertices);
+                face[k] += face[k] >= 0 ? primitive->first_vertex : 0;
+            }
+            builder.add_face(face);
+        }
+        begin = primitive->first_face + n;
+    }
+}
+
+PolygonMesh read_gltf_in_one_go(const GltfContent& content, const GltfGeometry& geometry, FaultLog* faults)
+{
+    PolygonMesh mesh;
+    mesh.vertices = uninitialised_points(geometry.n_vertices);
+    GltfPosition position(content.path());
+    position.note_faults_in(faults);
+    read_gltf_positions(content, geometry, 0, geometry.n_vertices, position, mesh.vertices);
+    MeshBuilder builder(position, 0, {mesh.vertices, geometry.n_vertices, mesh});
+    read_gltf_faces(content, geometry, 0, geometry.n_faces, position, builder);
+    return mesh;
+}
+
+/// @throws InputError if there is any fault, not necessarily naming it.
+PolygonMesh read_gltf_slices(const GltfContent& content, const GltfGeometry& geometry, const Slicing& slicing)
+{
+    PolygonMesh mesh;
+    mesh.vertices = uninitialised_points(geometry.n_vertices);
+    for_each_block(slicing.exec, geometry.n_vertices, [&](Index, Index begin, Index end) {
+        GltfPosition position(content.path());
+        read_gltf_positions(content, geometry, begin, end, position, mesh.vertices);
+    });
+    constexpr std::size_t bytes_per_face = 12;
+    const std::int64_t per_slice = elements_per_slice(slicing, bytes_per_face);
+    append_faces(mesh, static_cast<Index>((geometry.n_faces + per_slice - 1) / per_slice), slicing.exec,
+                 [&](Index i, PolygonMesh& faces) {
+                     const std::int64_t begin = i * per_slice;
+                     GltfPosition position(content.path());
+                     MeshBuilder builder(position, 0, {mesh.vertices, geometry.n_vertices, faces});
+                     read_gltf_faces(content, geometry, begin, std::min(begin + per_slice, geometry.n_faces), position,
+                                     builder);
+                 });
+    return mesh;
+}
+
+}  // namespace
+
+PolygonMesh read_gltf(const std::filesystem::path& path, std::string_view file, const Slicing& slicing,
+                      FaultLog* faults)
+{
+    const GltfContent content(path, file);
+    const GltfGeometry geometry = geometry_of(content);
+    const auto in_one_go = [&] { return read_gltf_in_one_go(content, geometry, faults); };
+    return file.size() <= slicing.bytes
+               ? in_one_go()
+               : read_in_slices_if_faultless([&] { return read_gltf_slices(content, geometry, slicing); }, in_one_go);
+}
+
+}  // namespace seamflow

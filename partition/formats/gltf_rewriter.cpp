@@ -1,0 +1,426 @@
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <bit>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <set>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "partition/errors.h"
+#include "partition/formats/gltf.h"
+#include "partition/formats/gltf_geometry.h"
+#include "partition/formats/mesh_file.h"
+#include "partition/formats/splicing.h"
+#include "partition/io/byte_order.h"
+
+namespace seamflow {
+
+namespace {
+
+/// Replacements in a JSON text.
+using JsonEdits = std::vector<std::pair<std::string_view, std::string>>;
+
+Point float_vector(std::string_view bytes, const GltfSpan& span, std::size_t i)
+{
+    Point vector;
+    for (Index k = 0; k < 3; ++k)
+        vector[k] = double{from_bytes<float>(bytes.data() + span.offset + i * span.stride + usize(k) * sizeof(float),
+                                             std::endian::little)};
+    return vector;
+}
+
+/// Replaces those components that differ.
+/// @returns whether any had to be rounded.
+bool set_float_vector(std::string& bytes, const GltfSpan& span, std::size_t i, const Point& before, const Point& after)
+{
+    bool rounded = false;
+    for (Index k = 0; k < 3; ++k) {
+        if (!differ(before[k], after[k]))
+            continue;
+        const auto value = static_cast<float>(after[k]);
+        rounded |= double{value} != after[k];
+        const auto written = to_bytes(value, std::endian::little);
+        std::ranges::copy(written, bytes.begin() + static_cast<std::ptrdiff_t>(span.offset + i * span.stride +
+                                                                               usize(k) * sizeof(float)));
+    }
+    return rounded;
+}
+
+/// Runs body(list, i, number) for all elements of some lists.
+template <class Body>
+void for_each_vector(const std::vector<GltfVectors>& lists, Index n, const Executor& exec, Body&& body)
+{
+    for_each_block(exec, n, [&](Index, Index begin, Index end) {
+        auto list = std::ranges::upper_bound(lists, begin, {}, &GltfVectors::first) - 1;
+        for (Index number = begin; number < end; ++number) {
+            while (usize(number - list->first) >= list->span.count)
+                ++list;
+            body(*list, usize(number - list->first), number);
+        }
+    });
+}
+
+/// The buffers of a file with another surface.
+struct NewBuffers {
+    /// One for each buffer; nothing where it stays.
+    std::vector<std::optional<std::string>> bytes;
+    bool rounded = false;
+    std::uint64_t n_staying_normals = 0;
+
+    std::string& of(const GltfContent& content, std::size_t buffer)
+    {
+        if (!bytes[buffer])
+            bytes[buffer].emplace(content.buffer(buffer));
+        return *bytes[buffer];
+    }
+};
+
+NewBuffers with_surface(const GltfContent& content, const GltfGeometry& geometry, const PolygonMesh& mesh,
+                        const Executor& exec, double seam_distance)
+{
+    NewBuffers now{.bytes = std::vector<std::optional<std::string>>(content.n_buffers())};
+    for (const auto* const lists : {&geometry.positions, &geometry.normals})
+        for (const GltfVectors& list : *lists)
+            now.of(content, list.span.buffer);
+    Points before(geometry.n_vertices, 3);
+    std::atomic<bool> rounded = false;
+    for_each_vector(geometry.positions, geometry.n_vertices, exec,
+                    [&](const GltfVectors& list, std::size_t i, Index v) {
+                        std::string& bytes = *now.bytes[list.span.buffer];
+                        before.row(v) = float_vector(bytes, list.span, i);
+                        if (set_float_vector(bytes, list.span, i, before.row(v), mesh.vertices.row(v)))
+                            rounded = true;
+                    });
+    now.rounded = rounded;
+    if (geometry.normals.empty())
+        return now;
+    const MovedNormals normals(mesh, std::move(before), exec, seam_distance);
+    std::atomic<std::uint64_t> n_staying = 0;
+    const auto n_normals = static_cast<Index>(geometry.vertex_of_normal.size());
+    for_each_vector(geometry.normals, n_normals, exec, [&](const GltfVectors& list, std::size_t i, Index n) {
+        const Index v = geometry.vertex_of_normal[usize(n)];
+        if (v < 0) {
+            ++n_staying;
+            return;
+        }
+        std::string& bytes = *now.bytes[list.span.buffer];
+        const Point given = float_vector(bytes, list.span, i);
+        if (const auto normal = normals.around_vertex(v, given))
+            set_float_vector(bytes, list.span, i, given, *normal);
+    });
+    if (normals.moved())
+        now.n_staying_normals = n_staying;
+    return now;
+}
+
+struct Bounds {
+    Point least = Point::Constant(std::numeric_limits<double>::infinity());
+    Point largest = Point::Constant(-std::numeric_limits<double>::infinity());
+};
+
+Bounds bounds_in(std::string_view bytes, const GltfSpan& span, const Executor& exec)
+{
+    if (span.count > usize(std::numeric_limits<Index>::max()))
+        return {};
+    return reduce(
+        exec, static_cast<Index>(span.count), Bounds{},
+        [&](Bounds& bounds, Index i) {
+            const Point vector = float_vector(bytes, span, usize(i));
+            bounds.least = bounds.least.cwiseMin(vector);
+            bounds.largest = bounds.largest.cwiseMax(vector);
+        },
+        [](Bounds& bounds, const Bounds& part) {
+            bounds.least = bounds.least.cwiseMin(part.least);
+            bounds.largest = bounds.largest.cwiseMax(part.largest);
+        });
+}
+
+/// Updates the numbers of a list of bounds that have changed.
+void edit_bound(JsonEdits& edits, std::string_view list, const Point& before, const Point& after)
+{
+    const std::vector<std::string_view> numbers = gltf_elements(list);
+    for (std::size_t k = 0; k < 3 && numbers.size() == 3; ++k) {
+        const auto component = static_cast<Index>(k);
+        if (before[component] == after[component])
+            continue;
+        OutputBuffer text;
+        // The sum is not -0.
+        text.number(after[component] + 0.0);
+        edits.emplace_back(numbers[k], text.content());
+    }
+}
+
+/// The vectors of an accessor in a buffer that has changed; nothing for all others, good or bad.
+std::optional<GltfSpan> changed_vectors(const GltfContent& content, const NewBuffers& now, std::size_t accessor)
+{
+    try {
+        const GltfSpan span = span_of_gltf(content, content.root()["accessors"].at(accessor));
+        if (span.component == gltf_float && span.n_components == 3 && now.bytes[span.buffer])
+            return span;
+    } catch (const InputError&) {
+        // It is none of those that were read.
+    }
+    return std::nullopt;
+}
+
+/// Of all accessors, those that no primitive of triangles names among them.
+void edit_bounds(JsonEdits& edits, const GltfContent& content, const NewBuffers& now, const Executor& exec)
+{
+    const std::vector<std::string_view> accessors = gltf_elements(gltf_member(content.text(), "accessors"));
+    for (std::size_t i = 0; i < accessors.size(); ++i) {
+        const std::string_view least = gltf_member(accessors[i], "min");
+        const std::string_view largest = gltf_member(accessors[i], "max");
+        if (least.empty() && largest.empty())
+            continue;
+        const auto span = changed_vectors(content, now, i);
+        if (!span)
+            continue;
+        const Bounds before = bounds_in(content.buffer(span->buffer), *span, exec);
+        const Bounds after = bounds_in(*now.bytes[span->buffer], *span, exec);
+        edit_bound(edits, least, before.least, after.least);
+        edit_bound(edits, largest, before.largest, after.largest);
+    }
+}
+
+std::string as_json(std::string_view text)
+{
+    return nlohmann::json(text).dump();
+}
+
+/// The places of buffers in other files than the result.
+class BufferFiles {
+  public:
+    /// @param output to be written. @param input that was read.
+    BufferFiles(const std::filesystem::path& output, const std::filesystem::path& input);
+
+    /// A name for a buffer: that of the result with .bin, and a number where that belongs to another file.
+    std::string next_name();
+
+    /// Beside the result.
+    [[nodiscard]] std::filesystem::path place_of(const std::string& name) const { return folder_ / name; }
+
+  private:
+    std::filesystem::path folder_;
+    std::string stem_;
+    /// Those that the file which is replaced names, and nobody else.
+    std::set<std::string> replaced_;
+    int n_ = 0;
+};
+
+/// The names of the buffers of a file that are other files; none if it is no glTF file.
+std::set<std::string> names_of_buffers(const std::filesystem::path& path)
+{
+    std::set<std::string> names;
+    try {
+        const InputFile file{OpenFile(path)};
+        const GltfContent content(path, file.content());
+        for (std::size_t i = 0; i < content.n_buffers(); ++i)
+            if (const GltfValue uri = content.root()["buffers"].at(i)["uri"];
+                uri.is_there() && !is_gltf_data(uri.text()))
+                names.insert(gltf_name_of(uri.text()));
+    } catch (const InputError&) {
+        // There is none, or it is another kind of file.
+    }
+    return names;
+}
+
+BufferFiles::BufferFiles(const std::filesystem::path& output, const std::filesystem::path& input)
+    : folder_(file_behind(output).parent_path())
+    , stem_(before_extension(file_behind(output).filename()).string())
+    , replaced_(names_of_buffers(output))
+{
+    std::error_code ignored;
+    for (const std::string& of_input : names_of_buffers(input))
+        std::erase_if(replaced_, [&](const std::string& name) {
+            return std::filesystem::equivalent(folder_ / name, input.parent_path() / of_input, ignored);
+        });
+}
+
+std::string BufferFiles::next_name()
+{
+    std::error_code ignored;
+    while (true) {
+        ++n_;
+        std::string name = n_ == 1 ? stem_ + ".bin" : fmt::format("{}-{}.bin", stem_, n_);
+        if (replaced_.contains(name) || !std::filesystem::exists(folder_ / name, ignored))
+            return name;
+    }
+}
+
+/// Writes the buffers that are in other files.
+std::vector<std::string> write_buffers(JsonEdits& edits, const OutputFile& file, const GltfContent& content,
+                                       const NewBuffers& now)
+{
+    std::optional<BufferFiles> files;
+    std::string names;
+    const std::vector<std::string_view> buffers = gltf_elements(gltf_member(content.text(), "buffers"));
+    for (std::size_t i = 0; i < buffers.size(); ++i) {
+        const GltfValue uri = content.root()["buffers"].at(i)["uri"];
+        if (!uri.is_there())
+            continue;
+        const std::string_view bytes = now.bytes[i] ? std::string_view(*now.bytes[i]) : content.buffer(i);
+        const bool was_data = is_gltf_data(uri.text());
+        if (was_data && !now.bytes[i])
+            continue;
+        if (was_data || file.is_stream()) {
+            const std::string head =
+                was_data ? uri.text().substr(0, uri.text().find(',')) : "data:application/octet-stream;base64";
+            edits.emplace_back(gltf_member(buffers[i], "uri"), as_json(gltf_data(head, bytes)));
+            continue;
+        }
+        if (!files)
+            files.emplace(file.path(), content.path());
+        const std::string name = files->next_name();
+        OutputFile buffer(files->place_of(name));
+        buffer.text(bytes);
+        buffer.commit();
+        edits.emplace_back(gltf_member(buffers[i], "uri"), as_json(gltf_uri_of(name)));
+        names += (names.empty() ? "" : ", ") + name;
+    }
+    if (names.empty())
+        return {};
+    return {fmt::format("the binary data of {} are beside it, in {}", file.path().string(), names)};
+}
+
+std::string edited(std::string_view text, JsonEdits edits)
+{
+    std::ranges::sort(edits, {}, [](const auto& edit) { return edit.first.data(); });
+    OutputBuffer now;
+    Splicer splicer(now, text);
+    for (const auto& [part, replacement] : edits)
+        splicer.exchange(part).text(replacement);
+    splicer.finish();
+    return std::string(now.content());
+}
+
+void write_binary_gltf(OutputFile& file, const GltfContent& content, std::string text, const NewBuffers& now)
+{
+    constexpr std::size_t unit = 4;
+    if (text != content.text()) {
+        text.resize(text.find_last_not_of(' ') + 1);
+        text.resize((text.size() + unit - 1) / unit * unit, ' ');
+    }
+    std::string_view behind = content.file().substr(glb_header_bytes + glb_chunk_header_bytes + content.text().size());
+    const auto length =
+        from_bytes<std::uint32_t>(content.file().data() + 2 * sizeof(std::uint32_t), std::endian::little);
+    const std::size_t n_padding = content.file().size() - length;
+    if (glb_header_bytes + glb_chunk_header_bytes + text.size() + behind.size() >
+        std::numeric_limits<std::uint32_t>::max())
+        throw OutputError(file.path().string() +
+                          ": cannot be written: it would have more than the 4 GiB of a binary glTF file");
+    write_glb_head(file, text, behind.size() - n_padding);
+    const bool has_changed = !now.bytes.empty() && now.bytes[0] && content.buffer(0).data() == content.chunk().data();
+    if (has_changed) {
+        const std::size_t head = static_cast<std::size_t>(content.chunk().data() - behind.data());
+        file.text(behind.substr(0, head));
+        file.text(*now.bytes[0]);
+        behind.remove_prefix(head + content.chunk().size());
+    }
+    file.text(behind);
+}
+
+/// Pictures and the like, which are not copied, where the result is in another folder.
+std::vector<std::string> remarks_on_other_files(const OutputFile& file, const GltfContent& content)
+{
+    std::error_code ignored;
+    const auto folder_of = [](const std::filesystem::path& path) {
+        return path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
+    };
+    if (std::filesystem::equivalent(folder_of(file.path()), folder_of(content.path()), ignored))
+        return {};
+    std::uint64_t n = 0;
+    std::string first;
+    const GltfValue images = content.root()["images"];
+    for (std::size_t i = 0; i < images.size(); ++i)
+        if (const GltfValue uri = images.at(i)["uri"]; uri.is_there() && !is_gltf_data(uri.text())) {
+            first = n++ == 0 ? uri.text() : first;
+        }
+    if (n == 0)
+        return {};
+    return {fmt::format("{} names {} beside it ({}): copy {} there from the folder of {}", file.path().string(),
+                        counted(n, "picture", "pictures"), in_quotes(first), n == 1 ? "it" : "them",
+                        content.path().string())};
+}
+
+std::vector<std::string> remarks_on_what_stays(const GltfContent& content, const GltfGeometry& geometry,
+                                               const NewBuffers& now)
+{
+    std::vector<std::string> remarks;
+    const auto remark = [&](bool holds, const char* what) {
+        if (holds)
+            remarks.push_back(fmt::format("the {} of {} stay as they were", what, content.path().string()));
+    };
+    remark(geometry.has_other_normals, "normals that are not in single precision, once for each vertex,");
+    remark(now.n_staying_normals > 0, "normals that belong to several vertices");
+    remark(geometry.has_tangents, "tangents");
+    remark(geometry.has_morph_targets, "morph targets (differences from the positions)");
+    remark(content.root()["skins"].size() > 0, "skins (joints and weights)");
+    if (now.rounded)
+        remarks.push_back(rounding_remark(content.path()));
+    return remarks;
+}
+
+}  // namespace
+
+std::vector<std::string> rewrite_gltf(OutputFile& file, const std::filesystem::path& path, std::string_view content,
+                                      const PolygonMesh& mesh, const Slicing& slicing, double seam_distance)
+{
+    const GltfContent gltf(path, content);
+    const GltfGeometry geometry = geometry_of(gltf);
+    require_floats_for_gltf(file.path(), mesh.vertices);
+    const NewBuffers now = with_surface(gltf, geometry, mesh, slicing.exec, seam_distance);
+    JsonEdits edits;
+    edit_bounds(edits, gltf, now, slicing.exec);
+    std::vector<std::string> remarks = write_buffers(edits, file, gltf, now);
+    std::string text = edited(gltf.text(), std::move(edits));
+    if (gltf.is_binary())
+        write_binary_gltf(file, gltf, std::move(text), now);
+    else
+        file.text(text);
+    for (const auto& more : {remarks_on_other_files(file, gltf), remarks_on_what_stays(gltf, geometry, now)})
+        remarks.insert(remarks.end(), more.begin(), more.end());
+    return remarks;
+}
+
+std::vector<std::string> extras_of_gltf(const std::filesystem::path& path, std::string_view content)
+{
+    const GltfContent gltf(path, content);
+    std::vector<std::string> extras;
+    const GltfValue root = gltf.root();
+    for (std::size_t m = 0; m < root["meshes"].size(); ++m) {
+        const GltfValue primitives = root["meshes"].at(m)["primitives"];
+        for (std::size_t p = 0; p < primitives.size(); ++p) {
+            const GltfValue primitive = primitives.at(p);
+            for (const std::string& key : primitive["attributes"].keys())
+                if (key == "NORMAL")
+                    add_once(extras, "normals");
+                else if (key.starts_with("TEXCOORD"))
+                    add_once(extras, "texture coordinates");
+                else if (key.starts_with("COLOR"))
+                    add_once(extras, "colours");
+                else if (key != "POSITION")
+                    add_once(extras, "attributes " + printable(key));
+            if (primitive["targets"].size() > 0)
+                add_once(extras, "morph targets");
+            if (primitive["mode"].number_or(4) < 4)
+                add_once(extras, "points and lines");
+        }
+    }
+    for (const char* const list : {"materials", "textures", "animations", "skins", "cameras"})
+        if (root[list].size() > 0)
+            extras.emplace_back(list);
+    for (std::size_t n = 0; n < root["nodes"].size(); ++n)
+        for (const char* const transform : {"matrix", "translation", "rotation", "scale"})
+            if (root["nodes"].at(n)[transform].is_there())
+                add_once(extras, "transforms of nodes");
+    return extras;
+}
+
+}  // namespace seamflow
