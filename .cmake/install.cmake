@@ -40,8 +40,10 @@ install(FILES
 # The file for pkg-config finds its prefix from where it lies. Whoever links static libraries links what they use, with
 # `pkg-config --static` or without; what shared libraries use is theirs alone.
 set(used "")
+set(used_libraries ${SEAMFLOW_SUITESPARSE} METIS XXHASH)
+list(TRANSFORM used_libraries APPEND _LIBRARY)
 set(known_folders ${CMAKE_CXX_IMPLICIT_LINK_DIRECTORIES})
-foreach(library IN LISTS UMFPACK_LIBRARY CHOLMOD_LIBRARY AMD_LIBRARY CAMD_LIBRARY METIS_LIBRARY XXHASH_LIBRARY)
+foreach(library IN LISTS ${used_libraries})
     cmake_path(GET library PARENT_PATH folder)
     if(NOT folder IN_LIST known_folders)
         string(APPEND used " -L${folder}")
@@ -68,7 +70,10 @@ install(FILES ${PROJECT_BINARY_DIR}/seamflow.pc DESTINATION ${CMAKE_INSTALL_LIBD
 
 if(SEAMFLOW_BUILD_SAMPLES)
     cmake_path(RELATIVE_PATH CMAKE_INSTALL_LIBDIR BASE_DIRECTORY ${CMAKE_INSTALL_BINDIR} OUTPUT_VARIABLE to_libraries)
-    set(installed_programs smooth compare generate inspect figures benchmark)
+    set(installed_programs smooth compare generate inspect figures)
+    if(TARGET benchmark)
+        list(APPEND installed_programs benchmark)
+    endif()
     if(TARGET smooth-distributed)
         list(APPEND installed_programs smooth-distributed)
     endif()

@@ -1,61 +1,6 @@
-// Reports the elements of a mesh and its defects, element by element.
-
-#include <iostream>
-#include <optional>
-
-#include "engine/tasks/workers.h"
-#include "partition/formats/mesh_io.h"
-#include "partition/inspection/mesh_inspection.h"
-#include "samples/command/command_line.h"
-#include "samples/files/mesh_results.h"
-#include "samples/report/inspection_text.h"
-#include "samples/report/report_json.h"
-#include "solvers/denoising/mesh_denoiser.h"
-
-using namespace seamflow;
-
-namespace {
-
-/// @returns UnusableInput if `smooth` would not accept the file as it is.
-ExitStatus inspect_file(int argc, char** argv)
-{
-    CLI::App app("Tells what a mesh is made of and what is wrong with it. All numbers count from 0.", "inspect");
-    std::filesystem::path input;
-    bool as_json = false;
-    int most_listed = 10;
-    app.add_option("INPUT", input, "mesh: " + extensions_of() + ", optionally followed by .gz; - for standard input")
-        ->required()
-        ->type_name("");
-    app.add_flag("--json", as_json, "write everything as JSON, with all elements");
-    add_integer(app, "--list", most_listed, 0, "how many elements of each kind are named without --json [10]");
-    app.footer("inspect scan.ply                    what it is made of and what is wrong with it\n"
-               "inspect scan.ply --list 1000        with the numbers of up to 1000 elements of each kind\n"
-               "inspect scan.ply --json > found.json   for other programs, with all elements\n");
-    if (const auto end = parse_command_line(app, argc, argv))
-        return *end;
-
-    FaultLog faults;
-    Workers workers(0);
-    const Executor exec = workers.exec();
-    const PolygonMesh mesh = read_faulty_mesh(input, faults, exec).mesh;
-    const Topology topology = make_topology(mesh, exec);
-    const MeshInspection found = inspect(mesh, topology, exec);
-    std::optional<SurfaceNoise> noise;
-    // Where sides lie on each other, or cracks are open, the faces as they are say nothing of the noise.
-    if (mesh.n_faces() > 0 && found.defects.vertices_not_finite.empty() && found.defects.duplicate_faces.empty() &&
-        !found.cracks)
-        workers.execute([&] { noise = measure_noise(mesh, topology, exec); });
-    if (as_json)
-        std::cout << inspection_json(input.string(), faults, found, noise);
-    else
-        print_inspection(std::cout, input.string(), faults, found, most_listed, noise);
-    require_faces(input, mesh.n_faces(), faults);
-    return faults.count == faults.n_harmless ? ExitStatus::Success : ExitStatus::UnusableInput;
-}
-
-}  // namespace
+#include "samples/programs.h"
 
 int main(int argc, char** argv)
 {
-    return run_program("inspect", [&] { return inspect_file(argc, argv); });
+    return seamflow::run_program("inspect", argc, argv);
 }

@@ -8,15 +8,9 @@
 //        sub-meshes of lower colour
 //        that it takes values from
 
-#include "samples/process/launched_processes.h"
-#include "samples/smooth_program.h"
-
-using namespace seamflow;
+#include "samples/programs.h"
 
 int main(int argc, char** argv)
 {
-    return run_program("smooth", [&] {
-        const auto end = refuse_several_processes("smooth");
-        return end ? *end : run_smooth_program(argc, argv);
-    });
+    return seamflow::run_program("smooth", argc, argv);
 }

@@ -86,13 +86,15 @@ void remark_on_near_singularity(std::span<const Index> n_nearly_singular, FlowRe
 
 void remark_on_factorisation(Factorisation asked, std::span<const Factorisation> used, FlowReport& report)
 {
-    const auto n = std::ranges::count_if(used, [&](Factorisation kind) { return kind != asked; });
+    const auto is_other = [&](Factorisation kind) { return kind != asked; };
+    const auto n = std::ranges::count_if(used, is_other);
     if (asked == Factorisation::Automatic || n == 0)
         return;
-    report.remarks.push_back(fmt::format("{} of {} sub-meshes were factorised by UMFPACK, {}.", n, used.size(),
-                                         asked == Factorisation::Cholmod
-                                             ? "not by CHOLMOD, because their equations are not symmetric"
-                                             : "because pivots from the diagonal were too small"));
+    const bool is_eigen = *std::ranges::find_if(used, is_other) == Factorisation::Eigen;
+    report.remarks.push_back(
+        fmt::format("{} of {} sub-meshes were factorised by {}, {}.", n, used.size(), is_eigen ? "Eigen" : "UMFPACK",
+                    asked == Factorisation::Cholmod ? "not by CHOLMOD, because their equations are not symmetric"
+                                                    : "because pivots from the diagonal were too small"));
 }
 
 void remark_on_missed_tolerance(int iterations, const std::string& remedy, FlowReport& report)

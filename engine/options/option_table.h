@@ -180,7 +180,8 @@ auto option_table(Options& options)
         row(factorisation,
             {"factorisation", "--factorisation", group::accuracy, factors,
              "the direct solver of sub-meshes [auto: the fastest]\n"
-             "cholmod: UMFPACK where they are not symmetric. With either, symmetric Laplacians take sweeps."}),
+             "cholmod (UMFPACK where they are not symmetric), umfpack: only in builds with these libraries. With "
+             "either, symmetric Laplacians take sweeps."}),
         row(memory_limit,
             {"memory_limit", "--memory-limit", group::machine, no_result,
              "limit for all factorisations at any time: 500M, 2GiB [as much as is fast]\n"

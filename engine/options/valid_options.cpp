@@ -89,15 +89,19 @@ void require_valid_tolerance(const FlowOptions& options)
 /// Without a tolerance converged steps are not chosen (see choose_tolerance).
 void require_valid_factorisation(const FlowOptions& options)
 {
-    if (!is_foreign(options.resources.factorisation) || !is_symmetric(options.laplacian))
-        return;
-    if (options.flow == FlowEquation::Linear)
+    const Factorisation factorisation = options.resources.factorisation;
+    const bool needs_own = is_foreign(factorisation) && is_symmetric(options.laplacian);
+    if (needs_own && options.flow == FlowEquation::Linear)
         throw OptionError("factorisation is by another library, but only this library's own keeps the factors that the "
                           "linear flow needs: leave the factorisation automatic");
-    if (options.accuracy.tolerance || options.accuracy.approach == Approach::Converged)
+    if (needs_own && (options.accuracy.tolerance || options.accuracy.approach == Approach::Converged))
         throw OptionError("factorisation is by another library, but converged steps of symmetric Laplacians need the "
                           "Schur complements that this library's own provides: use sweeps (Approach::Sweep), or leave "
                           "the factorisation automatic");
+    if (!is_available(factorisation))
+        throw OptionError(fmt::format("factorisation is {}, but this build has no libraries under the GPL "
+                                      "(SEAMFLOW_GPL=OFF): leave the factorisation automatic",
+                                      option_name(factorisation)));
 }
 
 void require_valid_approach(const FlowOptions& options)

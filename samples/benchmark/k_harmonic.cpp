@@ -163,7 +163,9 @@ Columns solve_by_gradients(const Equations& equations, SolverTimes& times)
     constexpr double longest = 60.0;
     constexpr int iterations_at_once = 50;
     Stopwatch watch;
-    Eigen::ConjugateGradient<Matrix, Eigen::Lower | Eigen::Upper, Eigen::IncompleteCholesky<double>> gradients;
+    Eigen::ConjugateGradient<Matrix, Eigen::Lower | Eigen::Upper,
+                             Eigen::IncompleteCholesky<double, Eigen::Lower, Eigen::AMDOrdering<int>>>
+        gradients;
     gradients.compute(equations.matrix);
     if (gradients.info() != Eigen::Success)
         throw ComputationError("the incomplete factorisation fails");

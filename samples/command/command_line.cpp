@@ -58,6 +58,15 @@ std::optional<std::string> text_about(const CLI::App& app, std::string_view aske
 
 }  // namespace
 
+std::string about_licence()
+{
+    return gpl_parts().empty()
+               ? "Under the MIT licence; the libraries that it is linked with are free for any use, too."
+               : fmt::format("Its sources are under the MIT licence. This binary uses {}, and is under "
+                             "the GPL-3 as a whole.",
+                             gpl_parts());
+}
+
 Limits positive()
 {
     return {.least = 0.0, .above_least = true};
@@ -248,7 +257,7 @@ CLI::Option* add_length(CLI::App& app, const std::string& names, std::optional<L
 std::optional<ExitStatus> parse_command_line(CLI::App& app, int argc, char** argv)
 {
     app.option_defaults()->group("Options");
-    app.set_version_flag("--version", "seamflow " + std::string(version));
+    app.set_version_flag("--version", fmt::format("seamflow {}\n{}", version, about_licence()));
     app.formatter_fn(
         [](const CLI::App* described, const std::string&, CLI::AppFormatMode) { return help_text(*described); });
     if (const auto text = argc == 2 ? text_about(app, argv[1]) : std::nullopt) {

@@ -111,6 +111,9 @@ CLI::Option* add_choice(CLI::App& app, const std::string& names, Option& target,
                       description);
 }
 
+/// Under which licence this binary is, and why: a sentence or two.
+std::string about_licence();
+
 /// Parses the command line.
 /// @returns empty to continue, else how to end: Success after --help, WrongUsage, reported on standard error.
 std::optional<ExitStatus> parse_command_line(CLI::App& app, int argc, char** argv);

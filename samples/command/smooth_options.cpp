@@ -98,6 +98,11 @@ std::map<std::string_view, Add> fields_of_command(SmoothCommand& command)
     const auto converge = [&options](CLI::App& app, const OptionTraits& traits) {
         return add_converge(app, options, std::string(traits.text));
     };
+    // Those that this build lacks are refused with the reason, by require_valid.
+    const auto factorisation = [&options](CLI::App& app, const OptionTraits& traits) {
+        CLI::Option* const option = add_value(app, traits, options.resources.factorisation);
+        return gpl_parts().empty() ? option->type_name("auto|own") : option;
+    };
     return {{"radius", to(command.amount.radius)},
             {"time_step", to(command.amount.time_step)},
             {"within", to(command.within)},
@@ -110,6 +115,7 @@ std::map<std::string_view, Add> fields_of_command(SmoothCommand& command)
             {"weld", to(command.weld, parse_weld, "never|LENGTH")},
             {"labels", to(command.labels)},
             {"tolerance", converge},
+            {"factorisation", factorisation},
             {"correction", flag("--no-correction", [&options] { options.interface.correction = Correction::None; })}};
 }
 

@@ -6,9 +6,12 @@ set -euo pipefail
 
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
+# So that ccache knows the same source in another build folder.
+export CCACHE_BASEDIR="${CCACHE_BASEDIR:-$PWD}"
+
 readonly packages=(
     g++ cmake ninja-build pkg-config
-    libtbb-dev libeigen3-dev libsuitesparse-dev libopenblas-dev libmetis-dev libcgal-dev libopenmesh-dev
+    libtbb-dev libeigen3-dev libsuitesparse-dev libopenblas-dev libmetis-dev libopenmesh-dev
     libfmt-dev libxxhash-dev
     libhypre-dev libopenmpi-dev openmpi-bin libpng-dev zlib1g-dev
     doctest-dev libcli11-dev nlohmann-json3-dev
@@ -16,7 +19,7 @@ readonly packages=(
 
 # For the Python module and its tests; all else does without.
 # shellcheck disable=SC2034
-readonly python_packages=(python3-dev python3-numpy pybind11-dev)
+readonly python_packages=(python3-dev python3-numpy python3-pip pybind11-dev mypy)
 
 # For the presets asan and tsan, and for tests/sanitizers/run.sh.
 # shellcheck disable=SC2034

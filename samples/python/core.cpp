@@ -25,6 +25,7 @@
 #include "samples/command/parse_smooth_command.h"
 #include "samples/command/smooth_command.h"
 #include "samples/process/option_words.h"
+#include "samples/programs.h"
 #include "samples/python/flow_call.h"
 #include "samples/python/work_thread.h"
 #include "samples/runs/field_run.h"
@@ -313,6 +314,18 @@ void define_changes(py::class_<FlowCall>& flow)
         });
 }
 
+/// Runs a program.
+/// @param words its name and arguments.
+int run_words(std::vector<std::string> words)
+{
+    std::vector<char*> arguments;
+    for (std::string& word : words)
+        arguments.push_back(word.data());
+    arguments.push_back(nullptr);
+    const py::gil_scoped_release release;
+    return run_program(words.front(), static_cast<int>(words.size()), arguments.data());
+}
+
 void translate(std::exception_ptr exception)
 {
     try {
@@ -364,4 +377,8 @@ PYBIND11_MODULE(_core, module)
         "options", &options,
         "Name, type, description, whether it is a flag and whether it moves the surface, of each keyword of smooth().");
     module.attr("version") = std::string(version);
+    module.attr("licence") = gpl_parts().empty() ? "MIT" : "GPL-3.0-or-later";
+    module.attr("about_licence") = about_licence();
+    module.attr("programs") = std::vector<std::string>(programs.begin(), programs.end());
+    module.def("run_program", &run_words, py::arg("words"));
 }

@@ -17,6 +17,8 @@ import numpy as np
 import numpy.typing as npt
 
 __version__: str
+__license__: str
+_core: Any
 
 class Progress(NamedTuple):
     phase: Literal["cut", "analyse", "step", "reference"]

@@ -3,7 +3,7 @@
 
 #include <cholmod.h>
 
-#include "solvers/direct/suitesparse.h"
+#include "solvers/direct/foreign_solvers.h"
 
 namespace seamflow {
 

@@ -4,8 +4,8 @@
 #include <optional>
 #include <utility>
 
+#include "solvers/direct/foreign_solvers.h"
 #include "solvers/direct/lu_solver.h"
-#include "solvers/direct/suitesparse.h"
 
 namespace seamflow {
 
@@ -44,7 +44,7 @@ class OwnLdl final : public DirectSolver {
     std::optional<LdlFactor<double>> factor_;
 };
 
-/// Uses an LuSolver if the pivots on the diagonal are acceptable, and otherwise UMFPACK, which searches for better
+/// Uses an LuSolver if the pivots on the diagonal are acceptable, and otherwise a library that searches for better
 /// ones. The choice depends only on the matrix.
 class OwnLu final : public DirectSolver {
   public:
@@ -64,7 +64,7 @@ class OwnLu final : public DirectSolver {
         if (factor_)
             return true;
         if (!fallback_)
-            fallback_ = make_umfpack_lu(*pattern_);
+            fallback_ = is_available(Factorisation::Umfpack) ? make_umfpack_lu(*pattern_) : make_eigen_lu(*pattern_);
         fallback_factor_ = fallback_->factorise(values, memory, workspace);
         return fallback_factor_.has_value();
     }
@@ -101,7 +101,9 @@ std::unique_ptr<DirectSolver> make_symmetric_solver(SparsePattern upper, Factori
                                                     Executor exec, Pivots pivots)
 {
     if (factorisation == Factorisation::Automatic)
-        factorisation = upper.n() <= most_unknowns_for_ldl ? Factorisation::Own : Factorisation::Cholmod;
+        factorisation = upper.n() <= most_unknowns_for_ldl || !is_available(Factorisation::Cholmod)
+                            ? Factorisation::Own
+                            : Factorisation::Cholmod;
     if (factorisation == Factorisation::Own || pivots == Pivots::LikeDiagonal)
         return std::make_unique<OwnLdl>(upper, tree, std::move(exec), pivots);
     assert(factorisation == Factorisation::Cholmod && "no other has symmetric matrices");
@@ -111,7 +113,9 @@ std::unique_ptr<DirectSolver> make_symmetric_solver(SparsePattern upper, Factori
 std::unique_ptr<DirectSolver> make_general_solver(const SparsePattern& pattern, Factorisation factorisation)
 {
     if (factorisation == Factorisation::Automatic)
-        factorisation = pattern.n() <= most_unknowns_for_lu ? Factorisation::Own : Factorisation::Umfpack;
+        factorisation = pattern.n() <= most_unknowns_for_lu || !is_available(Factorisation::Umfpack)
+                            ? Factorisation::Own
+                            : Factorisation::Umfpack;
     if (factorisation == Factorisation::Own)
         return std::make_unique<OwnLu>(pattern);
     // CHOLMOD supports only symmetric matrices.

@@ -13,7 +13,7 @@ namespace seamflow {
 /// For symmetric matrices that are positive definite or quasi-definite (see Pivots), in the given order of the
 /// unknowns.
 /// @param upper the entries on and above the diagonal, the whole diagonal among them.
-/// @param factorisation not Umfpack; CHOLMOD's takes positive pivots alone, else our own is used.
+/// @param factorisation is_available(), and not Umfpack; CHOLMOD's takes positive pivots alone, else our own is used.
 /// @param tree if already known; otherwise empty.
 /// @param exec runs what several threads can do at once, in our own factorisation; empty: nothing is.
 /// @throws ComputationError if the analysis fails (memory).
@@ -23,6 +23,7 @@ std::unique_ptr<DirectSolver> make_symmetric_solver(SparsePattern upper, Factori
 
 /// For any matrix.
 /// @param pattern must outlive the solver.
+/// @param factorisation is_available().
 /// @throws ComputationError if the analysis fails (memory).
 std::unique_ptr<DirectSolver> make_general_solver(const SparsePattern& pattern, Factorisation factorisation);
 

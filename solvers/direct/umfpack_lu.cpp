@@ -1,10 +1,11 @@
 #include <array>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include <umfpack.h>
 
-#include "solvers/direct/suitesparse.h"
+#include "solvers/direct/foreign_solvers.h"
 
 namespace seamflow {
 
@@ -35,15 +36,12 @@ struct UmfpackLong {
 /// Above this number of unknowns a factor may outgrow 32-bit integers.
 constexpr Index most_unknowns_for_umfpack_int = 100'000;
 
-/// Below this ratio of the smallest pivot to the largest a solution keeps three digits or less.
-constexpr double least_condition = 1e-13;
-
 void require_ok(long status, const char* task)
 {
     if (status == UMFPACK_OK)
         return;
     if (status == UMFPACK_WARNING_singular_matrix)
-        throw ComputationError("the system is singular: use a smaller time step, or another Laplacian");
+        throw_singular();
     if (status == UMFPACK_ERROR_out_of_memory)
         throw_out_of_memory(task);
     throw_failure("UMFPACK", task, status);
@@ -162,6 +160,11 @@ class UmfpackLu final : public DirectSolver {
 };
 
 }  // namespace
+
+std::string_view gpl_parts()
+{
+    return "CHOLMOD and UMFPACK";
+}
 
 std::unique_ptr<DirectSolver> make_umfpack_lu(const SparsePattern& pattern)
 {

@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "partition/formats/mesh_io.h"
+#include "solvers/direct/factorisation.h"
+#include "tests/samples/all_programs.h"
 #include "tests/samples/workshop.h"
 #include "tests/support/relative.h"
 
@@ -254,7 +256,7 @@ TEST_CASE("the manual page and what shells complete have every option that --hel
 TEST_CASE("the help has examples first, then a line for each option in the order of use; the manual has the rest")
 {
     const Workshop w;
-    for (const std::string program : {SMOOTH, COMPARE, GENERATE, INSPECT, FIGURES, BENCHMARK}) {
+    for (const std::string& program : test::all_programs()) {
         CAPTURE(program);
         REQUIRE(w.run(program + " --help") == 0);
         const std::string help = w.said();
@@ -384,14 +386,16 @@ TEST_CASE("inspect names what is wrong, and ends with 3 for a file that cannot b
     CHECK(w.run(INSPECT " none.obj") == 3);
 }
 
-TEST_CASE("what standard output could not take ends with 5; every program knows its version")
+TEST_CASE("what standard output could not take ends with 5; every program knows its version and licence")
 {
     const Workshop w;
     CHECK(w.run("( " INSPECT " mesh.obj --json >/dev/full )") == 5);
     CHECK(w.said().find("standard output") != std::string::npos);
-    for (const char* program : {SMOOTH, COMPARE, GENERATE, INSPECT, FIGURES, BENCHMARK}) {
-        CHECK(w.run(std::string(program) + " --version") == 0);
+    for (const std::string& program : test::all_programs()) {
+        CHECK(w.run(program + " --version") == 0);
         CHECK(w.said().starts_with("seamflow "));
+        CHECK((w.said().find("GPL") != std::string::npos) == !gpl_parts().empty());
+        CHECK(w.said().find("MIT licence") != std::string::npos);
     }
 }
 

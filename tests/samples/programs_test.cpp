@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "partition/formats/mesh_io.h"
+#include "tests/samples/all_programs.h"
 #include "tests/samples/workshop.h"
 #include "tests/support/relative.h"
 
@@ -18,8 +19,8 @@ namespace fs = std::filesystem;
 TEST_CASE("help and success end with 0")
 {
     const Workshop w;
-    for (const char* program : {SMOOTH, COMPARE, GENERATE, INSPECT, FIGURES, BENCHMARK})
-        CHECK(w.run(std::string(program) + " --help") == 0);
+    for (const std::string& program : test::all_programs())
+        CHECK(w.run(program + " --help") == 0);
     CHECK(w.smooth("mesh.obj out.obj --time-step 1e-3") == 0);
     CHECK(w.has("out.obj"));
     CHECK(w.run(COMPARE " mesh.obj out.obj --report distance.json") == 0);

@@ -63,6 +63,14 @@ std::vector<double> ramp(const PolygonMesh& mesh)
     return values;
 }
 
+/// Without those of libraries that the build lacks.
+std::vector<OptionCase> of_this_build(std::vector<OptionCase> cases)
+{
+    if (gpl_parts().empty())
+        std::erase_if(cases, [](const OptionCase& one) { return one.value == "cholmod" || one.value == "umfpack"; });
+    return cases;
+}
+
 }  // namespace
 
 FlowOptions options_without_cases(double edge)
@@ -76,7 +84,7 @@ FlowOptions options_without_cases(double edge)
 const std::vector<OptionCase>& option_cases()
 {
     using O = FlowOptions;
-    static const std::vector<OptionCase> list{
+    static const std::vector<OptionCase> list = of_this_build({
         {"laplacian", "fujiwara", plain([](O& o) { o.laplacian = Laplacian::Fujiwara; })},
         {"laplacian", "alexa-wardetzky", plain([](O& o) { o.laplacian = Laplacian::AlexaWardetzky; })},
         {"laplacian", "ptackova-velho", plain([](O& o) { o.laplacian = Laplacian::PtackovaVelho; })},
@@ -136,6 +144,7 @@ const std::vector<OptionCase>& option_cases()
         {"approach", "undecomposed",
          plain([](O& o) { o.accuracy.approach = Approach::Undecomposed, o.accuracy.tolerance.reset(); })},
         {"memory_limit", "given", sweeps([](O& o) { o.resources.memory_limit = 100'000'000; })},
+        {"factorisation", "own", sweeps([](O& o) { o.resources.factorisation = Factorisation::Own; })},
         {"factorisation", "cholmod", sweeps([](O& o) { o.resources.factorisation = Factorisation::Cholmod; })},
         {"factorisation", "umfpack", sweeps([](O& o) { o.resources.factorisation = Factorisation::Umfpack; })},
         {"precision", "double",
@@ -182,7 +191,7 @@ const std::vector<OptionCase>& option_cases()
         {"threads", "2", plain([](O& o) { o.resources.threads = 2; })},
         {"measures", "no", plain([](O& o) { o.report.measures = false; })},
         {"record_schedule", "yes", plain([](O& o) { o.report.record_schedule = true; })},
-    };
+    });
     return list;
 }
 

@@ -9,10 +9,20 @@ from typing import NamedTuple
 
 import numpy as np
 
-from . import _core
+try:
+    from . import _core
+except ImportError:
+    # The wheel brings the C++ runtime for machines that have none, or an older one.
+    import ctypes
+    import pathlib
+
+    for _path in sorted((pathlib.Path(__file__).parent / "runtime").glob("lib*")):
+        ctypes.CDLL(str(_path))
+    from . import _core
 
 __all__ = ["Flow", "Geodesics", "Progress", "diffuse", "geodesic_distance", "smooth"]
 __version__ = _core.version
+__license__ = _core.licence
 
 _OPTIONS = {name.replace("-", "_"): (name, kind.split(":")[0], *rest) for name, kind, *rest in _core.options()}
 
@@ -290,7 +300,7 @@ def _signature(function):
 
 
 smooth.__signature__ = _signature(smooth)
-Flow.__signature__ = _signature(Flow)
+Flow.__init__.__signature__ = _signature(Flow.__init__)
 if smooth.__doc__:
     smooth.__doc__ += "\n" + _describe_options() + "\n"
 

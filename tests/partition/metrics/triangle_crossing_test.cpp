@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
 
 #include <doctest/doctest.h>
 
@@ -54,6 +55,23 @@ bool cross_exactly(TriangleCorners a, TriangleCorners b)
            : shared == 1 ? exact::meet_beyond_corner(a, b)
            : shared == 2 ? exact::meet_beyond_edge(a, b)
                          : true;
+}
+
+/// Whether a plane separates two triangles: normal to one of these axes if any does. For numbers that are so short that
+/// doubles are exact.
+bool are_separated(const TriangleCorners& a, const TriangleCorners& b)
+{
+    const auto edges = [](const TriangleCorners& t) { return TriangleCorners{t[1] - t[0], t[2] - t[1], t[0] - t[2]}; };
+    std::vector<Point> axes{edges(a)[0].cross(edges(a)[1]), edges(b)[0].cross(edges(b)[1])};
+    const std::array normals{axes[0], axes[1]};
+    for (const Point& e : edges(a))
+        for (const Point& g : edges(b))
+            axes.insert(axes.end(), {e.cross(g), e.cross(normals[0]), g.cross(normals[1])});
+    return std::ranges::any_of(axes, [&](const Point& axis) {
+        const auto [low_a, high_a] = std::minmax({axis.dot(a[0]), axis.dot(a[1]), axis.dot(a[2])});
+        const auto [low_b, high_b] = std::minmax({axis.dot(b[0]), axis.dot(b[1]), axis.dot(b[2])});
+        return high_a < low_b || high_b < low_a;
+    });
 }
 
 }  // namespace
@@ -114,6 +132,33 @@ TEST_CASE("triangles without area cross nothing")
     CHECK_FALSE(cross_somehow(flat, {Point(0, 0, 0), Point(4, 0, 0), Point(2, 0, 0)}));
     CHECK_FALSE(
         cross({Point(0, 0, 0), Point(1, 0, 0), Point(2, 0, 0)}, {Point(0, 0, 0), Point(2, 0, 0), Point(1, 0, 0)}));
+}
+
+TEST_CASE("exact triangles meet where no plane separates them, of whatever size they are and however sheared")
+{
+    RandomNumbers random(5);
+    std::array<int, 2> n{};
+    for (int i = 0; i < 4000; ++i) {
+        std::array<TriangleCorners, 2> t;
+        for (TriangleCorners& corners : t)
+            for (Point& p : corners)
+                p = Point(random.below(5) - 2, random.below(5) - 2, random.below(3) - 1);
+        if (exact::is_flat(t[0]) || exact::is_flat(t[1])) {
+            CHECK((t[0][1] - t[0][0]).cross(t[0][2] - t[0][0]).isZero(0.0) == exact::is_flat(t[0]));
+            continue;
+        }
+        const bool are_apart = are_separated(t[0], t[1]);
+        CHECK(exact::meet(t[0], t[1]) == !are_apart);
+        ++n[are_apart ? 1 : 0];
+        for (const double scale : {0x1p-1074, 0x1p-600, 0x1p500, 0x1p1018}) {
+            std::array<TriangleCorners, 2> sheared = t;
+            for (TriangleCorners& corners : sheared)
+                for (Point& p : corners)
+                    p = scale * Point(p[0] + 2 * p[1], p[1] - 3 * p[2], p[2] + p[0]);
+            CHECK(exact::meet(sheared[0], sheared[1]) == !are_apart);
+        }
+    }
+    CHECK(std::ranges::min(n) > 1000);
 }
 
 TEST_CASE("numbers of any size decide as exact ones do")

@@ -3,7 +3,7 @@
 
 #include <doctest/doctest.h>
 
-#include "solvers/direct/suitesparse.h"
+#include "solvers/direct/foreign_solvers.h"
 #include "tests/support/heap.h"
 #include "tests/support/symmetric_matrices.h"
 

@@ -9,7 +9,8 @@
 #include "solvers/direct/direct_solver.h"
 #include "solvers/sparse/sparse_pattern.h"
 
-/// SuiteSparse's solvers behind the interface of direct solvers. Their factors are in their own memory.
+/// Solvers of other libraries behind the interface of direct solvers. Their factors are in their own memory. Those of
+/// CHOLMOD and UMFPACK throw std::logic_error in builds without them (see gpl_parts).
 namespace seamflow {
 
 /// CHOLMOD's LLᵀ of symmetric matrices by dense blocks, in the given order of the unknowns.
@@ -23,6 +24,14 @@ std::unique_ptr<DirectSolver> make_cholmod_llt(SparsePattern upper, CholmodWorks
 /// @param pattern must outlive the solver.
 /// @throws ComputationError if UMFPACK fails (memory).
 std::unique_ptr<DirectSolver> make_umfpack_lu(const SparsePattern& pattern);
+
+/// LU by Eigen, with the largest pivot of each column; solutions are refined. A factor is nearly singular as UMFPACK's
+/// is. Its size is known once there is one.
+/// @throws ComputationError if Eigen fails (memory).
+std::unique_ptr<DirectSolver> make_eigen_lu(const SparsePattern& pattern);
+
+/// Below this ratio of the smallest pivot to the largest a solution keeps three digits or less.
+constexpr double least_condition = 1e-13;
 
 /// A pattern's own arrays, which must outlive this, or copies if SuiteSparse takes longer integers.
 template <class Integer>
@@ -57,6 +66,11 @@ class PatternView {
 [[noreturn]] inline void throw_out_of_memory(const std::string& task)
 {
     throw ComputationError("out of memory in the " + task + " of the system: use more sub-meshes");
+}
+
+[[noreturn]] inline void throw_singular()
+{
+    throw ComputationError("the system is singular: use a smaller time step, or another Laplacian");
 }
 
 [[noreturn]] inline void throw_failure(const std::string& library, const std::string& task, long status)

@@ -1,0 +1,29 @@
+#include <stdexcept>
+
+#include "solvers/direct/foreign_solvers.h"
+
+// In the place of cholmod_llt.cpp and umfpack_lu.cpp in builds without libraries under the GPL.
+namespace seamflow {
+
+std::string_view gpl_parts()
+{
+    return {};
+}
+
+struct CholmodWorkspace::State {};
+CholmodWorkspace::CholmodWorkspace() = default;
+CholmodWorkspace::~CholmodWorkspace() = default;
+CholmodWorkspace::CholmodWorkspace(CholmodWorkspace&&) noexcept = default;
+CholmodWorkspace& CholmodWorkspace::operator=(CholmodWorkspace&&) noexcept = default;
+
+std::unique_ptr<DirectSolver> make_cholmod_llt(SparsePattern, CholmodWorkspace&)
+{
+    throw std::logic_error("this build has no CHOLMOD");
+}
+
+std::unique_ptr<DirectSolver> make_umfpack_lu(const SparsePattern&)
+{
+    throw std::logic_error("this build has no UMFPACK");
+}
+
+}  // namespace seamflow
