@@ -1,11 +1,13 @@
 #include "solvers/normals/vertex_fit.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <vector>
 
 #include <Eigen/LU>
 
+#include "partition/vector_area.h"
 #include "solvers/laplacian/geometry.h"
 
 namespace seamflow {
@@ -18,8 +20,8 @@ constexpr double most_relaxation = 0.1;
 constexpr double fit_momentum = 0.5;
 /// A direction is half free at a vertex where the mean of the squared cosines between it and the normals is this much.
 constexpr double half_free = 1e-3;
-/// From how many times the distance of the nearest face on one counts less.
-constexpr double far_away = 4.0;
+/// From how many times the distance of the nearest centroid on a face counts less at a vertex.
+constexpr double far_away = 6.0;
 
 /// Per corner, the weight of its face at the vertex: 1, or less where its centroid is far away (fans of slivers, say).
 /// What an error of its normal moves the vertex by grows with the distance, and so does what relaxation does.
@@ -31,13 +33,18 @@ std::vector<float> weights_of_corners(const PolygonMesh& mesh, const Topology& t
     const auto squared_distance = [&](Index v, Index corner) {
         return (centroids.row(topology.face_of[corner]) - positions.row(v)).squaredNorm();
     };
+    // Others may have their centroids at the vertex, as in the middle of an edge.
+    const auto has_area = [&](Index corner) {
+        return area_above_rounding(mesh.face(topology.face_of[corner]), positions) > 0.0;
+    };
     const bool none = sum(exec, mesh.n_vertices(), [&](Index v) {
                           double nearest = std::numeric_limits<double>::infinity();
                           double furthest = 0.0;
                           for (const Index corner : topology.corners_at(v)) {
                               const double squared = squared_distance(v, corner);
-                              nearest = std::min(nearest, squared);
                               furthest = std::max(furthest, squared);
+                              if (squared < nearest && has_area(corner))
+                                  nearest = squared;
                           }
                           reach[v] = far_away * far_away * nearest;
                           return furthest > reach[v] ? 1.0 : 0.0;
@@ -49,7 +56,7 @@ std::vector<float> weights_of_corners(const PolygonMesh& mesh, const Topology& t
     for_each(exec, mesh.n_vertices(), [&](Index v) {
         for (const Index corner : topology.corners_at(v))
             if (const double squared = squared_distance(v, corner); squared > reach[v])
-                weights[corner] = static_cast<float>(reach[v] / squared);
+                weights[corner] = static_cast<float>(std::pow(reach[v] / squared, 2));
     });
     return weights;
 }

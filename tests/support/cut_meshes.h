@@ -21,8 +21,8 @@ struct CutMesh {
 /// A mesh cut by hand: the label of each face is a function of its centroid. Repaired where it is no valid cut.
 CutMesh cut_by_place(const std::string& name, PolygonMesh mesh, const std::function<Index(const Point&)>& label_at);
 
-/// Small meshes of each sort (triangles, quads, hexagons, mixed polygons, one of 80 corners; flat, curved, closed, not orientable, of
-/// several components), each cut by hand in 2, 3 and 4 with cross points and by METIS in 2 and 8.
+/// Small meshes of each sort (triangles, quads, hexagons, mixed polygons, one of 80 corners; flat, curved, closed, not
+/// orientable, of several components), each cut by hand in 2, 3 and 4 with cross points and by METIS in 2 and 8.
 const std::vector<CutMesh>& cut_meshes();
 
 Decomposition decompose(const CutMesh& cut);

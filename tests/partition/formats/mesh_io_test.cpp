@@ -184,11 +184,11 @@ TEST_CASE("The kind of an output follows its extension, and its source where the
     }
     CHECK(kind_for_writing("b.stl", {FileFormat::Stl, Encoding::Ascii}) == FileKind{FileFormat::Stl, Encoding::Ascii});
     CHECK(kind_for_writing("b.ply", obj) == FileKind{FileFormat::Ply, Encoding::BinaryLittleEndian});
-    CHECK_THROWS_WITH_AS(
-        kind_for_writing("b.vtk", obj),
-        "b.vtk: the extension '.vtk' is not one of .obj, .off, .ply, .stl, .glb or .gltf; give the file the extension of "
-        "its format",
-        OptionError);
+    CHECK_THROWS_WITH_AS(kind_for_writing("b.vtk", obj),
+                         "b.vtk: the extension '.vtk' is not one of .obj, .off, .ply, .stl, .glb or .gltf; give the "
+                         "file the extension of "
+                         "its format",
+                         OptionError);
 }
 
 TEST_CASE("The formats are named by their extensions")
