@@ -139,12 +139,12 @@ struct Format {
     std::optional<OpenFile> (*with_others)(const OpenFile& file, std::string_view content) = nullptr;
 };
 
-/// @tparam format Glb or Gltf.
-template <FileFormat format>
+/// @tparam Kind Glb or Gltf.
+template <FileFormat Kind>
 constexpr Format gltf_functions = {
     .read = [](const std::filesystem::path& path, std::string_view content, const Slicing& slicing,
                FaultLog* faults) -> MeshFile {
-        return {read_gltf(path, content, slicing, faults), {format, Encoding::BinaryLittleEndian}};
+        return {read_gltf(path, content, slicing, faults), {Kind, Encoding::BinaryLittleEndian}};
     },
     .require_fits =
         [](const std::filesystem::path& path, const PolygonMesh& mesh, Encoding) {
@@ -152,7 +152,7 @@ constexpr Format gltf_functions = {
             return std::vector<std::string>();
         },
     .write = [](OutputFile& file, const PolygonMesh& mesh, Encoding,
-                const Slicing& slicing) { write_gltf(file, mesh, format, slicing); },
+                const Slicing& slicing) { write_gltf(file, mesh, Kind, slicing); },
     .rewrite = [](OutputFile& file, const std::filesystem::path& path, std::string_view content,
                   const PolygonMesh& mesh, const Slicing& slicing, const FileFields&,
                   double seam_distance) { return rewrite_gltf(file, path, content, mesh, slicing, seam_distance); },
