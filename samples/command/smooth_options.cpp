@@ -170,8 +170,8 @@ void Entries::add_of_flow()
          "the paper's method for any number of sub-meshes: a fixed sweep, derivatives at the old positions"},
         flag("--paper,--plain", [&options = c.options] { options = FlowOptions::plain(); }));
     add({"", "--noise", option_group::amount, motion | equation | whole_surface,
-         "noise of the vertices, if it is known [measured]\n"
-         "The standard deviation along the normals. A preset derives the amount from it."},
+         "noise that is the same everywhere, on rounded shapes: sharp edges lose by it [measured at each place]\n"
+         "The standard deviation along the normals. A preset derives the amount of its equation from it."},
         to(c.noise));
     add({"", "--preset", option_group::kind, motion | whole_surface, presets},
         [&preset = c.preset, names](CLI::App& app, const OptionTraits& traits) {
