@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Makes the pictures of samples/gallery.md: before | after, each by the one command that stands beside it.
 
-    samples/gallery/make_gallery.py [--programs build/bin] [--out samples/gallery] [NAME…]
+    samples/gallery/make_gallery.py [--programs build/bin] [--out samples/gallery/pictures] [NAME…]
 
 Needs the programs and NumPy. All meshes are generated, so that anybody gets the same pictures.
 """
@@ -266,7 +266,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("names", nargs="*", metavar="NAME", help=f"of {' '.join(names)} [all]")
     parser.add_argument("--programs", type=pathlib.Path, default=pathlib.Path("build/bin"))
-    parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path(__file__).parent)
+    parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path(__file__).parent / "pictures")
     options = parser.parse_args()
     if unknown := set(options.names) - set(names):
         parser.error(f"there is no picture {' '.join(sorted(unknown))}: {' '.join(names)}")
