@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "partition/large_arrays.h"
-
 namespace seamflow {
 
 namespace {
@@ -34,7 +32,7 @@ FaceVector direction(const FaceVector& vector)
 void EstimateFeatures::measure(const NormalEstimates& estimates, const FaceAverages& averages, const Executor& exec)
 {
     const auto n_estimates = static_cast<Index>(estimates.vectors.size());
-    resize_large(near, averages.n_faces(), 2 * n_estimates - 1);
+    near.resize(averages.n_faces(), 2 * n_estimates - 1);
     for_each(exec, averages.n_faces(), [&](Index f) {
         FaceVector before = FaceVector::Zero();
         for (Index k = 0; k < n_estimates; ++k) {
@@ -46,7 +44,7 @@ void EstimateFeatures::measure(const NormalEstimates& estimates, const FaceAvera
             before = unit;
         }
     });
-    resize_large(around, near.rows(), near.cols());
+    around.resize(near.rows(), near.cols());
     averages.spread(near, around, near_rounds, further_rounds, exec);
     for_each(exec, averages.n_faces(), [&](Index f) {
         near.row(f) = (near.row(f).array() + least_feature).log();

@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <utility>
 
-#include "partition/large_arrays.h"
 #include "solvers/laplacian/geometry.h"
 
 namespace seamflow {
@@ -85,7 +84,7 @@ void FaceAverages::measure(const Points& positions, const Executor& exec)
 
 void FaceAverages::measure_normals(const Points& positions, FaceVectors& normals, const Executor& exec) const
 {
-    resize_large(normals, n_faces(), 4);
+    normals.resize(n_faces(), 4);
     for_each(exec, n_faces(), [&](Index f) {
         Point normal = vector_area(mesh_->face(f), positions);
         const double length = area_above_rounding(mesh_->face(f), positions);
@@ -104,7 +103,6 @@ void FaceAverages::measure_normals(const Points& positions, FaceVectors& normals
 
 void FaceAverages::weigh(AverageWeights& weights, const Executor& exec) const
 {
-    reserve_large(weights.of_neighbours, near_.size());
     weights.of_neighbours.resize(near_.size());
     weights.inverse_sums.resize(areas_.size());
     for_each(exec, n_faces(), [&](Index f) {
@@ -119,7 +117,6 @@ void FaceAverages::weigh(AverageWeights& weights, const Executor& exec) const
 
 void FaceAverages::weigh(const FaceVectors& guide, float sigma, AverageWeights& weights, const Executor& exec) const
 {
-    reserve_large(weights.of_neighbours, near_.size());
     weights.of_neighbours.resize(near_.size());
     weights.inverse_sums.resize(areas_.size());
     const float scale = 0.5F / (sigma * sigma);
@@ -138,7 +135,7 @@ void FaceAverages::weigh(const FaceVectors& guide, float sigma, AverageWeights& 
 void FaceAverages::average(const AverageWeights& weights, const FaceVectors& vectors, FaceVectors& means,
                            const Executor& exec) const
 {
-    resize_large(means, n_faces(), 4);
+    means.resize(n_faces(), 4);
     for_each(exec, n_faces(), [&](Index f) {
         FaceVector total = areas_[f] * vectors.row(f);
         for (std::size_t k = neighbours_.offsets[f]; k < neighbours_.offsets[f + 1]; ++k)
@@ -149,7 +146,7 @@ void FaceAverages::average(const AverageWeights& weights, const FaceVectors& vec
 
 void FaceAverages::average(float sigma, const FaceVectors& vectors, FaceVectors& means, const Executor& exec) const
 {
-    resize_large(means, n_faces(), 4);
+    means.resize(n_faces(), 4);
     const float scale = 0.5F / (sigma * sigma);
     for_each(exec, n_faces(), [&](Index f) {
         const FaceVector vector = vectors.row(f);
@@ -180,7 +177,7 @@ void FaceAverages::average_far(const AverageWeights& weights, const FaceVectors&
     FaceVectors* before = &scratch[1];
     *now = vectors;
     *before = vectors;
-    resize_large(means, n_faces(), 4);
+    means.resize(n_faces(), 4);
     float omega = 1.0F;
     for (int round = 0; round < rounds; ++round) {
         if (round > 0)
@@ -200,7 +197,7 @@ void FaceAverages::average_best_patch(const FaceVectors& vectors, FaceVectors& m
 {
     // Patches that agree nearly as well as the best count, too: rounding decides nothing.
     constexpr float tie = 0.01F;
-    resize_large(means, n_faces(), 4);
+    means.resize(n_faces(), 4);
     FaceVectors of_patches(n_faces(), 4);
     std::vector<float> agreement(areas_.size());
     for_each(exec, n_faces(), [&](Index f) {
@@ -236,10 +233,8 @@ void FaceAverages::spread(Rows& near, Rows& around, int rounds, int further_roun
     using NarrowRow = Eigen::Matrix<float, 1, width>;
     using NarrowRows = Eigen::Matrix<float, Eigen::Dynamic, width, Eigen::RowMajor>;
     const Index n_vertices = vertex_neighbours_.size();
-    NarrowRows now(0, width);
-    NarrowRows before(0, width);
-    resize_large(now, n_vertices, width);
-    resize_large(before, n_vertices, width);
+    NarrowRows now(n_vertices, width);
+    NarrowRows before(n_vertices, width);
     for (Eigen::Index first = 0; first < near.cols(); first += width) {
         const Eigen::Index n = std::min<Eigen::Index>(width, near.cols() - first);
         const auto to_faces = [&](Rows& of_faces) {

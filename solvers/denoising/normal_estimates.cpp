@@ -4,8 +4,6 @@
 #include <initializer_list>
 #include <utility>
 
-#include "partition/large_arrays.h"
-
 namespace seamflow {
 
 namespace {
@@ -34,12 +32,7 @@ class Writer {
         return (*vectors_)[count_++];
     }
 
-    void copy(const FaceVectors& vectors)
-    {
-        FaceVectors& copy = next();
-        resize_large(copy, vectors.rows(), vectors.cols());
-        copy = vectors;
-    }
+    void copy(const FaceVectors& vectors) { next() = vectors; }
 
     void copy(const std::vector<FaceVectors>& list)
     {
@@ -93,7 +86,7 @@ void add_low_pass(int round, int rounds, const FaceVectors& mean, FaceVectors& t
         return;
     const int power = round / rounds;
     const float factor = power == 1 ? 3.0F : power == 2 ? -3.0F : 1.0F;
-    resize_large(total, mean.rows(), 4);
+    total.resize(mean.rows(), 4);
     for_each(exec, static_cast<Index>(mean.rows()), [&](Index f) {
         if (power == 1)
             total.row(f) = factor * mean.row(f);
