@@ -10,6 +10,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "partition/formats/gltf_text.h"
 #include "partition/io/byte_writer.h"
 #include "partition/io/input_position.h"
 
@@ -110,29 +111,5 @@ constexpr std::size_t glb_chunk_header_bytes = 8;
 /// Writes the header and the first chunk of a .glb file.
 /// @param text of a multiple of four bytes. @param n_behind the number of bytes that follow.
 void write_glb_head(ByteWriter& file, std::string_view text, std::size_t n_behind);
-
-/// Whether a buffer is in the file itself, as text, rather than in another.
-bool is_gltf_data(std::string_view uri);
-
-/// `data:` URI of some bytes.
-/// @param head what is before the comma.
-std::string gltf_data(std::string_view head, std::string_view bytes);
-
-/// A relative URI for the name of a file, and the name of such a URI.
-std::string gltf_uri_of(std::string_view name);
-std::string gltf_name_of(std::string_view uri);
-
-/// The parts of a JSON text that is known to be correct, as they are written.
-struct GltfMember {
-    std::string key;
-    std::string_view value;
-};
-
-/// The members of an object, or nothing for other values.
-std::vector<GltfMember> gltf_members(std::string_view object);
-/// The value of a member; empty if there is none.
-std::string_view gltf_member(std::string_view object, std::string_view key);
-/// The elements of an array, or nothing for other values.
-std::vector<std::string_view> gltf_elements(std::string_view array);
 
 }  // namespace seamflow

@@ -42,15 +42,4 @@ Points without_spikes(const PolygonMesh& mesh, const Topology& topology, const s
 /// @param spikes at least one.
 std::string remark_on_spikes(const std::vector<Spike>& spikes);
 
-/// Found in one look at all edges.
-struct EdgeMeasures {
-    /// See mean_edge_length.
-    double mean = 0.0;
-    /// See find_spikes.
-    std::vector<Spike> spikes;
-};
-
-/// @param positions #V by 3.
-EdgeMeasures measure_edges(const PolygonMesh& mesh, const Points& positions, const Executor& exec = run_serially);
-
 }  // namespace seamflow

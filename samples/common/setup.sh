@@ -19,7 +19,7 @@ readonly packages=(
 
 # For the Python module and its tests; all else does without.
 # shellcheck disable=SC2034
-readonly python_packages=(python3-dev python3-numpy python3-pip pybind11-dev mypy)
+readonly python_packages=(python3-dev python3-numpy pybind11-dev mypy)
 
 # For the presets asan and tsan, and for tests/sanitizers/run.sh.
 # shellcheck disable=SC2034

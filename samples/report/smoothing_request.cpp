@@ -8,7 +8,7 @@
 
 #include "partition/errors.h"
 #include "partition/metrics/bounding_box.h"
-#include "partition/metrics/spikes.h"
+#include "partition/metrics/edge_measures.h"
 #include "partition/metrics/vertex_distance.h"
 
 namespace seamflow {

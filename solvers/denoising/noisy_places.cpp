@@ -174,10 +174,10 @@ std::vector<std::uint8_t> flat_vertices(const PolygonMesh& mesh, const Topology&
     std::vector<std::uint8_t> is_flat(usize(mesh.n_vertices()));
     for_each(exec, mesh.n_vertices(), [&](Index v) {
         const auto corners = topology.corners_at(v);
+        const Point first = corners.empty() ? Point(Point::Zero()) : normal_at(corners[0]);
         const auto is_like_first = [&](Index corner) {
             // Faces need not be oriented alike.
             const Point n = normal_at(corner);
-            const Point first = normal_at(corners[0]);
             return std::min((n - first).squaredNorm(), (n + first).squaredNorm()) <= same_normal;
         };
         is_flat[v] = std::ranges::all_of(corners, is_like_first) ? 1 : 0;

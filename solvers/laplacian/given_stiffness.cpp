@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "solvers/laplacian/flow_terms.h"
+#include "solvers/laplacian/kept_stiffness.h"
 
 namespace seamflow {
 

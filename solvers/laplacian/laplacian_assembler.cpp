@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "partition/executor.h"
+#include "solvers/laplacian/kept_stiffness.h"
 #include "solvers/laplacian/symmetric_laplacian.h"
 
 namespace seamflow {

@@ -4,7 +4,6 @@
 #include <array>
 #include <cstdint>
 #include <limits>
-#include <numeric>
 #include <utility>
 
 #include "partition/errors.h"
@@ -14,51 +13,6 @@
 namespace seamflow {
 
 namespace {
-
-/// Calls assemble_with(add), where add(v, w, k, d) with k = factor · K_vw and d = V_w - V_v adds the pair's share of
-/// the product, if that is wanted.
-template <class AssembleWith>
-void with_product(const StiffnessProduct* product, AssembleWith&& assemble_with)
-{
-    if (product == nullptr)
-        return assemble_with([](Index, Index, double, const Point&) {});
-    const Points& x = product->increments;
-    Points& result = product->result;
-    result.setZero();
-    const auto add_with = [&](auto&& vector_of) {
-        assemble_with([&](Index v, Index w, double entry, const Point& difference) {
-            const Point change = entry * vector_of(difference, x.row(w) - x.row(v));
-            result.row(v) += change;
-            result.row(w) -= change;
-        });
-    };
-    if (product->of_increments_alone)
-        add_with([](const Point&, const Point& increment) -> Point { return increment; });
-    else
-        add_with([](const Point& difference, const Point& increment) -> Point { return difference + increment; });
-}
-
-/// Adds the share of an auxiliary unknown, the i-th of whose n entries of C is that of vertex(i): with
-/// u = V - V₀ + X - X₀, V₀ a corner's, -c (cᵀ u) / d, and what the rows of S lack to sum to zero.
-/// @param d its entry of D.
-template <class VertexOf, class EntryOf>
-void add_auxiliary(const StiffnessProduct& product, const Points& positions, std::size_t n, VertexOf&& vertex,
-                   EntryOf&& entry, double d)
-{
-    const Index first = vertex(0);
-    const auto u = [&](Index v) -> Point {
-        const Point increment = product.increments.row(v) - product.increments.row(first);
-        return product.of_increments_alone ? increment : positions.row(v) - positions.row(first) + increment;
-    };
-    Point mean = Point::Zero();
-    double total = 0.0;
-    for (std::size_t i = 0; i < n; ++i) {
-        mean -= entry(i) / d * u(vertex(i));
-        total -= entry(i) / d;
-    }
-    for (std::size_t i = 0; i < n; ++i)
-        product.result.row(vertex(i)) += entry(i) * (mean - total * u(vertex(i)));
-}
 
 /// K from edges. An edge on the boundary counts half, like one of its two half-edges.
 /// @tparam Number of a vertex: as short as possible, because edges take much of a flow's memory.
@@ -304,151 +258,7 @@ class SymmetricFaces final : public SymmetricLaplacian {
     typename Kernel::Scratch scratch_;
 };
 
-/// As a fraction of K's diagonal times dt, below which a kept mass would be lost to rounding, and the place of a
-/// component that is so small with it. More mass only delays its way to a point, which is the place of its centroid
-/// either way.
-constexpr double least_kept_mass = 1e-10;
-
-/// K of certain positions, M of the same or of any.
-class KeptStiffness final : public SymmetricLaplacian {
-  public:
-    KeptStiffness(std::unique_ptr<SymmetricLaplacian> laplacian, Index n_vertices, const Points& positions,
-                  bool keeps_mass)
-        : laplacian_(std::move(laplacian))
-        , pairs_(laplacian_->pairs())
-        , n_vertices_(n_vertices)
-        , diagonal_(n_vertices + laplacian_->n_auxiliary())
-        , keeps_mass_(keeps_mass)
-    {
-        KeptStiffness::keep(positions);
-    }
-
-    void keep(const Points& positions) override
-    {
-        std::vector<Index> slots(pairs_.size());
-        std::iota(slots.begin(), slots.end(), 0);
-        std::vector<double> mass(diagonal_.size());
-        entries_.assign(pairs_.size(), 0.0);
-        laplacian_->assemble(positions, 1.0, slots, entries_, diagonal_, mass);
-        if (keeps_mass_)
-            mass_ = std::move(mass);
-        unweighted_.clear();
-    }
-
-    void for_each_element(const std::function<void(std::size_t)>& action) const override
-    {
-        laplacian_->for_each_element(action);
-    }
-
-    void weigh(const SquaredDifference& squared_difference) override
-    {
-        if (unweighted_.empty()) {
-            unweighted_ = entries_;
-            unweighted_auxiliary_.assign(diagonal_.begin() + n_vertices_, diagonal_.end());
-        }
-        std::ranges::fill(diagonal_, 0.0);
-        std::size_t begin = 0;
-        laplacian_->for_each_element([&](std::size_t n) {
-            const double largest = largest_difference(begin, begin + n, squared_difference);
-            std::size_t i = begin;
-            for (; i < begin + n && !is_auxiliary(pairs_[i].second); ++i) {
-                entries_[i] = unweighted_[i] / (1.0 + largest);
-                diagonal_[pairs_[i].first] -= entries_[i];
-                diagonal_[pairs_[i].second] -= entries_[i];
-            }
-            for (std::size_t end = i; i < begin + n; i = end) {
-                const Index auxiliary = pairs_[i].second;
-                const double d = unweighted_auxiliary_[auxiliary - n_vertices_];
-                double total = 0.0;
-                for (; end < begin + n && pairs_[end].second == auxiliary; ++end)
-                    total -= unweighted_[end] / d;
-                diagonal_[auxiliary] = d / (1.0 + largest);
-                for (std::size_t k = i; k < end; ++k) {
-                    entries_[k] = unweighted_[k] / (1.0 + largest);
-                    diagonal_[pairs_[k].first] -= total * entries_[k];
-                }
-            }
-            begin += n;
-        });
-    }
-
-    [[nodiscard]] bool uses_faces() const override { return laplacian_->uses_faces(); }
-    [[nodiscard]] std::vector<VertexPair> pairs() const override { return pairs_; }
-    [[nodiscard]] Index n_auxiliary() const override { return laplacian_->n_auxiliary(); }
-
-    void assemble(const Points& positions, double factor, std::span<const Index> slots, std::span<double> values,
-                  std::span<double> diagonal, std::span<double> mass, const StiffnessProduct* product) override
-    {
-        measure_mass(positions, mass);
-        for (std::size_t v = 0; v < diagonal_.size(); ++v) {
-            diagonal[v] = factor * diagonal_[v];
-            if (!mass_.empty() && !is_auxiliary(static_cast<Index>(v)))
-                mass[v] = std::max(mass[v], least_kept_mass * diagonal[v]);
-        }
-        with_product(product, [&](auto&& add_to_product) {
-            for (std::size_t i = 0; i < pairs_.size(); ++i) {
-                const double entry = factor * entries_[i];
-                const auto [v, w] = pairs_[i];
-                if (!is_auxiliary(w))
-                    add_to_product(v, w, entry, positions.row(w) - positions.row(v));
-                values[slots[i]] += entry;
-            }
-        });
-        for (std::size_t begin = 0, end = 0; product != nullptr && n_auxiliary() > 0 && begin < pairs_.size();
-             begin = end) {
-            const Index auxiliary = pairs_[begin].second;
-            for (end = begin; end < pairs_.size() && pairs_[end].second == auxiliary;)
-                ++end;
-            if (is_auxiliary(auxiliary))
-                add_auxiliary(
-                    *product, positions, end - begin, [&](std::size_t i) { return pairs_[begin + i].first; },
-                    [&](std::size_t i) { return factor * entries_[begin + i]; }, diagonal[auxiliary]);
-        }
-    }
-
-    void measure_mass(const Points& positions, std::span<double> mass) const override
-    {
-        if (mass_.empty())
-            laplacian_->measure_mass(positions, mass);
-        else
-            std::ranges::copy(mass_, mass.begin());
-    }
-
-  private:
-    [[nodiscard]] bool is_auxiliary(Index v) const { return v >= n_vertices_; }
-
-    /// Of any two vertices of the element that has the pairs [begin, end).
-    [[nodiscard]] double largest_difference(std::size_t begin, std::size_t end,
-                                            const SquaredDifference& squared_difference) const
-    {
-        const bool has_all_pairs = begin == end || !is_auxiliary(pairs_[end - 1].second);
-        double largest = 0.0;
-        for (std::size_t i = begin; i < end && !is_auxiliary(pairs_[i].second); ++i)
-            for (std::size_t k = i; k < (has_all_pairs ? i + 1 : end) && !is_auxiliary(pairs_[k].second); ++k)
-                largest = std::max(largest, squared_difference(pairs_[i].first, pairs_[k].second));
-        return largest;
-    }
-
-    std::unique_ptr<SymmetricLaplacian> laplacian_;
-    std::vector<VertexPair> pairs_;
-    Index n_vertices_;
-    /// Per pair; and before they were weighed, if they are, with the diagonal of the auxiliary unknowns.
-    std::vector<double> entries_;
-    std::vector<double> unweighted_;
-    std::vector<double> unweighted_auxiliary_;
-    /// Per vertex and auxiliary unknown; M is empty if it follows the mesh.
-    std::vector<double> diagonal_;
-    std::vector<double> mass_;
-    bool keeps_mass_;
-};
-
 }  // namespace
-
-std::unique_ptr<SymmetricLaplacian> keep_stiffness(std::unique_ptr<SymmetricLaplacian> laplacian, Index n_vertices,
-                                                   const Points& positions, bool keeps_mass)
-{
-    return std::make_unique<KeptStiffness>(std::move(laplacian), n_vertices, positions, keeps_mass);
-}
 
 std::unique_ptr<SymmetricLaplacian> make_symmetric_laplacian(const ScaledLaplacian& laplacian,
                                                              const FacesOnBothSides& faces, std::size_t most_corners)

@@ -11,18 +11,9 @@
 #include "solvers/laplacian/edge_lists.h"
 #include "solvers/laplacian/geometry.h"
 #include "solvers/laplacian/laplacian.h"
+#include "solvers/laplacian/stiffness_product.h"
 
 namespace seamflow {
-
-/// A product with factor · K at positions V.
-struct StiffnessProduct {
-    /// #V by 3: X.
-    const Points& increments;
-    /// #V by 3: receives factor · K (V + X), or factor · K X. The rows of K sum to zero: computed from differences, it
-    /// has no rounding error of the size of V.
-    Points& result;
-    bool of_increments_alone = false;
-};
 
 /// With more corners a face gets auxiliary unknowns (see SymmetricLaplacian), where these are wanted; with fewer, the
 /// entries of its K are cheaper.
@@ -87,12 +78,5 @@ class SymmetricLaplacian {
 std::unique_ptr<SymmetricLaplacian>
 make_symmetric_laplacian(const ScaledLaplacian& laplacian, const FacesOnBothSides& faces,
                          std::size_t most_corners = std::numeric_limits<std::size_t>::max());
-
-/// The same with the K of fixed positions, which is assembled once.
-/// @param n_vertices of all.
-/// @param positions at least n_vertices by 3; needed only during the call.
-/// @param keeps_mass whether M is that of these positions, too, or follows the mesh.
-std::unique_ptr<SymmetricLaplacian> keep_stiffness(std::unique_ptr<SymmetricLaplacian> laplacian, Index n_vertices,
-                                                   const Points& positions, bool keeps_mass = false);
 
 }  // namespace seamflow

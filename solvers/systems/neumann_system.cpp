@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "solvers/direct/columns.h"
+#include "solvers/laplacian/kept_stiffness.h"
 #include "solvers/sparse/elimination_ordering.h"
 #include "solvers/systems/checks.h"
 

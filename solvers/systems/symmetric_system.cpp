@@ -6,6 +6,7 @@
 #include "solvers/conditions/remainder.h"
 #include "solvers/direct/columns.h"
 #include "solvers/direct/make_solver.h"
+#include "solvers/laplacian/kept_stiffness.h"
 #include "solvers/sparse/elimination_ordering.h"
 #include "solvers/systems/checks.h"
 

@@ -5,6 +5,7 @@
 
 #include <doctest/doctest.h>
 
+#include "partition/metrics/edge_measures.h"
 #include "partition/metrics/spikes.h"
 #include "partition/metrics/vertex_distance.h"
 #include "samples/meshes/meshes.h"

@@ -5,6 +5,7 @@
 #include <doctest/doctest.h>
 
 #include "samples/meshes/meshes.h"
+#include "solvers/laplacian/kept_stiffness.h"
 #include "solvers/laplacian/symmetric_laplacian.h"
 #include "tests/support/flows.h"
 #include "tests/support/matrices.h"

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <vector>
+
+#include "partition/executor.h"
+#include "partition/metrics/spikes.h"
+#include "partition/polygon_mesh.h"
+
+namespace seamflow {
+
+/// See mean_edge_length.
+/// @param positions #V by 3.
+double mean_edge(const PolygonMesh& mesh, const Points& positions, const Executor& exec = run_serially);
+
+/// Found in one look at all edges.
+struct EdgeMeasures {
+    /// See mean_edge.
+    double mean = 0.0;
+    /// See find_spikes.
+    std::vector<Spike> spikes;
+};
+
+/// @param positions #V by 3.
+EdgeMeasures measure_edges(const PolygonMesh& mesh, const Points& positions, const Executor& exec = run_serially);
+
+}  // namespace seamflow
