@@ -3,6 +3,7 @@
 #include "partition/executor.h"
 #include "partition/polygon_mesh.h"
 #include "partition/topology.h"
+#include "partition/vector_area.h"
 
 namespace seamflow {
 
