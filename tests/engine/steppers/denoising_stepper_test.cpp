@@ -24,12 +24,12 @@ using test::largest_difference;
 
 namespace {
 
-struct Outcome {
+struct DenoisedMesh {
     Points positions;
     FlowReport report;
 };
 
-Outcome denoised(PolygonMesh mesh, FlowOptions further = {})
+DenoisedMesh denoised(PolygonMesh mesh, FlowOptions further = {})
 {
     FlowReport report = mean_curvature_flow(mesh, options_for(Preset::Automatic, mesh, further).options);
     return {std::move(mesh.vertices), std::move(report)};
@@ -100,7 +100,7 @@ TEST_CASE("noise of any size goes, on round and on sharp shapes, better than by 
             CAPTURE(i);
             CAPTURE(noise);
             const PolygonMesh noisy = test::with_gaussian_noise(truths[i], noise, 3);
-            const Outcome outcome = denoised(noisy);
+            const DenoisedMesh outcome = denoised(noisy);
             const PolygonMesh result = with(noisy, outcome.positions);
             const double left = test::angle_to_truth(truths[i], result);
             CHECK(left < 0.35 * test::angle_to_truth(truths[i], noisy));
@@ -126,7 +126,7 @@ TEST_CASE("surfaces without noise stay bit for bit")
         clean.push_back(make_mesh(kind, 6000));
     for (std::size_t i = 0; i < clean.size(); ++i) {
         CAPTURE(i);
-        const Outcome outcome = denoised(clean[i]);
+        const DenoisedMesh outcome = denoised(clean[i]);
         CHECK(outcome.positions.cwiseEqual(clean[i].vertices).all());
         CHECK(outcome.report.noise->part == 0.0);
         CHECK(std::ranges::any_of(outcome.report.remarks,
@@ -190,7 +190,7 @@ TEST_CASE("a vertex that stands for missing data stays, is named, and does not k
     const Index spike = 1000;
     const double height = noisy.vertices(spike, 2);
     noisy.vertices(spike, 2) = -9999.0;
-    const Outcome outcome = denoised(noisy);
+    const DenoisedMesh outcome = denoised(noisy);
     CHECK(outcome.positions(spike, 2) == -9999.0);
     CHECK(std::ranges::any_of(outcome.report.remarks, [](const std::string& remark) {
         return remark.starts_with("Vertex 1000 (numbered from 0) is ");
@@ -240,7 +240,7 @@ TEST_CASE("where a part of a surface has no noise it stays")
     for (Index v = 0; v < truth.n_vertices(); ++v)
         if (truth.vertices(v, 0) < 60.0)
             mesh.vertices.row(v) = all.vertices.row(v);
-    const Outcome outcome = denoised(mesh);
+    const DenoisedMesh outcome = denoised(mesh);
     for (Index v = 0; v < truth.n_vertices(); ++v)
         if (truth.vertices(v, 0) > 75.0)
             CHECK((outcome.positions.row(v) - mesh.vertices.row(v)).norm() < 1e-3);
