@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -89,9 +90,17 @@ class GltfContent {
     [[nodiscard]] GltfValue named_by(const GltfValue& number, const std::string& list) const;
 
     /// All bytes of a buffer, perhaps more than its length.
-    /// @pre it is in the list of buffers.
+    /// @pre it is in the list of buffers, or added.
     [[nodiscard]] std::string_view buffer(std::size_t i) const { return buffers_[i]; }
     [[nodiscard]] std::size_t n_buffers() const { return buffers_.size(); }
+
+    /// Adds a buffer behind those of the file.
+    /// @returns its number.
+    std::size_t add_buffer(std::string bytes)
+    {
+        buffers_.emplace_back(added_.emplace_back(std::move(bytes)));
+        return buffers_.size() - 1;
+    }
 
   private:
     void take_apart(std::string_view content);
@@ -102,6 +111,7 @@ class GltfContent {
     std::string_view text_;
     std::string_view chunk_;
     std::vector<std::string_view> buffers_;
+    std::deque<std::string> added_;
     nlohmann::json json_;
 };
 

@@ -7,6 +7,9 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "partition/formats/splicing.h"
+#include "partition/io/byte_writer.h"
+
 namespace seamflow {
 
 namespace {
@@ -164,7 +167,9 @@ std::vector<GltfMember> gltf_members(std::string_view object)
     for (walk.skip(); walk.is_at('"');) {
         const std::string_view key = walk.value();
         walk.skip();
-        members.push_back({Json::parse(key.begin(), key.end()).get<std::string>(), walk.value()});
+        const std::string_view value = walk.value();
+        const auto size = static_cast<std::size_t>(value.data() + value.size() - key.data());
+        members.push_back({Json::parse(key.begin(), key.end()).get<std::string>(), value, {key.data(), size}});
         if (walk.is_at(','))
             walk.skip();
     }
@@ -195,6 +200,17 @@ std::vector<std::string_view> gltf_elements(std::string_view array)
             walk.skip();
     }
     return elements;
+}
+
+std::string edited_json(std::string_view text, JsonEdits edits)
+{
+    std::ranges::sort(edits, {}, [](const auto& edit) { return edit.first.data(); });
+    OutputBuffer now;
+    Splicer splicer(now, text);
+    for (const auto& [part, replacement] : edits)
+        splicer.exchange(part).text(replacement);
+    splicer.finish();
+    return std::string(now.content());
 }
 
 }  // namespace seamflow

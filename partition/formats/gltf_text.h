@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 /// Pieces of the text of glTF files: URIs, and JSON as it is written.
@@ -26,6 +27,8 @@ std::string gltf_name_of(std::string_view uri);
 struct GltfMember {
     std::string key;
     std::string_view value;
+    /// From the begin of the key to the end of the value.
+    std::string_view whole;
 };
 
 /// The members of an object, or nothing for other values.
@@ -34,5 +37,11 @@ std::vector<GltfMember> gltf_members(std::string_view object);
 std::string_view gltf_member(std::string_view object, std::string_view key);
 /// The elements of an array, or nothing for other values.
 std::vector<std::string_view> gltf_elements(std::string_view array);
+
+/// Parts of a JSON text, which may be empty, and what replaces them. No two begin at the same place.
+using JsonEdits = std::vector<std::pair<std::string_view, std::string>>;
+
+/// The text with its parts replaced.
+std::string edited_json(std::string_view text, JsonEdits edits);
 
 }  // namespace seamflow

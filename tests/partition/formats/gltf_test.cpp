@@ -419,9 +419,6 @@ TEST_CASE("what cannot be used is refused with its place in the file and a remed
     CHECK(complaint(R"("byteLength":48)", R"("byteLength":48,"extensions":{"EXT_meshopt_compression":{}})") ==
           "a.glb: bufferViews[0]: is compressed by meshopt (EXT_meshopt_compression); export the mesh without "
           "compression");
-    CHECK(complaint(R"("count":4)", R"("sparse":{},"count":4)") ==
-          "a.glb: accessors[0]: is sparse, which is not read for positions and indices; export the mesh without sparse "
-          "accessors");
     CHECK(complaint(R"("bufferView":0,)", "") == "a.glb: accessors[0]: has no bufferView and so no data" + again);
     CHECK(complaint(R"("bufferView":0,)", R"("bufferView":3,)") ==
           "a.glb: accessors[0].bufferView: names bufferViews[3], but the file has 3 of them" + again);
