@@ -247,7 +247,7 @@ std::string as_json(std::string_view text)
 }
 
 /// Writes the buffers that are in other files.
-std::vector<std::string> write_buffers(JsonEdits& edits, const OutputFile& file, const GltfContent& content,
+std::vector<std::string> write_buffers(JsonEdits& edits, OutputFile& file, const GltfContent& content,
                                        const NewBuffers& now)
 {
     std::optional<GltfBufferFiles> files;
@@ -270,9 +270,7 @@ std::vector<std::string> write_buffers(JsonEdits& edits, const OutputFile& file,
         if (!files)
             files.emplace(file.path(), content.path());
         const std::string name = files->next_name();
-        OutputFile buffer(files->place_of(name));
-        buffer.text(bytes);
-        buffer.commit();
+        file.beside(files->place_of(name)).text(bytes);
         edits.emplace_back(gltf_member(buffers[i], "uri"), as_json(gltf_uri_of(name)));
         names += (names.empty() ? "" : ", ") + name;
     }
