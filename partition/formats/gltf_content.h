@@ -9,8 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
+#include "partition/formats/gltf_json.h"
 #include "partition/formats/gltf_text.h"
 #include "partition/io/byte_writer.h"
 #include "partition/io/input_position.h"
@@ -21,7 +20,7 @@ namespace seamflow {
 class GltfValue final : public InputPosition {
   public:
     /// @param path, value must outlive this object. @param name empty: the whole text.
-    GltfValue(const std::filesystem::path& path, const nlohmann::json* value, std::string name)
+    GltfValue(const std::filesystem::path& path, const JsonNode* value, std::string name)
         : path_(path)
         , value_(value)
         , name_(std::move(name))
@@ -50,16 +49,21 @@ class GltfValue final : public InputPosition {
     [[nodiscard]] std::uint64_t number_or(std::uint64_t otherwise) const { return is_there() ? number() : otherwise; }
 
     /// @throws InputError if this is not text.
-    [[nodiscard]] const std::string& text() const;
+    [[nodiscard]] std::string text() const;
 
-    /// As it is.
-    [[nodiscard]] const nlohmann::json& json() const { return *value_; }
+    /// As it is written; empty if it is not there.
+    [[nodiscard]] std::string_view source() const { return value_ != nullptr ? value_->source : std::string_view(); }
+    /// Its elements or members; none if it is not there, or cannot have any.
+    [[nodiscard]] std::vector<const JsonNode*> nodes() const
+    {
+        return value_ != nullptr ? value_->children : std::vector<const JsonNode*>();
+    }
 
   private:
     [[nodiscard]] std::string position() const override;
 
     const std::filesystem::path& path_;
-    const nlohmann::json* value_;
+    const JsonNode* value_;
     std::string name_;
 };
 
@@ -82,7 +86,7 @@ class GltfContent {
     [[nodiscard]] std::string_view chunk() const { return chunk_; }
 
     /// The value of the whole text.
-    [[nodiscard]] GltfValue root() const { return {path_, &json_, ""}; }
+    [[nodiscard]] GltfValue root() const { return {path_, &json_.root(), ""}; }
 
     /// The element that a number stands for.
     /// @param list such as "accessors".
@@ -112,7 +116,7 @@ class GltfContent {
     std::string_view chunk_;
     std::vector<std::string_view> buffers_;
     std::deque<std::string> added_;
-    nlohmann::json json_;
+    JsonTree json_;
 };
 
 constexpr std::size_t glb_header_bytes = 12;

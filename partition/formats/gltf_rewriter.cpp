@@ -141,9 +141,9 @@ Bounds bounds_in(std::string_view bytes, const GltfSpan& span, const Executor& e
 }
 
 /// Updates the numbers of a list of bounds that have changed.
-void edit_bound(JsonEdits& edits, std::string_view list, const Point& before, const Point& after)
+void edit_bound(JsonEdits& edits, const GltfValue& list, const Point& before, const Point& after)
 {
-    const std::vector<std::string_view> numbers = gltf_elements(list);
+    const std::vector<const JsonNode*> numbers = list.nodes();
     for (std::size_t k = 0; k < 3 && numbers.size() == 3; ++k) {
         const auto component = static_cast<Index>(k);
         if (before[component] == after[component])
@@ -151,7 +151,7 @@ void edit_bound(JsonEdits& edits, std::string_view list, const Point& before, co
         OutputBuffer text;
         // The sum is not -0.
         text.number(after[component] + 0.0);
-        edits.emplace_back(numbers[k], text.content());
+        edits.emplace_back(numbers[k]->source, text.content());
     }
 }
 
@@ -176,45 +176,43 @@ std::optional<GltfSpan> changed_vectors(const GltfContent& content, const GltfGe
 void edit_bounds(JsonEdits& edits, const GltfContent& content, const GltfGeometry& geometry, const NewBuffers& now,
                  const Executor& exec)
 {
-    const std::vector<std::string_view> accessors = gltf_elements(gltf_member(content.text(), "accessors"));
+    const GltfValue accessors = content.root()["accessors"];
     for (std::size_t i = 0; i < accessors.size(); ++i) {
-        const std::string_view least = gltf_member(accessors[i], "min");
-        const std::string_view largest = gltf_member(accessors[i], "max");
-        if (least.empty() && largest.empty())
-            continue;
         const auto span = changed_vectors(content, geometry, now, i);
         if (!span)
             continue;
         const Bounds before = bounds_in(content.buffer(span->buffer), *span, exec);
         const Bounds after = bounds_in(*now.bytes[span->buffer], *span, exec);
-        edit_bound(edits, least, before.least, after.least);
-        edit_bound(edits, largest, before.largest, after.largest);
+        edit_bound(edits, accessors.at(i)["min"], before.least, after.least);
+        edit_bound(edits, accessors.at(i)["max"], before.largest, after.largest);
     }
 }
 
 /// Makes a sparse accessor one of all elements of a view.
-void edit_sparse(JsonEdits& edits, std::string_view accessor, std::size_t view)
+void edit_sparse(JsonEdits& edits, const GltfValue& accessor, std::size_t view)
 {
-    const std::vector<GltfMember> members = gltf_members(accessor);
+    const std::vector<const JsonNode*> members = accessor.nodes();
     const auto goes = [&](std::size_t i) {
-        return members[i].key == "sparse" || members[i].key == "bufferView" || members[i].key == "byteOffset";
+        const std::string key = text_of_json(members[i]->key);
+        return key == "sparse" || key == "bufferView" || key == "byteOffset";
     };
     // Others go together with the comma before them.
-    edits.emplace_back(goes(0) ? members[0].whole : members[0].whole.substr(0, 0),
+    edits.emplace_back(members[0]->member().substr(0, goes(0) ? std::string_view::npos : 0),
                        fmt::format(R"("bufferView":{}{})", view, goes(0) ? "" : ","));
     for (std::size_t i = 1; i < members.size(); ++i)
         if (goes(i)) {
-            const char* const end = members[i - 1].whole.data() + members[i - 1].whole.size();
-            edits.emplace_back(std::string_view(end, members[i].whole.data() + members[i].whole.size()), "");
+            const std::string_view before = members[i - 1]->member();
+            const std::string_view all = members[i]->member();
+            const char* const begin = before.data() + before.size();
+            edits.emplace_back(std::string_view(begin, static_cast<std::size_t>(all.data() + all.size() - begin)), "");
         }
 }
 
 /// Puts the elements of sparse accessors that have changed behind all that is in the buffers of their values.
 void edit_sparse_accessors(JsonEdits& edits, const GltfContent& content, const GltfGeometry& geometry, NewBuffers& now)
 {
-    const std::vector<std::string_view> accessors = gltf_elements(gltf_member(content.text(), "accessors"));
-    const std::vector<std::string_view> buffers = gltf_elements(gltf_member(content.text(), "buffers"));
-    const std::vector<std::string_view> views = gltf_elements(gltf_member(content.text(), "bufferViews"));
+    const GltfValue root = content.root();
+    const std::vector<const JsonNode*> views = root["bufferViews"].nodes();
     const auto bytes_now = [&](std::size_t i) {
         return now.bytes[i] ? std::string_view(*now.bytes[i]) : content.buffer(i);
     };
@@ -232,18 +230,13 @@ void edit_sparse_accessors(JsonEdits& edits, const GltfContent& content, const G
                                   buffer.size(), dense.size());
         buffer += dense;
         grown.insert(sparse.values.buffer);
-        edit_sparse(edits, accessors[sparse.accessor], n_views++);
+        edit_sparse(edits, root["accessors"].at(sparse.accessor), n_views++);
     }
     if (grown.empty())
         return;
-    edits.emplace_back(views.back().substr(views.back().size()), more_views);
+    edits.emplace_back(views.back()->source.substr(views.back()->source.size()), more_views);
     for (const std::size_t i : grown)
-        edits.emplace_back(gltf_member(buffers[i], "byteLength"), fmt::format("{}", now.bytes[i]->size()));
-}
-
-std::string as_json(std::string_view text)
-{
-    return nlohmann::json(text).dump();
+        edits.emplace_back(root["buffers"].at(i)["byteLength"].source(), fmt::format("{}", now.bytes[i]->size()));
 }
 
 /// Writes the buffers that are in other files.
@@ -252,9 +245,9 @@ std::vector<std::string> write_buffers(JsonEdits& edits, OutputFile& file, const
 {
     std::optional<GltfBufferFiles> files;
     std::string names;
-    const std::vector<std::string_view> buffers = gltf_elements(gltf_member(content.text(), "buffers"));
+    const GltfValue buffers = content.root()["buffers"];
     for (std::size_t i = 0; i < buffers.size(); ++i) {
-        const GltfValue uri = content.root()["buffers"].at(i)["uri"];
+        const GltfValue uri = buffers.at(i)["uri"];
         if (!uri.is_there())
             continue;
         const std::string_view bytes = now.bytes[i] ? std::string_view(*now.bytes[i]) : content.buffer(i);
@@ -264,14 +257,14 @@ std::vector<std::string> write_buffers(JsonEdits& edits, OutputFile& file, const
         if (was_data || file.is_stream()) {
             const std::string head =
                 was_data ? uri.text().substr(0, uri.text().find(',')) : "data:application/octet-stream;base64";
-            edits.emplace_back(gltf_member(buffers[i], "uri"), as_json(gltf_data(head, bytes)));
+            edits.emplace_back(uri.source(), json_of_text(gltf_data(head, bytes)));
             continue;
         }
         if (!files)
             files.emplace(file.path(), content.path());
         const std::string name = files->next_name();
         file.beside(files->place_of(name)).text(bytes);
-        edits.emplace_back(gltf_member(buffers[i], "uri"), as_json(gltf_uri_of(name)));
+        edits.emplace_back(uri.source(), json_of_text(gltf_uri_of(name)));
         names += (names.empty() ? "" : ", ") + name;
     }
     if (names.empty())
