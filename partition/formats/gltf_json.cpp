@@ -31,6 +31,8 @@ JsonTree::JsonTree(std::string_view text)
     // Checks the text, and keeps nothing of it.
     [[maybe_unused]] const Json nothing =
         Json::parse(text.begin(), text.end(), [](int, Json::parse_event_t, Json&) { return false; });
+    // Where there is a zero the text ends: some programs fill up chunks with them.
+    text = text.substr(0, text.find('\0'));
     constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
     std::size_t next = text.starts_with(byte_order_mark) ? byte_order_mark.size() : 0;
     std::vector<JsonNode*> open;

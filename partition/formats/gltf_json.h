@@ -34,7 +34,8 @@ class JsonTree {
   public:
     /// No value.
     JsonTree() = default;
-    /// @param text must outlive this object. @throws nlohmann::json::exception if it is not JSON.
+    /// @param text must outlive this object; it ends at a zero byte. @throws nlohmann::json::exception if it is not
+    /// JSON.
     explicit JsonTree(std::string_view text);
 
     /// @pre there is a value.

@@ -276,7 +276,7 @@ void write_binary_gltf(OutputFile& file, const GltfContent& content, std::string
 {
     constexpr std::size_t unit = 4;
     if (text != content.text()) {
-        text.resize(text.find_last_not_of(' ') + 1);
+        text.resize(text.find_last_not_of(std::string_view(" \0", 2)) + 1);
         text.resize((text.size() + unit - 1) / unit * unit, ' ');
     }
     // From the header of the binary chunk on.

@@ -189,7 +189,9 @@ TEST_CASE("a file whose vertices stay is the same file, with anything in it")
     const Rewritten same = rewritten("a.glb", maker.glb(), stay_put);
     CHECK(same.content == maker.glb());
     CHECK(same.remarks.empty());
-    // Also with a text that is not padded, and with bytes behind the file.
+    // Also with a text that is filled up with zeros and what is no JSON, and with bytes behind the file.
+    const std::string filled = GltfMaker::glb(maker.text() + std::string("\0\0}}]", 5), maker.bytes());
+    CHECK(rewritten("a.glb", filled, stay_put).content == filled);
     std::string odd = GltfMaker::glb(maker.text(), maker.bytes()) + "behind";
     CHECK(rewritten("a.glb", odd, stay_put).content == odd);
     const std::string moved = rewritten("a.glb", odd, [](Points& p) { p(1, 2) = 12345.678; }).content;
