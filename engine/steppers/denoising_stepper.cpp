@@ -19,7 +19,7 @@ DenoisingStepper::DenoisingStepper(const PolygonMesh& mesh, const Topology& topo
                                    Progress& progress)
     : mesh_(&mesh)
     , step_scales_(options.motion.strength)
-    , denoiser_(mesh, topology, progress.exec())
+    , denoiser_(mesh, topology, progress.exec(), options.keep_edges.value_or(MeshDenoiser::default_edge_angle))
     , positions_(mesh.vertices)
     , loops_(1.0, progress)
 {

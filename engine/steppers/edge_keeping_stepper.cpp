@@ -6,15 +6,12 @@
 
 #include "partition/errors.h"
 #include "solvers/laplacian/geometry.h"
-#include "solvers/normals/vertex_fit.h"
+#include "solvers/normals/smoothed_between_edges.h"
 
 namespace seamflow {
 
 namespace {
 
-/// How often normals are smoothed and vertices moved, each time by a part of the step (measured: see
-/// engine/accuracy.md).
-constexpr int passes = 3;
 /// Steps of this many face areas move vertices half of the way.
 constexpr double short_step = 0.01;
 
@@ -48,11 +45,8 @@ void EdgeKeepingStepper::step(const Points& before)
 {
     assert(&before != &positions_);
     const Executor exec = loops_.begin();
-    Points from = before;
-    for (int pass = 0; pass < passes; ++pass) {
-        const Points normals = diffusion_.smoothed(from, time_step_ / passes, angle_, exec);
-        fit_vertices(*mesh_, *topology_, lines_, {normals, diffusion_.noise()}, from, exec);
-    }
+    const Points smoothed =
+        smoothed_between_edges(*mesh_, *topology_, lines_, diffusion_, before, time_step_, angle_, exec);
     // Vertices fit at once, however short the step: they go all the way if it is long relative to faces.
     for_each(exec, mesh_->n_vertices(), [&](Index v) {
         const auto corners = topology_->corners_at(v);
@@ -62,7 +56,7 @@ void EdgeKeepingStepper::step(const Points& before)
         const double step_scale = step_scales_.empty() ? 1.0 : step_scales_[v];
         const double part = step_scale * time_step_ / (time_step_ + short_step * size);
         positions_.row(v) =
-            part < 1.0 ? lines_.on_line(v, before.row(v) + part * (from.row(v) - before.row(v))) : Point(from.row(v));
+            part < 1.0 ? lines_.on_line(v, before.row(v) + part * (smoothed.row(v) - before.row(v))) : Point(smoothed.row(v));
     });
     loops_.end();
     if (!positions_.allFinite())
