@@ -1,10 +1,12 @@
 #include "engine/steppers/edge_keeping_stepper.h"
 
+#include <algorithm>
 #include <cassert>
 
 #include <fmt/format.h>
 
 #include "partition/errors.h"
+#include "partition/metrics/vertex_distance.h"
 #include "solvers/laplacian/geometry.h"
 #include "solvers/normals/smoothed_between_edges.h"
 
@@ -14,6 +16,8 @@ namespace {
 
 /// Steps of this many face areas move vertices half of the way.
 constexpr double short_step = 0.01;
+/// In mean edge lengths.
+constexpr double rounding = 1e-9;
 
 /// Normals diffuse only on each side of the lines.
 NormalDiffusion diffusion_between(const PolygonMesh& mesh, const Topology& topology, const FeatureLines& lines,
@@ -55,9 +59,12 @@ void EdgeKeepingStepper::step(const Points& before)
             size += area(mesh_->face(topology_->face_of[corner]), before) / static_cast<double>(corners.size());
         const double step_scale = step_scales_.empty() ? 1.0 : step_scales_[v];
         const double part = step_scale * time_step_ / (time_step_ + short_step * size);
-        positions_.row(v) =
-            part < 1.0 ? lines_.on_line(v, before.row(v) + part * (smoothed.row(v) - before.row(v))) : Point(smoothed.row(v));
+        positions_.row(v) = part < 1.0 ? lines_.on_line(v, before.row(v) + part * (smoothed.row(v) - before.row(v)))
+                                       : Point(smoothed.row(v));
     });
+    const double mean_edge = mean_edge_length(*mesh_, before, exec);
+    if (mean_edge > 0.0)
+        furthest_ = std::max(furthest_, (positions_ - before).rowwise().norm().maxCoeff() / mean_edge);
     loops_.end();
     if (!positions_.allFinite())
         throw ComputationError("the result is not finite: scale the mesh to a size nearer to 1");
@@ -79,9 +86,19 @@ void EdgeKeepingStepper::report_to(FlowReport& report) const
     if (mesh_->n_faces() == 0)
         return;
     report.cut.sub_meshes = {{mesh_->n_faces(), mesh_->n_vertices()}};
-    report.remarks.push_back(fmt::format("Edges sharper than {:g}° were kept: face normals were smoothed between them, "
-                                         "and vertices moved to fit; no sub-meshes and no Laplacian were needed.",
-                                         angle_));
+    if (furthest_ < rounding)
+        report.remarks.push_back(
+            fmt::format("Nothing was smoothed: most faces lie in planes that meet in edges sharper "
+                        "than {:g}°, which were kept. If these are noise, as in heights of whole "
+                        "numbers, give a larger angle, or leave out the amount, so that it "
+                        "follows from the noise.",
+                        angle_));
+    else
+        report.remarks.push_back(
+            fmt::format("Edges sharper than {:g}° were kept, and face normals smoothed between them, "
+                        "as much as was asked for, whether there is noise or not: vertices moved "
+                        "by up to {:.2g} mean edge lengths in a step.",
+                        angle_, furthest_));
 }
 
 }  // namespace seamflow

@@ -19,13 +19,13 @@ namespace {
 constexpr std::array<double, 2> edge_keeping_amounts{8.0, 32.0};
 /// The mean squared motion around a place, in squares of edge lengths: up to the first one the place may be replaced,
 /// from the second one on it may not.
-constexpr double replaced_up_to = 0.12 * 0.12;
-constexpr double replaced_below = 0.15 * 0.15;
+constexpr float replaced_up_to = 0.08F * 0.08F;
+constexpr float replaced_below = 0.105F * 0.105F;
 /// The mean squared motion around a place over that of the first result: some noise stays in that.
-constexpr double most_squared_motion = 1.15 * 1.15;
-/// The variance of normals around a face that counts at most: sharper edges are no rougher.
-constexpr float largest_variance = 0.07F;
-/// Rounds over which motions and variances are averaged, and over which results are blended.
+constexpr float most_squared_motion = 1.2F * 1.2F;
+/// Squared chords of normals that count at most: sharper edges are no rougher.
+constexpr float largest_squared_chord = 0.2F;
+/// Rounds over which motions and roughness are averaged, and over which results are blended.
 constexpr int averaging_rounds = 20;
 constexpr int blending_rounds = 4;
 
@@ -53,8 +53,7 @@ ComponentMesh component_mesh(const DenoisedSurface& surface, std::span<const Ind
     for (const Index f : sorted) {
         corners.clear();
         for (const Index v : surface.mesh.face(f))
-            corners.push_back(
-                static_cast<Index>(std::ranges::lower_bound(part.vertices, v) - part.vertices.begin()));
+            corners.push_back(static_cast<Index>(std::ranges::lower_bound(part.vertices, v) - part.vertices.begin()));
         part.mesh.add_face(corners);
     }
     part.topology = make_topology(part.mesh, exec);
@@ -83,27 +82,24 @@ class SmootherPlaces {
         });
     }
 
-    /// #F by 2: squared motions along the normals, in squares of edge lengths, and variances of the normals.
+    /// #F by 2: squared motions along the normals, in squares of edge lengths, and roughness, both around each face.
     [[nodiscard]] FaceRows measured(const Points& positions) const
     {
         const PolygonMesh& mesh = surface_.mesh;
         FaceVectors normals;
-        FaceVectors means;
-        AverageWeights weights;
         surface_.averages.measure_normals(positions, normals, exec_);
-        surface_.averages.weigh(weights, exec_);
-        surface_.averages.average(weights, normals, means, exec_);
+        const std::vector<float> roughness = surface_.averages.roughness(normals, largest_squared_chord, exec_);
         FaceRows near(mesh.n_faces(), 2);
         for_each(exec_, mesh.n_faces(), [&](Index f) {
-            near.row(f).setZero();
+            double squares = 0.0;
             for (const Index v : mesh.face(f)) {
                 const double motion = motion_along_normal(surface_.topology, surface_.normals, v,
                                                           positions.row(v) - surface_.before.row(v));
                 if (edges_[v] > 0.0)
-                    near(f, 0) += static_cast<float>(std::pow(motion / edges_[v], 2)) /
-                                  static_cast<float>(mesh.face(f).size());
+                    squares += std::pow(motion / edges_[v], 2);
             }
-            near(f, 1) = std::clamp(1.0F - means.row(f).squaredNorm(), 0.0F, largest_variance);
+            near(f, 0) = static_cast<float>(squares / static_cast<double>(mesh.face(f).size()));
+            near(f, 1) = roughness[f];
         });
         FaceRows around(mesh.n_faces(), 2);
         surface_.averages.spread(near, around, 0, averaging_rounds, exec_);
@@ -114,9 +110,8 @@ class SmootherPlaces {
     [[nodiscard]] Points along_normals(const Points& smoothed) const
     {
         Points there = surface_.before;
-        for_each(exec_, surface_.mesh.n_vertices(), [&](Index v) {
-            there.row(v) += surface_.parts[v] * (smoothed.row(v) - surface_.before.row(v));
-        });
+        for_each(exec_, surface_.mesh.n_vertices(),
+                 [&](Index v) { there.row(v) += surface_.parts[v] * (smoothed.row(v) - surface_.before.row(v)); });
         return seamflow::along_normals(surface_.mesh, surface_.topology, surface_.before, there, surface_.normals,
                                        exec_);
     }
@@ -148,8 +143,7 @@ class SmootherPlaces {
 /// From 1 to 0.
 float replaced_part(float squared_motion)
 {
-    return std::clamp((static_cast<float>(replaced_below) - squared_motion) / static_cast<float>(replaced_below - replaced_up_to),
-                      0.0F, 1.0F);
+    return std::clamp((replaced_below - squared_motion) / (replaced_below - replaced_up_to), 0.0F, 1.0F);
 }
 
 }  // namespace
@@ -191,7 +185,7 @@ void take_smoother_places(const DenoisedSurface& surface, const Components& comp
         FaceRows better(n_faces, 1);
         for_each(exec, n_faces, [&](Index f) {
             const bool is_better = is_open[components.component_of[f]] != 0 &&
-                                   of_smoothed(f, 0) <= static_cast<float>(most_squared_motion) * of_first(f, 0) &&
+                                   of_smoothed(f, 0) <= most_squared_motion * of_first(f, 0) &&
                                    of_smoothed(f, 1) < of_result(f, 1);
             better(f, 0) = is_better ? replaced_part(of_first(f, 0)) : 0.0F;
         });

@@ -156,8 +156,8 @@ void NormalDiffusion::measure(const Points& positions, double time_step, const E
 }
 
 /// The median of the chords between each face and the neighbour across an edge that is most similar to it, or the mean
-/// of these, which is more similar in round parts. Those of sharper edges do not count. Where most faces have a neighbour
-/// with the same normal, as on whole-number heights, small planes of such faces take the place of faces.
+/// of these, which is more similar in round parts. Those of sharper edges do not count. Where most faces have a
+/// neighbour with the same normal, as on whole-number heights, small planes of such faces take the place of faces.
 double NormalDiffusion::measure_noise(const Points& positions, const Points& normals, double edge_chord,
                                       const Executor& exec) const
 {
