@@ -20,7 +20,9 @@
 #include "tests/support/test_meshes.h"
 
 using namespace seamflow;
+using test::flowed;
 using test::largest_difference;
+using test::same_bits;
 
 namespace {
 
@@ -280,7 +282,43 @@ TEST_CASE("options about equations do not go with it")
     options.accuracy.tolerance = 1e-6;
     PolygonMesh result = mesh;
     CHECK_THROWS_WITH_AS(mean_curvature_flow(result, options), doctest::Contains("denoise is given"), OptionError);
-    options = options_for(Preset::Automatic, mesh).options;
     options.keep_edges = 30.0;
-    CHECK_THROWS_WITH_AS(mean_curvature_flow(result, options), doctest::Contains("denoise is given"), OptionError);
+    CHECK_THROWS_WITH_AS(mean_curvature_flow(result, options), doctest::Contains("keep_edges is given"), OptionError);
+}
+
+TEST_CASE("feature edges stay bit for bit, and what is on one side of them does not matter to the other")
+{
+    PolygonMesh truth = make_quads(2500);
+    // The middle row, of vertices that follow each other.
+    const Index n = 50;
+    REQUIRE(truth.n_vertices() == n * n);
+    FlowOptions options = FlowOptions::denoising();
+    std::vector<Index> line;
+    for (Index k = 0; k < n; ++k)
+        line.push_back(n * (n / 2) + k);
+    for (Index k = 0; k + 1 < n; ++k)
+        options.motion.feature_edges.push_back({line[k], line[k + 1]});
+    const PolygonMesh noisy = test::with_gaussian_noise(truth, 0.2, 3);
+    const Points with = flowed(noisy, options);
+    CHECK(with != flowed(noisy, FlowOptions::denoising()));
+    PolygonMesh changed = noisy;
+    for (Index v = n * (n / 2 + 1); v < n * n; ++v)
+        changed.vertices.row(v) = truth.vertices.row(v) + 0.5 * (noisy.vertices.row(v) - truth.vertices.row(v));
+    const Points of_changed = flowed(changed, options);
+    for (const Index v : line)
+        CHECK((with.row(v) == noisy.vertices.row(v)));
+    const Index n_before = n * (n / 2);
+    CHECK(largest_difference(of_changed.topRows(n_before), with.topRows(n_before)) < 1e-4 * mean_edge(truth));
+}
+
+TEST_CASE("the angle of edges that stay counts where there is little noise")
+{
+    const PolygonMesh part = make_chamfered_plate(3000);
+    const PolygonMesh noisy = test::with_gaussian_noise(part, 0.05, 3);
+    FlowOptions options = FlowOptions::denoising();
+    const Points by_default = flowed(noisy, options);
+    options.keep_edges = 30.0;
+    CHECK(same_bits(flowed(noisy, options), by_default));
+    options.keep_edges = 5.0;
+    CHECK(!same_bits(flowed(noisy, options), by_default));
 }
