@@ -31,6 +31,8 @@ constexpr double clearly_less = 0.5;
 constexpr double least_sigma = 1e-6;
 /// The most faces that noise of whole numbers leaves on one plane.
 constexpr std::size_t most_in_plane_of_noise = 16;
+/// Where a plane differs this much less from the mean of those around it than from each, it is a part of a round shape.
+constexpr double even_bend = 0.2;
 /// Of the residual of a round, relative to that at its beginning; and the most iterations.
 constexpr double diffusion_tolerance = 1e-2;
 constexpr int most_diffusion_iterations = 500;
@@ -187,7 +189,8 @@ double NormalDiffusion::measure_noise(const Points& positions, const Points& nor
 }
 
 /// Gives all faces of a plane, faces with the same normal that share edges, the chord between it and the most similar
-/// plane around it, or the mean of these by length of edges: 0 for larger planes, which noise does not make.
+/// plane around it, or the mean of these by length of edges: 0 for larger planes, and where the planes around bend as
+/// those of a round shape, which noise does not make.
 /// @param chords #F: replaced, but for faces without area.
 void NormalDiffusion::spread_over_planes(const Points& positions, const Points& normals, double edge_chord,
                                          std::vector<double>& chords) const
@@ -220,10 +223,11 @@ void NormalDiffusion::spread_over_planes(const Points& positions, const Points& 
                 }
             }
         }
-        if (const double length = mean.norm(); length > 0.0)
-            least = std::min(least, (normals.row(first) - mean / length).norm());
+        const double length = mean.norm();
+        const double from_mean = length > 0.0 ? (normals.row(first) - mean / length).norm() : least;
+        const bool is_shape = plane.size() > most_in_plane_of_noise || from_mean < even_bend * least;
         for (const Index f : plane)
-            chords[f] = plane.size() > most_in_plane_of_noise ? 0.0 : least;
+            chords[f] = is_shape ? 0.0 : std::min(least, from_mean);
     }
 }
 

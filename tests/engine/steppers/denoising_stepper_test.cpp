@@ -298,7 +298,7 @@ TEST_CASE("feature edges stay bit for bit, and what is on one side of them does 
         line.push_back(n * (n / 2) + k);
     for (Index k = 0; k + 1 < n; ++k)
         options.motion.feature_edges.push_back({line[k], line[k + 1]});
-    const PolygonMesh noisy = test::with_gaussian_noise(truth, 0.2, 3);
+    const PolygonMesh noisy = test::with_gaussian_noise(truth, 0.4, 3);
     const Points with = flowed(noisy, options);
     CHECK(with != flowed(noisy, FlowOptions::denoising()));
     PolygonMesh changed = noisy;
