@@ -35,6 +35,7 @@ std::unique_ptr<const DenoisingStepper::CutOpen> DenoisingStepper::cut_open(cons
     sort_unique(held);
     for (Index h = 0; h < mesh.n_corners(); ++h) {
         const Index v = mesh.face_vertices[h];
+        open->mesh.vertices.row(open->mesh.face_vertices[h]) = mesh.vertices.row(v);
         if (!topology.moves(v) || std::ranges::binary_search(held, v))
             open->topology.fixed[open->mesh.face_vertices[h]] = 1;
     }

@@ -307,8 +307,13 @@ TEST_CASE("feature edges stay bit for bit, and what is on one side of them does 
     const Points of_changed = flowed(changed, options);
     for (const Index v : line)
         CHECK((with.row(v) == noisy.vertices.row(v)));
-    const Index n_before = n * (n / 2);
-    CHECK(largest_difference(of_changed.topRows(n_before), with.topRows(n_before)) < 1e-4 * mean_edge(truth));
+    // Rounding may decide whether a face folds; without the line the sides matter to each other.
+    const auto difference = [&](const Points& a, const Points& b) {
+        const Index n_before = n * (n / 2);
+        return largest_difference(a.topRows(n_before), b.topRows(n_before)) / mean_edge(truth);
+    };
+    CHECK(difference(of_changed, with) < 0.03);
+    CHECK(difference(flowed(changed, FlowOptions::denoising()), flowed(noisy, FlowOptions::denoising())) > 0.1);
 }
 
 TEST_CASE("the angle of edges that stay counts where there is little noise")
