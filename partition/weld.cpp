@@ -349,7 +349,7 @@ std::optional<Weld> weld(const PolygonMesh& mesh, const Topology& topology, doub
     return welding.take();
 }
 
-std::string remark_on_seams(Index n_vertices, Index n_edges, std::int64_t n_of_mesh, double distance)
+std::string remark_on_seams(Index n_vertices, Index n_edges, std::int64_t n_of_mesh, double distance, double apart)
 {
     if (n_vertices == 0)
         return distance > 0.0
@@ -357,8 +357,9 @@ std::string remark_on_seams(Index n_vertices, Index n_edges, std::int64_t n_of_m
                                  "each other, or they are nearer to further ones, too.",
                                  distance)
                    : "";
-    // Copies at equal places are meant to be one: all vertices may be such.
-    const bool are_many = distance > 0.0 && std::int64_t{10} * n_vertices >= n_of_mesh;
+    // Copies at equal places, but for rounding, are meant to be one: all vertices may be such.
+    constexpr double copies_apart = 0.01;
+    const bool are_many = apart > copies_apart && std::int64_t{10} * n_vertices >= n_of_mesh;
     const std::string warning =
         are_many ? fmt::format(", and {:.0f}% of all: if so many are no copies of others, make --weld smaller",
                                100.0 * n_vertices / static_cast<double>(n_of_mesh))

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -18,6 +19,7 @@
 #include "partition/connected_components.h"
 #include "partition/io/input_position.h"
 #include "partition/metrics/bounding_box.h"
+#include "partition/metrics/vertex_distance.h"
 #include "partition/weld.h"
 #include "partition/with_faces.h"
 #include "solvers/laplacian/degenerate.h"
@@ -29,6 +31,12 @@ namespace {
 
 /// Of one step in squared diagonals of the bounding box, after which what holds values alone decides.
 constexpr double time_to_rest = 1e6;
+
+/// The part of a width by which that which was reached may differ without a remark.
+constexpr double most_missed_width = 0.25;
+/// Kernels of fewer edges are too narrow for a mesh, and with fewer steps they are no Gaussians.
+constexpr double narrowest_width = 4.0;
+constexpr int enough_steps = 10;
 
 /// The same vertices, and the faces whose vertices all have data, but for faces without area; their labels, if there
 /// are any.
@@ -197,6 +205,21 @@ void add_filling(const FlowReport& of_fill, FlowReport& of_group, std::vector<st
 }
 
 /// Says how many vertices of a column are without data at the end.
+void remark_on_width(double wanted, std::optional<double> reached, const PolygonMesh& surface, int steps,
+                     std::vector<std::string>& remarks)
+{
+    if (reached && std::abs(*reached - wanted) <= most_missed_width * wanted)
+        return;
+    const char* reason = "it is wide for this surface, or edges differ much in length";
+    if (wanted < narrowest_width * mean_edge_length(surface))
+        reason = "it is less than four mean edge lengths, too narrow for this mesh";
+    else if (steps < enough_steps)
+        reason = "more steps come nearer";
+    remarks.push_back(fmt::format("A width of {:.3g} was asked for, {}: {}.", wanted,
+                                  reached ? fmt::format("{:.3g} was reached", *reached) : "none can be measured",
+                                  reason));
+}
+
 void remark_on_unfilled(const Eigen::VectorXd& filled, std::vector<std::string>& remarks)
 {
     if (const auto n = filled.array().isNaN().count(); n > 0)
@@ -252,6 +275,7 @@ FieldReport diffuse(const PolygonMesh& mesh, Eigen::MatrixXd& fields, const Flow
             Eigen::MatrixXd noise = white_noise(mesh.n_vertices());
             flow.diffuse(noise, options.steps);
             report.fwhm = fwhm_of_noise(surface, noise);
+            remark_on_width(*field_options.fwhm, report.fwhm, surface, options.steps, of_group.remarks);
             of_group.seconds = flow.report().seconds;
         }
         remarks.push_back(of_group.remarks);

@@ -54,8 +54,10 @@ std::size_t count_moving(const Topology& topology)
 void constrain(Topology& topology, const PolygonMesh& mesh, const FlowOptions& options, bool has_lengths,
                const Executor& exec, std::vector<std::string>& remarks)
 {
-    if (options.motion.strict)
+    if (options.motion.strict) {
         require_manifold(topology);
+        require_sizes(mesh, exec);
+    }
     if (options.motion.junctions == Junctions::Flow)
         free_junctions(mesh, topology, exec);
     if (options.motion.boundary == Boundary::Free)
@@ -70,7 +72,7 @@ void constrain(Topology& topology, const PolygonMesh& mesh, const FlowOptions& o
     const std::vector<Index> undefined =
         is_sound ? std::vector<Index>() : vertices_without_row(mesh, topology, options.laplacian, exec);
     // Where nothing can move, the reason is more useful than the unchanged mesh.
-    if (!is_sound && (options.motion.strict || undefined.size() == count_moving(topology)))
+    if (!is_sound && undefined.size() == count_moving(topology))
         require_sound_geometry(mesh, topology, options.laplacian, exec);
     if (!undefined.empty())
         remarks.push_back(remark_on_undefined_vertices(static_cast<std::int64_t>(undefined.size()), undefined.front(),

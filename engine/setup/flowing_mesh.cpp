@@ -10,6 +10,7 @@
 #include "engine/measure/remarks.h"
 #include "engine/tasks/parallel_executor.h"
 #include "partition/inspection/mesh_inspection.h"
+#include "partition/metrics/vertex_distance.h"
 #include "partition/weld.h"
 
 namespace seamflow {
@@ -47,10 +48,10 @@ void FlowingMesh::weld_seams(Topology& topology, MotionOptions& motion, const Ex
     if (!motion.weld)
         return;
     std::optional<Weld> welded = weld(mesh(), topology, *motion.weld, exec);
-    remark_on_seams_ = remark_on_seams(welded ? welded->n_vertices : 0, welded ? welded->n_edges : 0,
-                                       given_->n_vertices(), *motion.weld);
-    if (!welded)
+    if (!welded) {
+        remark_on_seams_ = remark_on_seams(0, 0, given_->n_vertices(), *motion.weld, 0.0);
         return;
+    }
     first_ = std::move(welded->first);
     const Points& joined = welded->mesh.vertices;
     const Points& own = mesh().vertices;
@@ -60,6 +61,11 @@ void FlowingMesh::weld_seams(Topology& topology, MotionOptions& motion, const Ex
         if (!have_same_bits(own.row(v), joined.row(first_[v])))
             apart_.push_back({v, own.row(v), joined.row(first_[v])});
     }
+    double furthest = 0.0;
+    for (const Apart& one : apart_)
+        furthest = std::max(furthest, (one.joined - one.own).norm());
+    remark_on_seams_ = remark_on_seams(welded->n_vertices, welded->n_edges, given_->n_vertices(), *motion.weld,
+                                       furthest > 0.0 ? furthest / mean_edge_length(mesh()) : 0.0);
     const auto join = [&](Index& v) {
         if (v >= 0 && v < given_->n_vertices())
             v = first_[v];

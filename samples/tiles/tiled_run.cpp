@@ -116,8 +116,9 @@ class TiledRun {
         folder_.remove();
         bar_.erase();
         if (run_.n_held > 0)
-            report_.add_remark({}, fmt::format("{} where borders of files meet but cannot be joined (three sheets, or "
-                                               "faces turned round) {}: cut the files along other edges.",
+            report_.add_remark({}, fmt::format("{} where borders of files meet but cannot be joined (files overlap or "
+                                               "have other triangles there, three sheets meet, or faces are turned "
+                                               "round) {}: cut the files along edges that both have.",
                                                counted(static_cast<std::uint64_t>(run_.n_held), "vertex", "vertices"),
                                                run_.n_held == 1 ? "stays" : "stay"));
         else if (tiles_.size() > 1 && run_.n_shared == 0 && options_.motion.weld)

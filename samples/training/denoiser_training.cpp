@@ -53,7 +53,7 @@ struct StageInputs {
     EstimateFeatures features;
 };
 
-/// The same as NormalDenoiser makes of it.
+/// The same as denoise_normals makes of it.
 StageInputs inputs_of_stage(const TrainingCase& item)
 {
     constexpr double relaxation_between = 0.1;
@@ -72,7 +72,7 @@ StageInputs inputs_of_stage(const TrainingCase& item)
         estimator.refine(fitted);
         estimator.further(item.found, inputs.estimates);
     }
-    inputs.features.measure(inputs.estimates, estimator.averages());
+    inputs.features.measure(inputs.estimates, estimator.vertex_averages());
     return inputs;
 }
 
@@ -195,7 +195,7 @@ std::string train_stage(std::vector<TrainingCase>& cases, const DenoiserTraining
 }
 
 /// #F: the logarithm of the noise around each face, in lengths of its edges.
-SampleRows log_noise(const TrainingCase& item, const FaceAverages& averages)
+SampleRows log_noise(const TrainingCase& item, const VertexAverages& averages)
 {
     constexpr float most_squared = 4.0F;
     constexpr float least_noise = 0.004F;
@@ -241,7 +241,7 @@ std::string train_noise(std::vector<TrainingCase>& cases, const DenoiserTraining
                              ? item.surface.vertices
                              : add_noise(item.surface, item.topology, NoiseRange::ForNoise, random);
             const StageInputs inputs = inputs_of_stage(item);
-            const SampleRows logarithms = log_noise(item, FaceAverages(item.surface, item.topology));
+            const SampleRows logarithms = log_noise(item, VertexAverages(item.surface, item.topology));
             inputs_of_case[c].conservativeResize(per_case, inputs.features.around.cols());
             for (int k = draw * samples_per_draw; k < (draw + 1) * samples_per_draw; ++k) {
                 const Index f = random.below(item.surface.n_faces());

@@ -26,7 +26,7 @@ struct TrainedDenoiser {
     std::string noise;
 };
 
-/// Trains one network for each stage (see NormalDenoiser), on what the stages before make of the noisy surfaces, and
+/// Trains one network for each stage (see denoise_normals), on what the stages before make of the noisy surfaces, and
 /// the one that gives the noise. Depends on nothing but its arguments, not on how loops are run.
 /// @param surfaces without noise. @param out what is reported meanwhile.
 TrainedDenoiser train_denoiser(std::vector<PolygonMesh> surfaces, const DenoiserTraining& training, std::ostream& out,

@@ -5,7 +5,6 @@
 #include "partition/executor.h"
 #include "partition/polygon_mesh.h"
 #include "partition/topology.h"
-#include "solvers/denoising/normal_estimates.h"
 
 namespace seamflow {
 
@@ -17,6 +16,9 @@ struct DenoisedNormals {
     std::vector<float> noise;
 };
 
+/// More faces are denoised in pieces, which bounds the memory.
+constexpr Index most_faces_at_once = 1'000'000;
+
 /// Estimates the true normals of a noisy surface, and the noise.
 ///
 /// Several filters give estimates of each normal (see NormalEstimates): strong and weak ones, filters that keep edges
@@ -27,22 +29,11 @@ struct DenoisedNormals {
 ///
 /// A face's normal depends on the faces around it alone, and on nothing that depends on how the mesh is turned, scaled,
 /// moved or numbered, except for rounding. Faces may have any number of sides. Bits do not depend on how loops are run.
-class NormalDenoiser {
-  public:
-    /// @param mesh its vertices are not used. @param topology with twins, which are not needed later; vertices that it
-    /// fixes stay. Both must outlive the object.
-    NormalDenoiser(const PolygonMesh& mesh, const Topology& topology, const Executor& exec = run_serially);
-
-    /// @param positions #V by 3.
-    [[nodiscard]] DenoisedNormals denoise(const Points& positions, const Executor& exec = run_serially);
-
-    /// Averages over the faces of the mesh.
-    [[nodiscard]] const FaceAverages& averages() const { return estimator_.averages(); }
-
-  private:
-    const PolygonMesh* mesh_;
-    const Topology* topology_;
-    NormalEstimator estimator_;
-};
+///
+/// A large mesh is denoised in pieces, one after the other, which overlap so far that hardly anything changes.
+/// @param mesh its vertices are not used. @param topology twins are not used; vertices that it fixes stay.
+/// @param positions #V by 3. @param most_faces of a piece without its overlap, about.
+DenoisedNormals denoise_normals(const PolygonMesh& mesh, const Topology& topology, const Points& positions,
+                                const Executor& exec = run_serially, Index most_faces = most_faces_at_once);
 
 }  // namespace seamflow

@@ -29,11 +29,12 @@ FaceVector direction(const FaceVector& vector)
 
 }  // namespace
 
-void EstimateFeatures::measure(const NormalEstimates& estimates, const FaceAverages& averages, const Executor& exec)
+void EstimateFeatures::measure(const NormalEstimates& estimates, const VertexAverages& averages, const Executor& exec)
 {
+    const auto n_faces = static_cast<Index>(estimates.vectors.front().rows());
     const auto n_estimates = static_cast<Index>(estimates.vectors.size());
-    near.resize(averages.n_faces(), 2 * n_estimates - 1);
-    for_each(exec, averages.n_faces(), [&](Index f) {
+    near.resize(n_faces, 2 * n_estimates - 1);
+    for_each(exec, n_faces, [&](Index f) {
         FaceVector before = FaceVector::Zero();
         for (Index k = 0; k < n_estimates; ++k) {
             const FaceVector vector = estimates.vectors[k].row(f);
@@ -46,7 +47,7 @@ void EstimateFeatures::measure(const NormalEstimates& estimates, const FaceAvera
     });
     around.resize(near.rows(), near.cols());
     averages.spread(near, around, near_rounds, further_rounds, exec);
-    for_each(exec, averages.n_faces(), [&](Index f) {
+    for_each(exec, n_faces, [&](Index f) {
         near.row(f) = (near.row(f).array() + least_feature).log();
         around.row(f) = (around.row(f).array() + least_feature).log();
     });

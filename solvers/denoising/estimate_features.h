@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "partition/executor.h"
-#include "solvers/denoising/face_averages.h"
 #include "solvers/denoising/normal_estimates.h"
+#include "solvers/denoising/vertex_averages.h"
 
 namespace seamflow {
 
@@ -13,14 +13,14 @@ namespace seamflow {
 /// scaled, or on how its faces are numbered: how much shorter than 1 each vector is, and the chords between estimates;
 /// and means of these over the faces around, near by and further off, which tell noise from shape.
 struct EstimateFeatures {
-    using Rows = FaceAverages::Rows;
+    using Rows = VertexAverages::Rows;
 
-    /// #F by 2 K - 1, for K estimates: logarithms of means over 6 rounds of FaceAverages::spread, and over 24.
+    /// #F by 2 K - 1, for K estimates: logarithms of means over 6 rounds of VertexAverages::spread, and over 24.
     Rows near;
     Rows around;
 
     /// Replaces all by the features of these estimates.
-    void measure(const NormalEstimates& estimates, const FaceAverages& averages, const Executor& exec = run_serially);
+    void measure(const NormalEstimates& estimates, const VertexAverages& averages, const Executor& exec = run_serially);
 };
 
 /// Appends the inputs of a network that mixes the estimates at face f: its features near by and further off, how much

@@ -28,25 +28,12 @@ inline float decay(float x)
     return fraction * std::bit_cast<float>((bias - whole) << mantissa_bits);
 }
 
-IndexLists neighbours_of_vertices(const PolygonMesh& mesh, const Topology& topology)
-{
-    IndexLists lists;
-    lists.offsets.reserve(usize(mesh.n_vertices()) + 1);
-    for (Index v = 0; v < mesh.n_vertices(); ++v) {
-        const std::vector<Index> list = neighbours_of(mesh, topology, v);
-        lists.values.insert(lists.values.end(), list.begin(), list.end());
-        lists.close();
-    }
-    return lists;
-}
-
 }  // namespace
 
 FaceAverages::FaceAverages(const PolygonMesh& mesh, const Topology& topology, const Executor& exec)
     : mesh_(&mesh)
     , topology_(&topology)
     , neighbours_(make_face_neighbours(mesh, topology, exec))
-    , vertex_neighbours_(neighbours_of_vertices(mesh, topology))
     , signs_(face_signs(mesh, topology))
     , areas_(usize(mesh.n_faces()))
     , near_(neighbours_.faces.size())
@@ -240,47 +227,6 @@ std::vector<float> FaceAverages::roughness(const FaceVectors& normals, float lar
         found[f] = sum > 0.0F ? total / sum : 0.0F;
     });
     return found;
-}
-
-void FaceAverages::spread(Rows& near, Rows& around, int rounds, int further_rounds, const Executor& exec) const
-{
-    // A few columns at a time, so that they fill registers and take little memory.
-    constexpr int width = 16;
-    using NarrowRow = Eigen::Matrix<float, 1, width>;
-    using NarrowRows = Eigen::Matrix<float, Eigen::Dynamic, width, Eigen::RowMajor>;
-    const Index n_vertices = vertex_neighbours_.size();
-    NarrowRows now(n_vertices, width);
-    NarrowRows before(n_vertices, width);
-    for (Eigen::Index first = 0; first < near.cols(); first += width) {
-        const Eigen::Index n = std::min<Eigen::Index>(width, near.cols() - first);
-        const auto to_faces = [&](Rows& of_faces) {
-            for_each(exec, n_faces(), [&](Index f) {
-                NarrowRow total = NarrowRow::Zero();
-                for (const Index v : mesh_->face(f))
-                    total += now.row(v);
-                of_faces.row(f).segment(first, n) = (total / static_cast<float>(mesh_->face(f).size())).head(n);
-            });
-        };
-        for_each(exec, n_vertices, [&](Index v) {
-            NarrowRow total = NarrowRow::Zero();
-            const auto corners = topology_->corners_at(v);
-            for (const Index corner : corners)
-                total.head(n) += near.row(topology_->face_of[corner]).segment(first, n);
-            now.row(v) = total / static_cast<float>(std::max(corners.size(), std::size_t{1}));
-        });
-        for (int round = 1; round <= rounds + further_rounds; ++round) {
-            now.swap(before);
-            for_each(exec, n_vertices, [&](Index v) {
-                NarrowRow total = before.row(v);
-                for (const Index w : vertex_neighbours_[v])
-                    total += before.row(w);
-                now.row(v) = total / static_cast<float>(1 + vertex_neighbours_[v].size());
-            });
-            if (round == rounds)
-                to_faces(near);
-        }
-        to_faces(around);
-    }
 }
 
 void normalise(FaceVectors& vectors, const Executor& exec)

@@ -7,7 +7,6 @@
 #include <Eigen/Core>
 
 #include "partition/executor.h"
-#include "partition/index_lists.h"
 #include "partition/topology.h"
 #include "solvers/normals/face_neighbours.h"
 
@@ -82,25 +81,12 @@ class FaceAverages {
     [[nodiscard]] std::vector<float> roughness(const FaceVectors& normals, float largest,
                                                const Executor& exec = run_serially) const;
 
-    /// Numbers of faces, one row each.
-    using Rows = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-
-    /// Spreads numbers over the surface: vertices take the mean of their faces, then several times that of themselves
-    /// and their neighbours, and faces that of their vertices.
-    /// @param near #F by any number; replaced by the means after some rounds, unless there are none.
-    /// @param around as large; replaced by those after further rounds.
-    void spread(Rows& near, Rows& around, int rounds, int further_rounds, const Executor& exec = run_serially) const;
-
-    /// Per vertex: those at the other ends of its edges.
-    [[nodiscard]] const IndexLists& vertex_neighbours() const { return vertex_neighbours_; }
-
     [[nodiscard]] Index n_faces() const { return static_cast<Index>(areas_.size()); }
 
   private:
     const PolygonMesh* mesh_;
     const Topology* topology_;
     FaceNeighbours neighbours_;
-    IndexLists vertex_neighbours_;
     std::vector<std::int8_t> signs_;
     /// #F: in mean face areas.
     std::vector<float> areas_;

@@ -50,8 +50,7 @@ MeshDenoiser::MeshDenoiser(const PolygonMesh& mesh, const Topology& topology, co
     , polygon_topology_(&topology)
     , mesh_(triangles_ ? &triangles_->mesh : &mesh)
     , topology_(triangles_ ? &triangles_->topology : &topology)
-    , denoiser_(*mesh_, *topology_, exec)
-    , places_(*mesh_, *topology_, denoiser_.averages(), as_one)
+    , places_(*mesh_, *topology_, as_one)
     , rims_(*mesh_, *topology_)
     , edge_angle_(edge_angle)
 {
@@ -84,7 +83,7 @@ Points MeshDenoiser::denoise(const Points& before, std::span<const double> stren
 
 Points MeshDenoiser::without_noise(const Points& before, std::span<const double> strengths, const Executor& exec)
 {
-    const DenoisedNormals found = denoiser_.denoise(before, exec);
+    const DenoisedNormals found = denoise_normals(*mesh_, *topology_, before, exec);
     Points fitted = before;
     fit_vertices(*mesh_, *topology_, {},
                  {found.normals, std::min(most_relaxation, mean_chord(*mesh_, before, found.normals, exec))}, fitted,
@@ -101,8 +100,8 @@ Points MeshDenoiser::without_noise(const Points& before, std::span<const double>
     Points result = along_normals(*mesh_, *topology_, before, fitted, found.normals, exec);
     rims_.apply(*topology_, found.normals, parts, result);
     if (edge_angle_)
-        take_smoother_places({*mesh_, *topology_, denoiser_.averages(), before, found.normals, parts},
-                             places_.components(), *edge_angle_, result, exec);
+        take_smoother_places({*mesh_, *topology_, before, found.normals, parts}, places_.components(), *edge_angle_,
+                             result, exec);
     keep_facing(*mesh_, *topology_, before, found.normals, result, exec);
     return result;
 }

@@ -27,7 +27,7 @@ struct SurfaceNoise {
 };
 
 /// Removes noise: face normals are estimated, and the vertices move to fit them, along the normals unless a face would
-/// fold; each as far as there is noise (see NormalDenoiser, NoisyPlaces, along_normals). Rims lose theirs within the
+/// fold; each as far as there is noise (see denoise_normals, NoisyPlaces, along_normals). Rims lose theirs within the
 /// surface. No face turns over. Polygons count as the triangles into which their diagonals cut them (see triangulate):
 /// estimates of normals are trained on triangles. Bits do not depend on how loops are run.
 class MeshDenoiser {
@@ -73,7 +73,6 @@ class MeshDenoiser {
     /// Of triangles.
     const PolygonMesh* mesh_;
     const Topology* topology_;
-    NormalDenoiser denoiser_;
     NoisyPlaces places_;
     RimFilter rims_;
     std::optional<double> edge_angle_;

@@ -9,6 +9,7 @@
 
 #include "partition/vector_area.h"
 #include "solvers/denoising/normal_motion.h"
+#include "solvers/denoising/vertex_averages.h"
 
 namespace seamflow {
 
@@ -185,9 +186,8 @@ std::vector<std::uint8_t> flat_vertices(const PolygonMesh& mesh, const Topology&
     return is_flat;
 }
 
-NoisyPlaces::NoisyPlaces(const PolygonMesh& mesh, const Topology& topology, const FaceAverages& averages, bool as_one)
-    : averages_(&averages)
-    , components_(as_one ? all_together(mesh) : face_components(mesh, topology))
+NoisyPlaces::NoisyPlaces(const PolygonMesh& mesh, const Topology& topology, bool as_one)
+    : components_(as_one ? all_together(mesh) : face_components(mesh, topology))
 {
 }
 
@@ -200,14 +200,14 @@ std::vector<double> NoisyPlaces::find(const PolygonMesh& mesh, const Topology& t
     std::vector<std::uint8_t> noisy(usize(components_.count()));
     for_each(exec, components_.count(),
              [&](Index c) { noisy[c] = is_noisy(motion, components_.nodes[c], is_flat) ? 1 : 0; });
-    FaceAverages::Rows near(mesh.n_faces(), 1);
-    FaceAverages::Rows around(mesh.n_faces(), 1);
+    VertexAverages::Rows near(mesh.n_faces(), 1);
+    VertexAverages::Rows around(mesh.n_faces(), 1);
     for_each(exec, mesh.n_faces(), [&](Index f) {
         near(f, 0) = 0.0F;
         for (const Index v : mesh.face(f))
             near(f, 0) += motion.lengths[v] / static_cast<float>(mesh.face(f).size());
     });
-    averages_->spread(near, around, 0, rounds, exec);
+    VertexAverages(mesh, topology, exec).spread(near, around, 0, rounds, exec);
     std::vector<double> parts(usize(n), 0.0);
     for_each(exec, n, [&](Index v) {
         const auto corners = topology.corners_at(v);

@@ -9,7 +9,6 @@
 #include "partition/polygon_mesh.h"
 #include "partition/topology.h"
 #include "solvers/denoising/denoised_normals.h"
-#include "solvers/denoising/face_averages.h"
 
 namespace seamflow {
 
@@ -27,9 +26,8 @@ std::vector<std::uint8_t> flat_vertices(const PolygonMesh& mesh, const Topology&
 /// where vertices would hardly move have no noise. No other component matters, and no single vertex does.
 class NoisyPlaces {
   public:
-    /// @param topology with twins; not needed later. @param averages of the same mesh; must outlive the object.
-    /// @param as_one whether all components are judged as one.
-    NoisyPlaces(const PolygonMesh& mesh, const Topology& topology, const FaceAverages& averages, bool as_one = false);
+    /// @param topology with twins; not needed later. @param as_one whether all components are judged as one.
+    NoisyPlaces(const PolygonMesh& mesh, const Topology& topology, bool as_one = false);
 
     /// @param before, after #V by 3. @param found of the positions before. @param is_flat #V: see flat_vertices.
     /// @returns #V: how much of its motion each vertex should make, from 0 to 1.
@@ -42,7 +40,6 @@ class NoisyPlaces {
     [[nodiscard]] const Components& components() const { return components_; }
 
   private:
-    const FaceAverages* averages_;
     /// Of faces.
     Components components_;
 };

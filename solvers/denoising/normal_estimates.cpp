@@ -40,6 +40,13 @@ class Writer {
             copy(vectors);
     }
 
+    /// What is in the list after that is of no use.
+    void take(std::vector<FaceVectors>& list)
+    {
+        for (FaceVectors& vectors : list)
+            next().swap(vectors);
+    }
+
     [[nodiscard]] int count() const { return static_cast<int>(count_); }
 
   private:
@@ -114,7 +121,8 @@ void add_bilateral_means(const FaceAverages& averages, FaceVectors& vectors, flo
 
 NormalEstimator::NormalEstimator(const PolygonMesh& mesh, const Topology& topology, const Executor& exec)
     : averages_(mesh, topology, exec)
-    , filters_(topology, averages_.vertex_neighbours())
+    , of_vertices_(mesh, topology, exec)
+    , filters_(topology, of_vertices_.neighbours())
     , vertex_normals_(mesh, topology)
 {
 }
@@ -167,7 +175,7 @@ void NormalEstimator::first(NormalEstimates& found, const Executor& exec)
     const int bilateral_anchor = writer.count() - 1;
     normalise(once, exec);
     add_bilateral_means(averages_, once, 0.3F, {3, 10}, writer, scratch_[0], exec);
-    writer.copy(of_positions_);
+    writer.take(of_positions_);
     found.anchors = {0, writer.count() - 2, bilateral_anchor};
     averages_.average_best_patch(noisy_, writer.next(), exec);
     normalise(twice, exec);

@@ -9,6 +9,7 @@
 #include "partition/topology.h"
 #include "solvers/denoising/face_averages.h"
 #include "solvers/denoising/position_filters.h"
+#include "solvers/denoising/vertex_averages.h"
 
 namespace seamflow {
 
@@ -44,6 +45,7 @@ class NormalEstimator {
     void refine(const Points& positions, const Executor& exec = run_serially) { averages_.measure(positions, exec); }
 
     [[nodiscard]] const FaceAverages& averages() const { return averages_; }
+    [[nodiscard]] const VertexAverages& vertex_averages() const { return of_vertices_; }
 
     // Filters refer to averages.
     NormalEstimator(const NormalEstimator&) = delete;
@@ -51,10 +53,11 @@ class NormalEstimator {
 
   private:
     FaceAverages averages_;
+    VertexAverages of_vertices_;
     PositionFilters filters_;
     VertexNormals vertex_normals_;
     FaceVectors noisy_;
-    /// Normals of filtered surfaces, for `first` and `further`.
+    /// Normals of filtered surfaces: for `first`, which takes them, for `further`, and for both.
     std::vector<FaceVectors> of_positions_;
     std::vector<FaceVectors> of_positions_further_;
     std::vector<FaceVectors> of_robust_positions_;

@@ -3,10 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "partition/metrics/vertex_distance.h"
+#include "solvers/denoising/face_averages.h"
+#include "solvers/denoising/mesh_piece.h"
 #include "solvers/denoising/normal_motion.h"
+#include "solvers/denoising/vertex_averages.h"
 #include "solvers/normals/smoothed_between_edges.h"
 
 namespace seamflow {
@@ -29,48 +33,19 @@ constexpr float largest_squared_chord = 0.2F;
 constexpr int averaging_rounds = 20;
 constexpr int blending_rounds = 4;
 
-using FaceRows = FaceAverages::Rows;
-
-/// A component as a mesh of its own.
-struct ComponentMesh {
-    PolygonMesh mesh;
-    Topology topology;
-    /// Of its vertices in the mesh.
-    std::vector<Index> vertices;
-};
-
-ComponentMesh component_mesh(const DenoisedSurface& surface, std::span<const Index> faces, const Executor& exec)
-{
-    ComponentMesh part;
-    for (const Index f : faces)
-        part.vertices.insert(part.vertices.end(), surface.mesh.face(f).begin(), surface.mesh.face(f).end());
-    std::ranges::sort(part.vertices);
-    part.vertices.erase(std::unique(part.vertices.begin(), part.vertices.end()), part.vertices.end());
-    part.mesh.vertices = surface.before(part.vertices, Eigen::all);
-    std::vector<Index> sorted(faces.begin(), faces.end());
-    std::ranges::sort(sorted);
-    std::vector<Index> corners;
-    for (const Index f : sorted) {
-        corners.clear();
-        for (const Index v : surface.mesh.face(f))
-            corners.push_back(static_cast<Index>(std::ranges::lower_bound(part.vertices, v) - part.vertices.begin()));
-        part.mesh.add_face(corners);
-    }
-    part.topology = make_topology(part.mesh, exec);
-    for (std::size_t i = 0; i < part.vertices.size(); ++i) {
-        part.topology.kind[i] = surface.topology.kind[part.vertices[i]];
-        part.topology.fixed[i] = surface.topology.fixed[part.vertices[i]];
-    }
-    return part;
-}
+using FaceRows = VertexAverages::Rows;
 
 class SmootherPlaces {
   public:
     SmootherPlaces(const DenoisedSurface& surface, const Executor& exec)
         : surface_(surface)
         , exec_(exec)
+        , with_twins_(make_topology(surface.mesh, exec))
+        , faces_(surface.mesh, with_twins_, exec)
+        , vertices_(surface.mesh, surface.topology, exec)
         , edges_(usize(surface.mesh.n_vertices()))
     {
+        faces_.measure(surface.before, exec_);
         for_each(exec_, surface_.mesh.n_vertices(), [&](Index v) {
             const auto corners = surface_.topology.corners_at(v);
             double total = 0.0;
@@ -87,8 +62,8 @@ class SmootherPlaces {
     {
         const PolygonMesh& mesh = surface_.mesh;
         FaceVectors normals;
-        surface_.averages.measure_normals(positions, normals, exec_);
-        const std::vector<float> roughness = surface_.averages.roughness(normals, largest_squared_chord, exec_);
+        faces_.measure_normals(positions, normals, exec_);
+        const std::vector<float> roughness = faces_.roughness(normals, largest_squared_chord, exec_);
         FaceRows near(mesh.n_faces(), 2);
         for_each(exec_, mesh.n_faces(), [&](Index f) {
             double squares = 0.0;
@@ -102,7 +77,7 @@ class SmootherPlaces {
             near(f, 1) = roughness[f];
         });
         FaceRows around(mesh.n_faces(), 2);
-        surface_.averages.spread(near, around, 0, averaging_rounds, exec_);
+        vertices_.spread(near, around, 0, averaging_rounds, exec_);
         return around;
     }
 
@@ -120,7 +95,7 @@ class SmootherPlaces {
     [[nodiscard]] std::vector<double> blended(FaceRows of_faces) const
     {
         FaceRows around(of_faces.rows(), 1);
-        surface_.averages.spread(of_faces, around, 0, blending_rounds, exec_);
+        vertices_.spread(of_faces, around, 0, blending_rounds, exec_);
         std::vector<double> weights(edges_.size(), 0.0);
         for_each(exec_, surface_.mesh.n_vertices(), [&](Index v) {
             const auto corners = surface_.topology.corners_at(v);
@@ -136,6 +111,9 @@ class SmootherPlaces {
   private:
     const DenoisedSurface& surface_;
     const Executor& exec_;
+    Topology with_twins_;
+    FaceAverages faces_;
+    VertexAverages vertices_;
     /// #V: the mean length of the edges, in length.
     std::vector<double> edges_;
 };
@@ -151,6 +129,8 @@ float replaced_part(float squared_motion)
 void take_smoother_places(const DenoisedSurface& surface, const Components& components, double angle, Points& result,
                           const Executor& exec)
 {
+    if (std::ranges::none_of(surface.parts, [](double part) { return part > 0.0; }))
+        return;
     const Index n_faces = surface.mesh.n_faces();
     const SmootherPlaces places(surface, exec);
     const FaceRows of_first = places.measured(result);
@@ -173,7 +153,9 @@ void take_smoother_places(const DenoisedSurface& surface, const Components& comp
         for (Index c = 0; c < components.count(); ++c) {
             if (is_open[c] == 0)
                 continue;
-            const ComponentMesh part = component_mesh(surface, components.nodes[c], exec);
+            std::vector<Index> faces(components.nodes[c].begin(), components.nodes[c].end());
+            std::ranges::sort(faces);
+            const MeshPiece part = cut_out(surface.mesh, surface.topology, surface.before, std::move(faces), exec);
             NormalDiffusion diffusion(part.mesh, part.topology, exec);
             const double mean_edge = mean_edge_length(part.mesh, part.mesh.vertices, exec);
             smoothed(part.vertices, Eigen::all) =

@@ -6,7 +6,6 @@
 #include "partition/executor.h"
 #include "partition/polygon_mesh.h"
 #include "partition/topology.h"
-#include "solvers/denoising/face_averages.h"
 
 namespace seamflow {
 
@@ -14,7 +13,6 @@ namespace seamflow {
 struct DenoisedSurface {
     const PolygonMesh& mesh;
     const Topology& topology;
-    const FaceAverages& averages;
     /// #V by 3: with noise.
     const Points& before;
     /// #F by 3: the wanted normals, to which vertices were fitted.

@@ -18,15 +18,17 @@ bool has_length(const Point& edge)
     return square > 0.0 && std::isfinite(square);
 }
 
-/// The first corner of face f where an edge without a valid length starts, and where that matters; -1 if there is none.
-Index edge_without_length(const PolygonMesh& mesh, const Topology& topology, Index f)
+/// The first corner of face f where an edge without a valid length starts, and `matters` holds for one of its ends; -1
+/// if there is none.
+template <class Matters>
+Index edge_without_length(const PolygonMesh& mesh, Index f, Matters&& matters)
 {
     const auto corners = mesh.face(f);
     for (std::size_t k = 0; k < corners.size(); ++k) {
         const Index start = corners[k];
         const Index end = corners[k + 1 < corners.size() ? k + 1 : 0];
         if (!has_length(mesh.vertices.row(end) - mesh.vertices.row(start)) &&
-            (topology.moves(start) || topology.moves(end)))
+            (matters(start) || matters(end)))
             return static_cast<Index>(k);
     }
     return -1;
@@ -40,6 +42,17 @@ Index edge_without_length(const PolygonMesh& mesh, const Topology& topology, Ind
                      " (numbered from 0) are joined by an edge of face " + std::to_string(f) +
                      " and lie at the same place, or so near or far that their distance is not a normal double: merge "
                      "them, move one, or scale the mesh");
+}
+
+Index edge_that_moves_without_length(const PolygonMesh& mesh, const Topology& topology, Index f)
+{
+    return edge_without_length(mesh, f, [&](Index v) { return topology.moves(v); });
+}
+
+[[noreturn]] void refuse_face(Index f, const std::string& instead)
+{
+    throw InputError("face " + std::to_string(f) +
+                     " (numbered from 0) has no area, up to rounding: remove it, move one of its vertices, or " + instead);
 }
 
 bool may_move(const PolygonMesh& mesh, const Topology& topology, Index f)
@@ -74,7 +87,7 @@ std::vector<Index> degenerate_faces(const PolygonMesh& mesh, const Topology& top
         return {};
     return select(exec, mesh.n_faces(), [&](Index f) {
         return divides_by_lengths(laplacian)
-                   ? edge_without_length(mesh, topology, f) >= 0
+                   ? edge_that_moves_without_length(mesh, topology, f) >= 0
                    : !has_area(mesh.face(f), mesh.vertices) && area_matters(mesh, topology, laplacian, f);
     });
 }
@@ -130,10 +143,20 @@ void require_sound_geometry(const PolygonMesh& mesh, const Topology& topology, L
     if (bad.empty())
         return;
     if (divides_by_lengths(laplacian))
-        refuse_edge(mesh, bad.front(), edge_without_length(mesh, topology, bad.front()));
-    throw InputError("face " + std::to_string(bad.front()) +
-                     " (numbered from 0) has no area, up to rounding: remove it, move one of its vertices, "
-                     "or use the Laplacian fujiwara, which does not divide by areas");
+        refuse_edge(mesh, bad.front(), edge_that_moves_without_length(mesh, topology, bad.front()));
+    refuse_face(bad.front(), "use the Laplacian fujiwara, which does not divide by areas");
+}
+
+void require_sizes(const PolygonMesh& mesh, const Executor& exec)
+{
+    const auto bad_edge = [&](Index f) { return edge_without_length(mesh, f, [](Index) { return true; }); };
+    const auto bad = select(exec, mesh.n_faces(),
+                            [&](Index f) { return bad_edge(f) >= 0 || !has_area(mesh.face(f), mesh.vertices); });
+    if (bad.empty())
+        return;
+    if (const Index corner = bad_edge(bad.front()); corner >= 0)
+        refuse_edge(mesh, bad.front(), corner);
+    refuse_face(bad.front(), "leave strict out");
 }
 
 }  // namespace seamflow

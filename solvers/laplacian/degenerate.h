@@ -15,7 +15,11 @@ namespace seamflow {
 void require_sound_geometry(const PolygonMesh& mesh, const Topology& topology, Laplacian laplacian,
                             const Executor& exec = run_serially);
 
-/// The vertices that may move and fail this check, ascending.
+/// Checks that all edges have a length and all faces an area, whatever a Laplacian divides by.
+/// @throws InputError as above.
+void require_sizes(const PolygonMesh& mesh, const Executor& exec = run_serially);
+
+/// The vertices that may move and fail this check of a Laplacian, ascending.
 std::vector<Index> vertices_without_row(const PolygonMesh& mesh, const Topology& topology, Laplacian laplacian,
                                         const Executor& exec = run_serially);
 

@@ -29,7 +29,7 @@ constexpr double far_away = 6.0;
 std::vector<float> weights_of_corners(const PolygonMesh& mesh, const Topology& topology, const Points& positions,
                                       const Points& centroids, const Executor& exec)
 {
-    std::vector<double> reach(usize(mesh.n_vertices()));
+    std::vector<double> reach(usize(mesh.n_vertices()), std::numeric_limits<double>::infinity());
     const auto squared_distance = [&](Index v, Index corner) {
         return (centroids.row(topology.face_of[corner]) - positions.row(v)).squaredNorm();
     };
@@ -37,16 +37,21 @@ std::vector<float> weights_of_corners(const PolygonMesh& mesh, const Topology& t
     const auto has_area = [&](Index corner) {
         return area_above_rounding(mesh.face(topology.face_of[corner]), positions) > 0.0;
     };
+    const auto reach_at = [&](Index v, auto&& counts) {
+        double nearest = std::numeric_limits<double>::infinity();
+        for (const Index corner : topology.corners_at(v))
+            if (const double squared = squared_distance(v, corner); squared < nearest && counts(corner))
+                nearest = squared;
+        return far_away * far_away * nearest;
+    };
     const bool none = sum(exec, mesh.n_vertices(), [&](Index v) {
-                          double nearest = std::numeric_limits<double>::infinity();
                           double furthest = 0.0;
-                          for (const Index corner : topology.corners_at(v)) {
-                              const double squared = squared_distance(v, corner);
-                              furthest = std::max(furthest, squared);
-                              if (squared < nearest && has_area(corner))
-                                  nearest = squared;
-                          }
-                          reach[v] = far_away * far_away * nearest;
+                          for (const Index corner : topology.corners_at(v))
+                              furthest = std::max(furthest, squared_distance(v, corner));
+                          // Areas matter, and take time, at few vertices.
+                          if (furthest <= reach_at(v, [](Index) { return true; }))
+                              return 0.0;
+                          reach[v] = reach_at(v, has_area);
                           return furthest > reach[v] ? 1.0 : 0.0;
                       }) == 0.0;
     std::vector<float> weights;

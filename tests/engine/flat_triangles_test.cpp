@@ -136,11 +136,9 @@ TEST_CASE("middles of edges make no vertex fly, in any unit and at any place")
             const bool divides = traits_of(laplacian).divisor == Divisor::FaceAreas;
             CHECK(has_remark(with, "held fixed because faces without area") == divides);
             options.motion.strict = true;
-            if (!divides) {
-                CHECK_NOTHROW(moved_torus(mesh, options));
-                continue;
-            }
             CHECK_THROWS_AS(moved_torus(mesh, options), InputError);
+            if (!divides)
+                continue;
             for (const Index f : flat)
                 for (const Index v : mesh.face(f))
                     CHECK(with.positions.row(v) == mesh.vertices.row(v));

@@ -210,7 +210,7 @@ TEST_CASE("benchmark that is stopped leaves nothing behind")
     const Workshop w;
     // The shell waits until the mesh is there before it stops the program.
     CHECK(w.run("{ mkdir scratch; TMPDIR=scratch " BENCHMARK " --vertices 300000 --steps 1000 --peers none & "
-                "for i in $(seq 100); do ls scratch/*/input.ply && break; sleep 0.1; done; kill $!; wait $!; "
+                "for i in $(seq 1000); do ls scratch/*/input.ply && break; sleep 0.1; done; kill $!; wait $!; "
                 "test $? -eq 143; }") == 0);
     CHECK(w.count_lines("said", "scratch/benchmark-") == 1);
     CHECK(std::filesystem::is_empty(w.directory / "scratch"));

@@ -512,6 +512,21 @@ TEST_CASE("a spike becomes as wide as it was asked to, on faces of any form")
     }
 }
 
+TEST_CASE("a remark tells why the width that a diffusion reaches is far from that asked for")
+{
+    const PolygonMesh mesh = make_noisy_sphere(2000, {.amplitude = 0.0, .noise = 0.0});
+    const double edge = mean_edge_length(mesh);
+    const auto remarks_at = [&](double fwhm, int steps) {
+        Eigen::MatrixXd fields = Eigen::MatrixXd::Zero(mesh.n_vertices(), 1);
+        const FieldReport report = diffuse(mesh, fields, {.steps = steps}, {.fwhm = fwhm});
+        return report.remarks.empty() ? std::string() : report.remarks.front();
+    };
+    CHECK(remarks_at(8.0 * edge, 10).empty());
+    CHECK(remarks_at(8.0 * edge, 1).find("more steps come nearer") != std::string::npos);
+    CHECK(remarks_at(0.2 * edge, 10).find("less than four mean edge lengths") != std::string::npos);
+    CHECK(remarks_at(200.0 * edge, 10).find("wide for this surface") != std::string::npos);
+}
+
 TEST_CASE("the width that a diffusion reaches comes near to the one asked for, the nearer the more steps")
 {
     const PolygonMesh mesh = make_noisy_sphere(8000, {.amplitude = 0.0, .noise = 0.0});

@@ -94,13 +94,12 @@ TEST_CASE("numbers spread evenly: constants stay, and all columns do the same")
 {
     const PolygonMesh mesh = test::triangle_torus(20, 12);
     const Topology topology = make_topology(mesh);
-    FaceAverages averages(mesh, topology);
-    averages.measure(mesh.vertices);
+    const VertexAverages averages(mesh, topology);
     constexpr int n = 19;
-    FaceAverages::Rows near = FaceAverages::Rows::Zero(mesh.n_faces(), n);
+    VertexAverages::Rows near = VertexAverages::Rows::Zero(mesh.n_faces(), n);
     near.row(5).setOnes();
     near.col(3).setConstant(2.0F);
-    FaceAverages::Rows around(mesh.n_faces(), n);
+    VertexAverages::Rows around(mesh.n_faces(), n);
     averages.spread(near, around, 2, 3);
     // On a torus every face has as many neighbours: nothing is lost.
     for (const int column : {0, 7, 18}) {
@@ -116,8 +115,8 @@ TEST_CASE("low-pass filters keep planes, and the robust one ignores the few vert
 {
     PolygonMesh mesh = test::triangle_grid(30, 30);
     const Topology topology = make_topology(mesh);
-    const FaceAverages averages(mesh, topology);
-    const PositionFilters filters(topology, averages.vertex_neighbours());
+    const VertexAverages averages(mesh, topology);
+    const PositionFilters filters(topology, averages.neighbours());
     const auto middle = static_cast<Index>(mesh.n_vertices() / 2 + 8);
     REQUIRE(topology.kind[middle] == VertexKind::Interior);
     for (const Points& positions : filters.low_pass(mesh.vertices, {2, 5}))
@@ -145,7 +144,7 @@ TEST_CASE("a mix of equal estimates is that estimate")
     for (FaceVectors& vectors : estimates.vectors)
         vectors = normals;
     EstimateFeatures features;
-    features.measure(estimates, averages);
+    features.measure(estimates, VertexAverages(mesh, topology));
     const FaceVectors mixed = MixingNetwork(mixing_weights().front()).mix(estimates, features);
     CHECK((mixed - normals).cwiseAbs().maxCoeff() < 1e-5F);
 }
@@ -156,7 +155,7 @@ TEST_CASE("normals and noise are found, from side to side of an edge and with an
     const PolygonMesh noisy = test::with_gaussian_noise(truth, 0.2, 3);
     const auto denoise = [](const PolygonMesh& mesh) {
         const Topology topology = make_topology(mesh);
-        return NormalDenoiser(mesh, topology).denoise(mesh.vertices);
+        return denoise_normals(mesh, topology, mesh.vertices);
     };
     const DenoisedNormals found = denoise(noisy);
     CHECK(mean_angle(found.normals, normals_of(truth)) < 0.15 * mean_angle(normals_of(noisy), normals_of(truth)));
@@ -173,6 +172,23 @@ TEST_CASE("normals and noise are found, from side to side of an edge and with an
         if (vector_area(flipped.face(f), noisy.vertices).dot(vector_area(noisy.face(f), noisy.vertices)) < 0.0)
             turned_back.row(f) *= -1.0;
     CHECK(mean_angle(turned_back, found.normals) < 0.002);
+}
+
+TEST_CASE("in pieces normals and noise are those of the whole mesh, with any sense of the faces")
+{
+    for (const PolygonMesh& truth : {make_mesh("gear", 4000), make_mesh("triangles", 4000)}) {
+        const PolygonMesh noisy = test::with_gaussian_noise(truth, 0.2, 3);
+        for (const PolygonMesh& mesh : {noisy, test::with_faces_flipped(noisy, 1)}) {
+            const Topology topology = make_topology(mesh);
+            const DenoisedNormals whole = denoise_normals(mesh, topology, mesh.vertices);
+            const DenoisedNormals in_pieces =
+                denoise_normals(mesh, topology, mesh.vertices, run_serially, mesh.n_faces() / 3);
+            CHECK(mean_angle(in_pieces.normals, whole.normals) > 0.0);
+            CHECK(mean_angle(in_pieces.normals, whole.normals) < 2e-3);
+            for (Index f = 0; f < mesh.n_faces(); ++f)
+                CHECK(in_pieces.noise[f] == relative(whole.noise[f], 0.06));
+        }
+    }
 }
 
 TEST_CASE("of a motion only what changes faces is left, and no face turns over")

@@ -1,0 +1,86 @@
+#include "solvers/denoising/vertex_averages.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <numeric>
+#include <vector>
+
+#include "partition/decomposition/local_mesh.h"
+#include "partition/large_arrays.h"
+
+namespace seamflow {
+
+VertexAverages::VertexAverages(const PolygonMesh& mesh, const Topology& topology, const Executor& exec)
+    : mesh_(&mesh)
+    , topology_(&topology)
+{
+    std::vector<Index>& offsets = neighbours_.offsets;
+    offsets.assign(usize(mesh.n_vertices()) + 1, 0);
+    const auto for_each_list = [&](auto&& use) {
+        exec(mesh.n_vertices(), [&](Index begin, Index end) {
+            std::vector<Index> list;
+            for (Index v = begin; v < end; ++v) {
+                edge_neighbours(mesh, topology, v, list);
+                use(v, list);
+            }
+        });
+    };
+    for_each_list([&](Index v, const std::vector<Index>& list) { offsets[v + 1] = static_cast<Index>(list.size()); });
+    std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
+    neighbours_.values.resize(usize(offsets.back()));
+    for_each_list([&](Index v, const std::vector<Index>& list) {
+        std::ranges::copy(list, neighbours_.values.begin() + offsets[v]);
+    });
+}
+
+void VertexAverages::spread(Rows& near, Rows& around, int rounds, int further_rounds, const Executor& exec) const
+{
+    // A few columns at a time, so that they fill registers and take little memory.
+    constexpr int width = 16;
+    constexpr int small_width = 4;
+    if (near.cols() <= small_width)
+        return spread_columns<small_width>(near, around, 0, rounds, further_rounds, exec);
+    for (Eigen::Index first = 0; first < near.cols(); first += width)
+        spread_columns<width>(near, around, first, rounds, further_rounds, exec);
+}
+
+template <int width>
+void VertexAverages::spread_columns(Rows& near, Rows& around, Eigen::Index first, int rounds, int further_rounds,
+                                    const Executor& exec) const
+{
+    using NarrowRow = Eigen::Matrix<float, 1, width>;
+    using NarrowRows = Eigen::Matrix<float, Eigen::Dynamic, width, Eigen::RowMajor>;
+    const Index n_vertices = neighbours_.size();
+    NarrowRows now(n_vertices, width);
+    NarrowRows before(n_vertices, width);
+    const Eigen::Index n = std::min<Eigen::Index>(width, near.cols() - first);
+    const auto to_faces = [&](Rows& of_faces) {
+        for_each(exec, mesh_->n_faces(), [&](Index f) {
+            NarrowRow total = NarrowRow::Zero();
+            for (const Index v : mesh_->face(f))
+                total += now.row(v);
+            of_faces.row(f).segment(first, n) = (total / static_cast<float>(mesh_->face(f).size())).head(n);
+        });
+    };
+    for_each(exec, n_vertices, [&](Index v) {
+        NarrowRow total = NarrowRow::Zero();
+        const auto corners = topology_->corners_at(v);
+        for (const Index corner : corners)
+            total.head(n) += near.row(topology_->face_of[corner]).segment(first, n);
+        now.row(v) = total / static_cast<float>(std::max(corners.size(), std::size_t{1}));
+    });
+    for (int round = 1; round <= rounds + further_rounds; ++round) {
+        now.swap(before);
+        for_each(exec, n_vertices, [&](Index v) {
+            NarrowRow total = before.row(v);
+            for (const Index w : neighbours_[v])
+                total += before.row(w);
+            now.row(v) = total / static_cast<float>(1 + neighbours_[v].size());
+        });
+        if (round == rounds)
+            to_faces(near);
+    }
+    to_faces(around);
+}
+
+}  // namespace seamflow
