@@ -288,10 +288,9 @@ TEST_CASE("options about equations do not go with it")
 
 TEST_CASE("feature edges stay bit for bit, and what is on one side of them does not matter to the other")
 {
-    PolygonMesh truth = make_quads(2500);
-    // The middle row, of vertices that follow each other.
-    const Index n = 50;
-    REQUIRE(truth.n_vertices() == n * n);
+    constexpr Index n = 50;
+    const PolygonMesh truth = test::triangle_grid(n - 1, n - 1);
+    // The middle row.
     FlowOptions options = FlowOptions::denoising();
     std::vector<Index> line;
     for (Index k = 0; k < n; ++k)
@@ -307,13 +306,12 @@ TEST_CASE("feature edges stay bit for bit, and what is on one side of them does 
     const Points of_changed = flowed(changed, options);
     for (const Index v : line)
         CHECK((with.row(v) == noisy.vertices.row(v)));
-    // Rounding may decide whether a face folds; without the line the sides matter to each other.
+    // Of the row beside the line: rounding alone changes results by some thousandths of an edge.
     const auto difference = [&](const Points& a, const Points& b) {
-        const Index n_before = n * (n / 2);
-        return largest_difference(a.topRows(n_before), b.topRows(n_before)) / mean_edge(truth);
+        return (a - b).middleRows(n * (n / 2 - 1), n).norm() / (std::sqrt(n) * mean_edge(truth));
     };
-    CHECK(difference(of_changed, with) < 0.03);
-    CHECK(difference(flowed(changed, FlowOptions::denoising()), flowed(noisy, FlowOptions::denoising())) > 0.1);
+    const FlowOptions without = FlowOptions::denoising();
+    CHECK(difference(of_changed, with) < 0.2 * difference(flowed(changed, without), flowed(noisy, without)));
 }
 
 TEST_CASE("the angle of edges that stay counts where there is little noise")
