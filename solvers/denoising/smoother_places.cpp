@@ -6,8 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include "partition/metrics/vertex_distance.h"
+#include "partition/index_lists.h"
 #include "solvers/denoising/face_averages.h"
+#include "solvers/denoising/filter_sample.h"
 #include "solvers/denoising/mesh_piece.h"
 #include "solvers/denoising/normal_motion.h"
 #include "solvers/denoising/vertex_averages.h"
@@ -19,7 +20,7 @@ namespace {
 
 // Measured on parts, round bodies and natural shapes that are known, with noise of 0.03 to 0.4 along the normals.
 
-/// In squared mean edge lengths: the larger ones where the smaller ones are better than none.
+/// In squared mean edge lengths: the larger one where the smaller one is better than none; for large surfaces alone.
 constexpr std::array<double, 2> edge_keeping_amounts{8.0, 32.0};
 /// The mean squared motion around a place, in squares of edge lengths: up to the first one the place may be replaced,
 /// from the second one on it may not.
@@ -29,6 +30,9 @@ constexpr float replaced_below = 0.105F * 0.105F;
 constexpr float most_squared_motion = 1.2F * 1.2F;
 /// Squared chords of normals that count at most: sharper edges are no rougher.
 constexpr float largest_squared_chord = 0.2F;
+/// Larger surfaces are tried out on a sample first, of which at least this part must get smoother.
+constexpr Index most_untried_faces = 100'000;
+constexpr double least_smoother_part = 0.05;
 /// Rounds over which motions and roughness are averaged, and over which results are blended.
 constexpr int averaging_rounds = 20;
 constexpr int blending_rounds = 4;
@@ -118,19 +122,31 @@ class SmootherPlaces {
     std::vector<double> edges_;
 };
 
+/// Of the edges of some faces, each face's own.
+double mean_edge_of(const DenoisedSurface& surface, std::span<const Index> faces)
+{
+    double total = 0.0;
+    double n = 0.0;
+    for (const Index f : faces) {
+        Index v = surface.mesh.face(f).back();
+        for (const Index w : surface.mesh.face(f)) {
+            total += (surface.before.row(w) - surface.before.row(std::exchange(v, w))).norm();
+            n += 1.0;
+        }
+    }
+    return total / n;
+}
+
 /// From 1 to 0.
 float replaced_part(float squared_motion)
 {
     return std::clamp((replaced_below - squared_motion) / (replaced_below - replaced_up_to), 0.0F, 1.0F);
 }
 
-}  // namespace
-
-void take_smoother_places(const DenoisedSurface& surface, const Components& components, double angle, Points& result,
-                          const Executor& exec)
+/// See take_smoother_places.
+void replace_places(const DenoisedSurface& surface, const Components& components, std::span<const double> amounts,
+                    double angle, Points& result, const Executor& exec)
 {
-    if (std::ranges::none_of(surface.parts, [](double part) { return part > 0.0; }))
-        return;
     const Index n_faces = surface.mesh.n_faces();
     const SmootherPlaces places(surface, exec);
     const FaceRows of_first = places.measured(result);
@@ -148,19 +164,25 @@ void take_smoother_places(const DenoisedSurface& surface, const Components& comp
     };
     bool any = open([&](Index f) { return of_first(f, 0) < replaced_below && moves(f); });
     FaceRows of_result = of_first;
-    for (std::size_t i = 0; any && i < edge_keeping_amounts.size(); ++i) {
+    for (std::size_t i = 0; any && i < amounts.size(); ++i) {
         Points smoothed = surface.before;
         for (Index c = 0; c < components.count(); ++c) {
             if (is_open[c] == 0)
                 continue;
             std::vector<Index> faces(components.nodes[c].begin(), components.nodes[c].end());
             std::ranges::sort(faces);
-            const MeshPiece part = cut_out(surface.mesh, surface.topology, surface.before, std::move(faces), exec);
-            NormalDiffusion diffusion(part.mesh, part.topology, exec);
-            const double mean_edge = mean_edge_length(part.mesh, part.mesh.vertices, exec);
-            smoothed(part.vertices, Eigen::all) =
-                smoothed_between_edges(part.mesh, part.topology, {}, diffusion, part.mesh.vertices,
-                                       edge_keeping_amounts[i] * mean_edge * mean_edge, angle, exec);
+            const double mean_edge = mean_edge_of(surface, faces);
+            for_each_piece(surface.mesh, surface.topology, surface.before, std::move(faces), {}, exec,
+                           [&](const MeshPiece& piece, std::span<const std::uint8_t> is_own) {
+                               NormalDiffusion diffusion(piece.mesh, piece.topology, exec);
+                               const Points there = smoothed_between_edges(
+                                   piece.mesh, piece.topology, {}, diffusion, piece.mesh.vertices,
+                                   amounts[i] * mean_edge * mean_edge, angle, exec);
+                               for (Index f = 0; f < piece.mesh.n_faces(); ++f)
+                                   if (is_own[f] != 0)
+                                       for (const Index v : piece.mesh.face(f))
+                                           smoothed.row(piece.vertices[v]) = there.row(v);
+                           });
         }
         smoothed = places.along_normals(smoothed);
         const FaceRows of_smoothed = places.measured(smoothed);
@@ -175,9 +197,56 @@ void take_smoother_places(const DenoisedSurface& surface, const Components& comp
         const std::vector<double> weights = places.blended(std::move(better));
         for_each(exec, surface.mesh.n_vertices(),
                  [&](Index v) { result.row(v) += weights[v] * (smoothed.row(v) - result.row(v)); });
-        if (any && i + 1 < edge_keeping_amounts.size())
+        if (any && i + 1 < amounts.size())
             of_result = places.measured(result);
     }
+}
+
+/// Whether that replaces enough of patches that are spread all over the surface (see take_filter_sample).
+bool helps_on_sample(const DenoisedSurface& surface, std::span<const double> amounts, double angle,
+                     const Points& result, const Executor& exec)
+{
+    const FilterSample sample = take_filter_sample(surface.mesh, surface.topology, exec);
+    std::vector<std::uint8_t> is_sampled(surface.parts.size(), 0);
+    for (const Index v : sample.vertices)
+        is_sampled[v] = 1;
+    const MeshPiece piece = cut_out(surface.mesh, surface.topology, surface.before,
+                                    select(exec, surface.mesh.n_faces(),
+                                           [&](Index f) {
+                                               return std::ranges::all_of(surface.mesh.face(f),
+                                                                          [&](Index v) { return is_sampled[v] != 0; });
+                                           }),
+                                    exec);
+    std::vector<double> parts;
+    for (const Index v : piece.vertices)
+        parts.push_back(surface.parts[v]);
+    const Points normals = surface.normals(piece.faces, Eigen::all);
+    const Points first = result(piece.vertices, Eigen::all);
+    Points replaced = first;
+    replace_places({piece.mesh, piece.topology, piece.mesh.vertices, normals, parts},
+                   face_components(piece.mesh, piece.topology), amounts, angle, replaced, exec);
+    const auto n = std::ranges::count_if(sample.measured, [&](Index i) {
+        const Index v = place_in(piece.vertices, sample.vertices[i]);
+        return replaced.row(v) != first.row(v);
+    });
+    return static_cast<double>(n) >= least_smoother_part * static_cast<double>(sample.measured.size());
+}
+
+}  // namespace
+
+void take_smoother_places(const DenoisedSurface& surface, const Components& components, double angle, Points& result,
+                          const Executor& exec)
+{
+    if (std::ranges::none_of(surface.parts, [](double part) { return part > 0.0; }))
+        return;
+    std::span<const double> amounts = edge_keeping_amounts;
+    if (surface.mesh.n_faces() > most_untried_faces) {
+        // What bends at all is wide.
+        amounts = amounts.last(1);
+        if (!helps_on_sample(surface, amounts, angle, result, exec))
+            return;
+    }
+    replace_places(surface, components, amounts, angle, result, exec);
 }
 
 }  // namespace seamflow

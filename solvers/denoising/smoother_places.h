@@ -25,8 +25,9 @@ struct DenoisedSurface {
 /// smoothed_between_edges), where that one is smoother and yet no further from the noisy surface than the noise
 /// explains: on planes, cylinders and other parts that hardly bend, and where the noise is small relative to edges, so
 /// that estimates of single normals are hardly better than it. The amount is 8 and 32 squared mean edge lengths of each
-/// component; the larger one counts where the smaller one did. Boundaries stay as they are. Components do not matter to
-/// each other. Bits do not depend on how loops are run.
+/// component, of which the larger one counts where the smaller one did, or alone if the surface is large. Boundaries
+/// stay as they are. Components do not matter to each other. A large surface stays as it is unless a sample of it gets
+/// smoother. Bits do not depend on how loops are run.
 /// @param components of faces that share edges. @param angle of edges, in degrees. @param result #V by 3.
 void take_smoother_places(const DenoisedSurface& surface, const Components& components, double angle, Points& result,
                           const Executor& exec = run_serially);

@@ -248,6 +248,24 @@ TEST_CASE(
           MeshDenoiser(noisy, topology).denoise(noisy.vertices));
 }
 
+TEST_CASE("a sample says whether normals of a large surface diffuse between edges, too")
+{
+    const auto denoised = [](const PolygonMesh& noisy, std::optional<double> edge_angle) {
+        PolygonMesh result = noisy;
+        const Topology topology = make_topology(noisy);
+        result.vertices =
+            MeshDenoiser(noisy, topology, run_in_parallel, edge_angle).denoise(noisy.vertices, {}, run_in_parallel);
+        return result;
+    };
+    constexpr Index vertices = 55'000;
+    const PolygonMesh part = make_gear(vertices);
+    const PolygonMesh noisy_part = test::with_gaussian_noise(part, 0.1, 3);
+    CHECK(test::angle_to_truth(part, denoised(noisy_part, 30.0)) <
+          0.75 * test::angle_to_truth(part, denoised(noisy_part, {})));
+    const PolygonMesh noisy = test::with_gaussian_noise(bumpy_sphere(vertices), 0.1, 3);
+    CHECK(denoised(noisy, 30.0).vertices == denoised(noisy, {}).vertices);
+}
+
 TEST_CASE("where normals diffuse between edges, neither a second part of another size matters nor threads")
 {
     const PolygonMesh part = test::with_gaussian_noise(make_gear(3000), 0.05, 3);
