@@ -37,7 +37,7 @@ class NoisyPlaces {
                                            const Executor& exec = run_serially) const;
 
   private:
-    /// Of faces.
+    /// The components of the mesh, by faces: each is judged by itself.
     Components components_;
 };
 
