@@ -75,7 +75,7 @@ class SchurStepper final : public ConvergedStepper {
         /// Memory of the factors that are kept. Under a memory limit they are on the heap instead, because the size of
         /// a factor may differ from step to step.
         SharedFactorPool pool;
-        /// Memory of the factors that are recomputed; empty if there are none.
+        /// Memory of the factors that are recomputed; set once their size is known.
         std::optional<SharedFactorPool> passing;
     };
     /// On Γ.

@@ -15,7 +15,7 @@ namespace seamflow {
 struct LdlWorkspace {
     /// Per unknown: its row in the block being computed.
     std::vector<Index> row_of;
-    /// The rows of a supernode that the update by one of its descendants changes.
+    /// Per row of an update by an earlier block of columns: its row in the block being computed.
     std::vector<Index> target_rows;
     /// The matrix's diagonal at the columns of a supernode.
     std::vector<double> diagonal;
