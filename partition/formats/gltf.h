@@ -27,7 +27,7 @@ std::optional<OpenFile> with_gltf_buffers(const OpenFile& file, std::string_view
 /// @param path for messages only. @param content see with_gltf_buffers.
 /// @param faults if not null, collects faults instead of throwing.
 /// @throws InputError naming the element of the file, as in `meshes[0].primitives[1].indices`; also for positions that
-///         are compressed (Draco, meshopt), quantised or sparse.
+///         are compressed (Draco, meshopt) or quantised.
 PolygonMesh read_gltf(const std::filesystem::path& path, std::string_view content, const Slicing& slicing,
                       FaultLog* faults = nullptr);
 
@@ -44,8 +44,9 @@ void require_floats_for_gltf(const std::filesystem::path& path, const Points& ve
 void write_gltf(OutputFile& file, const PolygonMesh& mesh, FileFormat format, const Slicing& slicing);
 
 /// Rewrites a file read by `read_gltf` with other positions. Normals become those of the new surface, and the bounds
-/// (min and max) of what has changed are updated; all else stays byte for byte. Buffers that are in other files are
-/// written to new files beside the result, which are never those of the input.
+/// (min and max) of what has changed are updated; all else stays byte for byte. What has changed of a sparse accessor
+/// makes it dense: its vectors are added at the end of the buffer. Buffers that are in other files are written to new
+/// files beside the result, which are never those of the input.
 /// @param path of the file that was read. @param content see with_gltf_buffers. @param mesh with the faces of the file.
 /// @param seam_distance see write_mesh_like.
 /// @returns remarks for the user, in sentences.

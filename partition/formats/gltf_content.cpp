@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <charconv>
 #include <cmath>
 #include <optional>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "partition/errors.h"
 #include "partition/formats/gltf.h"
@@ -15,8 +17,6 @@
 namespace seamflow {
 
 namespace {
-
-using Json = nlohmann::json;
 
 constexpr std::string_view signature = "glTF";
 /// Begins a file with its buffers behind it, in memory. No file can begin so: this is no version of the format.
@@ -44,7 +44,8 @@ std::string_view piece_at(std::string_view bytes, std::uint64_t offset, std::uin
 
 std::string bytes_of_data(const GltfValue& uri)
 {
-    const std::string_view text = uri.text();
+    const std::string uri_text = uri.text();
+    const std::string_view text = uri_text;
     const std::size_t comma = text.find(',');
     if (comma == std::string_view::npos || !text.substr(0, comma).ends_with(";base64"))
         uri.fail("the data are not in base64; export the mesh again");
@@ -77,8 +78,10 @@ GltfValue GltfValue::operator[](const std::string& key) const
         return {path_, nullptr, name};
     if (!value_->is_object())
         fail("expected an object { … }; export the mesh again");
-    const auto found = value_->find(key);
-    return {path_, found != value_->end() ? &*found : nullptr, name};
+    // Of members with the same name the last one counts.
+    const auto found = std::find_if(value_->children.rbegin(), value_->children.rend(),
+                                    [&](const JsonNode* member) { return text_of_json(member->key) == key; });
+    return {path_, found != value_->children.rend() ? *found : nullptr, name};
 }
 
 std::size_t GltfValue::size() const
@@ -87,20 +90,20 @@ std::size_t GltfValue::size() const
         return 0;
     if (!value_->is_array())
         fail("expected a list [ … ]; export the mesh again");
-    return value_->size();
+    return value_->children.size();
 }
 
 GltfValue GltfValue::at(std::size_t i) const
 {
-    return {path_, &(*value_)[i], fmt::format("{}[{}]", name_, i)};
+    return {path_, value_->children[i], fmt::format("{}[{}]", name_, i)};
 }
 
 std::vector<std::string> GltfValue::keys() const
 {
     std::vector<std::string> keys;
     if (value_ != nullptr && value_->is_object())
-        for (const auto& member : value_->items())
-            keys.push_back(member.key());
+        for (const JsonNode* const member : value_->children)
+            keys.push_back(text_of_json(member->key));
     return keys;
 }
 
@@ -109,18 +112,19 @@ std::uint64_t GltfValue::number() const
     if (value_ == nullptr)
         fail("is missing; export the mesh again");
     constexpr double most = 9007199254740992.0;
-    const double value = value_->is_number() ? value_->get<double>() : -1.0;
+    double value = -1.0;
+    std::from_chars(value_->source.data(), value_->source.data() + value_->source.size(), value);
     if (!(value >= 0.0 && value <= most) || value != std::floor(value))
         fail(fmt::format("expected a whole number of at least 0, but found {}; export the mesh again",
-                         in_quotes(value_->is_structured() ? "a list" : value_->dump(-1, ' ', true))));
+                         in_quotes(value_->source)));
     return static_cast<std::uint64_t>(value);
 }
 
-const std::string& GltfValue::text() const
+std::string GltfValue::text() const
 {
-    if (value_ == nullptr || !value_->is_string())
+    if (value_ == nullptr || !value_->is_text())
         fail("expected text; export the mesh again");
-    return value_->get_ref<const std::string&>();
+    return text_of_json(value_->source);
 }
 
 std::string GltfValue::position() const
@@ -133,11 +137,11 @@ GltfContent::GltfContent(const std::filesystem::path& path, std::string_view con
 {
     take_apart(content);
     try {
-        json_ = Json::parse(text_.begin(), text_.end());
-    } catch (const Json::parse_error& error) {
+        json_ = JsonTree(text_);
+    } catch (const nlohmann::json::parse_error& error) {
         refuse_gltf(path_, fmt::format("byte {} of the JSON text: this is not JSON; export the mesh again",
                                        std::max(error.byte, std::size_t{1}) - 1));
-    } catch (const Json::exception&) {
+    } catch (const nlohmann::json::exception&) {
         refuse_gltf(path_, "the JSON text has a number that is too large; export the mesh again");
     }
     const GltfValue version = root()["asset"]["version"];

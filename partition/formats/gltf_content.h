@@ -2,14 +2,14 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <filesystem>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
+#include "partition/formats/gltf_json.h"
 #include "partition/formats/gltf_text.h"
 #include "partition/io/byte_writer.h"
 #include "partition/io/input_position.h"
@@ -20,7 +20,7 @@ namespace seamflow {
 class GltfValue final : public InputPosition {
   public:
     /// @param path, value must outlive this object. @param name empty: the whole text.
-    GltfValue(const std::filesystem::path& path, const nlohmann::json* value, std::string name)
+    GltfValue(const std::filesystem::path& path, const JsonNode* value, std::string name)
         : path_(path)
         , value_(value)
         , name_(std::move(name))
@@ -49,16 +49,21 @@ class GltfValue final : public InputPosition {
     [[nodiscard]] std::uint64_t number_or(std::uint64_t otherwise) const { return is_there() ? number() : otherwise; }
 
     /// @throws InputError if this is not text.
-    [[nodiscard]] const std::string& text() const;
+    [[nodiscard]] std::string text() const;
 
-    /// As it is.
-    [[nodiscard]] const nlohmann::json& json() const { return *value_; }
+    /// As it is written; empty if it is not there.
+    [[nodiscard]] std::string_view source() const { return value_ != nullptr ? value_->source : std::string_view(); }
+    /// Its elements or members; none if it is not there, or cannot have any.
+    [[nodiscard]] std::vector<const JsonNode*> nodes() const
+    {
+        return value_ != nullptr ? value_->children : std::vector<const JsonNode*>();
+    }
 
   private:
     [[nodiscard]] std::string position() const override;
 
     const std::filesystem::path& path_;
-    const nlohmann::json* value_;
+    const JsonNode* value_;
     std::string name_;
 };
 
@@ -81,7 +86,7 @@ class GltfContent {
     [[nodiscard]] std::string_view chunk() const { return chunk_; }
 
     /// The value of the whole text.
-    [[nodiscard]] GltfValue root() const { return {path_, &json_, ""}; }
+    [[nodiscard]] GltfValue root() const { return {path_, &json_.root(), ""}; }
 
     /// The element that a number stands for.
     /// @param list such as "accessors".
@@ -89,9 +94,17 @@ class GltfContent {
     [[nodiscard]] GltfValue named_by(const GltfValue& number, const std::string& list) const;
 
     /// All bytes of a buffer, perhaps more than its length.
-    /// @pre it is in the list of buffers.
+    /// @pre it is in the list of buffers, or added.
     [[nodiscard]] std::string_view buffer(std::size_t i) const { return buffers_[i]; }
     [[nodiscard]] std::size_t n_buffers() const { return buffers_.size(); }
+
+    /// Adds a buffer behind those of the file.
+    /// @returns its number.
+    std::size_t add_buffer(std::string bytes)
+    {
+        buffers_.emplace_back(added_.emplace_back(std::move(bytes)));
+        return buffers_.size() - 1;
+    }
 
   private:
     void take_apart(std::string_view content);
@@ -102,7 +115,8 @@ class GltfContent {
     std::string_view text_;
     std::string_view chunk_;
     std::vector<std::string_view> buffers_;
-    nlohmann::json json_;
+    std::deque<std::string> added_;
+    JsonTree json_;
 };
 
 constexpr std::size_t glb_header_bytes = 12;

@@ -15,46 +15,10 @@ namespace seamflow {
 
 namespace {
 
-constexpr std::array<std::pair<std::uint64_t, std::size_t>, 6> bytes_of_components = {
-    {{5120, 1}, {gltf_byte, 1}, {5122, 2}, {gltf_short, 2}, {gltf_int, 4}, {gltf_float, 4}}};
-
-constexpr std::array<std::pair<std::string_view, std::size_t>, 7> components_of_types = {
-    {{"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}, {"MAT2", 4}, {"MAT3", 9}, {"MAT4", 16}}};
-
-template <class Table, class Key>
-std::size_t found_in(const Table& table, const Key& key, const GltfValue& value)
-{
-    const auto found = std::ranges::find(table, key, [](const auto& row) { return row.first; });
-    if (found == table.end())
-        value.fail("is not known to glTF 2.0; export the mesh again");
-    return found->second;
-}
-
-/// The bytes of a view: the span of one element.
-GltfSpan view_of(const GltfContent& content, const GltfValue& view)
-{
-    for (const char* const extension : {"EXT_meshopt_compression", "KHR_meshopt_compression"})
-        if (view["extensions"][extension].is_there())
-            view.fail(fmt::format("is compressed by meshopt ({}); export the mesh without compression", extension));
-    static_cast<void>(content.named_by(view["buffer"], "buffers"));
-    const std::uint64_t buffer = view["buffer"].number();
-    const GltfValue length = content.root()["buffers"].at(buffer)["byteLength"];
-    const std::size_t there = content.buffer(buffer).size();
-    if (length.number() > there)
-        length.fail(fmt::format("is {}, but the buffer has only {}; it has been cut off: export or copy it again",
-                                length.number(), counted(there, "byte", "bytes")));
-    const std::uint64_t offset = view["byteOffset"].number_or(0);
-    const std::uint64_t size = view["byteLength"].number();
-    if (offset > length.number() || size > length.number() - offset)
-        view.fail(fmt::format("ends at byte {} of a buffer of {}; export the mesh again", offset + size,
-                              counted(length.number(), "byte", "bytes")));
-    return {.buffer = buffer, .offset = offset, .stride = view["byteStride"].number_or(0), .size = size, .count = 1};
-}
-
 /// The lists of a primitive's attributes, each looked up once.
 class Accessors {
   public:
-    explicit Accessors(const GltfContent& content)
+    explicit Accessors(GltfContent& content)
         : content_(content)
     {
     }
@@ -63,14 +27,20 @@ class Accessors {
     {
         const GltfValue accessor = content_.named_by(number, "accessors");
         const auto [known, is_new] = spans_.try_emplace(number.number());
-        if (is_new)
+        if (is_new && accessor["sparse"].is_there())
+            known->second = sparse_.emplace_back(sparse_of_gltf(content_, number)).dense;
+        else if (is_new)
             known->second = span_of_gltf(content_, accessor);
         return known->second;
     }
 
+    /// Those of the lists so far.
+    std::vector<GltfSparse>& sparse() { return sparse_; }
+
   private:
-    const GltfContent& content_;
+    GltfContent& content_;
     std::map<std::uint64_t, GltfSpan> spans_;
+    std::vector<GltfSparse> sparse_;
 };
 
 /// Spans of vectors, joined where they share elements.
@@ -185,7 +155,7 @@ void require_apart(const GltfContent& content, std::vector<OccupiedSpan> spans)
 /// What is found while the primitives are walked through.
 class GeometryFinder {
   public:
-    explicit GeometryFinder(const GltfContent& content)
+    explicit GeometryFinder(GltfContent& content)
         : content_(content)
         , accessors_(content)
     {
@@ -235,7 +205,7 @@ std::optional<std::size_t> GeometryFinder::normals_of(const GltfValue& attribute
     if (!number.is_there())
         return std::nullopt;
     const GltfValue accessor = content_.named_by(number, "accessors");
-    if (!accessor["sparse"].is_there() && accessor["bufferView"].is_there())
+    if (accessor["sparse"].is_there() || accessor["bufferView"].is_there())
         if (const GltfSpan& span = accessors_(number); span.component == gltf_float && span.n_components == 3 &&
                                                        span.count == positions.count && span != positions)
             return normals_.add(span, number.name());
@@ -260,9 +230,7 @@ void GeometryFinder::add(const GltfValue& primitive)
         one.indices = accessors_(number);
         one.name = number.name();
         n_corners = one.indices->count;
-        const std::uint64_t type = one.indices->component;
-        if (one.indices->n_components != 1 || (type != gltf_byte && type != gltf_short && type != gltf_int))
-            number.fail("the indices are not whole numbers of 1, 2 or 4 bytes without sign; export the mesh again");
+        require_gltf_indices(*one.indices, number);
     }
     if (one.mode == GltfPrimitive::Mode::Triangles && n_corners % 3 != 0)
         GltfValue(content_.path(), nullptr, one.name)
@@ -328,44 +296,14 @@ GltfGeometry GeometryFinder::finish()
         occupied_.push_back({list.span, list.name, true});
     for (const GltfVectors& list : geometry_.normals)
         occupied_.push_back({list.span, list.name, true});
+    geometry_.sparse = std::move(accessors_.sparse());
     require_apart(content_, std::move(occupied_));
     return std::move(geometry_);
 }
 
 }  // namespace
 
-GltfSpan span_of_gltf(const GltfContent& content, const GltfValue& accessor)
-{
-    if (accessor["sparse"].is_there())
-        accessor.fail(
-            "is sparse, which is not read for positions and indices; export the mesh without sparse accessors");
-    if (!accessor["bufferView"].is_there())
-        accessor.fail("has no bufferView and so no data; export the mesh again");
-    const GltfValue view = content.named_by(accessor["bufferView"], "bufferViews");
-    const GltfSpan bytes = view_of(content, view);
-    const GltfValue type = accessor["type"];
-    GltfSpan span = bytes;
-    span.component = accessor["componentType"].number();
-    span.n_components = found_in(components_of_types, type.text(), type);
-    span.size = span.n_components * found_in(bytes_of_components, span.component, accessor["componentType"]);
-    span.stride = bytes.stride > 0 ? bytes.stride : span.size;
-    span.count = accessor["count"].number();
-    const std::uint64_t offset = accessor["byteOffset"].number_or(0);
-    span.offset += offset;
-    if (span.stride < span.size)
-        view["byteStride"].fail(fmt::format("is {}, but the elements of {} have {} bytes; export the mesh again",
-                                            span.stride, accessor.name(), span.size));
-    if (span.count == 0)
-        accessor["count"].fail("there is no element; export the mesh again");
-    if (offset > bytes.size || bytes.size - offset < span.size ||
-        span.count - 1 > (bytes.size - offset - span.size) / span.stride)
-        accessor.fail(fmt::format("its {} do not fit into {}, which has {}; export the mesh again",
-                                  counted(span.count, "element", "elements"), view.name(),
-                                  counted(bytes.size, "byte", "bytes")));
-    return span;
-}
-
-GltfGeometry geometry_of(const GltfContent& content)
+GltfGeometry geometry_of(GltfContent& content)
 {
     GeometryFinder finder(content);
     const GltfValue meshes = content.root()["meshes"];

@@ -94,15 +94,8 @@ class GltfCorners {
     {
         if (bytes_ == nullptr)
             return i;
-        const char* const first = bytes_ + static_cast<std::size_t>(i) * primitive_.indices->stride;
-        switch (primitive_.indices->component) {
-        case gltf_byte:
-            return static_cast<unsigned char>(*first);
-        case gltf_short:
-            return from_bytes<std::uint16_t>(first, std::endian::little);
-        default:
-            return from_bytes<std::uint32_t>(first, std::endian::little);
-        }
+        return gltf_index(bytes_ + static_cast<std::size_t>(i) * primitive_.indices->stride,
+                          primitive_.indices->component);
     }
 
     const GltfPrimitive& primitive_;
@@ -173,7 +166,7 @@ PolygonMesh read_gltf_slices(const GltfContent& content, const GltfGeometry& geo
 PolygonMesh read_gltf(const std::filesystem::path& path, std::string_view file, const Slicing& slicing,
                       FaultLog* faults)
 {
-    const GltfContent content(path, file);
+    GltfContent content(path, file);
     const GltfGeometry geometry = geometry_of(content);
     const auto in_one_go = [&] { return read_gltf_in_one_go(content, geometry, faults); };
     return file.size() <= slicing.bytes

@@ -15,6 +15,7 @@
 
 #include "partition/errors.h"
 #include "partition/formats/gltf.h"
+#include "partition/formats/gltf_buffer_files.h"
 #include "partition/formats/gltf_geometry.h"
 #include "partition/formats/mesh_file.h"
 #include "partition/formats/splicing.h"
@@ -23,9 +24,6 @@
 namespace seamflow {
 
 namespace {
-
-/// Replacements in a JSON text.
-using JsonEdits = std::vector<std::pair<std::string_view, std::string>>;
 
 Point float_vector(std::string_view bytes, const GltfSpan& span, std::size_t i)
 {
@@ -143,9 +141,9 @@ Bounds bounds_in(std::string_view bytes, const GltfSpan& span, const Executor& e
 }
 
 /// Updates the numbers of a list of bounds that have changed.
-void edit_bound(JsonEdits& edits, std::string_view list, const Point& before, const Point& after)
+void edit_bound(JsonEdits& edits, const GltfValue& list, const Point& before, const Point& after)
 {
-    const std::vector<std::string_view> numbers = gltf_elements(list);
+    const std::vector<const JsonNode*> numbers = list.nodes();
     for (std::size_t k = 0; k < 3 && numbers.size() == 3; ++k) {
         const auto component = static_cast<Index>(k);
         if (before[component] == after[component])
@@ -153,13 +151,17 @@ void edit_bound(JsonEdits& edits, std::string_view list, const Point& before, co
         OutputBuffer text;
         // The sum is not -0.
         text.number(after[component] + 0.0);
-        edits.emplace_back(numbers[k], text.content());
+        edits.emplace_back(numbers[k]->source, text.content());
     }
 }
 
 /// The vectors of an accessor in a buffer that has changed; nothing for all others, good or bad.
-std::optional<GltfSpan> changed_vectors(const GltfContent& content, const NewBuffers& now, std::size_t accessor)
+std::optional<GltfSpan> changed_vectors(const GltfContent& content, const GltfGeometry& geometry, const NewBuffers& now,
+                                        std::size_t accessor)
 {
+    const auto sparse = std::ranges::find(geometry.sparse, accessor, &GltfSparse::accessor);
+    if (sparse != geometry.sparse.end() && now.bytes[sparse->dense.buffer])
+        return sparse->dense;
     try {
         const GltfSpan span = span_of_gltf(content, content.root()["accessors"].at(accessor));
         if (span.component == gltf_float && span.n_components == 3 && now.bytes[span.buffer])
@@ -171,98 +173,81 @@ std::optional<GltfSpan> changed_vectors(const GltfContent& content, const NewBuf
 }
 
 /// Of all accessors, those that no primitive of triangles names among them.
-void edit_bounds(JsonEdits& edits, const GltfContent& content, const NewBuffers& now, const Executor& exec)
+void edit_bounds(JsonEdits& edits, const GltfContent& content, const GltfGeometry& geometry, const NewBuffers& now,
+                 const Executor& exec)
 {
-    const std::vector<std::string_view> accessors = gltf_elements(gltf_member(content.text(), "accessors"));
+    const GltfValue accessors = content.root()["accessors"];
     for (std::size_t i = 0; i < accessors.size(); ++i) {
-        const std::string_view least = gltf_member(accessors[i], "min");
-        const std::string_view largest = gltf_member(accessors[i], "max");
-        if (least.empty() && largest.empty())
-            continue;
-        const auto span = changed_vectors(content, now, i);
+        const auto span = changed_vectors(content, geometry, now, i);
         if (!span)
             continue;
         const Bounds before = bounds_in(content.buffer(span->buffer), *span, exec);
         const Bounds after = bounds_in(*now.bytes[span->buffer], *span, exec);
-        edit_bound(edits, least, before.least, after.least);
-        edit_bound(edits, largest, before.largest, after.largest);
+        edit_bound(edits, accessors.at(i)["min"], before.least, after.least);
+        edit_bound(edits, accessors.at(i)["max"], before.largest, after.largest);
     }
 }
 
-std::string as_json(std::string_view text)
+/// Makes a sparse accessor one of all elements of a view.
+void edit_sparse(JsonEdits& edits, const GltfValue& accessor, std::size_t view)
 {
-    return nlohmann::json(text).dump();
+    const std::vector<const JsonNode*> members = accessor.nodes();
+    const auto goes = [&](std::size_t i) {
+        const std::string key = text_of_json(members[i]->key);
+        return key == "sparse" || key == "bufferView" || key == "byteOffset";
+    };
+    // Others go together with the comma before them.
+    edits.emplace_back(members[0]->member().substr(0, goes(0) ? std::string_view::npos : 0),
+                       fmt::format(R"("bufferView":{}{})", view, goes(0) ? "" : ","));
+    for (std::size_t i = 1; i < members.size(); ++i)
+        if (goes(i)) {
+            const std::string_view before = members[i - 1]->member();
+            const std::string_view all = members[i]->member();
+            const char* const begin = before.data() + before.size();
+            edits.emplace_back(std::string_view(begin, static_cast<std::size_t>(all.data() + all.size() - begin)), "");
+        }
 }
 
-/// The places of buffers in other files than the result.
-class BufferFiles {
-  public:
-    /// @param output to be written. @param input that was read.
-    BufferFiles(const std::filesystem::path& output, const std::filesystem::path& input);
-
-    /// A name for a buffer: that of the result with .bin, and a number where that belongs to another file.
-    std::string next_name();
-
-    /// Beside the result.
-    [[nodiscard]] std::filesystem::path place_of(const std::string& name) const { return folder_ / name; }
-
-  private:
-    std::filesystem::path folder_;
-    std::string stem_;
-    /// Those that the file which is replaced names, and nobody else.
-    std::set<std::string> replaced_;
-    int n_ = 0;
-};
-
-/// The names of the buffers of a file that are other files; none if it is no glTF file.
-std::set<std::string> names_of_buffers(const std::filesystem::path& path)
+/// Puts the elements of sparse accessors that have changed behind all that is in the buffers of their values.
+void edit_sparse_accessors(JsonEdits& edits, const GltfContent& content, const GltfGeometry& geometry, NewBuffers& now)
 {
-    std::set<std::string> names;
-    try {
-        const InputFile file{OpenFile(path)};
-        const GltfContent content(path, file.content());
-        for (std::size_t i = 0; i < content.n_buffers(); ++i)
-            if (const GltfValue uri = content.root()["buffers"].at(i)["uri"];
-                uri.is_there() && !is_gltf_data(uri.text()))
-                names.insert(gltf_name_of(uri.text()));
-    } catch (const InputError&) {
-        // There is none, or it is another kind of file.
+    const GltfValue root = content.root();
+    const std::vector<const JsonNode*> views = root["bufferViews"].nodes();
+    const auto bytes_now = [&](std::size_t i) {
+        return now.bytes[i] ? std::string_view(*now.bytes[i]) : content.buffer(i);
+    };
+    std::string more_views;
+    std::size_t n_views = views.size();
+    std::set<std::size_t> grown;
+    for (const GltfSparse& sparse : geometry.sparse) {
+        // What it lies upon may have changed, too.
+        const std::string_view dense = bytes_now(sparse.dense.buffer);
+        if (dense == dense_bytes(sparse, bytes_now))
+            continue;
+        std::string& buffer = now.of(content, sparse.values.buffer);
+        buffer.resize((buffer.size() + 3) / 4 * 4);
+        more_views += fmt::format(R"(,{{"buffer":{},"byteOffset":{},"byteLength":{}}})", sparse.values.buffer,
+                                  buffer.size(), dense.size());
+        buffer += dense;
+        grown.insert(sparse.values.buffer);
+        edit_sparse(edits, root["accessors"].at(sparse.accessor), n_views++);
     }
-    return names;
-}
-
-BufferFiles::BufferFiles(const std::filesystem::path& output, const std::filesystem::path& input)
-    : folder_(file_behind(output).parent_path())
-    , stem_(before_extension(file_behind(output).filename()).string())
-    , replaced_(names_of_buffers(output))
-{
-    std::error_code ignored;
-    for (const std::string& of_input : names_of_buffers(input))
-        std::erase_if(replaced_, [&](const std::string& name) {
-            return std::filesystem::equivalent(folder_ / name, input.parent_path() / of_input, ignored);
-        });
-}
-
-std::string BufferFiles::next_name()
-{
-    std::error_code ignored;
-    while (true) {
-        ++n_;
-        std::string name = n_ == 1 ? stem_ + ".bin" : fmt::format("{}-{}.bin", stem_, n_);
-        if (replaced_.contains(name) || !std::filesystem::exists(folder_ / name, ignored))
-            return name;
-    }
+    if (grown.empty())
+        return;
+    edits.emplace_back(views.back()->source.substr(views.back()->source.size()), more_views);
+    for (const std::size_t i : grown)
+        edits.emplace_back(root["buffers"].at(i)["byteLength"].source(), fmt::format("{}", now.bytes[i]->size()));
 }
 
 /// Writes the buffers that are in other files.
-std::vector<std::string> write_buffers(JsonEdits& edits, const OutputFile& file, const GltfContent& content,
+std::vector<std::string> write_buffers(JsonEdits& edits, OutputFile& file, const GltfContent& content,
                                        const NewBuffers& now)
 {
-    std::optional<BufferFiles> files;
+    std::optional<GltfBufferFiles> files;
     std::string names;
-    const std::vector<std::string_view> buffers = gltf_elements(gltf_member(content.text(), "buffers"));
+    const GltfValue buffers = content.root()["buffers"];
     for (std::size_t i = 0; i < buffers.size(); ++i) {
-        const GltfValue uri = content.root()["buffers"].at(i)["uri"];
+        const GltfValue uri = buffers.at(i)["uri"];
         if (!uri.is_there())
             continue;
         const std::string_view bytes = now.bytes[i] ? std::string_view(*now.bytes[i]) : content.buffer(i);
@@ -272,16 +257,14 @@ std::vector<std::string> write_buffers(JsonEdits& edits, const OutputFile& file,
         if (was_data || file.is_stream()) {
             const std::string head =
                 was_data ? uri.text().substr(0, uri.text().find(',')) : "data:application/octet-stream;base64";
-            edits.emplace_back(gltf_member(buffers[i], "uri"), as_json(gltf_data(head, bytes)));
+            edits.emplace_back(uri.source(), json_of_text(gltf_data(head, bytes)));
             continue;
         }
         if (!files)
             files.emplace(file.path(), content.path());
         const std::string name = files->next_name();
-        OutputFile buffer(files->place_of(name));
-        buffer.text(bytes);
-        buffer.commit();
-        edits.emplace_back(gltf_member(buffers[i], "uri"), as_json(gltf_uri_of(name)));
+        file.beside(files->place_of(name)).text(bytes);
+        edits.emplace_back(uri.source(), json_of_text(gltf_uri_of(name)));
         names += (names.empty() ? "" : ", ") + name;
     }
     if (names.empty())
@@ -289,39 +272,31 @@ std::vector<std::string> write_buffers(JsonEdits& edits, const OutputFile& file,
     return {fmt::format("the binary data of {} are beside it, in {}", file.path().string(), names)};
 }
 
-std::string edited(std::string_view text, JsonEdits edits)
-{
-    std::ranges::sort(edits, {}, [](const auto& edit) { return edit.first.data(); });
-    OutputBuffer now;
-    Splicer splicer(now, text);
-    for (const auto& [part, replacement] : edits)
-        splicer.exchange(part).text(replacement);
-    splicer.finish();
-    return std::string(now.content());
-}
-
 void write_binary_gltf(OutputFile& file, const GltfContent& content, std::string text, const NewBuffers& now)
 {
     constexpr std::size_t unit = 4;
     if (text != content.text()) {
-        text.resize(text.find_last_not_of(' ') + 1);
+        text.resize(text.find_last_not_of(std::string_view(" \0", 2)) + 1);
         text.resize((text.size() + unit - 1) / unit * unit, ' ');
     }
+    // From the header of the binary chunk on.
     std::string_view behind = content.file().substr(glb_header_bytes + glb_chunk_header_bytes + content.text().size());
     const auto length =
         from_bytes<std::uint32_t>(content.file().data() + 2 * sizeof(std::uint32_t), std::endian::little);
     const std::size_t n_padding = content.file().size() - length;
-    if (glb_header_bytes + glb_chunk_header_bytes + text.size() + behind.size() >
+    const bool has_changed = !now.bytes.empty() && now.bytes[0] && content.buffer(0).data() == content.chunk().data();
+    const std::size_t n_more = has_changed ? now.bytes[0]->size() - content.chunk().size() : 0;
+    if (glb_header_bytes + glb_chunk_header_bytes + text.size() + behind.size() + n_more >
         std::numeric_limits<std::uint32_t>::max())
         throw OutputError(file.path().string() +
                           ": cannot be written: it would have more than the 4 GiB of a binary glTF file");
-    write_glb_head(file, text, behind.size() - n_padding);
-    const bool has_changed = !now.bytes.empty() && now.bytes[0] && content.buffer(0).data() == content.chunk().data();
+    write_glb_head(file, text, behind.size() - n_padding + n_more);
     if (has_changed) {
-        const std::size_t head = static_cast<std::size_t>(content.chunk().data() - behind.data());
-        file.text(behind.substr(0, head));
+        file.binary(static_cast<std::uint32_t>(now.bytes[0]->size()), std::endian::little);
+        behind.remove_prefix(sizeof(std::uint32_t));
+        file.text(behind.substr(0, glb_chunk_header_bytes - sizeof(std::uint32_t)));
         file.text(*now.bytes[0]);
-        behind.remove_prefix(head + content.chunk().size());
+        behind.remove_prefix(glb_chunk_header_bytes - sizeof(std::uint32_t) + content.chunk().size());
     }
     file.text(behind);
 }
@@ -372,14 +347,15 @@ std::vector<std::string> remarks_on_what_stays(const GltfContent& content, const
 std::vector<std::string> rewrite_gltf(OutputFile& file, const std::filesystem::path& path, std::string_view content,
                                       const PolygonMesh& mesh, const Slicing& slicing, double seam_distance)
 {
-    const GltfContent gltf(path, content);
+    GltfContent gltf(path, content);
     const GltfGeometry geometry = geometry_of(gltf);
     require_floats_for_gltf(file.path(), mesh.vertices);
-    const NewBuffers now = with_surface(gltf, geometry, mesh, slicing.exec, seam_distance);
+    NewBuffers now = with_surface(gltf, geometry, mesh, slicing.exec, seam_distance);
     JsonEdits edits;
-    edit_bounds(edits, gltf, now, slicing.exec);
+    edit_bounds(edits, gltf, geometry, now, slicing.exec);
+    edit_sparse_accessors(edits, gltf, geometry, now);
     std::vector<std::string> remarks = write_buffers(edits, file, gltf, now);
-    std::string text = edited(gltf.text(), std::move(edits));
+    std::string text = edited_json(gltf.text(), std::move(edits));
     if (gltf.is_binary())
         write_binary_gltf(file, gltf, std::move(text), now);
     else

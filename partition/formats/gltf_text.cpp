@@ -1,17 +1,13 @@
 #include "partition/formats/gltf_text.h"
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 namespace seamflow {
 
 namespace {
-
-using Json = nlohmann::json;
 
 constexpr std::string_view base64_digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 
@@ -22,64 +18,6 @@ constexpr auto base64_values = [] {
         values[static_cast<unsigned char>(base64_digits[i])] = static_cast<std::uint8_t>(i);
     return values;
 }();
-
-constexpr std::string_view json_blanks = " \t\r\n";
-
-/// Walks through the parts of a JSON text.
-class JsonWalk {
-  public:
-    explicit JsonWalk(std::string_view text)
-        : text_(text)
-    {
-        skip_blanks();
-    }
-
-    [[nodiscard]] bool is_at(char c) const { return next_ < text_.size() && text_[next_] == c; }
-
-    /// Skips one character and blanks behind it.
-    void skip()
-    {
-        ++next_;
-        skip_blanks();
-    }
-
-    /// The value that begins here, with the blanks behind it skipped.
-    std::string_view value()
-    {
-        const std::size_t begin = next_;
-        int depth = 0;
-        do {
-            const bool opens = is_at('{') || is_at('[');
-            const bool closes = is_at('}') || is_at(']');
-            depth += opens ? 1 : closes ? -1 : 0;
-            if (is_at('"'))
-                skip_string();
-            else if (opens || closes)
-                ++next_;
-            else
-                skip_to(depth > 0 ? "\"{}[]" : ",}] \t\r\n");
-        } while (depth > 0 && next_ < text_.size());
-        const std::string_view value = text_.substr(begin, next_ - begin);
-        skip_blanks();
-        return value;
-    }
-
-  private:
-    void skip_blanks() { next_ = std::min(text_.find_first_not_of(json_blanks, next_), text_.size()); }
-
-    void skip_to(const char* characters) { next_ = std::min(text_.find_first_of(characters, next_), text_.size()); }
-
-    void skip_string()
-    {
-        ++next_;
-        for (skip_to("\"\\"); is_at('\\'); skip_to("\"\\"))
-            next_ += 2;
-        next_ = std::min(next_ + 1, text_.size());
-    }
-
-    std::string_view text_;
-    std::size_t next_ = 0;
-};
 
 }  // namespace
 
@@ -150,51 +88,6 @@ std::string gltf_name_of(std::string_view uri)
         i += is_escape ? 2 : 0;
     }
     return name;
-}
-
-std::vector<GltfMember> gltf_members(std::string_view object)
-{
-    constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
-    if (object.starts_with(byte_order_mark))
-        object.remove_prefix(byte_order_mark.size());
-    std::vector<GltfMember> members;
-    JsonWalk walk(object);
-    if (!walk.is_at('{'))
-        return members;
-    for (walk.skip(); walk.is_at('"');) {
-        const std::string_view key = walk.value();
-        walk.skip();
-        members.push_back({Json::parse(key.begin(), key.end()).get<std::string>(), walk.value()});
-        if (walk.is_at(','))
-            walk.skip();
-    }
-    return members;
-}
-
-std::string_view gltf_member(std::string_view object, std::string_view key)
-{
-    std::string_view found;
-    // Of members with the same name the last one counts, as for the parser.
-    for (const GltfMember& member : gltf_members(object))
-        if (member.key == key)
-            found = member.value;
-    return found;
-}
-
-std::vector<std::string_view> gltf_elements(std::string_view array)
-{
-    std::vector<std::string_view> elements;
-    JsonWalk walk(array);
-    if (!walk.is_at('['))
-        return elements;
-    for (walk.skip(); !walk.is_at(']');) {
-        elements.push_back(walk.value());
-        if (elements.back().empty())
-            break;
-        if (walk.is_at(','))
-            walk.skip();
-    }
-    return elements;
 }
 
 }  // namespace seamflow

@@ -3,9 +3,8 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <vector>
 
-/// Pieces of the text of glTF files: URIs, and JSON as it is written.
+/// URIs in glTF files.
 namespace seamflow {
 
 /// Whether a buffer is in the file itself, as text, rather than in another.
@@ -21,18 +20,5 @@ std::optional<std::string> bytes_of_gltf_base64(std::string_view text);
 /// A relative URI for the name of a file, and the name of such a URI.
 std::string gltf_uri_of(std::string_view name);
 std::string gltf_name_of(std::string_view uri);
-
-/// The parts of a JSON text that is known to be correct, as they are written.
-struct GltfMember {
-    std::string key;
-    std::string_view value;
-};
-
-/// The members of an object, or nothing for other values.
-std::vector<GltfMember> gltf_members(std::string_view object);
-/// The value of a member; empty if there is none.
-std::string_view gltf_member(std::string_view object, std::string_view key);
-/// The elements of an array, or nothing for other values.
-std::vector<std::string_view> gltf_elements(std::string_view array);
 
 }  // namespace seamflow

@@ -100,6 +100,7 @@ OutputFile::OutputFile(const std::filesystem::path& path, Naming naming)
         return;
     }
     target_ = file_behind(path);
+    folder_ = folder_of(target_);
     struct stat old = {};
     const bool replaces = ::stat(target_.c_str(), &old) == 0;
     if (replaces && S_ISDIR(old.st_mode))
@@ -117,7 +118,7 @@ OutputFile::OutputFile(const std::filesystem::path& path, Naming naming)
 void OutputFile::open(Naming naming)
 {
     if (naming == Naming::Late)
-        descriptor_ = open_unnamed(folder_of(target_));
+        descriptor_ = open_unnamed(folder_);
     if (descriptor_ >= 0)
         return;
     do {
@@ -240,7 +241,7 @@ void OutputFile::slices(Index n, const Executor& exec, const std::function<void(
 
 /// A temporary name: a file can replace another only by being renamed. Once it is given, nothing may fail before that
 /// is recorded.
-void OutputFile::give_name()
+void OutputFile::give_temporary_name()
 {
     const std::string source = name_of_descriptor(descriptor_);
     std::filesystem::path name;
@@ -254,10 +255,9 @@ void OutputFile::give_name()
     temporary_ = std::move(name);
 }
 
-void OutputFile::commit()
+/// All that may fail.
+void OutputFile::finish()
 {
-    // Allocations come first: once the file has its name, it exists, and nothing may fail any more.
-    const std::filesystem::path folder = folder_of(target_);
     flush();
     if (gzip_ != nullptr)
         put_unpacked(gzip_->tail());
@@ -266,13 +266,34 @@ void OutputFile::commit()
     if (const int error = synchronise(descriptor_); error != 0)
         fail(error);
     if (temporary_.empty())
-        give_name();
+        give_temporary_name();
     if (::close(std::exchange(descriptor_, -1)) != 0)
         fail(errno);
+}
+
+/// Once the file has its name, it exists, and nothing may fail any more: without allocations.
+void OutputFile::take_name()
+{
     if (::rename(temporary_.c_str(), target_.c_str()) != 0)
         fail(errno);
     temporary_.clear();
-    synchronise_folder(folder);
+    synchronise_folder(folder_);
+}
+
+OutputFile& OutputFile::beside(const std::filesystem::path& path)
+{
+    return *beside_.emplace_back(std::make_unique<OutputFile>(path));
+}
+
+void OutputFile::commit()
+{
+    finish();
+    for (const auto& other : beside_)
+        other->finish();
+    for (const auto& other : beside_)
+        other->take_name();
+    if (!is_stream_)
+        take_name();
 }
 
 }  // namespace seamflow

@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 #include <string_view>
+#include <vector>
 
 #include "partition/executor.h"
 #include "partition/io/byte_writer.h"
@@ -53,13 +54,20 @@ class OutputFile final : public ByteWriter {
     /// Writes n consecutive slices, each of which `make` puts into a buffer; several are made and written at a time.
     void slices(Index n, const Executor& exec, const std::function<void(Index slice, OutputBuffer& buffer)>& make);
 
-    /// Writes what is left to the disk and gives the file its name. To be called once, at the end.
+    /// Begins another file, which `commit` of this one writes and names with it.
+    /// @pre this is not standard output.
+    OutputFile& beside(const std::filesystem::path& path);
+
+    /// Writes what is left to the disk and gives the file its name; those beside it get theirs just before. To be
+    /// called once, at the end.
     void commit();
 
   private:
     [[noreturn]] void fail(int error) const;
     void open(Naming naming);
-    void give_name();
+    void give_temporary_name();
+    void finish();
+    void take_name();
     void flush();
     void put(std::string_view bytes);
     void put_unpacked(std::string_view bytes);
@@ -68,6 +76,7 @@ class OutputFile final : public ByteWriter {
 
     std::filesystem::path path_;
     std::filesystem::path target_;
+    std::filesystem::path folder_;
     /// Empty as long as the file has no name.
     std::filesystem::path temporary_;
     int descriptor_ = -1;
@@ -76,6 +85,7 @@ class OutputFile final : public ByteWriter {
     std::unique_ptr<GzipMember> gzip_;
     /// Number of bytes handed to the system.
     std::size_t n_written_ = 0;
+    std::vector<std::unique_ptr<OutputFile>> beside_;
 };
 
 }  // namespace seamflow

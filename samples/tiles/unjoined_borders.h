@@ -9,8 +9,9 @@
 namespace seamflow {
 
 /// Holds vertices where borders of tiles meet but are not joined: three sheets, faces turned round, other edges on the
-/// two sides of a border, or tiles that overlap. They would come apart, because each tile moves its own. A border or non-manifold vertex of one tile is held with all vertices at its
-/// place if another tile has a vertex there that has another owner.
+/// two sides of a border, or tiles that overlap. They would come apart, because each tile moves its own. A border or
+/// non-manifold vertex of one tile is held with all vertices at its place if another tile has a vertex there that has
+/// another owner.
 /// @param folder with owners, and positions of step 0 at the places of these. @param boxes around these, for
 /// each tile.
 /// @returns how many vertices are held, of all tiles.

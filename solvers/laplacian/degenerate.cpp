@@ -27,8 +27,7 @@ Index edge_without_length(const PolygonMesh& mesh, Index f, Matters&& matters)
     for (std::size_t k = 0; k < corners.size(); ++k) {
         const Index start = corners[k];
         const Index end = corners[k + 1 < corners.size() ? k + 1 : 0];
-        if (!has_length(mesh.vertices.row(end) - mesh.vertices.row(start)) &&
-            (matters(start) || matters(end)))
+        if (!has_length(mesh.vertices.row(end) - mesh.vertices.row(start)) && (matters(start) || matters(end)))
             return static_cast<Index>(k);
     }
     return -1;
@@ -52,7 +51,8 @@ Index edge_that_moves_without_length(const PolygonMesh& mesh, const Topology& to
 [[noreturn]] void refuse_face(Index f, const std::string& instead)
 {
     throw InputError("face " + std::to_string(f) +
-                     " (numbered from 0) has no area, up to rounding: remove it, move one of its vertices, or " + instead);
+                     " (numbered from 0) has no area, up to rounding: remove it, move one of its vertices, or " +
+                     instead);
 }
 
 bool may_move(const PolygonMesh& mesh, const Topology& topology, Index f)

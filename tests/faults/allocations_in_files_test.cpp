@@ -1,5 +1,7 @@
 // Reading, cutting and writing with every single allocation failing.
 
+#include <fmt/format.h>
+
 #include "engine/state/checkpoint.h"
 #include "partition/cut/cut.h"
 #include "partition/formats/index_files.h"
@@ -7,6 +9,7 @@
 #include "partition/topology.h"
 #include "tests/faults/every_allocation.h"
 #include "tests/faults/small_runs.h"
+#include "tests/support/gltf_files.h"
 #include "tests/support/temporary_directory.h"
 
 using namespace seamflow;
@@ -40,11 +43,32 @@ const std::string stl = "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\n
                         "endfacet\nfacet normal 0 0 1\nouter loop\nvertex 1 0 0\nvertex 1 1 0\nvertex 0 1 0\nendloop\n"
                         "endfacet\nendsolid a\n";
 
+/// The square twice: with normals between its positions, and with sparse positions.
+test::GltfMaker gltf()
+{
+    test::GltfMaker maker;
+    const int corners = maker.indices(std::vector<unsigned short>{0, 1, 2, 0, 2, 3});
+    const int view = maker.view(
+        test::bytes_of(std::vector<float>{0, 0, 0, 0, 0, 1, 1, 0, 0, 0, 0, 1, 1, 1, 0, 0, 0, 1, 0, 1, 0, 0, 0, 1}),
+        R"("byteStride":24)");
+    const int positions = maker.accessor(view, 5126, 4, "VEC3", R"("min":[0,0,0],"max":[1,1,0])");
+    const int normals = maker.accessor(view, 5126, 4, "VEC3", R"("byteOffset":12)");
+    const int sparse = maker.accessor(-1, 5126, 4, "VEC3",
+                                      maker.sparse(std::vector<unsigned char>{1, 2, 3}, {2, 0, 0, 2, 2, 0, 0, 2, 0}));
+    maker.mesh({fmt::format(R"({{"attributes":{{"POSITION":{},"NORMAL":{}}},"indices":{},"targets":[{{}}]}})",
+                            positions, normals, corners),
+                fmt::format(R"({{"attributes":{{"POSITION":{}}},"mode":6}})", sparse)});
+    maker.more = R"("materials":[{}])";
+    return maker;
+}
+
 /// Files of every format and encoding.
 std::vector<fs::path> mesh_files(const test::TemporaryDirectory& directory)
 {
-    std::vector<fs::path> files{directory.with("a.obj", obj), directory.with("a.off", off),
-                                directory.with("a.ply", ply), directory.with("a.stl", stl)};
+    std::vector<fs::path> files{directory.with("a.glb", gltf().glb()), directory.with("a.gltf", gltf().text("a.bin")),
+                                directory.with("a.obj", obj),          directory.with("a.off", off),
+                                directory.with("a.ply", ply),          directory.with("a.stl", stl)};
+    static_cast<void>(directory.with("a.bin", gltf().bytes()));
     const PolygonMesh mesh = read_mesh(files.back()).mesh;
     const auto add = [&](const char* name, FileKind kind) {
         files.push_back(directory / name);
@@ -111,7 +135,11 @@ TEST_CASE("writing a file of any format, as itself and anew: it is whole, or as 
             CHECK(results.n_files() == n);
             CHECK(test::content_of(target) == "old");
         };
-        const auto begin_anew = [&] { static_cast<void>(results.with(target.filename(), "old")); };
+        const auto begin_anew = [&] {
+            for (const auto& old : fs::directory_iterator(results.path()))
+                fs::remove(old);
+            static_cast<void>(results.with(target.filename(), "old"));
+        };
         for (const bool as_itself : {true, false}) {
             CAPTURE(as_itself);
             fail_every_allocation({.run =
@@ -123,7 +151,8 @@ TEST_CASE("writing a file of any format, as itself and anew: it is whole, or as 
                                        },
                                    .result =
                                        [&] {
-                                           const std::string content = test::content_of(target);
+                                           const std::string content =
+                                               test::content_of(target) + test::content_of(results / "out.bin");
                                            begin_anew();
                                            return content;
                                        },

@@ -192,6 +192,13 @@ void make_gltf(const std::filesystem::path& root)
     const std::string data = gltf_data("data:application/octet-stream;base64", maker.bytes());
     text.add("all.gltf", maker.text(data));
     binary.add("data.glb", GltfMaker::glb(maker.text(data), "chunk"));
+    GltfMaker sparse;
+    sparse.indices(std::vector<unsigned char>{0, 1, 2});
+    for (const int base : {sparse.view(bytes_of(std::vector<float>{0, 0, 0, 1, 0, 0, 0, 1, 0})), -1})
+        sparse.accessor(base, 5126, 3, "VEC3",
+                        sparse.sparse(std::vector<unsigned char>{1, 2}, {2, 0, 0, 0, 2, 0}) + R"(,"min":[0,0,0])");
+    sparse.mesh({R"({"attributes":{"POSITION":1,"NORMAL":2},"indices":0})"});
+    binary.add("sparse.glb", sparse.glb());
     const std::vector<std::string> words = {R"(\"accessors\":[)",
                                             R"(\"attributes\":{)",
                                             R"(\"bufferView\":)",

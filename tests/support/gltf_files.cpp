@@ -38,9 +38,21 @@ int GltfMaker::view(std::string_view bytes, const std::string& others)
 
 int GltfMaker::accessor(int view, int component, int count, const std::string& type, const std::string& others)
 {
-    add_to_list(accessors_, fmt::format(R"({{"bufferView":{},"componentType":{},"count":{},"type":"{}"{}{}}})", view,
-                                        component, count, type, others.empty() ? "" : ",", others));
+    add_to_list(accessors_, fmt::format(R"({{{}"componentType":{},"count":{},"type":"{}"{}{}}})",
+                                        view < 0 ? "" : fmt::format(R"("bufferView":{},)", view), component, count,
+                                        type, others.empty() ? "" : ",", others));
     return n_accessors_++;
+}
+
+std::string GltfMaker::sparse(int indices, std::size_t width, std::size_t count, int values)
+{
+    return fmt::format(R"("sparse":{{"count":{},"indices":{{"bufferView":{},"componentType":{}}},)"
+                       R"("values":{{"bufferView":{}}}}})",
+                       count, indices,
+                       width == 1   ? 5121
+                       : width == 2 ? 5123
+                                    : 5125,
+                       values);
 }
 
 int GltfMaker::vectors(const std::vector<float>& numbers)

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <initializer_list>
 #include <string>
 #include <string_view>
@@ -22,7 +23,7 @@ class GltfMaker {
     /// @returns its number.
     int view(std::string_view bytes, const std::string& others = "");
 
-    /// @param others of its members, such as "\"min\":[0]".
+    /// @param view -1: none. @param others of its members, such as "\"min\":[0]".
     /// @returns its number.
     int accessor(int view, int component, int count, const std::string& type, const std::string& others = "");
 
@@ -32,6 +33,15 @@ class GltfMaker {
     int indices(const std::vector<unsigned char>& numbers) { return scalars(numbers, 5121); }
     int indices(const std::vector<unsigned short>& numbers) { return scalars(numbers, 5123); }
     int indices(const std::vector<unsigned int>& numbers) { return scalars(numbers, 5125); }
+
+    /// The member of an accessor that replaces some of its elements.
+    /// @param indices of these. @param values by which.
+    template <class Number>
+    std::string sparse(const std::vector<Number>& indices, const std::vector<float>& values)
+    {
+        const int first = view(bytes_of(indices));
+        return sparse(first, sizeof(Number), indices.size(), view(bytes_of(values)));
+    }
 
     /// Begins a mesh of these primitives, each an object in JSON.
     void mesh(std::initializer_list<std::string> primitives);
@@ -55,6 +65,8 @@ class GltfMaker {
     {
         return accessor(view(bytes_of(numbers)), component, static_cast<int>(numbers.size()), "SCALAR");
     }
+
+    static std::string sparse(int indices, std::size_t width, std::size_t count, int values);
 
     std::string bytes_;
     std::string views_;

@@ -37,7 +37,7 @@ Numbers face(const PolygonMesh& mesh, Index f)
     return {mesh.face(f).begin(), mesh.face(f).end()};
 }
 
-const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+const std::string square_of_obj = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 
 }  // namespace
 
@@ -109,7 +109,7 @@ TEST_CASE("binary PLY: a coordinate that is no number is noted with its element"
 TEST_CASE("sound files have no faults; what is no mesh, or cut off, is refused as ever")
 {
     const test::TemporaryDirectory directory;
-    std::ofstream(directory / "a.obj") << square << "f 1 2 3 4\n";
+    std::ofstream(directory / "a.obj") << square_of_obj << "f 1 2 3 4\n";
     FaultLog faults;
     CHECK(read_faulty_mesh(directory / "a.obj", faults).mesh.n_faces() == 1);
     CHECK(faults.count == 0);
@@ -121,7 +121,7 @@ TEST_CASE("sound files have no faults; what is no mesh, or cut off, is refused a
 
 TEST_CASE("messages are kept up to a number, and all faults are counted")
 {
-    std::string text = square;
+    std::string text = square_of_obj;
     for (int i = 0; i < 2000; ++i)
         text += "f 1 1 2\n";
     const FaultyReading reading = read_faulty("a.obj", text);

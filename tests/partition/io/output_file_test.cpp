@@ -52,6 +52,29 @@ TEST_CASE("without commit nothing remains, and what was there stays")
     CHECK(test::content_of(directory / "a") == "old");
 }
 
+TEST_CASE("a file beside another appears with it, and not before")
+{
+    const test::TemporaryDirectory directory;
+    for (const bool commits : {false, true}) {
+        OutputFile file(directory / "a");
+        file.text("first");
+        file.beside(directory / "b").text("second");
+        file.beside(directory / "c").text("third");
+        CHECK(directory.n_files() == 0);
+        if (commits)
+            file.commit();
+    }
+    CHECK(directory.n_files() == 3);
+    CHECK(test::content_of(directory / "a") == "first");
+    CHECK(test::content_of(directory / "b") == "second");
+    CHECK(test::content_of(directory / "c") == "third");
+    // One that cannot be written keeps the others back.
+    fs::create_directory(directory / "folder");
+    OutputFile file(directory / "a");
+    CHECK_THROWS_AS(file.beside(directory / "folder"), OutputError);
+    CHECK(directory.n_files() == 4);
+}
+
 TEST_CASE("a file that is replaced hands on its permissions")
 {
     const test::TemporaryDirectory directory;

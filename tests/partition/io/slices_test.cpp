@@ -56,15 +56,15 @@ PolygonMesh read(FileFormat format, std::string_view content, const Slicing& sli
 }
 
 /// What comes of reading a file.
-struct Reading {
+struct Outcome {
     PolygonMesh mesh;
     std::vector<std::string> messages;
 };
 
 /// @param notes whether faults are noted.
-Reading outcome_of(FileFormat format, std::string_view content, const Slicing& slicing, bool notes)
+Outcome outcome_of(FileFormat format, std::string_view content, const Slicing& slicing, bool notes)
 {
-    Reading reading;
+    Outcome reading;
     FaultLog faults;
     try {
         reading.mesh = read(format, content, slicing, notes ? &faults : nullptr);
@@ -89,8 +89,8 @@ void check_reading(FileFormat format, std::string_view content, std::size_t byte
     CAPTURE(bytes);
     CAPTURE(content);
     for (const bool notes : {false, true}) {
-        const Reading whole = outcome_of(format, content, in_one_go, notes);
-        const Reading sliced = outcome_of(format, content, {last_slice_first, bytes}, notes);
+        const Outcome whole = outcome_of(format, content, in_one_go, notes);
+        const Outcome sliced = outcome_of(format, content, {last_slice_first, bytes}, notes);
         CHECK(sliced.messages == whole.messages);
         CHECK(same_bits(sliced.mesh, whole.mesh));
     }

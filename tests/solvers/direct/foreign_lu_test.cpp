@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include <Eigen/LU>
@@ -211,5 +212,47 @@ TEST_CASE("nearly singular matrices are solved as well as that goes, and said to
         const Columns solution = solved(*solver, nearly_singular, right_hand_side);
         CHECK((dense(pattern, nearly_singular) * solution - right_hand_side).cwiseAbs().maxCoeff() < 1e-14);
         CHECK_FALSE(is_nearly_singular(regular));
+    }
+}
+
+TEST_CASE("one pivot that is next to nothing is enough, wherever it is")
+{
+    for (MakeLu* const make : foreign_lu()) {
+        CAPTURE(make == &make_eigen_lu);
+        const SparsePattern block = make_pattern(2, {{0, 0}, {0, 1}, {1, 0}, {1, 1}});
+        const SparsePattern pattern = repeated(block, 3);
+        const auto solver = make(pattern);
+        for (std::size_t place = 0; place < 3; ++place) {
+            CAPTURE(place);
+            std::vector<double> values{2.0, 1.0, 1.0, 2.0, 2.0, 1.0, 1.0, 2.0, 2.0, 1.0, 1.0, 2.0};
+            CHECK_FALSE(factorised(*solver, values).is_nearly_singular());
+            std::fill_n(values.begin() + static_cast<std::ptrdiff_t>(4 * place), 3, 1.0);
+            values[4 * place + 3] = 1.0 + 1e-15;
+            CHECK(factorised(*solver, values).is_nearly_singular());
+        }
+    }
+}
+
+TEST_CASE("equations in any units have the same solution, and are no more singular")
+{
+    for (MakeLu* const make : foreign_lu()) {
+        CAPTURE(make == &make_eigen_lu);
+        RandomNumbers random(7);
+        const Index n = 40;
+        const SparsePattern pattern = random_pattern(n, random);
+        const auto values = random_values(pattern, random);
+        const Columns right_hand_side = random_columns(n, random);
+        auto in_units = values;
+        Columns right_hand_side_in_units = right_hand_side;
+        const auto unit = [](Index row) { return std::ldexp(1.0, 7 * (row % 20)); };
+        for (std::size_t i = 0; i < values.size(); ++i)
+            in_units[i] *= unit(pattern.rows[i]);
+        for (Index row = 0; row < n; ++row)
+            right_hand_side_in_units.row(row) *= unit(row);
+        const auto solver = make(pattern);
+        const auto factor = factorised(*solver, in_units);
+        CHECK_FALSE(factor.is_nearly_singular());
+        const Columns solution = solved(factor, right_hand_side_in_units);
+        CHECK((dense(pattern, values) * solution - right_hand_side).cwiseAbs().maxCoeff() < 1e-12);
     }
 }

@@ -1,0 +1,84 @@
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "partition/formats/gltf_content.h"
+#include "partition/io/byte_order.h"
+
+namespace seamflow {
+
+/// Where the elements of an accessor are: `size` bytes each, `stride` apart, from byte `offset` of a buffer on. They
+/// are known to be there.
+struct GltfSpan {
+    std::size_t buffer = 0;
+    std::size_t offset = 0;
+    std::size_t stride = 0;
+    std::size_t size = 0;
+    std::size_t count = 0;
+    /// As the file numbers types, see below.
+    std::uint64_t component = 0;
+    std::size_t n_components = 0;
+
+    /// The bytes from the first to the last.
+    [[nodiscard]] std::size_t end() const { return offset + (count - 1) * stride + size; }
+
+    friend bool operator==(const GltfSpan&, const GltfSpan&) = default;
+};
+
+inline constexpr std::uint64_t gltf_byte = 5121;
+inline constexpr std::uint64_t gltf_short = 5123;
+inline constexpr std::uint64_t gltf_int = 5125;
+inline constexpr std::uint64_t gltf_float = 5126;
+
+/// The number that an element of indices has, unsigned and of 1, 2 or 4 bytes.
+/// @param bytes of the element.
+inline std::uint32_t gltf_index(const char* bytes, std::uint64_t component)
+{
+    switch (component) {
+    case gltf_byte:
+        return static_cast<unsigned char>(*bytes);
+    case gltf_short:
+        return from_bytes<std::uint16_t>(bytes, std::endian::little);
+    default:
+        return from_bytes<std::uint32_t>(bytes, std::endian::little);
+    }
+}
+
+/// Checks the type of indices.
+/// @throws InputError naming `name` if they are of any other type.
+void require_gltf_indices(const GltfSpan& span, const GltfValue& name);
+
+/// The elements of an accessor.
+/// @throws InputError naming the accessor or the view if it is not within its buffer, or cannot be used: compressed,
+///         sparse or without data.
+GltfSpan span_of_gltf(const GltfContent& content, const GltfValue& accessor);
+
+/// An accessor some of whose elements are replaced by values that are listed elsewhere.
+struct GltfSparse {
+    /// Its number.
+    std::size_t accessor = 0;
+    /// The elements before; nothing: zeros.
+    std::optional<GltfSpan> base;
+    /// Of the elements that are replaced, ascending.
+    GltfSpan indices;
+    GltfSpan values;
+    /// All elements one behind the other, in a buffer which is not in the file.
+    GltfSpan dense;
+};
+
+/// Finds the elements of a sparse accessor and gives them a buffer, see GltfContent::add_buffer.
+/// @param number of the accessor. @throws InputError as span_of_gltf; also for indices that do not ascend or are out of
+///         range.
+GltfSparse sparse_of_gltf(GltfContent& content, const GltfValue& number);
+
+/// The bytes of GltfSparse::dense.
+/// @param buffer the bytes of each buffer of the file.
+std::string dense_bytes(const GltfSparse& sparse, const std::function<std::string_view(std::size_t)>& buffer);
+
+}  // namespace seamflow

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <deque>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+/// JSON texts of glTF files, as they are written.
+namespace seamflow {
+
+/// A value in a JSON text.
+struct JsonNode {
+    std::string_view source;
+    /// With its quotation marks; empty if this is no member of an object.
+    std::string_view key = {};
+    /// The elements of an array, the values of an object.
+    std::vector<const JsonNode*> children = {};
+
+    [[nodiscard]] bool is_object() const { return source.front() == '{'; }
+    [[nodiscard]] bool is_array() const { return source.front() == '['; }
+    [[nodiscard]] bool is_text() const { return source.front() == '"'; }
+
+    /// With the key, if there is one.
+    [[nodiscard]] std::string_view member() const
+    {
+        const char* const begin = key.empty() ? source.data() : key.data();
+        return {begin, static_cast<std::size_t>(source.data() + source.size() - begin)};
+    }
+};
+
+/// A JSON text taken apart. It goes away without taking memory, and without recursion, which nlohmann's does not.
+class JsonTree {
+  public:
+    /// No value.
+    JsonTree() = default;
+    /// @param text must outlive this object; it ends at a zero byte. @throws nlohmann::json::exception if it is not
+    /// JSON.
+    explicit JsonTree(std::string_view text);
+
+    /// @pre there is a value.
+    [[nodiscard]] const JsonNode& root() const { return nodes_.front(); }
+
+  private:
+    std::deque<JsonNode> nodes_;
+};
+
+/// The text that a string in quotation marks stands for.
+std::string text_of_json(std::string_view source);
+
+/// The same text as JSON.
+std::string json_of_text(std::string_view text);
+
+/// Parts of a JSON text, which may be empty, and what replaces them. No two begin at the same place.
+using JsonEdits = std::vector<std::pair<std::string_view, std::string>>;
+
+/// The text with its parts replaced.
+std::string edited_json(std::string_view text, JsonEdits edits);
+
+}  // namespace seamflow
