@@ -16,7 +16,7 @@ namespace seamflow {
 struct Weld {
     /// The same faces, of the `first` vertices only. A merged vertex lies at the mean of its copies.
     PolygonMesh mesh;
-    /// Of that mesh.
+    /// The topology of `mesh`.
     Topology topology;
     /// #V: the lowest of the vertices that each was merged with; its own number if it was not merged.
     std::vector<Index> first;

@@ -18,7 +18,7 @@ namespace seamflow {
 /// Columns whose data are at the same vertices.
 struct FieldGroup {
     std::vector<Eigen::Index> columns;
-    /// #V: 1 where there are none.
+    /// #V: 1 at vertices without data.
     std::vector<std::uint8_t> lacks;
     Index n_lacking = 0;
 };
@@ -59,7 +59,7 @@ class ScaledFields {
 
     [[nodiscard]] Eigen::MatrixXd in_units() const;
 
-    /// Puts them where they came from.
+    /// Writes the values back to the columns of the group, in their own units; vertices without data keep theirs.
     void write(const FieldGroup& group, Eigen::MatrixXd& fields) const;
 
   private:

@@ -42,9 +42,9 @@ class LimitedComponents {
     /// Per component: its vertices, ascending; whether it encloses a volume.
     IndexLists vertices_;
     std::vector<std::uint8_t> is_closed_;
-    /// #V by 3: at first.
+    /// #V by 3: the positions before the first step.
     Points first_;
-    /// Per component, in the last result.
+    /// Per component: the factor by which displacements were multiplied in the last result.
     std::vector<double> factors_;
 };
 

@@ -77,7 +77,7 @@ class Rescaling {
     SurfaceComponents components_;
     /// The lowest vertex of each component.
     std::vector<Index> origins_;
-    /// At first, one for each component.
+    /// The extent of each component before the first step.
     std::vector<Extent> first_;
     /// How many components the last call left as they were.
     Index n_left_ = 0;

@@ -113,7 +113,7 @@ auto option_table(Options& options)
                        "file is that of a property of INPUT, a .ply. Not for sweeps."}),
         row(direction, {"direction", "--direction", group::kept, concern::motion,
                         "vertices move along this direction only; with z, x and y of a terrain stay bit for bit\n"
-                        "normal is that of each vertex before the step."}),
+                        "normal is that of each vertex after the step."}),
         row(weld, {"weld", "--weld", group::kept, 0,
                    "copies of vertices along seams, at most this far apart, move as one [at equal places]\n"
                    "A seam is where edges of one face each coincide, for example along those of a texture.",

@@ -9,9 +9,9 @@ namespace seamflow {
 namespace concern {
 constexpr unsigned sub_meshes = 1U;
 constexpr unsigned sweeps = 2U;
-/// Sweeps are taken because of it.
+/// An option that makes sweeps the way of taking steps, where nothing else is asked for.
 constexpr unsigned implies_sweeps = 4U;
-/// The method: no preset can go with it.
+/// An option of the paper's method, which no preset can be combined with.
 constexpr unsigned method = 8U;
 /// Factorisations of sub-meshes.
 constexpr unsigned factors = 16U;

@@ -74,7 +74,7 @@ DealtMesh dealt_mesh(Unpacker& message)
     dealt.topology.oriented = is_oriented;
     dealt.topology.kind = message.get_all<VertexKind>();
     dealt.topology.fixed = message.get_all<std::uint8_t>();
-    dealt.is_told = message.get_all<std::uint8_t>();
+    dealt.is_sent = message.get_all<std::uint8_t>();
     dealt.curvature = message.get_all<double>();
     dealt.options.motion.strength = message.get_all<double>();
     dealt.options.motion.attachment_weights = message.get_all<double>();
@@ -90,13 +90,13 @@ Dealer::Dealer(const PolygonMesh& mesh, const Topology& topology, std::span<cons
     , curvature_(std::move(curvature))
     , faces_(faces_by_label(labels, n_parts, run_in_parallel))
     , holder_at_(usize(mesh.n_vertices()), -1)
-    , teller_(holder_at_)
+    , sender_(holder_at_)
     , knows_face_(usize(mesh.n_faces()), -1)
     , knows_vertex_(usize(mesh.n_vertices()), -1)
     , meets_vertex_(usize(mesh.n_vertices()), -1)
     , place_(usize(mesh.n_vertices()), 0)
     , known_vertices_(static_cast<std::size_t>(n_ranks))
-    , told_vertices_(known_vertices_.size())
+    , sent_vertices_(known_vertices_.size())
 {
     // A sub-mesh goes where its middle face is in a mesh that is divided equally.
     double before = 0.0;
@@ -153,18 +153,18 @@ void Dealer::deal(int rank, Packer& message)
             sub_meshes.push_back(labels_[f]);
         for (const Index v : mesh_->face(f)) {
             meets_vertex_[v] = rank;
-            if (holders_[labels_[f]] == rank && teller_[v] < 0)
-                teller_[v] = rank;
+            if (holders_[labels_[f]] == rank && sender_[v] < 0)
+                sender_[v] = rank;
         }
     }
     sort_unique(sub_meshes);
     std::vector<Index> vertices = all_of(meets_vertex_, rank);
     std::vector<Index> own_vertices;
-    std::vector<std::uint8_t> is_told;
+    std::vector<std::uint8_t> is_sent;
     for (const Index v : vertices) {
-        place_[v] = static_cast<Index>(is_told.size());
-        is_told.push_back(teller_[v] == rank ? 1 : 0);
-        if (is_told.back() != 0)
+        place_[v] = static_cast<Index>(is_sent.size());
+        is_sent.push_back(sender_[v] == rank ? 1 : 0);
+        if (is_sent.back() != 0)
             own_vertices.push_back(v);
     }
 
@@ -192,12 +192,12 @@ void Dealer::deal(int rank, Packer& message)
     message.put(topology_->oriented);
     put_rows_of(topology_->kind, vertices, message);
     put_rows_of(topology_->fixed, vertices, message);
-    message.put_all(std::span<const std::uint8_t>(is_told));
+    message.put_all(std::span<const std::uint8_t>(is_sent));
     put_rows_of(curvature_, vertices, message);
     put_rows_of(options_->motion.strength, vertices, message);
     put_rows_of(options_->motion.attachment_weights, vertices, message);
     known_vertices_[rank] = std::move(vertices);
-    told_vertices_[rank] = std::move(own_vertices);
+    sent_vertices_[rank] = std::move(own_vertices);
 }
 
 }  // namespace seamflow

@@ -20,7 +20,7 @@ struct DealtMesh {
     /// #V, ascending: the vertices of the whole mesh.
     std::vector<Index> vertex_numbers;
     /// #V: 1 where rank 0 gets the position of the vertex from here.
-    std::vector<std::uint8_t> is_told;
+    std::vector<std::uint8_t> is_sent;
     /// #V: ‖ΔV⁰‖; or empty.
     std::vector<double> curvature;
     /// #F: the place of the sub-mesh of each face among the known ones.
@@ -30,7 +30,7 @@ struct DealtMesh {
     std::vector<Index> first_faces;
     /// The rank of each sub-mesh of the whole mesh.
     std::vector<Index> holders;
-    /// What steps read of the options.
+    /// A copy of the fields of the options that steps read; the others are as by default.
     FlowOptions options;
 };
 
@@ -54,7 +54,7 @@ class Dealer {
     /// Per rank that has been dealt its part: the vertices that it knows, and those whose positions come from it, both
     /// ascending.
     [[nodiscard]] std::vector<std::vector<Index>>& known_vertices() { return known_vertices_; }
-    [[nodiscard]] std::vector<std::vector<Index>>& told_vertices() { return told_vertices_; }
+    [[nodiscard]] std::vector<std::vector<Index>>& sent_vertices() { return sent_vertices_; }
 
   private:
     [[nodiscard]] std::vector<Index> known_faces(int rank);
@@ -69,8 +69,8 @@ class Dealer {
     std::vector<Index> holders_;
     /// #V: the rank that has all faces of the vertex; below 0 if there is none.
     std::vector<std::int32_t> holder_at_;
-    /// #V: the rank that tells of the vertex; -1: none yet.
-    std::vector<std::int32_t> teller_;
+    /// #V: the rank that sends the position of the vertex to rank 0; -1: none yet.
+    std::vector<std::int32_t> sender_;
     /// #F and #V: the last rank that knows the face, has looked around the vertex, and has got it.
     std::vector<std::int32_t> knows_face_;
     std::vector<std::int32_t> knows_vertex_;
@@ -78,7 +78,7 @@ class Dealer {
     /// #V: the place of the vertex among those of the last rank that has it.
     std::vector<Index> place_;
     std::vector<std::vector<Index>> known_vertices_;
-    std::vector<std::vector<Index>> told_vertices_;
+    std::vector<std::vector<Index>> sent_vertices_;
 };
 
 }  // namespace seamflow

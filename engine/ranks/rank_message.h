@@ -9,7 +9,8 @@
 /// The messages of rank 0 to the others, and what they answer.
 namespace seamflow {
 
-/// What rank 0 asks all ranks for. Rows belong to vertices that a rank knows, or to those of `told`.
+/// What rank 0 asks all ranks for. Rows of positions belong to the vertices that the rank
+/// knows, or in answers to those that it sends (DealtMesh::is_sent).
 enum class RankTask : std::uint8_t {
     /// Make a RankPart of a DealtMesh. Answer: the SavedRow of each row that the stepper saves.
     Deal,
@@ -17,10 +18,10 @@ enum class RankTask : std::uint8_t {
     /// Answer: rows, one for each vertex whose position comes from here.
     Positions,
     /// Rows of all vertices: Stepper::set_positions, and Stepper::set_data, with its DataSteps.
-    Continue,
-    Begin,
+    SetPositions,
+    SetData,
     /// Numbers of vertices, and rows: Stepper::set_vertices.
-    Move,
+    SetVertices,
     /// Stepper::save. Answer: numbers and arrays.
     Save,
     /// Rows of all vertices, numbers, and arrays: Stepper::restore.

@@ -90,8 +90,8 @@ RankPart::RankPart(Communicator& comm, DealtMesh dealt, Progress& progress)
     , n_threads_(n_threads_of_arena())
 {
     for (Index v = 0; v < dealt_.mesh.n_vertices(); ++v)
-        if (dealt_.is_told[v] != 0)
-            told_.push_back(v);
+        if (dealt_.is_sent[v] != 0)
+            sent_vertices_.push_back(v);
     std::vector<std::uint8_t> is_own;
     for (const Index number : dealt_.known)
         is_own.push_back(dealt_.holders[number] == comm.rank() ? 1 : 0);
@@ -172,17 +172,17 @@ Bytes RankPart::act(RankTask task, Unpacker& message)
         step();
         break;
     case RankTask::Positions:
-        answer.put_rows(stepper_->positions(), told_);
+        answer.put_rows(stepper_->positions(), sent_vertices_);
         break;
-    case RankTask::Continue:
+    case RankTask::SetPositions:
         stepper_->set_positions(message.get_points(), {});
         break;
-    case RankTask::Begin: {
+    case RankTask::SetData: {
         const auto steps = message.get<DataSteps>();
         stepper_->set_data(message.get_points(), steps);
         break;
     }
-    case RankTask::Move: {
+    case RankTask::SetVertices: {
         std::vector<Index> vertices = message.get_all<Index>();
         for (Index& v : vertices)
             v = position_in(dealt_.vertex_numbers, v);
@@ -228,9 +228,9 @@ void RankPart::report_to(Packer& answer) const
     else
         stepper_->report_to(report);
     const auto n_known = static_cast<std::int64_t>(dealt_.vertex_numbers.size());
-    const auto n_told = static_cast<std::int64_t>(told_.size());
-    RankShare share{.record = {.vertices = n_told,
-                               .foreign_vertices = n_known - n_told,
+    const auto n_sent = static_cast<std::int64_t>(sent_vertices_.size());
+    RankShare share{.record = {.vertices = n_sent,
+                               .foreign_vertices = n_known - n_sent,
                                .messages = n_messages_,
                                .bytes = n_bytes_,
                                .peak_memory_bytes = peak_memory_bytes(),

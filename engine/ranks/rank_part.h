@@ -43,7 +43,7 @@ class RankPart {
     std::uint64_t n_messages_ = 0;
     std::uint64_t n_bytes_ = 0;
     std::int64_t n_interface_vertices_ = 0;
-    std::vector<Index> told_;
+    std::vector<Index> sent_vertices_;
     std::vector<SavedRow> saved_;
     std::optional<RankExchange> exchange_;
     std::unique_ptr<Stepper> stepper_;

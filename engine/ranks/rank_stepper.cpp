@@ -84,7 +84,7 @@ void RankStepper::deal(const PolygonMesh& mesh, const Topology& topology, const 
             saved[static_cast<std::size_t>(rank)] = unpacked<SavedRow>(comm.take(rank));
     });
     known_vertices_ = std::move(dealer.known_vertices());
-    told_vertices_ = std::move(dealer.told_vertices());
+    sent_vertices_ = std::move(dealer.sent_vertices());
     for (Index s = 0; s < n_sub_meshes_; ++s)
         sub_meshes_[dealer.holders()[s]].push_back(s);
     number_saved_rows(saved, dealer.holders());
@@ -167,7 +167,7 @@ const Points& RankStepper::positions() const
     const std::vector<Bytes> answers = ask(RankTask::Positions);
     for (std::size_t rank = 0; rank < answers.size(); ++rank) {
         Unpacker unpacker(answers[rank]);
-        unpacker.get_rows(positions_, told_vertices_[rank]);
+        unpacker.get_rows(positions_, sent_vertices_[rank]);
     }
     are_current_ = true;
     return positions_;
@@ -177,14 +177,14 @@ void RankStepper::set_positions(const Points& image, const SimilarityOfComponent
 {
     positions_ = image;
     are_current_ = true;
-    ask(RankTask::Continue, [&](int rank, Packer& message) { message.put_rows(image, known_vertices_[rank]); });
+    ask(RankTask::SetPositions, [&](int rank, Packer& message) { message.put_rows(image, known_vertices_[rank]); });
 }
 
 void RankStepper::set_data(const Points& data, DataSteps steps)
 {
     positions_ = data;
     are_current_ = true;
-    ask(RankTask::Begin, [&](int rank, Packer& message) {
+    ask(RankTask::SetData, [&](int rank, Packer& message) {
         message.put(steps);
         message.put_rows(data, known_vertices_[rank]);
     });
@@ -194,7 +194,7 @@ void RankStepper::set_vertices(std::span<const Index> vertices, const Points& to
 {
     if (are_current_)
         move_rows(vertices, to, positions_);
-    ask(RankTask::Move, [&](int, Packer& message) {
+    ask(RankTask::SetVertices, [&](int, Packer& message) {
         message.put_all(vertices);
         message.put_points(to);
     });

@@ -65,7 +65,7 @@ class RankStepper final : public Stepper {
     std::unique_ptr<RankPart> own_;
     /// Per rank.
     std::vector<std::vector<Index>> known_vertices_;
-    std::vector<std::vector<Index>> told_vertices_;
+    std::vector<std::vector<Index>> sent_vertices_;
     std::vector<std::vector<Index>> sub_meshes_;
     /// Per rank, for each row that its stepper saves, its place among those of all, and whether it counts.
     std::vector<std::vector<Index>> saved_places_;

@@ -31,16 +31,16 @@ struct PreparedFlow {
     std::optional<FlowSize> costs;
     /// What replaces steps whose factors do not fit into the memory limit; empty: nothing does.
     std::optional<ApproachChoice> without_factors;
-    /// In place of `choices`, then.
+    /// Takes the place of `choices` where `without_factors` is taken.
     std::vector<std::string> choices_without_factors;
-    /// Of the mesh and the given options. Empty if it is not needed.
+    /// Checksum of the mesh and the given options, by which a checkpoint is recognised. 0 if it is not needed.
     std::uint64_t identity = 0;
     MeshSize size;
-    /// Which vertices move, too.
+    /// The topology of the flowing mesh, which also says which vertices move.
     Topology topology;
-    /// Of the given mesh, without faces, ascending.
+    /// The vertices of the given mesh that no face uses, ascending.
     std::vector<Index> unused_vertices;
-    /// See the function of this name.
+    /// When vertices at junctions would move: the result of the function of this name (automatic_choices.h).
     std::string_view need_of_junctions;
     /// K and M, where the weights of the Laplacian were not as FlowOptions::weights says.
     std::optional<GivenStiffness> stiffness;

@@ -40,12 +40,12 @@ void ConvergedStepper::step(const Points& before)
     before_ = &before;
     graph_.run(0, loops_.parts());
     if (!filter_.is_plain())
-        complete_filter();
+        take_filtered();
     note();
 }
 
 /// Runs the same graph again for each further solution, with the same factors.
-void ConvergedStepper::complete_filter()
+void ConvergedStepper::take_filtered()
 {
     InterfaceResult sum = reached_.last;
     PointBlocks rest(1);
@@ -66,7 +66,7 @@ void ConvergedStepper::complete_filter()
         return solution;
     };
     set_rows(solution.front(), positions_.rows());
-    complete(filter_, rest, solve_for, run_in_parallel);
+    apply_filter(filter_, rest, solve_for, run_in_parallel);
     for_each(run_in_parallel, static_cast<Index>(positions_.rows()),
              [&](Index v) { positions_.row(v) = before_->row(v) - rest.front().row(v); });
     reached_.last = sum;

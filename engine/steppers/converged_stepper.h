@@ -86,7 +86,7 @@ class ConvergedStepper : public Stepper {
     };
 
     void solve();
-    void complete_filter();
+    void take_filtered();
     void note();
 
     IterationStop stop_;

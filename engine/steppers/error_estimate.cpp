@@ -165,7 +165,7 @@ void ErrorEstimate::carry_over()
 
 /// Fills in Vᵏ⁺¹ as solved, and Vᵏ, where this peer's rows reach those of others.
 /// @returns #V by 3: Vᵏ.
-const Points& ErrorEstimate::complete(const std::vector<SubMeshState>& states, const Points& before)
+const Points& ErrorEstimate::fill_foreign_rows(const std::vector<SubMeshState>& states, const Points& before)
 {
     if (foreign_rows_.empty())
         return before;
@@ -182,7 +182,7 @@ const Points& ErrorEstimate::complete(const std::vector<SubMeshState>& states, c
 void ErrorEstimate::add_step(const std::vector<SubMeshState>& states, const Points& before)
 {
     if (laplacian_ == Laplacian::PtackovaVelho)
-        equation_.measure_whole_rows(*mesh_, *topology_, complete(states, before), solved_, time_step_,
+        equation_.measure_whole_rows(*mesh_, *topology_, fill_foreign_rows(states, before), solved_, time_step_,
                                      run_in_parallel);
     carry_over();
     equation_.solve(run_in_parallel);

@@ -62,7 +62,7 @@ class ErrorEstimate {
     [[nodiscard]] const Points& stiffness_at(const SubMeshState& state, Points& first) const;
     void attach(const FlowTerms& terms);
     void list_foreign_rows();
-    [[nodiscard]] const Points& complete(const std::vector<SubMeshState>& states, const Points& before);
+    [[nodiscard]] const Points& fill_foreign_rows(const std::vector<SubMeshState>& states, const Points& before);
     void carry_over();
     [[nodiscard]] std::optional<double> find_largest() const;
 

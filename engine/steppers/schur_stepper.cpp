@@ -265,7 +265,7 @@ void SchurStepper::set_reference_vertices(std::span<const Index> vertices, const
     change(vertices, [](std::size_t, CondensedSubMesh&, Index) {});
     for_each(run_in_parallel, static_cast<Index>(sub_meshes_.size()), [&](Index s) {
         if (changed_[s] != 0)
-            sub_meshes_[s]->system().keep(rows_of(first_, sub_meshes_[s]->vertices().local_to_global));
+            sub_meshes_[s]->system().set_reference(rows_of(first_, sub_meshes_[s]->vertices().local_to_global));
     });
 }
 

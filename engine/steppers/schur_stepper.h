@@ -72,9 +72,10 @@ class SchurStepper final : public ConvergedStepper {
     struct FactorStore {
         Precision precision = Precision::Automatic;
         KeptFactors plan;
-        /// Of those kept, unless there is a limit: then it is the heap, as a factor's size may differ in each step.
+        /// Memory of the factors that are kept. Under a memory limit they are on the heap instead, because the size of
+        /// a factor may differ from step to step.
         SharedFactorPool pool;
-        /// Of factors that are recomputed.
+        /// Memory of the factors that are recomputed; set once their size is known.
         std::optional<SharedFactorPool> passing;
     };
     /// On Γ.

@@ -131,7 +131,7 @@ void SweepStepper::take_filtered(std::size_t root, const std::function<void()>& 
     PointBlocks solution = rest;
     for_each_own([&](Index s, const SubMeshState& state) { rest[s] = state.position - state.solved; });
     set_solution(SubMeshState::Solution::OfData);
-    complete(
+    apply_filter(
         filter_, rest,
         [&](const PointBlocks& data) -> const PointBlocks& {
             for_each_own([&](Index s, SubMeshState& state) { state.data = data[s]; });

@@ -54,7 +54,7 @@ class SwitchingStepper final : public Stepper {
     Progress* progress_;
     const GivenStiffness* given_ = nullptr;
     ConjugateGradientStepper gradients_;
-    /// For factors.
+    /// The topology with twins, which the factorisation needs; empty until there is one.
     Topology complete_;
     std::unique_ptr<Stepper> factors_;
     /// Of the last two steps without factors.

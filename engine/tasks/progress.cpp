@@ -48,7 +48,7 @@ void Progress::enter(FlowPhase phase, int step, double begin, double end)
     begin_ = begin;
     end_ = end;
     expect(1.0);
-    tell(begin, true);
+    report(begin, true);
     require_going_on();
 }
 
@@ -63,25 +63,25 @@ void Progress::count(double parts)
     if (!control_->on_progress)
         return;
     const double done = done_.fetch_add(parts, std::memory_order_relaxed) + parts;
-    tell(begin_ + std::min(done / parts_, 1.0) * (end_ - begin_), false);
+    report(begin_ + std::min(done / parts_, 1.0) * (end_ - begin_), false);
 }
 
 void Progress::finish()
 {
-    tell(1.0, true);
+    report(1.0, true);
 }
 
 /// Of several threads at once, one reports, and the others continue their work.
-void Progress::tell(double fraction, bool at_once)
+void Progress::report(double fraction, bool at_once)
 {
-    if (!control_->on_progress || telling_.test_and_set(std::memory_order_acquire))
+    if (!control_->on_progress || is_reporting_.test_and_set(std::memory_order_acquire))
         return;
-    const Cleared cleared(telling_);
-    fraction = std::clamp(fraction, told_, 1.0);
-    if (!at_once && fraction - told_ < noticeable && since_told_.seconds() < seconds_between)
+    const Cleared cleared(is_reporting_);
+    fraction = std::clamp(fraction, reported_, 1.0);
+    if (!at_once && fraction - reported_ < noticeable && since_report_.seconds() < seconds_between)
         return;
-    told_ = now_.fraction = fraction;
-    since_told_ = Stopwatch();
+    reported_ = now_.fraction = fraction;
+    since_report_ = Stopwatch();
     control_->on_progress(now_);
 }
 

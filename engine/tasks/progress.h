@@ -43,11 +43,11 @@ class Progress {
     /// Loops that may stop at each of their ranges, on the threads of the arena.
     [[nodiscard]] Executor exec() const;
 
-    /// The same, counting each index.
+    /// The same, and each index of a loop counts as one part that is done (see expect).
     [[nodiscard]] Executor counted_loop();
 
   private:
-    void tell(double fraction, bool at_once);
+    void report(double fraction, bool at_once);
 
     const FlowControl* control_;
     FlowProgress now_;
@@ -56,9 +56,9 @@ class Progress {
     double parts_ = 1.0;
     std::atomic<double> done_{0.0};
     /// Set while the observer is called.
-    std::atomic_flag telling_;
-    double told_ = 0.0;
-    Stopwatch since_told_;
+    std::atomic_flag is_reporting_;
+    double reported_ = 0.0;
+    Stopwatch since_report_;
 };
 
 /// Counts a task that takes an unknown number of loops: it is expected to take as many as last time.

@@ -79,7 +79,7 @@ struct VertexRewriter {
     Splicer splicer;
     const Points& positions;
     const NewColours& colours;
-    /// What normal n becomes, or nothing.
+    /// Returns the new value of the n-th normal, which is `given` in the file; empty: the normal stays.
     std::function<std::optional<Point>(Index n, const Point& given)> new_normal;
 
     void position(Index v, TextScanner& scanner) { exchange_position(scanner, splicer, positions.row(v)); }

@@ -78,7 +78,7 @@ class MeshBuilder {
     const InputPosition& position_;
     Index first_number_;
     Index n_vertices_ = 0;
-    /// Those that were left out included.
+    /// How many faces were read, those included that were left out.
     Index n_faces_ = 0;
     std::vector<double> coordinates_;
     /// Of a slice, else null: then they are collected in `coordinates_`.

@@ -21,7 +21,8 @@ std::vector<double> distances_from(const PolygonMesh& mesh, const Topology& topo
 /// Lets the strength in a region rise smoothly from 0 at its rim, where vertices of strength 0 are next to others, to
 /// the full value at a distance from it: by 10 t³ - 15 t⁴ + 6 t⁵, t = distance / length. (With a rise by t², a flow
 /// would leave a crease, because dt over the squared distance is then the same all the way to the rim.) The boundary of
-/// the mesh is no rim. Vertices that are joined along a seam count as one, of the least of their strengths.
+/// the mesh is no rim. Vertices that are joined along a seam count as one vertex, with the smallest of their
+/// strengths.
 /// @param strength #V, at least 0. @param length of the rise; 0: strengths stay as they are.
 /// @param joined_within how far apart vertices along seams may be (see weld); empty: they are not joined.
 /// @returns #V.

@@ -122,7 +122,8 @@ Fan PinchMender::find_pinch(Index v)
     return {};
 }
 
-/// Proposes to give the faces of consecutive runs, counted past the end of the fan, to another part.
+/// Candidate move: the faces of the runs first_run to last_run - 1 get another label. Runs beyond the last one of the
+/// fan are its first ones again.
 void PinchMender::propose(const Fan& fan, std::size_t first_run, std::size_t last_run, Index label)
 {
     Move& move = moves_.emplace_back();
@@ -160,7 +161,7 @@ void PinchMender::propose_filling(const Fan& fan)
     propose(fan, gap_begin, gap_end, pinched_label_);
 }
 
-/// Proposes to give the smallest run of the pinched part to the part on its one side or the other.
+/// Candidate moves: the smallest run of the pinched part gets the label of the run before or after it.
 void PinchMender::propose_giving(const Fan& fan)
 {
     const std::size_t n = runs_.size();

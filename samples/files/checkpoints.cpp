@@ -27,7 +27,7 @@ std::shared_ptr<const FlowState> Checkpoints::find(const PolygonMesh& mesh, cons
     return state;
 }
 
-void Checkpoints::keep(const StepState& state, bool is_last)
+void Checkpoints::save_if_due(const StepState& state, bool is_last)
 {
     const double since = since_kept_.seconds();
     if (!is_last && (state.step % period_.steps != 0 || since < period_.seconds ||

@@ -35,7 +35,7 @@ class Checkpoints {
 
     /// Saves the state after a step if the period or the end of the run requires it.
     /// @throws OutputError.
-    void keep(const StepState& state, bool is_last);
+    void save_if_due(const StepState& state, bool is_last);
 
     /// The step that this object saved last; 0: none.
     [[nodiscard]] int step() const { return step_; }

@@ -73,7 +73,7 @@ StepObserver LongRun::observing(StepObserver inner)
         step_ = state.step;
         inner(state);
         if (checkpoints_)
-            checkpoints_->keep(state, state.step == command_->options.steps);
+            checkpoints_->save_if_due(state, state.step == command_->options.steps);
     };
 }
 

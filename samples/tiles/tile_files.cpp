@@ -81,7 +81,7 @@ TileRun TileFolder::run() const
     return read_archive<TileRun>(run_file(), line_of_run);
 }
 
-void TileFolder::keep(const TileRun& run) const
+void TileFolder::save(const TileRun& run) const
 {
     write_archive(run_file(), line_of_run, run);
 }
@@ -101,17 +101,17 @@ TileOwners TileFolder::owners(Index tile) const
     return read_archive<TileOwners>(file(tile, "owners"), line_of_owners);
 }
 
-void TileFolder::keep(Index tile, const TileFaces& faces) const
+void TileFolder::save(Index tile, const TileFaces& faces) const
 {
     write_archive(file(tile, "faces"), line_of_faces, faces);
 }
 
-void TileFolder::keep(Index tile, const TileBorder& border) const
+void TileFolder::save(Index tile, const TileBorder& border) const
 {
     write_archive(file(tile, "border"), line_of_border, border);
 }
 
-void TileFolder::keep(Index tile, const TileOwners& owners) const
+void TileFolder::save(Index tile, const TileOwners& owners) const
 {
     write_archive(file(tile, "owners"), line_of_owners, owners);
 }
@@ -127,7 +127,7 @@ Points TileFolder::state(Index tile, int step) const
     return read_archive<TileState>(state_file(tile, step), line_of_state).positions;
 }
 
-void TileFolder::keep_state(Index tile, int step, Points positions) const
+void TileFolder::save_state(Index tile, int step, Points positions) const
 {
     write_archive(state_file(tile, step), line_of_state, TileState{std::move(positions)});
 }

@@ -117,19 +117,19 @@ class TileFolder {
     [[nodiscard]] bool has_run() const;
     [[nodiscard]] TileRun run() const;
     /// To be called when all files of step 0 are there.
-    void keep(const TileRun& run) const;
+    void save(const TileRun& run) const;
 
     [[nodiscard]] TileFaces faces(Index tile) const;
     [[nodiscard]] TileBorder border(Index tile) const;
     [[nodiscard]] TileOwners owners(Index tile) const;
-    void keep(Index tile, const TileFaces& faces) const;
-    void keep(Index tile, const TileBorder& border) const;
-    void keep(Index tile, const TileOwners& owners) const;
+    void save(Index tile, const TileFaces& faces) const;
+    void save(Index tile, const TileBorder& border) const;
+    void save(Index tile, const TileOwners& owners) const;
 
     /// The positions after a step; step 0 is the input.
     [[nodiscard]] bool has_state(Index tile, int step) const;
     [[nodiscard]] Points state(Index tile, int step) const;
-    void keep_state(Index tile, int step, Points positions) const;
+    void save_state(Index tile, int step, Points positions) const;
     /// The last step that all tiles have, from 0.
     /// @throws InputError if there is none.
     [[nodiscard]] int latest_step(Index n_tiles) const;

@@ -40,7 +40,7 @@ void place_on_owners(const TileFolder& folder, Index tile, const TileOwners& own
     const std::span<const double> old(before.data(), static_cast<std::size_t>(before.size()));
     const std::span<const double> now(positions.data(), static_cast<std::size_t>(positions.size()));
     if (!std::ranges::equal(std::as_bytes(old), std::as_bytes(now)))
-        folder.keep_state(tile, 0, std::move(positions));
+        folder.save_state(tile, 0, std::move(positions));
 }
 
 }  // namespace
@@ -80,9 +80,9 @@ MeshScale scale_of(std::span<const TileSummary> tiles)
 
 void keep_input(const TileFolder& folder, Index tile, PolygonMesh& mesh, const Executor& exec)
 {
-    folder.keep(tile, border_of(mesh, make_topology(mesh, exec), exec));
-    folder.keep_state(tile, 0, std::exchange(mesh.vertices, Points(0, 3)));
-    folder.keep(tile, TileFaces{std::move(mesh.face_offsets), std::move(mesh.face_vertices)});
+    folder.save(tile, border_of(mesh, make_topology(mesh, exec), exec));
+    folder.save_state(tile, 0, std::exchange(mesh.vertices, Points(0, 3)));
+    folder.save(tile, TileFaces{std::move(mesh.face_offsets), std::move(mesh.face_vertices)});
 }
 
 void join_tiles(const TileFolder& folder, std::span<const TileSummary> tiles, std::optional<double> weld, TileRun& run,
@@ -91,7 +91,7 @@ void join_tiles(const TileFolder& folder, std::span<const TileSummary> tiles, st
     for (Index tile = 0; std::cmp_less(tile, tiles.size()); ++tile) {
         const TileOwners owners =
             weld ? owners_of(tile, borders_near(folder, tiles, tile, *weld), *weld, exec) : TileOwners{};
-        folder.keep(tile, owners);
+        folder.save(tile, owners);
         place_on_owners(folder, tile, owners);
         run.n_border += std::ssize(owners.vertices);
         run.n_shared += std::count(owners.is_shared.begin(), owners.is_shared.end(), 1);

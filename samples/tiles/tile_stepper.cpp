@@ -12,7 +12,7 @@ namespace seamflow {
 
 namespace {
 
-/// Leaves some 1e-6 of a step (measured: see samples/programs.md).
+/// Leaves some 1e-6 of a step (measured: see engine/accuracy.md).
 constexpr double widths_of_diffusion = 14.0;
 /// Each further order of a low-pass filter multiplies what is left by the distance.
 constexpr double widths_per_order = 2.0;

@@ -187,7 +187,7 @@ void TiledRun::read_all()
     } else {
         run_.identity = identity;
         join_tiles(folder_, tiles_, options_.motion.weld, run_, exec_);
-        folder_.keep(run_);
+        folder_.save(run_);
     }
     return_freed_memory();
 }
@@ -242,7 +242,7 @@ bool TiledRun::take_step(Index tile, int step)
     // First the result: what has a state of the last step is written.
     if (step == options_.steps)
         write(tile, positions);
-    folder_.keep_state(tile, step, std::move(positions));
+    folder_.save_state(tile, step, std::move(positions));
     has_stepped_ = true;
     return true;
 }

@@ -110,7 +110,7 @@ std::int64_t hold_unjoined(const TileFolder& folder, std::span<const BoundingBox
         owners.held = std::move(held[usize(tile)]);
         sort_unique(owners.held);
         n_held += std::ssize(owners.held);
-        folder.keep(tile, owners);
+        folder.save(tile, owners);
     }
     return n_held;
 }

@@ -70,7 +70,7 @@ class MeshDenoiser {
     std::unique_ptr<const Triangles> triangles_;
     const PolygonMesh* polygons_;
     const Topology* polygon_topology_;
-    /// Of triangles.
+    /// The triangles that polygons are cut into, or the mesh itself if it has no others.
     const PolygonMesh* mesh_;
     const Topology* topology_;
     NoisyPlaces places_;

@@ -40,7 +40,7 @@ class NoisyPlaces {
     [[nodiscard]] const Components& components() const { return components_; }
 
   private:
-    /// Of faces.
+    /// The components of the mesh, by faces: each is judged by itself.
     Components components_;
 };
 

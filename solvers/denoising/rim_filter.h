@@ -43,10 +43,10 @@ class RimFilter {
     [[nodiscard]] bool is_noisy(std::span<const Index> rim, const Points& across, const Points& before,
                                 const Points& after) const;
 
-    /// Of all rims, ascending.
+    /// The vertices of all rims, ascending.
     std::vector<Index> vertices_;
     std::vector<Segment> segments_;
-    /// Of segments: the rims.
+    /// The connected components of segments; each is a rim.
     Components rims_;
 };
 

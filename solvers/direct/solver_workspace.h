@@ -15,7 +15,7 @@ namespace seamflow {
 struct LdlWorkspace {
     /// Per unknown: its row in the block being computed.
     std::vector<Index> row_of;
-    /// Of one update.
+    /// Per row of an update by an earlier block of columns: its row in the block being computed.
     std::vector<Index> target_rows;
     /// The matrix's diagonal at the columns of a supernode.
     std::vector<double> diagonal;
@@ -56,7 +56,7 @@ struct SolverWorkspace {
     CholmodWorkspace cholmod;
     LdlWorkspace ldl;
     LuWorkspace lu;
-    /// Of a matrix.
+    /// The entries of a matrix, in the order of its pattern.
     std::vector<double> values;
     /// Per vertex.
     std::vector<double> diagonal;

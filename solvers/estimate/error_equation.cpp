@@ -223,7 +223,7 @@ void ErrorEquation::solve(const Executor& exec)
 {
     constexpr int most_iterations = 30;
     constexpr double squared_tolerance = 1e-4;
-    shared_->complete(rows_.response.data(), 1);
+    shared_->exchange(rows_.response.data(), 1);
     stiffen(exec);
     // p = z = D⁻¹ r, e = 0
     double size_before = add_up(exec, [&](Index i) {
@@ -235,7 +235,7 @@ void ErrorEquation::solve(const Executor& exec)
         iteration_.error.setConstant(size_before);
     const double enough = squared_tolerance * size_before;
     for (int iteration = 0; iteration < most_iterations && size_before > enough; ++iteration) {
-        shared_->complete(iteration_.direction.data(), 3);
+        shared_->exchange(iteration_.direction.data(), 3);
         // q = T p
         const double curvature = add_up(exec, [&](Index i) {
             iteration_.product.row(i) = product(i);

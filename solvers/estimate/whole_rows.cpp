@@ -80,7 +80,7 @@ void WholeRows::measure(const PolygonMesh& mesh, const Topology& topology, const
             sum += of_rows_.row(n + other) / n_sharing_[other];
         of_copies_.row(copy_of_row_[row]) = sum;
     });
-    shared_.complete(of_copies_.data(), 3);
+    shared_.exchange(of_copies_.data(), 3);
 }
 
 Point WholeRows::residual(Index s, Index i) const

@@ -114,8 +114,8 @@ int n_solutions(const StepFilter& filter)
     return filter.order + 2 * static_cast<int>(harmonic_polynomial(filter).a.size());
 }
 
-void complete(const StepFilter& filter, PointBlocks& rest,
-              const std::function<const PointBlocks&(const PointBlocks& data)>& solve, const Executor& exec)
+void apply_filter(const StepFilter& filter, PointBlocks& rest,
+                  const std::function<const PointBlocks&(const PointBlocks& data)>& solve, const Executor& exec)
 {
     for (int i = 1; i < filter.order; ++i) {
         const PointBlocks& solution = solve(rest);

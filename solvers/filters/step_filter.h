@@ -56,7 +56,7 @@ using PointBlocks = std::vector<Points>;
 /// taken from large features, and all of small ones.
 /// @param rest in: u V, that is V - S V; out: what to subtract from V.
 /// @param solve returns S D; the result may change with the next call.
-void complete(const StepFilter& filter, PointBlocks& rest,
-              const std::function<const PointBlocks&(const PointBlocks& data)>& solve, const Executor& exec);
+void apply_filter(const StepFilter& filter, PointBlocks& rest,
+                  const std::function<const PointBlocks&(const PointBlocks& data)>& solve, const Executor& exec);
 
 }  // namespace seamflow

@@ -203,7 +203,7 @@ void CoarseSpace::list_functions(const std::vector<VertexClass>& classes)
 void CoarseSpace::divide_terms(const std::vector<VertexClass>& classes)
 {
     const std::vector<Index>& holders = peers_.holders();
-    told_.resize(holders.empty() ? 0 : usize(*std::ranges::max_element(holders)) + 1);
+    sent_.resize(holders.empty() ? 0 : usize(*std::ranges::max_element(holders)) + 1);
     std::vector<std::uint8_t> is_begun(usize(size()), 0);
     Index f = 0;
     for (const VertexClass& vertices : classes) {
@@ -211,14 +211,14 @@ void CoarseSpace::divide_terms(const std::vector<VertexClass>& classes)
         const bool is_finished =
             std::ranges::all_of(vertices.sharing, [&](Index place) { return holders[place] == holder; });
         for (const Index end = f + vertices.n_functions(); f < end; ++f) {
-            (is_finished ? told_[holder].finished : told_[holder].begun).push_back(f);
+            (is_finished ? sent_[holder].finished : sent_[holder].begun).push_back(f);
             is_begun[f] = is_finished ? 0 : 1;
         }
     }
     for (Index place = 0; place < peers_.n_places(); ++place)
         for (Index term = functions_at_.offsets[place]; term < functions_at_.offsets[place + 1]; ++term)
             if (is_begun[functions_at_.values[term]] != 0)
-                told_[holders[place]].terms.push_back(term);
+                sent_[holders[place]].terms.push_back(term);
 }
 
 /// Two unknowns have an entry where one sub-mesh has both of their functions.
@@ -337,8 +337,8 @@ void CoarseSpace::correct(const Points& residual, Points& y, const Executor& exe
             sum += values_at_[copy] * residual.row(copies_.vertex[copy]);
         sums_.row(f) = sum;
     };
-    if (usize(peers_.self()) < told_.size()) {
-        const Told& own = told_[peers_.self()];
+    if (usize(peers_.self()) < sent_.size()) {
+        const SentTerms& own = sent_[peers_.self()];
         for_each(exec, static_cast<Index>(own.finished.size()), [&](Index i) {
             begin(own.finished[i]);
             subtract_terms(own.finished[i]);
@@ -367,26 +367,26 @@ void CoarseSpace::subtract_terms(Index f)
 void CoarseSpace::exchange_terms()
 {
     const auto for_rows_of = [&](std::size_t peer, auto&& action) {
-        for (const Index f : told_[peer].finished)
+        for (const Index f : sent_[peer].finished)
             action(sums_.row(f));
-        for (const Index f : told_[peer].begun)
+        for (const Index f : sent_[peer].begun)
             action(sums_.row(f));
-        for (const Index term : told_[peer].terms)
+        for (const Index term : sent_[peer].terms)
             action(products_with_y_.row(term));
     };
     std::vector<double> own;
-    if (usize(peers_.self()) < told_.size())
+    if (usize(peers_.self()) < sent_.size())
         for_rows_of(usize(peers_.self()), [&](auto&& row) { own.insert(own.end(), row.data(), row.data() + 3); });
     const InterfacePeers::Numbers of_all = peers_.gather(own);
-    for (std::size_t peer = 0; peer < told_.size(); ++peer) {
+    for (std::size_t peer = 0; peer < sent_.size(); ++peer) {
         const double* next = of_all[peer].data();
         for_rows_of(peer, [&](auto&& row) {
             row = Eigen::Map<const Point>(next);
             next += 3;
         });
     }
-    for (const Told& told : told_)
-        for (const Index f : told.begun)
+    for (const SentTerms& sent : sent_)
+        for (const Index f : sent.begun)
             subtract_terms(f);
 }
 

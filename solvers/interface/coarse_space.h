@@ -68,7 +68,7 @@ class CoarseSpace {
     /// What a peer sends to others when all terms of Zᵀ (r - S y) are collected: the sums for functions on classes all
     /// of whose sub-meshes are its own; the sums begun here, for functions on other classes; and its sub-meshes' terms
     /// for these.
-    struct Told {
+    struct SentTerms {
         std::vector<Index> finished;
         std::vector<Index> begun;
         std::vector<Index> terms;
@@ -114,7 +114,7 @@ class CoarseSpace {
     Points products_with_y_;
     Points sums_;
     /// Per peer.
-    std::vector<Told> told_;
+    std::vector<SentTerms> sent_;
     Columns coefficients_;
 };
 

@@ -98,7 +98,7 @@ void InterfaceEquation::weigh_copies(std::span<const DenseFactor> complements, c
         const std::vector<double>& diagonal = complements[s].diagonal();
         std::copy(diagonal.begin(), diagonal.end(), weights_.begin() + copies_.first[s]);
     });
-    shared_.complete(weights_.data(), 1);
+    shared_.exchange(weights_.data(), 1);
     for_each(exec, copies_.n_vertices(), [&](Index v) {
         double sum = 0.0;
         for (const Index copy : copies_.of_vertex[v])
@@ -111,7 +111,7 @@ void InterfaceEquation::weigh_copies(std::span<const DenseFactor> complements, c
 /// The shares may cancel each other almost completely: only their sum is used.
 void InterfaceEquation::sum_copies(Points& copies, Points& sums, const Executor& exec)
 {
-    shared_.complete(copies.data(), 3);
+    shared_.exchange(copies.data(), 3);
     for_each(exec, copies_.n_vertices(), [&](Index v) {
         Point sum = Point::Zero();
         for (const Index copy : copies_.of_vertex[v])
@@ -216,7 +216,7 @@ void InterfaceEquation::on_each(std::span<const DenseFactor> complements, const 
             rows[3 * i + 2] = factor[2] * result.z[i];
         }
     });
-    shared_.complete(residual_copies_.data(), 3);
+    shared_.exchange(residual_copies_.data(), 3);
     for_each(exec, copies_.n_vertices(), [&](Index v) {
         Point sum = Point::Zero();
         for (const Index copy : copies_.of_vertex[v])

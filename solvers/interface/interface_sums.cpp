@@ -11,10 +11,10 @@ SumTree::SumTree(InterfacePeers& peers)
     // The peer that has all of the rows added to each row.
     std::vector<Index> holders = peers.holders();
     const auto n = static_cast<Index>(holders.size());
-    told_.resize(n > 0 ? usize(*std::ranges::max_element(holders)) + 1 : 0);
-    const auto tell = [&](Index row) {
+    sent_rows_.resize(n > 0 ? usize(*std::ranges::max_element(holders)) + 1 : 0);
+    const auto send = [&](Index row) {
         if (holders[row] != several)
-            told_[holders[row]].push_back(row);
+            sent_rows_[holders[row]].push_back(row);
     };
     for (Index stride = 1; stride < n; stride *= 2)
         for (Index to = 0; to + stride < n; to += 2 * stride) {
@@ -24,13 +24,13 @@ SumTree::SumTree(InterfacePeers& peers)
                     own_.push_back({to, from});
                 continue;
             }
-            tell(to);
-            tell(from);
+            send(to);
+            send(from);
             last_.push_back({to, from});
             holders[to] = several;
         }
     if (n > 0)
-        tell(0);
+        send(0);
 }
 
 void SumTree::add(const std::vector<Addition>& additions, std::vector<double>& rows, std::size_t width)
@@ -47,13 +47,13 @@ std::vector<double> SumTree::add_up(std::vector<double>& rows, std::size_t width
     const auto begin_of = [&](Index row) { return rows.begin() + static_cast<std::ptrdiff_t>(usize(row) * width); };
     add(own_, rows, width);
     std::vector<double> own;
-    if (usize(peers_->self()) < told_.size())
-        for (const Index row : told_[peers_->self()])
+    if (usize(peers_->self()) < sent_rows_.size())
+        for (const Index row : sent_rows_[peers_->self()])
             own.insert(own.end(), begin_of(row), begin_of(row + 1));
     const InterfacePeers::Numbers all = peers_->gather(own);
-    for (std::size_t peer = 0; peer < told_.size(); ++peer) {
+    for (std::size_t peer = 0; peer < sent_rows_.size(); ++peer) {
         auto next = all[peer].begin();
-        for (const Index row : told_[peer]) {
+        for (const Index row : sent_rows_[peer]) {
             std::copy_n(next, width, begin_of(row));
             next += static_cast<std::ptrdiff_t>(width);
         }

@@ -36,7 +36,7 @@ class SumTree {
     std::vector<Addition> own_;
     std::vector<Addition> last_;
     /// Per peer, the rows whose sums it sends to others.
-    std::vector<std::vector<Index>> told_;
+    std::vector<std::vector<Index>> sent_rows_;
 };
 
 /// The inner products of vectors with one row per vertex of Γ: each sub-mesh adds up the vertices of which it has the

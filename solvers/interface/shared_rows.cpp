@@ -14,7 +14,7 @@ SharedRows::SharedRows(InterfacePeers& peers, std::map<Index, Lists> with)
     }
 }
 
-void SharedRows::complete(double* values, std::size_t width)
+void SharedRows::exchange(double* values, std::size_t width)
 {
     InterfacePeers::Numbers per_rank(others_.size());
     for (std::size_t p = 0; p < others_.size(); ++p)

@@ -22,7 +22,7 @@ class SharedRows {
 
     /// Fills in the rows of others; all peers call this together.
     /// @param values `width` numbers for each row, one row after the other, the own ones filled in.
-    void complete(double* values, std::size_t width);
+    void exchange(double* values, std::size_t width);
 
   private:
     InterfacePeers* peers_;

@@ -23,7 +23,7 @@ struct ConjugateGradientVectors {
     {
     }
 
-    /// For x = 0.
+    /// Begins the iteration for the right-hand side b at x = 0, whose residual is b.
     void begin(const Points& b, const Executor& exec)
     {
         r = b;

@@ -37,9 +37,9 @@ struct FacesOnBothSides {
 /// Edges by the number of their faces here, each of which has half of the edge: one of k faces is listed k / 2 times
 /// among the inner ones, rounded down, and once more on the rim if k is odd.
 struct OuterEdges {
-    /// Of two faces.
+    /// Edges between two faces.
     std::vector<VertexPair> inner;
-    /// Of one face. Those at a vertex that may move are on the boundary of the whole mesh, or at a junction.
+    /// Edges of one face. Those at a vertex that may move are on the boundary of the whole mesh, or at a junction.
     std::vector<VertexPair> rim;
 };
 

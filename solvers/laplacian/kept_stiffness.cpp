@@ -26,10 +26,10 @@ class KeptStiffness final : public SymmetricLaplacian {
         , diagonal_(n_vertices + laplacian_->n_auxiliary())
         , keeps_mass_(keeps_mass)
     {
-        KeptStiffness::keep(positions);
+        KeptStiffness::set_reference(positions);
     }
 
-    void keep(const Points& positions) override
+    void set_reference(const Points& positions) override
     {
         std::vector<Index> slots(pairs_.size());
         std::iota(slots.begin(), slots.end(), 0);

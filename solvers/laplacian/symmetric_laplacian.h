@@ -62,7 +62,7 @@ class SymmetricLaplacian {
     virtual void measure_mass(const Points& positions, std::span<double> mass) const = 0;
 
     /// Takes what is kept of fixed positions from others, at least #V by 3 (see keep_stiffness).
-    virtual void keep(const Points&) {}
+    virtual void set_reference(const Points&) {}
 
     /// Calls action(n) with the number of the next of `pairs` that belong to one face, or edge, for all of them.
     virtual void for_each_element(const std::function<void(std::size_t n)>& action) const = 0;

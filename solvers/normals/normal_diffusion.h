@@ -80,7 +80,7 @@ class NormalDiffusion {
     /// τ w_ij as in neighbours_, and their sums for each face.
     std::vector<float> weights_;
     std::vector<double> diagonal_;
-    /// Of conjugate gradients.
+    /// #F by 3: r, p and A p of the conjugate gradients.
     Points residual_;
     Points direction_;
     Points product_;

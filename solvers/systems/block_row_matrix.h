@@ -85,9 +85,9 @@ class BlockRowMatrix {
     float& entry(const Place& place, Index column);
     void set_diagonal(Index i, float value) { diagonal_[i] = value; }
     [[nodiscard]] float diagonal(Index i) const { return diagonal_[i]; }
-    /// To be set before start.
+    /// Sets row i of the residual, from which the iteration starts; to be called for all rows before `start`.
     void set_residual(Index i, const Row& row) { residual_[i] = row; }
-    /// Of row i, after the iteration.
+    /// Row i of the solution, after the iteration.
     [[nodiscard]] Row increment(Index i) const { return increment_[i]; }
 
     /// Builds the preconditioner once all entries are set.
@@ -178,10 +178,10 @@ class BlockRowMatrix {
     /// Below and above the diagonal in the block; their columns count from its first one.
     Entries<Inner> lower_;
     Entries<Inner> upper_;
-    /// In other blocks.
+    /// Entries whose columns are in other blocks; the preconditioner leaves them out.
     Entries<Index> outer_;
     Buffer<float> diagonal_;
-    /// D.
+    /// The diagonal D of the incomplete factorisation (D + L) D⁻¹ (D + Lᵀ) of each block.
     Buffer<float> pivot_;
     /// Of the iteration: (D + L)⁻¹ r, r being the residual; the direction p; t = (D + Lᵀ)⁻¹ p; q - t with q = (D + L)⁻¹
     /// A t; the solution.

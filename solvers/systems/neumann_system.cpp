@@ -126,9 +126,9 @@ void NeumannSystem::give(const GivenStiffness& given, std::span<const Index> loc
     matrix_.laplacian = with_stiffness(std::move(matrix_.laplacian), given, local_to_global);
 }
 
-void NeumannSystem::keep(const Points& first)
+void NeumannSystem::set_reference(const Points& first)
 {
-    matrix_.laplacian->keep(first);
+    matrix_.laplacian->set_reference(first);
     if (matrix_.screening.exists())
         matrix_.screening.first = first.topRows(matrix_.screening.first.rows());
 }

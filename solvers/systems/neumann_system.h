@@ -117,7 +117,7 @@ class NeumannSystem {
 
     /// Takes what is kept of V⁰, and what an attachment pulls to, from other positions.
     /// @param first at least #own by 3.
-    void keep(const Points& first);
+    void set_reference(const Points& first);
 
   private:
     SparsePattern number_unknowns(const SubMesh& sub_mesh);

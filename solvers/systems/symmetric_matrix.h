@@ -70,7 +70,7 @@ struct SymmetricMatrix {
     /// Whether an unknown's "vertex" is one, not auxiliary.
     [[nodiscard]] bool is_vertex(Index v) const { return v < n_vertices - laplacian->n_auxiliary(); }
 
-    /// What its factorisation has.
+    /// Signs of the pivots: all positive, or with auxiliary unknowns those of the diagonal.
     [[nodiscard]] Pivots pivots() const
     {
         return laplacian->n_auxiliary() > 0 ? Pivots::LikeDiagonal : Pivots::Positive;

@@ -82,7 +82,7 @@ class WholeMeshSystem {
 
     /// What a solution begins with.
     struct Beginning {
-        /// Of the residual: the sum of its squares, each over the diagonal.
+        /// The squared norm of the residual: the sum of its squares, each divided by the diagonal entry.
         double squared;
         /// V, by rows.
         const Points& of_rows;
@@ -112,9 +112,9 @@ class WholeMeshSystem {
     const PolygonMesh* mesh_;
     const Topology* topology_;
     ScaledLaplacian laplacian_;
-    /// Null: those of the Laplacian.
+    /// K and M of other origin; null: those of the Laplacian.
     const GivenStiffness* given_ = nullptr;
-    /// Those of this step.
+    /// The units of this step.
     Units units_;
     double time_step_ = 0.0;
     WholeMeshRows rows_;

@@ -26,7 +26,7 @@ TEST_CASE("a checkpoint is kept after every so many steps, or when so much time 
     const Points positions(0, 3);
     const StepReport report;
     const auto keep = [&](Checkpoints& checkpoints, int step, bool is_last) {
-        checkpoints.keep(
+        checkpoints.save_if_due(
             {.step = step, .positions = positions, .report = report, .capture = [] { return FlowState{}; }}, is_last);
         return checkpoints.step();
     };

@@ -30,7 +30,7 @@ std::vector<double> left_of_modes(const StepFilter& filter, const std::vector<do
         rest[0].row(i).setConstant(1.0 - solution(i));
     PointBlocks solved = rest;
     n_solutions = 1;
-    complete(
+    apply_filter(
         filter, rest,
         [&](const PointBlocks& data) -> const PointBlocks& {
             ++n_solutions;

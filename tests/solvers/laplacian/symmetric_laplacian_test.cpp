@@ -104,7 +104,7 @@ TEST_CASE("K of faces with auxiliary unknowns is the same as without, kept and w
                 check_equal(*kept, *expected, moved);
             }
             for (const auto& of : {kept.get(), expected.get()})
-                of->keep(moved);
+                of->set_reference(moved);
             check_equal(*kept, *expected, moved);
         }
 }
