@@ -39,10 +39,16 @@ ExitStatus run_inspect_program(int argc, char** argv)
     const Topology topology = make_topology(mesh, exec);
     const MeshInspection found = inspect(mesh, topology, exec);
     std::optional<SurfaceNoise> noise;
-    // Where sides lie on each other, or cracks are open, the faces as they are say nothing of the noise.
-    if (mesh.n_faces() > 0 && found.defects.vertices_not_finite.empty() && found.defects.duplicate_faces.empty() &&
-        !found.cracks)
-        workers.execute([&] { noise = measure_noise(mesh, topology, exec); });
+    // Where cracks are open, the faces as they are say nothing of the noise.
+    if (mesh.n_faces() > 0 && found.defects.vertices_not_finite.empty() && !found.cracks)
+        workers.execute([&] {
+            if (found.defects.duplicate_faces.empty()) {
+                noise = measure_noise(mesh, topology, exec);
+            } else {
+                const PolygonMesh single = with_single_faces(mesh, found);
+                noise = measure_noise(single, make_topology(single, exec), exec);
+            }
+        });
     if (as_json)
         std::cout << inspection_json(input.string(), faults, found, noise);
     else

@@ -277,9 +277,9 @@ struct MotionOptions {
     Junctions junctions = Junctions::Flow;
     /// Vertices that stay where they are, bit for bit; in any order, repetitions are allowed.
     std::vector<Index> fixed_vertices = {};
-    /// Edges that keep_edges keeps whatever their angle: pairs of vertices that share an edge of a face. Faces on the
-    /// two sides are smoothed independently. A vertex between two of these edges moves along them only, at most to
-    /// their midpoints; vertices at the ends of lines, and where several lines meet, stay.
+    /// Edges that keep_edges and denoise keep whatever their angle: pairs of vertices that share an edge of a face.
+    /// Faces on the two sides are smoothed independently. With keep_edges alone a vertex between two of these edges
+    /// moves along them, at most to their midpoints; all others on them stay.
     std::vector<Edge> feature_edges = {};
     /// Refuses meshes on which the flow is not defined everywhere: those that are not manifold, or on which edges
     /// without length (Δ_F) or faces without area (the others) leave the Laplacian undefined at vertices that should
@@ -388,16 +388,18 @@ struct FlowOptions {
     /// Keeps edges at which the normals of faces differ by more than this angle, in degrees, above 0 and below 180, and
     /// corners where such edges meet; 20 to 40 suit most meshes. Smaller angles are smoothed. In each step, face
     /// normals diffuse by dt, but not across edges, and vertices move to fit them.
-    /// dt has its usual meaning; because edges do not suffer, ten to thirty squared mean edge lengths suit one step.
-    /// Further steps start from the resulting surface. Fixed vertices stay, and a free boundary does not shrink. There
-    /// are no sub-meshes, no equations of the Laplacian (which still gives the reported mean curvatures), and no
-    /// undecomposed flow to compare with: options about these are refused. nullopt: mean curvature flow.
+    /// dt has its usual meaning; because edges do not suffer, eight to thirty squared mean edge lengths suit one step
+    /// of parts of planes with noise. Clean round parts bend by it: with `denoise` the noise of each place is the
+    /// amount. Further steps start from the resulting surface. Fixed vertices stay, and a free boundary does not
+    /// shrink. There are no sub-meshes, no equations of the Laplacian (which still gives the reported mean curvatures),
+    /// and no undecomposed flow to compare with: options about these are refused. nullopt: mean curvature flow.
     std::optional<double> keep_edges = {};
     /// Removes noise in place of a flow: each step estimates the true normal of each face and how large the noise is
     /// there, and moves vertices to fit; along the normals, unless a face would fold. Edges,
     /// round parts and details stay, and where there is no noise, vertices stay bit for bit. No amount is needed:
     /// time_step is ignored. One step is enough; further ones treat what is left as noise. As with keep_edges there are
-    /// no sub-meshes and no equations of the Laplacian.
+    /// no sub-meshes and no equations of the Laplacian. With both, edges sharper than the angle stay where the noise is
+    /// small, in place of those above 30 degrees.
     bool denoise = false;
     CutOptions cut = {};
     InterfaceOptions interface = {};

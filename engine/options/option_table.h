@@ -85,7 +85,8 @@ auto option_table(Options& options)
             {"keep_edges", "--keep-edges", group::kept, concern::motion | whole_surface,
              "keep edges sharper than this angle between faces, in degrees, and their corners; 20 to 40 suit "
              "most meshes\n"
-             "The surface between them is smoothed; --time-step-edges 32 suits most noise. On the whole mesh.",
+             "The surface between them is smoothed: as much as there is noise, or as an amount says. On the whole "
+             "mesh.",
              Limits{0.0, 180.0, true, true, "above 0 and below 180 (degrees)"}}),
         row(denoise, {"denoise"}),
         row(feature_edges, {"feature_edges", "--edges", group::kept, concern::motion | numbers,

@@ -135,8 +135,9 @@ void require_valid_constraints(const FlowOptions& options)
             "rescale, within and limits are for results whose sub-meshes are joined; keep_gaps leaves them "
             "separate");
     if (!options.motion.feature_edges.empty()) {
-        if (!options.keep_edges)
-            throw OptionError("feature_edges are kept only with keep_edges: give its angle as well");
+        if (!smooths_normals(options))
+            throw OptionError(
+                "feature_edges are kept only with keep_edges or denoise: give the angle of edges as well");
         if (options.motion.rescale != Rescale::None || options.motion.within)
             throw OptionError("rescale and within move vertices off feature_edges: leave them out");
     }
@@ -262,12 +263,10 @@ void require_valid_edges(const FlowOptions& options)
         other = "sub-meshes";
     else if (!is_plain_flow(options))
         other = "another flow, a filter or an attachment";
-    else if (options.denoise && options.keep_edges)
-        other = "keep_edges";
     if (!other.empty())
         throw OptionError(
             fmt::format("{} is given, which smooths normals on the whole mesh and rules out {}: leave one of them out",
-                        options.denoise ? "denoise" : "keep_edges", other));
+                        options.keep_edges ? "keep_edges" : "denoise", other));
 }
 
 }  // namespace

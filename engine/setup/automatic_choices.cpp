@@ -168,7 +168,7 @@ std::string_view need_of_junctions(const FlowOptions& options)
         return {};
     if (!is_symmetric(options.laplacian))
         return "With a symmetric Laplacian";
-    if (options.keep_edges)
+    if (options.keep_edges && !options.denoise)
         return "Without edges that are kept";
     // There is no normal.
     if (options.motion.direction.kind == MotionDirection::Kind::Normal)

@@ -36,11 +36,10 @@ constexpr std::array table{
                  .order = denoising_order},
     PresetTraits{.preset = Preset::Cad,
                  .name = "cad",
-                 .purpose = "as automatic; with an amount or edges, keeps edges of more than 30 degrees",
+                 .purpose = "as automatic; with an amount, keeps edges of more than 30 degrees",
                  .laplacian = Laplacian::VirtualRefinement,
-                 .keep_edges = 30.0,
-                 .denoise = true,
-                 .time_step_edges = 32.0},
+                 .keep_edges = MeshDenoiser::default_edge_angle,
+                 .denoise = true},
     PresetTraits{.preset = Preset::Terrain,
                  .name = "terrain",
                  .purpose = "as automatic, and x and y stay; with an amount, keeps landforms larger than 5 % of the "
@@ -65,10 +64,6 @@ constexpr double most_volume_change = 0.02;
 constexpr double more_than_measured = 1.15;
 /// How far vertices move along the surface at most, in standard deviations of the noise, which also moved them there.
 constexpr double most_slide = 4.0;
-/// Steps given in mean edges reach no further than this fraction of the diagonal of the largest component: the
-/// shape of coarse parts is not much
-/// larger.
-constexpr double largest_reach = 0.2;
 /// Larger bumps, as a fraction of the diagonal of the largest component, are not noise.
 constexpr double largest_radius = 0.1;
 
@@ -131,7 +126,7 @@ void choose_by_noise(const PolygonMesh& mesh, const std::optional<LengthOnMesh>&
     if (*choice.noise == 0.0)
         return smooth_nothing(choice, mean_edge,
                               "No noise can be told from the shape of the mesh: nothing is smoothed. Use --radius to "
-                              "smooth anyway, or --keep-edges to keep edges.");
+                              "smooth anyway.");
     const double t = denoising_amount(flowing, joined, *choice.noise, exec).amount;
     // Of Δ_U, dt h²/4 of whose rows of the mean of differences are t.
     const double radius = smoothed_radius(0.25 * t * mean_edge * mean_edge, 1, {.order = denoising_order});
@@ -143,8 +138,7 @@ void choose_by_noise(const PolygonMesh& mesh, const std::optional<LengthOnMesh>&
                         "nothing is smoothed. Use --radius to smooth anyway.",
                         *choice.noise)
                   : "The noise of the mesh cannot be told from its shape well enough for smoothing to bring it nearer "
-                    "to the true surface: nothing is smoothed. Use --radius to smooth anyway, or --keep-edges to keep "
-                    "edges.");
+                    "to the true surface: nothing is smoothed. Use --radius to smooth anyway.");
     const double edges = time_step_for_radius(radius, std::max(choice.options.steps, 1), filter_of(choice.options)) /
                          (mean_edge * mean_edge);
     choice.options.time_step = require_step(rounded(edges) * mean_edge * mean_edge);
@@ -194,12 +188,7 @@ void choose_amount(const PresetTraits& preset, const PolygonMesh& mesh, const st
         return;
     }
     options.motion.limits = {.volume = most_volume_change};
-    if (preset.time_step_edges) {
-        const double mean_edge = mean_edge_length(mesh, mesh.vertices, exec);
-        const double reach = largest_reach * largest_diagonal(mesh, exec) / mean_edge;
-        const double edges = std::min(*preset.time_step_edges, rounded(reach * reach));
-        options.time_step = require_step(edges * mean_edge * mean_edge);
-    } else if (preset.radius) {
+    if (preset.radius) {
         options.time_step = time_step_for_radius(*preset.radius, options.steps, box_of_faces(mesh, exec).diagonal(),
                                                  filter_of(options));
     } else {
@@ -217,7 +206,7 @@ PresetChoice options_for(Preset preset, const PolygonMesh& mesh, const FlowOptio
     options.laplacian = traits.laplacian;
     options.flow = traits.flow;
     options.filter = traits.filter;
-    options.denoise = traits.denoise && !noise && options.motion.feature_edges.empty();
+    options.denoise = traits.denoise && !(noise && traits.measures_noise());
     options.order = options.denoise ? 1 : traits.order;
     options.keep_edges = options.denoise ? std::nullopt : traits.keep_edges;
     if (traits.along_z)

@@ -42,13 +42,11 @@ struct PresetTraits {
     /// Length for attachment_of, if vertices are attached.
     std::optional<LengthOnMesh> attach = {};
     int steps = 1;
-    /// dt in squared mean edge lengths, less if √dt exceeds a fifth of the diagonal; or the radius that all steps
-    /// smooth.
-    std::optional<double> time_step_edges = {};
+    /// The radius that all steps smooth.
     std::optional<LengthOnMesh> radius = {};
 
     /// Whether the amount for its equation follows from the noise.
-    [[nodiscard]] bool measures_noise() const { return !time_step_edges && !radius; }
+    [[nodiscard]] bool measures_noise() const { return !keep_edges && !radius; }
 };
 
 inline MotionDirection along_z()
@@ -73,9 +71,10 @@ struct PresetChoice {
 };
 
 /// The options of a preset for a mesh, to be changed at will and given to mean_curvature_flow. A preset that denoises
-/// does so where neither noise nor edges to keep are given.
+/// does so where no noise is given that its equation could take its amount from.
 /// @param further options unrelated to the preset: fixed vertices, threads, reports, and so on.
-/// @param noise the standard deviation of the noise along the normals, where it is known.
+/// @param noise the standard deviation of the noise along the normals, where it is known; Preset::Cad and Preset::Fair
+/// ignore it.
 /// @throws InputError for a mesh that is not valid, or that has no size to measure by ("has no size …").
 PresetChoice options_for(Preset preset, const PolygonMesh& mesh, const FlowOptions& further = {},
                          const std::optional<LengthOnMesh>& noise = {}, const Executor& exec = run_serially);

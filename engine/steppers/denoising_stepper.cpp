@@ -1,10 +1,13 @@
 #include "engine/steppers/denoising_stepper.h"
 
+#include <algorithm>
 #include <cassert>
 
 #include <fmt/format.h>
 
 #include "partition/errors.h"
+#include "partition/index_lists.h"
+#include "solvers/normals/feature_lines.h"
 
 namespace seamflow {
 
@@ -15,21 +18,61 @@ constexpr double small_part = 0.05;
 
 }  // namespace
 
+std::unique_ptr<const DenoisingStepper::CutOpen> DenoisingStepper::cut_open(const PolygonMesh& mesh,
+                                                                            const Topology& topology,
+                                                                            const std::vector<Edge>& feature_edges,
+                                                                            const Executor& exec)
+{
+    if (feature_edges.empty())
+        return nullptr;
+    auto open = std::make_unique<CutOpen>();
+    open->mesh = FeatureLines(mesh, topology, feature_edges).cut_open(mesh, topology);
+    open->topology = make_topology(open->mesh, exec);
+    free_boundary(open->topology);
+    std::vector<Index> held;
+    for (const Edge& edge : feature_edges)
+        held.insert(held.end(), edge.begin(), edge.end());
+    sort_unique(held);
+    for (Index h = 0; h < mesh.n_corners(); ++h) {
+        const Index v = mesh.face_vertices[h];
+        open->mesh.vertices.row(open->mesh.face_vertices[h]) = mesh.vertices.row(v);
+        if (!topology.moves(v) || std::ranges::binary_search(held, v))
+            open->topology.fixed[open->mesh.face_vertices[h]] = 1;
+    }
+    return open;
+}
+
 DenoisingStepper::DenoisingStepper(const PolygonMesh& mesh, const Topology& topology, const FlowOptions& options,
                                    Progress& progress)
     : mesh_(&mesh)
+    , open_(cut_open(mesh, topology, options.motion.feature_edges, progress.exec()))
     , step_scales_(options.motion.strength)
-    , denoiser_(mesh, topology, progress.exec())
+    , denoiser_(open_ ? open_->mesh : mesh, open_ ? open_->topology : topology, progress.exec(),
+                options.keep_edges.value_or(MeshDenoiser::default_edge_angle))
     , positions_(mesh.vertices)
     , loops_(1.0, progress)
 {
+    if (open_ && !step_scales_.empty()) {
+        step_scales_.resize(usize(open_->mesh.n_vertices()));
+        for (Index h = 0; h < mesh.n_corners(); ++h)
+            step_scales_[open_->mesh.face_vertices[h]] = options.motion.strength[mesh.face_vertices[h]];
+    }
 }
 
 void DenoisingStepper::step(const Points& before)
 {
     assert(&before != &positions_);
     const Executor exec = loops_.begin();
-    positions_ = denoiser_.denoise(before, step_scales_, exec);
+    if (open_) {
+        // Copies of a vertex do not move: the first has its number.
+        Points of_copies(open_->mesh.n_vertices(), 3);
+        of_copies.topRows(before.rows()) = before;
+        for (Index h = 0; h < mesh_->n_corners(); ++h)
+            of_copies.row(open_->mesh.face_vertices[h]) = before.row(mesh_->face_vertices[h]);
+        positions_ = denoiser_.denoise(of_copies, step_scales_, exec).topRows(before.rows());
+    } else {
+        positions_ = denoiser_.denoise(before, step_scales_, exec);
+    }
     if (!noise_)
         noise_ = denoiser_.noise();
     loops_.end();

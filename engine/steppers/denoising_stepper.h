@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -14,7 +15,8 @@
 namespace seamflow {
 
 /// Takes steps that remove noise (FlowOptions::denoise, see MeshDenoiser). The whole mesh at once, its faces and
-/// vertices shared among the threads; the bits do not depend on their number.
+/// vertices shared among the threads; the bits do not depend on their number. Vertices on feature edges stay, and faces
+/// on the two sides do not matter to each other.
 class DenoisingStepper final : public Stepper {
   public:
     /// @param mesh, topology, progress must outlive the stepper; the twins of the topology are not needed later.
@@ -37,8 +39,19 @@ class DenoisingStepper final : public Stepper {
     void report_to(FlowReport& report) const override;
 
   private:
+    /// A mesh with one vertex for each side of the feature edges at a vertex.
+    struct CutOpen {
+        PolygonMesh mesh;
+        Topology topology;
+    };
+
+    /// Null without feature edges.
+    static std::unique_ptr<const CutOpen> cut_open(const PolygonMesh& mesh, const Topology& topology,
+                                                   const std::vector<Edge>& feature_edges, const Executor& exec);
+
     const PolygonMesh* mesh_;
-    /// #V: the part of each displacement that vertices go; empty: 1.
+    std::unique_ptr<const CutOpen> open_;
+    /// Of the mesh that is cut open: #V: the part of each displacement that vertices go; empty: 1.
     std::vector<double> step_scales_;
     MeshDenoiser denoiser_;
     Points positions_;

@@ -1,22 +1,23 @@
 #include "engine/steppers/edge_keeping_stepper.h"
 
+#include <algorithm>
 #include <cassert>
 
 #include <fmt/format.h>
 
 #include "partition/errors.h"
+#include "partition/metrics/vertex_distance.h"
 #include "solvers/laplacian/geometry.h"
-#include "solvers/normals/vertex_fit.h"
+#include "solvers/normals/smoothed_between_edges.h"
 
 namespace seamflow {
 
 namespace {
 
-/// How often normals are smoothed and vertices moved, each time by a part of the step (measured: see
-/// engine/accuracy.md).
-constexpr int passes = 3;
 /// Steps of this many face areas move vertices half of the way.
 constexpr double short_step = 0.01;
+/// In mean edge lengths.
+constexpr double rounding = 1e-9;
 
 /// Normals diffuse only on each side of the lines.
 NormalDiffusion diffusion_between(const PolygonMesh& mesh, const Topology& topology, const FeatureLines& lines,
@@ -48,11 +49,8 @@ void EdgeKeepingStepper::step(const Points& before)
 {
     assert(&before != &positions_);
     const Executor exec = loops_.begin();
-    Points from = before;
-    for (int pass = 0; pass < passes; ++pass) {
-        const Points normals = diffusion_.smoothed(from, time_step_ / passes, angle_, exec);
-        fit_vertices(*mesh_, *topology_, lines_, {normals, diffusion_.noise()}, from, exec);
-    }
+    const Points smoothed =
+        smoothed_between_edges(*mesh_, *topology_, lines_, diffusion_, before, time_step_, angle_, exec);
     // Vertices fit at once, however short the step: they go all the way if it is long relative to faces.
     for_each(exec, mesh_->n_vertices(), [&](Index v) {
         const auto corners = topology_->corners_at(v);
@@ -61,9 +59,12 @@ void EdgeKeepingStepper::step(const Points& before)
             size += area(mesh_->face(topology_->face_of[corner]), before) / static_cast<double>(corners.size());
         const double step_scale = step_scales_.empty() ? 1.0 : step_scales_[v];
         const double part = step_scale * time_step_ / (time_step_ + short_step * size);
-        positions_.row(v) =
-            part < 1.0 ? lines_.on_line(v, before.row(v) + part * (from.row(v) - before.row(v))) : Point(from.row(v));
+        positions_.row(v) = part < 1.0 ? lines_.on_line(v, before.row(v) + part * (smoothed.row(v) - before.row(v)))
+                                       : Point(smoothed.row(v));
     });
+    const double mean_edge = mean_edge_length(*mesh_, before, exec);
+    if (mean_edge > 0.0)
+        furthest_ = std::max(furthest_, (positions_ - before).rowwise().norm().maxCoeff() / mean_edge);
     loops_.end();
     if (!positions_.allFinite())
         throw ComputationError("the result is not finite: scale the mesh to a size nearer to 1");
@@ -85,9 +86,19 @@ void EdgeKeepingStepper::report_to(FlowReport& report) const
     if (mesh_->n_faces() == 0)
         return;
     report.cut.sub_meshes = {{mesh_->n_faces(), mesh_->n_vertices()}};
-    report.remarks.push_back(fmt::format("Edges sharper than {:g}° were kept: face normals were smoothed between them, "
-                                         "and vertices moved to fit; no sub-meshes and no Laplacian were needed.",
-                                         angle_));
+    if (furthest_ < rounding)
+        report.remarks.push_back(
+            fmt::format("Nothing was smoothed: most faces lie in planes that meet in edges sharper "
+                        "than {:g}°, which were kept. If these are noise, as in heights of whole "
+                        "numbers, give a larger angle, or leave out the amount, so that it "
+                        "follows from the noise.",
+                        angle_));
+    else
+        report.remarks.push_back(
+            fmt::format("Edges sharper than {:g}° were kept, and face normals smoothed between them, "
+                        "as much as was asked for, whether there is noise or not: vertices moved "
+                        "by up to {:.2g} mean edge lengths in a step.",
+                        angle_, furthest_));
 }
 
 }  // namespace seamflow

@@ -48,6 +48,8 @@ class EdgeKeepingStepper final : public Stepper {
     FeatureLines lines_;
     NormalDiffusion diffusion_;
     Points positions_;
+    /// The furthest that a vertex moved in a step, in mean edge lengths.
+    double furthest_ = 0.0;
     LoopCount loops_;
 };
 

@@ -154,7 +154,7 @@ bool run_opposite(std::span<const Index> face, std::span<const Index> other)
     return other[(begin + 1) % other.size()] != face[1];
 }
 
-/// Also counts components, as they are without duplicates.
+/// Also counts components and pairs of faces that cross, as they are without duplicates.
 void inspect_duplicates(const Surface& s, const Executor& exec, MeshInspection& found)
 {
     std::vector<Index> faces(s.mesh.n_faces());
@@ -166,11 +166,17 @@ void inspect_duplicates(const Surface& s, const Executor& exec, MeshInspection& 
     }
     if (repeated.empty()) {
         found.counts.components = face_components(s.mesh, s.topology).count();
+        found.defects.self_intersections = self_intersections(s.mesh, s.mesh.vertices, exec);
         return;
     }
-    const PolygonMesh single =
-        with_faces(s.mesh, [&](Index f) { return !std::ranges::binary_search(found.defects.duplicate_faces, f); });
+    const PolygonMesh single = with_single_faces(s.mesh, found);
     found.counts.components = face_components(single, make_topology(single, exec)).count();
+    faces.clear();
+    for (Index f = 0; f < s.mesh.n_faces(); ++f)
+        if (!std::ranges::binary_search(found.defects.duplicate_faces, f))
+            faces.push_back(f);
+    for (const FacePair& pair : self_intersections(single, single.vertices, exec))
+        found.defects.self_intersections.push_back({faces[pair[0]], faces[pair[1]]});
 }
 
 /// Orients faces one after the other consistently with those before; whether all are consistent in the end.
@@ -255,8 +261,12 @@ MeshInspection inspect(const PolygonMesh& mesh, const Topology& topology, const 
         found.defects.spikes.push_back(spike.vertex);
     found.defects.faces_without_area = select(exec, mesh.n_faces(), [&](Index f) { return lacks_area(mesh, f); });
     found.defects.coincident_vertices = coincident_vertices(mesh.vertices);
-    found.defects.self_intersections = self_intersections(mesh, mesh.vertices, exec);
     return found;
+}
+
+PolygonMesh with_single_faces(const PolygonMesh& mesh, const MeshInspection& found)
+{
+    return with_faces(mesh, [&](Index f) { return !std::ranges::binary_search(found.defects.duplicate_faces, f); });
 }
 
 }  // namespace seamflow

@@ -69,7 +69,7 @@ struct MeshDefects {
     std::vector<Index> far_vertices;
     /// Vertices far from all of their neighbours (see find_spikes).
     std::vector<Index> spikes;
-    /// Faces that cross each other (see self_intersections).
+    /// Faces that cross each other (see self_intersections); of those that lie on each other the first one counts.
     std::vector<FacePair> self_intersections;
 };
 
@@ -91,6 +91,9 @@ struct MeshInspection {
 /// Examines a mesh. Nearly linear in its size.
 /// @param mesh valid (see require_valid), but coordinates need not be finite.
 MeshInspection inspect(const PolygonMesh& mesh, const Topology& topology, const Executor& exec = run_serially);
+
+/// The mesh with the first one of faces that have the same vertices: one side of a surface with two.
+PolygonMesh with_single_faces(const PolygonMesh& mesh, const MeshInspection& found);
 
 /// A face with the same vertices as an earlier one, in any order.
 struct RepeatedFace {

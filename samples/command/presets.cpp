@@ -45,8 +45,6 @@ std::vector<PresetOption> options_of(const PresetTraits& preset, bool denoise)
 
 std::string amount_of(const PresetTraits& preset)
 {
-    if (preset.time_step_edges)
-        return fmt::format("--time-step-edges {}", *preset.time_step_edges);
     return preset.radius ? fmt::format("--radius {:g}%", 100.0 * preset.radius->value) : "";
 }
 

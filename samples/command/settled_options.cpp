@@ -155,7 +155,7 @@ void apply_preset(const CLI::App& app, SmoothCommand& command)
                           (preset.denoise ? " finds out itself how much there is at each place"
                                           : " smooths as much whatever the noise"));
     std::string left_out;
-    const bool denoise = preset.denoise && !has_amount && !wants_equation(app) && !keeps_edges(app);
+    const bool denoise = preset.denoise && !has_amount && (preset.keep_edges || !wants_equation(app));
     for (const PresetOption& option : options_of(preset, denoise)) {
         if (is_said(app, command, option.name)) {
             if (app.count(std::string(option.name)) == 0 && !is_symmetric(command.options.laplacian))
@@ -227,7 +227,7 @@ void settle(const CLI::App& app, SmoothCommand& command)
     if (command.chooses_threads)
         command.options.resources.threads = threads_within_quota();
     apply_preset(app, command);
-    if (names_edges(app) && !command.options.keep_edges)
+    if (names_edges(app) && !smooths_normals(command.options))
         throw OptionError(first_given(app, {"--edges", "--edges-from-file"}) +
                           " names edges to keep: give --preset cad, or --keep-edges with an angle, as well");
     command.limits_iterations = app.count("--converge-iterations") > 0;

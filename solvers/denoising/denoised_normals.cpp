@@ -1,11 +1,10 @@
 #include "solvers/denoising/denoised_normals.h"
 
-#include <bit>
 #include <cmath>
+#include <numeric>
+#include <span>
 #include <utility>
 
-#include "partition/decomposition/overlap.h"
-#include "solvers/denoising/mesh_piece.h"
 #include "solvers/denoising/mixing_network.h"
 #include "solvers/denoising/mixing_weights.h"
 #include "solvers/denoising/normal_estimates.h"
@@ -19,9 +18,6 @@ namespace {
 constexpr double relaxation_between = 0.1;
 constexpr int relaxing_rounds_between = 5;
 constexpr int plain_rounds_between = 8;
-/// In rings of faces. With so many the results of six meshes cut into three and six pieces differed from those of the
-/// whole mesh no more than if its faces came in another order, which changes the rounding.
-constexpr int overlap = 16;
 
 /// On the sides of the faces' own normals.
 Points own_sides(const FaceVectors& normals, const std::vector<std::int8_t>& signs, const Executor& exec)
@@ -74,31 +70,19 @@ DenoisedNormals denoise_at_once(const PolygonMesh& mesh, const Topology& topolog
 DenoisedNormals denoise_normals(const PolygonMesh& mesh, const Topology& topology, const Points& positions,
                                 const Executor& exec, Index most_faces)
 {
-    const Index n_faces = mesh.n_faces();
-    const auto n_pieces = static_cast<Index>(std::bit_ceil(usize((n_faces + most_faces - 1) / most_faces)));
-    const std::vector<Index> piece_of =
-        n_pieces > 1 ? boxes_of_faces(mesh, positions, n_pieces, exec) : std::vector<Index>(usize(n_faces), 0);
-    const IndexLists pieces = make_lists(n_pieces, [&](auto&& add) {
-        for (Index f = 0; f < n_faces; ++f)
-            add(piece_of[f], f);
-    });
-    // Any piece may grow into any other.
-    const std::vector<Index> same_stage(usize(n_pieces), 0);
-    DenoisedNormals found{Points(n_faces, 3), std::vector<float>(usize(n_faces))};
-    for (Index p = 0; p < n_pieces; ++p) {
-        const MeshPiece piece = cut_out(mesh, topology, positions,
-                                        grow(mesh, topology, {piece_of, same_stage, n_pieces > 1 ? overlap : 0}, p,
-                                             {pieces[p].begin(), pieces[p].end()}),
-                                        exec);
-        const DenoisedNormals of_piece = denoise_at_once(piece.mesh, piece.topology, exec);
-        for_each(exec, piece.mesh.n_faces(), [&](Index i) {
-            const Index f = piece.faces[i];
-            if (piece_of[f] != p)
-                return;
-            found.normals.row(f) = of_piece.normals.row(i);
-            found.noise[f] = of_piece.noise[i];
-        });
-    }
+    std::vector<Index> all(usize(mesh.n_faces()));
+    std::iota(all.begin(), all.end(), 0);
+    DenoisedNormals found{Points(mesh.n_faces(), 3), std::vector<float>(all.size())};
+    for_each_piece(mesh, topology, positions, std::move(all), {.most_faces = most_faces}, exec,
+                   [&](const MeshPiece& piece, std::span<const std::uint8_t> is_own) {
+                       const DenoisedNormals of_piece = denoise_at_once(piece.mesh, piece.topology, exec);
+                       for_each(exec, piece.mesh.n_faces(), [&](Index i) {
+                           if (is_own[i] == 0)
+                               return;
+                           found.normals.row(piece.faces[i]) = of_piece.normals.row(i);
+                           found.noise[piece.faces[i]] = of_piece.noise[i];
+                       });
+                   });
     return found;
 }
 

@@ -5,6 +5,7 @@
 #include "partition/executor.h"
 #include "partition/polygon_mesh.h"
 #include "partition/topology.h"
+#include "solvers/denoising/mesh_piece.h"
 
 namespace seamflow {
 
@@ -15,9 +16,6 @@ struct DenoisedNormals {
     /// #F: the standard deviation of the noise along the normals around each face, in lengths of the edges there.
     std::vector<float> noise;
 };
-
-/// More faces are denoised in pieces, which bounds the memory.
-constexpr Index most_faces_at_once = 1'000'000;
 
 /// Estimates the true normals of a noisy surface, and the noise.
 ///
@@ -32,8 +30,8 @@ constexpr Index most_faces_at_once = 1'000'000;
 ///
 /// A large mesh is denoised in pieces, one after the other, which overlap so far that hardly anything changes.
 /// @param mesh its vertices are not used. @param topology twins are not used; vertices that it fixes stay.
-/// @param positions #V by 3. @param most_faces of a piece without its overlap, about.
+/// @param positions #V by 3. @param most_faces see PieceSizes.
 DenoisedNormals denoise_normals(const PolygonMesh& mesh, const Topology& topology, const Points& positions,
-                                const Executor& exec = run_serially, Index most_faces = most_faces_at_once);
+                                const Executor& exec = run_serially, Index most_faces = PieceSizes().most_faces);
 
 }  // namespace seamflow

@@ -213,6 +213,22 @@ void FaceAverages::average_best_patch(const FaceVectors& vectors, FaceVectors& m
     });
 }
 
+std::vector<float> FaceAverages::roughness(const FaceVectors& normals, float largest, const Executor& exec) const
+{
+    std::vector<float> found(areas_.size());
+    for_each(exec, n_faces(), [&](Index f) {
+        float total = 0.0F;
+        float sum = 0.0F;
+        for (std::size_t k = neighbours_.offsets[f]; k < neighbours_.offsets[f + 1]; ++k) {
+            const float squared = (normals.row(f) - normals.row(neighbours_.faces[k])).squaredNorm();
+            total += near_[k] * std::min(squared, largest);
+            sum += near_[k];
+        }
+        found[f] = sum > 0.0F ? total / sum : 0.0F;
+    });
+    return found;
+}
+
 void normalise(FaceVectors& vectors, const Executor& exec)
 {
     for_each(exec, static_cast<Index>(vectors.rows()), [&](Index f) {

@@ -75,6 +75,12 @@ class FaceAverages {
     /// vectors agree best (Zhang et al., Guided mesh normal filtering, 2015).
     void average_best_patch(const FaceVectors& vectors, FaceVectors& means, const Executor& exec = run_serially) const;
 
+    /// #F: how rough the surface is around each face: the mean squared chord between its vector and those of its
+    /// neighbours, of which each counts at most as `largest`.
+    /// @param normals of length 1 or 0.
+    [[nodiscard]] std::vector<float> roughness(const FaceVectors& normals, float largest,
+                                               const Executor& exec = run_serially) const;
+
     [[nodiscard]] Index n_faces() const { return static_cast<Index>(areas_.size()); }
 
   private:

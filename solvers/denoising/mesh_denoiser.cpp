@@ -9,6 +9,7 @@
 #include "partition/vector_area.h"
 #include "solvers/denoising/filter_sample.h"
 #include "solvers/denoising/normal_motion.h"
+#include "solvers/denoising/smoother_places.h"
 #include "solvers/normals/vertex_fit.h"
 
 namespace seamflow {
@@ -42,7 +43,8 @@ double mean_squared_edge(const PolygonMesh& mesh, const Topology& topology, Inde
 
 }  // namespace
 
-MeshDenoiser::MeshDenoiser(const PolygonMesh& mesh, const Topology& topology, const Executor& exec, bool as_one)
+MeshDenoiser::MeshDenoiser(const PolygonMesh& mesh, const Topology& topology, const Executor& exec,
+                           std::optional<double> edge_angle, bool as_one)
     : triangles_(cut_polygons(mesh, topology, exec))
     , polygons_(&mesh)
     , polygon_topology_(&topology)
@@ -50,6 +52,7 @@ MeshDenoiser::MeshDenoiser(const PolygonMesh& mesh, const Topology& topology, co
     , topology_(triangles_ ? &triangles_->topology : &topology)
     , places_(*mesh_, *topology_, as_one)
     , rims_(*mesh_, *topology_)
+    , edge_angle_(edge_angle)
 {
 }
 
@@ -86,15 +89,19 @@ Points MeshDenoiser::without_noise(const Points& before, std::span<const double>
                  {found.normals, std::min(most_relaxation, mean_chord(*mesh_, before, found.normals, exec))}, fitted,
                  exec);
     const std::vector<std::uint8_t> is_flat = flat_vertices(*mesh_, *topology_, before, exec);
-    const std::vector<double> parts = places_.find(*mesh_, *topology_, before, fitted, found, is_flat, exec);
+    std::vector<double> parts = places_.find(*mesh_, *topology_, before, fitted, found, is_flat, exec);
     measure_noise(fitted - before, parts, is_flat, found.normals, fitted, exec);
     for_each(exec, mesh_->n_vertices(), [&](Index v) {
-        const double part = (strengths.empty() ? 1.0 : strengths[v]) * parts[v];
-        if (part < 1.0)
-            fitted.row(v) = before.row(v) + part * (fitted.row(v) - before.row(v));
+        if (!strengths.empty())
+            parts[v] *= strengths[v];
+        if (parts[v] < 1.0)
+            fitted.row(v) = before.row(v) + parts[v] * (fitted.row(v) - before.row(v));
     });
     Points result = along_normals(*mesh_, *topology_, before, fitted, found.normals, exec);
     rims_.apply(*topology_, found.normals, parts, result);
+    if (edge_angle_)
+        take_smoother_places({*mesh_, *topology_, before, found.normals, parts}, places_.components(), *edge_angle_,
+                             result, exec);
     keep_facing(*mesh_, *topology_, before, found.normals, result, exec);
     return result;
 }
@@ -124,7 +131,7 @@ void MeshDenoiser::measure_noise(const Points& motions, std::span<const double> 
 SurfaceNoise measure_noise(const PolygonMesh& mesh, const Topology& topology, const Executor& exec)
 {
     const auto measured = [&](const PolygonMesh& part, const Topology& of_part, bool as_one) {
-        MeshDenoiser denoiser(part, of_part, exec, as_one);
+        MeshDenoiser denoiser(part, of_part, exec, {}, as_one);
         denoiser.denoise(part.vertices, {}, exec);
         return denoiser.noise();
     };

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -32,9 +33,12 @@ struct SurfaceNoise {
 class MeshDenoiser {
   public:
     /// @param mesh, topology must outlive the object; the twins of the topology are not needed later.
-    /// @param as_one whether all components have noise or none.
+    /// @param edge_angle between the normals of faces, in degrees: the edges that stay where noise is small (see
+    /// take_smoother_places), if that is to be used. @param as_one whether all components have noise or none.
     MeshDenoiser(const PolygonMesh& mesh, const Topology& topology, const Executor& exec = run_serially,
-                 bool as_one = false);
+                 std::optional<double> edge_angle = default_edge_angle, bool as_one = false);
+
+    static constexpr double default_edge_angle = 30.0;
 
     /// @param before #V by 3. @param strengths #V: the part of each displacement that vertices go; empty: 1.
     /// @returns #V by 3.
@@ -71,6 +75,7 @@ class MeshDenoiser {
     const Topology* topology_;
     NoisyPlaces places_;
     RimFilter rims_;
+    std::optional<double> edge_angle_;
     SurfaceNoise noise_;
     std::vector<Spike> spikes_;
 };

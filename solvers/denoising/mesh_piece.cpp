@@ -1,9 +1,11 @@
 #include "solvers/denoising/mesh_piece.h"
 
+#include <bit>
 #include <utility>
 
 #include "partition/cut/boxes.h"
 #include "partition/decomposition/index_set.h"
+#include "partition/decomposition/overlap.h"
 
 namespace seamflow {
 
@@ -29,17 +31,42 @@ MeshPiece cut_out(const PolygonMesh& mesh, const Topology& topology, const Point
     return piece;
 }
 
-std::vector<Index> boxes_of_faces(const PolygonMesh& mesh, const Points& positions, Index n_boxes, const Executor& exec)
+void for_each_piece(const PolygonMesh& mesh, const Topology& topology, const Points& positions,
+                    std::vector<Index> faces, const PieceSizes& sizes, const Executor& exec,
+                    const std::function<void(const MeshPiece&, std::span<const std::uint8_t> is_own)>& action)
 {
+    std::vector<std::uint8_t> is_own(faces.size(), 1);
+    if (std::ssize(faces) <= sizes.most_faces) {
+        action(cut_out(mesh, topology, positions, std::move(faces), exec), is_own);
+        return;
+    }
+    const auto n_boxes = static_cast<Index>(std::bit_ceil(usize((mesh.n_faces() - 1) / sizes.most_faces + 1)));
     const IndexLists boxes = divide_into_boxes(positions, n_boxes, exec);
-    std::vector<Index> of_vertices(usize(mesh.n_vertices()));
+    std::vector<Index> box_of(usize(mesh.n_vertices()));
     for_each(exec, n_boxes, [&](Index box) {
         for (const Index v : boxes[box])
-            of_vertices[v] = box;
+            box_of[v] = box;
     });
-    std::vector<Index> of_faces(usize(mesh.n_faces()));
-    for_each(exec, mesh.n_faces(), [&](Index f) { of_faces[f] = of_vertices[mesh.face(f).front()]; });
-    return of_faces;
+    std::vector<Index> piece_of(usize(mesh.n_faces()), n_boxes);
+    for (const Index f : faces)
+        piece_of[f] = box_of[mesh.face(f).front()];
+    const IndexLists pieces = make_lists(n_boxes, [&](auto&& add) {
+        for (const Index f : faces)
+            add(piece_of[f], f);
+    });
+    // Any piece may grow into any other, but not into other faces.
+    std::vector<Index> stages(usize(n_boxes) + 1, 1);
+    stages.back() = 0;
+    for (Index p = 0; p < n_boxes; ++p) {
+        if (pieces[p].empty())
+            continue;
+        const MeshPiece piece = cut_out(
+            mesh, topology, positions,
+            grow(mesh, topology, {piece_of, stages, sizes.overlap}, p, {pieces[p].begin(), pieces[p].end()}), exec);
+        is_own.resize(piece.faces.size());
+        for_each(exec, piece.mesh.n_faces(), [&](Index i) { is_own[i] = piece_of[piece.faces[i]] == p ? 1 : 0; });
+        action(piece, is_own);
+    }
 }
 
 }  // namespace seamflow

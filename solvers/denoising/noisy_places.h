@@ -36,6 +36,9 @@ class NoisyPlaces {
                                            std::span<const std::uint8_t> is_flat,
                                            const Executor& exec = run_serially) const;
 
+    /// Of faces.
+    [[nodiscard]] const Components& components() const { return components_; }
+
   private:
     /// The components of the mesh, by faces: each is judged by itself.
     Components components_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numbers>
 #include <span>
@@ -28,6 +29,10 @@ constexpr double most_disagreement = 8.0;
 constexpr double clearly_less = 0.5;
 /// Shorter chords are rounding errors.
 constexpr double least_sigma = 1e-6;
+/// The most faces that noise of whole numbers leaves on one plane.
+constexpr std::size_t most_in_plane_of_noise = 16;
+/// Where a plane differs this much less from the mean of those around it than from each, it is a part of a round shape.
+constexpr double even_bend = 0.2;
 /// Of the residual of a round, relative to that at its beginning; and the most iterations.
 constexpr double diffusion_tolerance = 1e-2;
 constexpr int most_diffusion_iterations = 500;
@@ -49,6 +54,17 @@ void normalise_row(Points& normals, Index f)
         normals.row(f) /= length;
     else
         normals.row(f).setZero();
+}
+
+/// Of those below a limit; 0 if there are none.
+double median_below(double limit, std::vector<double> values)
+{
+    std::erase_if(values, [&](double value) { return !(value < limit); });
+    if (values.empty())
+        return 0.0;
+    const auto middle = values.begin() + (std::ssize(values) - 1) / 2;
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
 }
 
 /// 0 where no normal can be determined: such a face follows none, and holds no vertex.
@@ -101,7 +117,7 @@ Points NormalDiffusion::smoothed(const Points& positions, double time_step, doub
         normals.row(f) *= signs_.empty() ? 1.0 : signs_[f];
         normalise_row(normals, f);
     });
-    noise_ = measure_noise(normals, edge_chord, exec);
+    noise_ = measure_noise(positions, normals, edge_chord, exec);
     const double longest = std::min(sigmas_at_edges * std::max(sigma_by_noise * noise_, least_sigma), edge_chord);
     for (int round = 0; round < diffusion_rounds; ++round) {
         find_guides(normals, exec);
@@ -142,8 +158,10 @@ void NormalDiffusion::measure(const Points& positions, double time_step, const E
 }
 
 /// The median of the chords between each face and the neighbour across an edge that is most similar to it, or the mean
-/// of these, which is more similar in round parts. Those of sharper edges do not count.
-double NormalDiffusion::measure_noise(const Points& normals, double edge_chord, const Executor& exec) const
+/// of these, which is more similar in round parts. Those of sharper edges do not count. Where most faces have a
+/// neighbour with the same normal, as on whole-number heights, small planes of such faces take the place of faces.
+double NormalDiffusion::measure_noise(const Points& positions, const Points& normals, double edge_chord,
+                                      const Executor& exec) const
 {
     const Index n = mesh_->n_faces();
     std::vector<double> chords(usize(n));
@@ -163,12 +181,54 @@ double NormalDiffusion::measure_noise(const Points& normals, double edge_chord, 
         if (const double length = mean.norm(); length > 0.0)
             chords[f] = std::min(chords[f], (normals.row(f) - mean / length).norm());
     });
-    std::erase_if(chords, [&](double chord) { return !(chord < edge_chord); });
-    if (chords.empty())
-        return 0.0;
-    const auto middle = chords.begin() + (std::ssize(chords) - 1) / 2;
-    std::nth_element(chords.begin(), middle, chords.end());
-    return *middle;
+    const double noise = median_below(edge_chord, chords);
+    if (noise > least_sigma)
+        return noise;
+    spread_over_planes(positions, normals, edge_chord, chords);
+    return median_below(edge_chord, chords);
+}
+
+/// Gives all faces of a plane, faces with the same normal that share edges, the chord between it and the most similar
+/// plane around it, or the mean of these by length of edges: 0 for larger planes, and where the planes around bend as
+/// those of a round shape, which noise does not make.
+/// @param chords #F: replaced, but for faces without area.
+void NormalDiffusion::spread_over_planes(const Points& positions, const Points& normals, double edge_chord,
+                                         std::vector<double>& chords) const
+{
+    std::vector<std::uint8_t> is_known(chords.size());
+    std::vector<Index> plane;
+    for (Index first = 0; first < mesh_->n_faces(); ++first) {
+        if (is_known[first] != 0 || areas_[first] == 0.0)
+            continue;
+        is_known[first] = 1;
+        plane.assign(1, first);
+        double least = std::numeric_limits<double>::infinity();
+        Point mean = Point::Zero();
+        for (std::size_t i = 0; i < plane.size(); ++i) {
+            const Index f = plane[i];
+            const auto corners = mesh_->face(f);
+            for (std::size_t k = 0; k < corners.size(); ++k) {
+                const Index g = across_[usize(mesh_->face_offsets[f]) + k];
+                if (g < 0 || areas_[g] == 0.0)
+                    continue;
+                const double chord = (normals.row(f) - normals.row(g)).norm();
+                if (chord > least_sigma) {
+                    least = std::min(least, chord);
+                    const Index next = corners[k + 1 < corners.size() ? k + 1 : 0];
+                    if (chord < edge_chord)
+                        mean += (positions.row(next) - positions.row(corners[k])).norm() * normals.row(g);
+                } else if (is_known[g] == 0) {
+                    is_known[g] = 1;
+                    plane.push_back(g);
+                }
+            }
+        }
+        const double length = mean.norm();
+        const double from_mean = length > 0.0 ? (normals.row(first) - mean / length).norm() : least;
+        const bool is_shape = plane.size() > most_in_plane_of_noise || from_mean < even_bend * least;
+        for (const Index f : plane)
+            chords[f] = is_shape ? 0.0 : std::min(least, from_mean);
+    }
 }
 
 void NormalDiffusion::find_guides(const Points& normals, const Executor& exec)

@@ -50,7 +50,10 @@ class NormalDiffusion {
 
   private:
     void measure(const Points& positions, double time_step, const Executor& exec);
-    [[nodiscard]] double measure_noise(const Points& normals, double edge_chord, const Executor& exec) const;
+    [[nodiscard]] double measure_noise(const Points& positions, const Points& normals, double edge_chord,
+                                       const Executor& exec) const;
+    void spread_over_planes(const Points& positions, const Points& normals, double edge_chord,
+                            std::vector<double>& chords) const;
     void find_guides(const Points& normals, const Executor& exec);
     void find_patches(const Points& normals, const Executor& exec);
     void find_weights(const Points& normals, double longest, const Executor& exec);

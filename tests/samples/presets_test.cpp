@@ -117,7 +117,7 @@ TEST_CASE("options that are given go before those of a preset")
     REQUIRE(w.smooth("mesh.obj out.obj --preset fair --time-step-edges 2") == 0);
     CHECK(chosen(w) == "--laplacian virtual-refinement --flow conformalized --steps 5 ");
     REQUIRE(w.smooth("mesh.obj out.obj --keep-edges 50") == 0);
-    CHECK(chosen(w) == "--time-step-edges 32");
+    CHECK(chosen(w) == "--boundary free ");
     REQUIRE(w.smooth("mesh.obj out.obj --laplacian ptackova-velho") == 0);
     CHECK(chosen(w).find("--filter") == std::string::npos);
     REQUIRE(w.smooth("mesh.obj out.obj --time-step 1e-3") == 0);
@@ -206,6 +206,25 @@ double off_ridge(const Workshop& w, const char* mesh)
 
 }  // namespace
 
+TEST_CASE(
+    "where edges are kept without an amount, clean round parts stay byte for byte; an amount says how far things went")
+{
+    const Workshop w;
+    REQUIRE(w.run(GENERATE " noisy-sphere ball.obj --vertices 2000 --noise 0 --amplitude 0") == 0);
+    for (const std::string options : {"--keep-edges 30", "--keep-edges 20 --steps 3", "--preset cad"}) {
+        CAPTURE(options);
+        REQUIRE(w.smooth("ball.obj out.obj " + options) == 0);
+        CHECK(w.said().find("No noise was found: nothing is smoothed") != std::string::npos);
+        CHECK(w.run("cmp ball.obj out.obj") == 0);
+    }
+    REQUIRE(w.smooth("ball.obj out.obj --keep-edges 30 --time-step-edges 32") == 0);
+    CHECK(w.said().find("whether there is noise or not: vertices moved by up to 0.") != std::string::npos);
+    (void)w.directory.with("cube.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n"
+                                       "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n");
+    REQUIRE(w.smooth("cube.obj out.obj --keep-edges 30 --time-step-edges 32") == 0);
+    CHECK(w.said().find("Nothing was smoothed: most faces lie in planes") != std::string::npos);
+}
+
 TEST_CASE("edges that are given stay as they are, from whichever file, and vertices on them move along them alone")
 {
     const Workshop w;
@@ -219,6 +238,8 @@ TEST_CASE("edges that are given stay as they are, from whichever file, and verti
     REQUIRE(w.smooth("roof.obj lost.obj --preset cad") == 0);
     CHECK(off_ridge(w, "kept.obj") < 1e-12);
     CHECK(off_ridge(w, "lost.obj") > 1e-3);
+    REQUIRE(w.smooth("roof.obj along.obj --edges pairs --keep-edges 30 --time-step-edges 32") == 0);
+    CHECK(off_ridge(w, "along.obj") < 1e-12);
     CHECK(w.smooth("roof.obj out.obj --radius 1% --edges pairs") == 2);
     CHECK(w.said().find("--edges names edges to keep: give --preset cad, or --keep-edges") != std::string::npos);
     CHECK(w.smooth("roof.obj out.obj --edges pairs --edges-from-file") == 2);

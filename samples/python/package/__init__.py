@@ -50,7 +50,7 @@ def smooth(V, F=None, *, fixed=None, labels=None, edges=None, attach_weights=Non
     F: faces, (#F, 3) or (#F, 4) and so on, with the vertices of each numbered from 0; or a list of polygons.
     fixed: vertices that stay where they are, as a mask (#V, bool; or whole numbers, 0 and 1 alone) or by their numbers.
     labels: the sub-mesh of every face, (#F,), at least 0.
-    edges: edges that are kept, however little they bend, by their vertices, (#E, 2); with keep_edges or preset="cad".
+    edges: edges that are kept, however little they bend, by their vertices, (#E, 2); with keep_edges or without an amount.
     attach_weights: how strongly each vertex is pulled back to where it was, (#V,), in 1/length².
     region: the strength of the flow at each vertex, (#V,), from 0 (it stays) to 1, or a mask of those that move.
     progress: called with a Progress a few times a second, in the calling thread; what it raises stops the flow.

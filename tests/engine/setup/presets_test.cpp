@@ -187,7 +187,6 @@ TEST_CASE("what has no noise is not smoothed by the preset that goes by it, and 
         CHECK(choice.options.steps == 0);
         CHECK(choice.remark.find("nothing is smoothed") != std::string::npos);
         CHECK(choice.remark.find("--radius") != std::string::npos);
-        CHECK(choice.remark.find("--keep-edges") != std::string::npos);
         PolygonMesh moved = mesh;
         mean_curvature_flow(moved, choice.options);
         CHECK(same_bits(moved.vertices, mesh.vertices));
@@ -232,21 +231,14 @@ TEST_CASE("a clean globe keeps its poles and its faces where edges are kept")
     }
 }
 
-TEST_CASE("the amount of the cad preset is in mean edges, and reaches no further than a fifth of a coarse part")
+TEST_CASE("the cad preset takes the noise of each place as its amount, also with edges and with known noise")
 {
-    const auto edges_of = [](const PolygonMesh& mesh) {
-        const double edge = mean_edge_length(mesh, mesh.vertices);
-        FlowOptions with_edge;
-        with_edge.motion.feature_edges = {{mesh.face_vertices[0], mesh.face_vertices[1]}};
-        const FlowOptions options = options_for(Preset::Cad, mesh, with_edge).options;
-        CHECK(options.keep_edges == 30.0);
-        return options.time_step / (edge * edge);
-    };
-    CHECK(edges_of(make_box(3000)) == relative(32.0, 1e-5));
-    const PolygonMesh coarse = make_box(400);
-    const double reach = 0.2 * box_of_faces(coarse).diagonal() / mean_edge_length(coarse, coarse.vertices);
-    REQUIRE(reach * reach < 20.0);
-    CHECK(edges_of(coarse) == relative(reach * reach, 0.005));
+    const PolygonMesh mesh = make_box(400);
+    FlowOptions with_edge;
+    with_edge.motion.feature_edges = {{mesh.face_vertices[0], mesh.face_vertices[1]}};
+    CHECK(options_for(Preset::Cad, mesh, with_edge).options.denoise);
+    CHECK(options_for(Preset::Cad, mesh, {}, LengthOnMesh{0.01, true}).options.denoise);
+    CHECK(!options_for(Preset::Terrain, mesh, {}, LengthOnMesh{0.01, true}).options.denoise);
 }
 
 TEST_CASE("noise that is said is believed, and no more is taken than it")

@@ -106,6 +106,31 @@ TEST_CASE("repetitions are listed, not what they repeat")
     CHECK(found.defects.coincident_vertices == Numbers{7, 9});
 }
 
+TEST_CASE("two sides that lie on each other do not cross; what crosses them is named once, by the first side")
+{
+    PolygonMesh sheet = quad_grid(4, 4);
+    // One more face, which stands on the third one, and goes through it.
+    const auto corners = sheet.face(2);
+    const Point middle =
+        0.5 * (sheet.vertices.row(corners[0]) + sheet.vertices.row(corners[2])) + Point(0.01, 0.02, 0.0);
+    const Index n = sheet.n_vertices();
+    sheet.vertices.conservativeResize(n + 3, 3);
+    sheet.vertices.bottomRows<3>().rowwise() = middle;
+    sheet.vertices.bottomRightCorner<3, 1>() << -1.0, 1.0, 1.0;
+    sheet.vertices(n + 2, 0) += 0.1;
+    sheet.add_face(Numbers{n, n + 1, n + 2});
+    const auto crossings = inspected(sheet).defects.self_intersections;
+    REQUIRE(crossings.size() == 1);
+    PolygonMesh two_sided = sheet;
+    for (Index f = 0; f < sheet.n_faces(); ++f) {
+        Numbers turned(sheet.face(f).begin(), sheet.face(f).end());
+        std::ranges::reverse(turned);
+        two_sided.add_face(turned);
+    }
+    CHECK(inspected(two_sided).defects.self_intersections == crossings);
+    CHECK(with_single_faces(two_sided, inspected(two_sided)).face_vertices == sheet.face_vertices);
+}
+
 TEST_CASE("what has no extent is listed, and what has no faces")
 {
     PolygonMesh mesh = triangle_grid(4, 4);

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <optional>
 #include <random>
 #include <span>
 #include <vector>
@@ -216,4 +217,66 @@ TEST_CASE("polygons lose as much noise as triangles")
         result.vertices = MeshDenoiser(noisy, topology).denoise(noisy.vertices);
         CHECK(test::angle_to_truth(truth, result) < 0.35 * test::angle_to_truth(truth, noisy));
     }
+}
+
+TEST_CASE(
+    "with little noise parts come much nearer to the truth where normals diffuse between edges, others no less near")
+{
+    const auto angle = [](const PolygonMesh& truth, const PolygonMesh& noisy, std::optional<double> edge_angle) {
+        PolygonMesh result = noisy;
+        const Topology topology = make_topology(noisy);
+        result.vertices = MeshDenoiser(noisy, topology, run_serially, edge_angle).denoise(noisy.vertices);
+        return test::angle_to_truth(truth, result);
+    };
+    for (const double sigma : {0.05, 0.1}) {
+        CAPTURE(sigma);
+        for (const PolygonMesh& part : {make_box(3000), make_gear(3000), make_chamfered_plate(3000)}) {
+            CAPTURE(part.n_faces());
+            const PolygonMesh noisy = test::with_gaussian_noise(part, sigma, 3);
+            CHECK(angle(part, noisy, 30.0) < 0.75 * angle(part, noisy, {}));
+        }
+        for (const PolygonMesh& body : {bumpy_sphere(3000), make_noisy_sphere(642, {.amplitude = 0.0, .noise = 0.0})}) {
+            CAPTURE(body.n_faces());
+            const PolygonMesh noisy = test::with_gaussian_noise(body, sigma, 3);
+            CHECK(angle(body, noisy, 30.0) < 1.02 * angle(body, noisy, {}));
+        }
+    }
+    // With more noise single normals are better estimated.
+    const PolygonMesh noisy = test::with_gaussian_noise(make_gear(3000), 0.5, 3);
+    const Topology topology = make_topology(noisy);
+    CHECK(MeshDenoiser(noisy, topology, run_serially, {}).denoise(noisy.vertices) ==
+          MeshDenoiser(noisy, topology).denoise(noisy.vertices));
+}
+
+TEST_CASE("a sample says whether normals of a large surface diffuse between edges, too")
+{
+    const auto denoised = [](const PolygonMesh& noisy, std::optional<double> edge_angle) {
+        PolygonMesh result = noisy;
+        const Topology topology = make_topology(noisy);
+        result.vertices =
+            MeshDenoiser(noisy, topology, run_in_parallel, edge_angle).denoise(noisy.vertices, {}, run_in_parallel);
+        return result;
+    };
+    constexpr Index vertices = 55'000;
+    const PolygonMesh part = make_gear(vertices);
+    const PolygonMesh noisy_part = test::with_gaussian_noise(part, 0.1, 3);
+    CHECK(test::angle_to_truth(part, denoised(noisy_part, 30.0)) <
+          0.75 * test::angle_to_truth(part, denoised(noisy_part, {})));
+    const PolygonMesh noisy = test::with_gaussian_noise(bumpy_sphere(vertices), 0.1, 3);
+    CHECK(denoised(noisy, 30.0).vertices == denoised(noisy, {}).vertices);
+}
+
+TEST_CASE("where normals diffuse between edges, neither a second part of another size matters nor threads")
+{
+    const PolygonMesh part = test::with_gaussian_noise(make_gear(3000), 0.05, 3);
+    PolygonMesh other = test::with_gaussian_noise(make_box(2000), 0.1, 5);
+    other.vertices *= 100.0;
+    const PolygonMesh both = test::together({part, other});
+    const Topology topology = make_topology(part);
+    const Topology of_both = make_topology(both);
+    const Points alone = MeshDenoiser(part, topology).denoise(part.vertices);
+    const Points beside = MeshDenoiser(both, of_both).denoise(both.vertices).topRows(part.n_vertices());
+    // Rounding may decide at a place.
+    CHECK((beside - alone).rowwise().norm().maxCoeff() < 5e-3 * mean_edge_length(part));
+    CHECK(MeshDenoiser(part, topology, run_in_parallel).denoise(part.vertices, {}, run_in_parallel) == alone);
 }

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <random>
 
 #include <doctest/doctest.h>
 
@@ -14,6 +15,7 @@
 #include "tests/support/denoising.h"
 #include "tests/support/flows.h"
 #include "tests/support/relative.h"
+#include "tests/support/test_meshes.h"
 
 using namespace seamflow;
 
@@ -169,4 +171,30 @@ TEST_CASE("vertices that fit their normals stay, others go to where they fit")
     result.vertices = noisy.vertices;
     fit_vertices(truth, moving, FeatureLines(), {normals, 0.1}, result.vertices);
     CHECK(result.vertices == noisy.vertices);
+}
+
+TEST_CASE("heights of whole numbers have as much noise as the same ones before rounding; stairs and strips have none")
+{
+    constexpr Index width = 50;
+    const auto noise_of = [](const PolygonMesh& mesh) {
+        NormalDiffusion diffusion(mesh, make_topology(mesh));
+        (void)diffusion.smoothed(mesh.vertices, 1.0, 60.0);
+        return diffusion.noise();
+    };
+    const auto with_heights = [&](PolygonMesh mesh, auto&& height) {
+        for (Index v = 0; v < mesh.n_vertices(); ++v)
+            mesh.vertices.row(v) << v % width, v / width, height(v % width, v / width);
+        return mesh;
+    };
+    const PolygonMesh triangles = test::triangle_grid(width - 1, width - 1);
+    const PolygonMesh rough = with_heights(triangles, [random = std::mt19937(1)](double x, double y) mutable {
+        return 0.5 * x + 0.3 * y + std::normal_distribution<double>(0.0, 0.6)(random);
+    });
+    const PolygonMesh rounded =
+        with_heights(rough, [&, v = Index{0}](double, double) mutable { return std::round(rough.vertices(v++, 2)); });
+    CHECK(noise_of(rounded) > 0.3 * noise_of(rough));
+    CHECK(noise_of(rounded) < 3.0 * noise_of(rough));
+    // Steps that are five wide, and bends of less than the angle between strips of two triangles.
+    CHECK(noise_of(with_heights(triangles, [](double x, double) { return 0.4 * std::floor(x / 5.0) * 5.0; })) < 1e-6);
+    CHECK(noise_of(with_heights(triangles, [](double x, double) { return 0.004 * x * x; })) < 1e-6);
 }

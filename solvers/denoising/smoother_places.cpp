@@ -1,0 +1,252 @@
+#include "solvers/denoising/smoother_places.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "partition/index_lists.h"
+#include "solvers/denoising/face_averages.h"
+#include "solvers/denoising/filter_sample.h"
+#include "solvers/denoising/mesh_piece.h"
+#include "solvers/denoising/normal_motion.h"
+#include "solvers/denoising/vertex_averages.h"
+#include "solvers/normals/smoothed_between_edges.h"
+
+namespace seamflow {
+
+namespace {
+
+// Measured on parts, round bodies and natural shapes that are known, with noise of 0.03 to 0.4 along the normals.
+
+/// In squared mean edge lengths: the larger one where the smaller one is better than none; for large surfaces alone.
+constexpr std::array<double, 2> edge_keeping_amounts{8.0, 32.0};
+/// The mean squared motion around a place, in squares of edge lengths: up to the first one the place may be replaced,
+/// from the second one on it may not.
+constexpr float replaced_up_to = 0.08F * 0.08F;
+constexpr float replaced_below = 0.105F * 0.105F;
+/// The mean squared motion around a place over that of the first result: some noise stays in that.
+constexpr float most_squared_motion = 1.2F * 1.2F;
+/// Squared chords of normals that count at most: sharper edges are no rougher.
+constexpr float largest_squared_chord = 0.2F;
+/// Larger surfaces are tried out on a sample first, of which at least this part must get smoother.
+constexpr Index most_untried_faces = 100'000;
+constexpr double least_smoother_part = 0.05;
+/// Rounds over which motions and roughness are averaged, and over which results are blended.
+constexpr int averaging_rounds = 20;
+constexpr int blending_rounds = 4;
+
+using FaceRows = VertexAverages::Rows;
+
+class SmootherPlaces {
+  public:
+    SmootherPlaces(const DenoisedSurface& surface, const Executor& exec)
+        : surface_(surface)
+        , exec_(exec)
+        , with_twins_(make_topology(surface.mesh, exec))
+        , faces_(surface.mesh, with_twins_, exec)
+        , vertices_(surface.mesh, surface.topology, exec)
+        , edges_(usize(surface.mesh.n_vertices()))
+    {
+        faces_.measure(surface.before, exec_);
+        for_each(exec_, surface_.mesh.n_vertices(), [&](Index v) {
+            const auto corners = surface_.topology.corners_at(v);
+            double total = 0.0;
+            for (const Index corner : corners) {
+                const Index next = surface_.mesh.face_vertices[surface_.topology.next(surface_.mesh, corner)];
+                total += (surface_.before.row(next) - surface_.before.row(v)).norm();
+            }
+            edges_[v] = total / static_cast<double>(std::max(corners.size(), std::size_t{1}));
+        });
+    }
+
+    /// #F by 2: squared motions along the normals, in squares of edge lengths, and roughness, both around each face.
+    [[nodiscard]] FaceRows measured(const Points& positions) const
+    {
+        const PolygonMesh& mesh = surface_.mesh;
+        FaceVectors normals;
+        faces_.measure_normals(positions, normals, exec_);
+        const std::vector<float> roughness = faces_.roughness(normals, largest_squared_chord, exec_);
+        FaceRows near(mesh.n_faces(), 2);
+        for_each(exec_, mesh.n_faces(), [&](Index f) {
+            double squares = 0.0;
+            for (const Index v : mesh.face(f)) {
+                const double motion = motion_along_normal(surface_.topology, surface_.normals, v,
+                                                          positions.row(v) - surface_.before.row(v));
+                if (edges_[v] > 0.0)
+                    squares += std::pow(motion / edges_[v], 2);
+            }
+            near(f, 0) = static_cast<float>(squares / static_cast<double>(mesh.face(f).size()));
+            near(f, 1) = roughness[f];
+        });
+        FaceRows around(mesh.n_faces(), 2);
+        vertices_.spread(near, around, 0, averaging_rounds, exec_);
+        return around;
+    }
+
+    /// The surface between edges, as far as parts and normals let vertices go.
+    [[nodiscard]] Points along_normals(const Points& smoothed) const
+    {
+        Points there = surface_.before;
+        for_each(exec_, surface_.mesh.n_vertices(),
+                 [&](Index v) { there.row(v) += surface_.parts[v] * (smoothed.row(v) - surface_.before.row(v)); });
+        return seamflow::along_normals(surface_.mesh, surface_.topology, surface_.before, there, surface_.normals,
+                                       exec_);
+    }
+
+    /// #V: how much of each vertex to take from another result. @param of_faces #F by 1: 1 or 0.
+    [[nodiscard]] std::vector<double> blended(FaceRows of_faces) const
+    {
+        FaceRows around(of_faces.rows(), 1);
+        vertices_.spread(of_faces, around, 0, blending_rounds, exec_);
+        std::vector<double> weights(edges_.size(), 0.0);
+        for_each(exec_, surface_.mesh.n_vertices(), [&](Index v) {
+            const auto corners = surface_.topology.corners_at(v);
+            if (surface_.topology.kind[v] != VertexKind::Interior)
+                return;
+            for (const Index corner : corners)
+                weights[v] += static_cast<double>(around(surface_.topology.face_of[corner], 0)) /
+                              static_cast<double>(corners.size());
+        });
+        return weights;
+    }
+
+  private:
+    const DenoisedSurface& surface_;
+    const Executor& exec_;
+    Topology with_twins_;
+    FaceAverages faces_;
+    VertexAverages vertices_;
+    /// #V: the mean length of the edges, in length.
+    std::vector<double> edges_;
+};
+
+/// Of the edges of some faces, each face's own.
+double mean_edge_of(const DenoisedSurface& surface, std::span<const Index> faces)
+{
+    double total = 0.0;
+    double n = 0.0;
+    for (const Index f : faces) {
+        Index v = surface.mesh.face(f).back();
+        for (const Index w : surface.mesh.face(f)) {
+            total += (surface.before.row(w) - surface.before.row(std::exchange(v, w))).norm();
+            n += 1.0;
+        }
+    }
+    return total / n;
+}
+
+/// From 1 to 0.
+float replaced_part(float squared_motion)
+{
+    return std::clamp((replaced_below - squared_motion) / (replaced_below - replaced_up_to), 0.0F, 1.0F);
+}
+
+/// See take_smoother_places.
+void replace_places(const DenoisedSurface& surface, const Components& components, std::span<const double> amounts,
+                    double angle, Points& result, const Executor& exec)
+{
+    const Index n_faces = surface.mesh.n_faces();
+    const SmootherPlaces places(surface, exec);
+    const FaceRows of_first = places.measured(result);
+    // Components in which some place may be replaced; then those in which some was.
+    std::vector<std::uint8_t> is_open(usize(components.count()));
+    const auto open = [&](auto&& is_open_at) {
+        std::ranges::fill(is_open, std::uint8_t{0});
+        for (Index f = 0; f < n_faces; ++f)
+            if (is_open_at(f))
+                is_open[components.component_of[f]] = 1;
+        return std::ranges::find(is_open, 1) != is_open.end();
+    };
+    const auto moves = [&](Index f) {
+        return std::ranges::any_of(surface.mesh.face(f), [&](Index v) { return surface.parts[v] > 0.0; });
+    };
+    bool any = open([&](Index f) { return of_first(f, 0) < replaced_below && moves(f); });
+    FaceRows of_result = of_first;
+    for (std::size_t i = 0; any && i < amounts.size(); ++i) {
+        Points smoothed = surface.before;
+        for (Index c = 0; c < components.count(); ++c) {
+            if (is_open[c] == 0)
+                continue;
+            std::vector<Index> faces(components.nodes[c].begin(), components.nodes[c].end());
+            std::ranges::sort(faces);
+            const double mean_edge = mean_edge_of(surface, faces);
+            for_each_piece(surface.mesh, surface.topology, surface.before, std::move(faces), {}, exec,
+                           [&](const MeshPiece& piece, std::span<const std::uint8_t> is_own) {
+                               NormalDiffusion diffusion(piece.mesh, piece.topology, exec);
+                               const Points there = smoothed_between_edges(
+                                   piece.mesh, piece.topology, {}, diffusion, piece.mesh.vertices,
+                                   amounts[i] * mean_edge * mean_edge, angle, exec);
+                               for (Index f = 0; f < piece.mesh.n_faces(); ++f)
+                                   if (is_own[f] != 0)
+                                       for (const Index v : piece.mesh.face(f))
+                                           smoothed.row(piece.vertices[v]) = there.row(v);
+                           });
+        }
+        smoothed = places.along_normals(smoothed);
+        const FaceRows of_smoothed = places.measured(smoothed);
+        FaceRows better(n_faces, 1);
+        for_each(exec, n_faces, [&](Index f) {
+            const bool is_better = is_open[components.component_of[f]] != 0 &&
+                                   of_smoothed(f, 0) <= most_squared_motion * of_first(f, 0) &&
+                                   of_smoothed(f, 1) < of_result(f, 1);
+            better(f, 0) = is_better ? replaced_part(of_first(f, 0)) : 0.0F;
+        });
+        any = open([&](Index f) { return better(f, 0) > 0.0F; });
+        const std::vector<double> weights = places.blended(std::move(better));
+        for_each(exec, surface.mesh.n_vertices(),
+                 [&](Index v) { result.row(v) += weights[v] * (smoothed.row(v) - result.row(v)); });
+        if (any && i + 1 < amounts.size())
+            of_result = places.measured(result);
+    }
+}
+
+/// Whether that replaces enough of patches that are spread all over the surface (see take_filter_sample).
+bool helps_on_sample(const DenoisedSurface& surface, std::span<const double> amounts, double angle,
+                     const Points& result, const Executor& exec)
+{
+    const FilterSample sample = take_filter_sample(surface.mesh, surface.topology, exec);
+    std::vector<std::uint8_t> is_sampled(surface.parts.size(), 0);
+    for (const Index v : sample.vertices)
+        is_sampled[v] = 1;
+    const MeshPiece piece = cut_out(surface.mesh, surface.topology, surface.before,
+                                    select(exec, surface.mesh.n_faces(),
+                                           [&](Index f) {
+                                               return std::ranges::all_of(surface.mesh.face(f),
+                                                                          [&](Index v) { return is_sampled[v] != 0; });
+                                           }),
+                                    exec);
+    std::vector<double> parts;
+    for (const Index v : piece.vertices)
+        parts.push_back(surface.parts[v]);
+    const Points normals = surface.normals(piece.faces, Eigen::all);
+    const Points first = result(piece.vertices, Eigen::all);
+    Points replaced = first;
+    replace_places({piece.mesh, piece.topology, piece.mesh.vertices, normals, parts},
+                   face_components(piece.mesh, piece.topology), amounts, angle, replaced, exec);
+    const auto n = std::ranges::count_if(sample.measured, [&](Index i) {
+        const Index v = place_in(piece.vertices, sample.vertices[i]);
+        return replaced.row(v) != first.row(v);
+    });
+    return static_cast<double>(n) >= least_smoother_part * static_cast<double>(sample.measured.size());
+}
+
+}  // namespace
+
+void take_smoother_places(const DenoisedSurface& surface, const Components& components, double angle, Points& result,
+                          const Executor& exec)
+{
+    if (std::ranges::none_of(surface.parts, [](double part) { return part > 0.0; }))
+        return;
+    std::span<const double> amounts = edge_keeping_amounts;
+    if (surface.mesh.n_faces() > most_untried_faces) {
+        // What bends at all is wide.
+        amounts = amounts.last(1);
+        if (!helps_on_sample(surface, amounts, angle, result, exec))
+            return;
+    }
+    replace_places(surface, components, amounts, angle, result, exec);
+}
+
+}  // namespace seamflow
