@@ -83,12 +83,18 @@ void DenoisingStepper::step(const Points& before)
 void DenoisingStepper::save(StepMemory& memory) const
 {
     memory.positions = positions_;
+    if (noise_)
+        memory.numbers = {noise_->deviation, noise_->edge, noise_->part};
 }
 
 void DenoisingStepper::restore(const StepMemory& memory)
 {
     positions_ = memory.positions;
-    StepMemoryReader(memory).require_end();
+    StepMemoryReader reader(memory);
+    noise_.emplace();
+    for (double* number : {&noise_->deviation, &noise_->edge, &noise_->part})
+        *number = reader.number();
+    reader.require_end();
 }
 
 void DenoisingStepper::report_to(FlowReport& report) const

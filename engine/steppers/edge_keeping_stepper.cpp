@@ -73,12 +73,15 @@ void EdgeKeepingStepper::step(const Points& before)
 void EdgeKeepingStepper::save(StepMemory& memory) const
 {
     memory.positions = positions_;
+    memory.numbers = {furthest_};
 }
 
 void EdgeKeepingStepper::restore(const StepMemory& memory)
 {
     positions_ = memory.positions;
-    StepMemoryReader(memory).require_end();
+    StepMemoryReader reader(memory);
+    furthest_ = reader.number();
+    reader.require_end();
 }
 
 void EdgeKeepingStepper::report_to(FlowReport& report) const

@@ -44,16 +44,16 @@ void VertexAverages::spread(Rows& near, Rows& around, int rounds, int further_ro
         spread_columns<width>(near, around, first, rounds, further_rounds, exec);
 }
 
-template <int width>
+template <int Width>
 void VertexAverages::spread_columns(Rows& near, Rows& around, Eigen::Index first, int rounds, int further_rounds,
                                     const Executor& exec) const
 {
-    using NarrowRow = Eigen::Matrix<float, 1, width>;
-    using NarrowRows = Eigen::Matrix<float, Eigen::Dynamic, width, Eigen::RowMajor>;
+    using NarrowRow = Eigen::Matrix<float, 1, Width>;
+    using NarrowRows = Eigen::Matrix<float, Eigen::Dynamic, Width, Eigen::RowMajor>;
     const Index n_vertices = neighbours_.size();
-    NarrowRows now(n_vertices, width);
-    NarrowRows before(n_vertices, width);
-    const Eigen::Index n = std::min<Eigen::Index>(width, near.cols() - first);
+    NarrowRows now(n_vertices, Width);
+    NarrowRows before(n_vertices, Width);
+    const Eigen::Index n = std::min<Eigen::Index>(Width, near.cols() - first);
     const auto to_faces = [&](Rows& of_faces) {
         for_each(exec, mesh_->n_faces(), [&](Index f) {
             NarrowRow total = NarrowRow::Zero();

@@ -29,8 +29,8 @@ class VertexAverages {
     [[nodiscard]] const IndexLists& neighbours() const { return neighbours_; }
 
   private:
-    /// Spreads some columns, at most `width`, from the first on.
-    template <int width>
+    /// Spreads some columns, at most `Width`, from the first on.
+    template <int Width>
     void spread_columns(Rows& near, Rows& around, Eigen::Index first, int rounds, int further_rounds,
                         const Executor& exec) const;
 

@@ -80,6 +80,7 @@ void check_resumed(const PolygonMesh& mesh, const FlowOptions& options)
         check_same(resumed.report.displacement->path.tangential, whole.report.displacement->path.tangential);
         check_same(resumed.report.displacement->drift, whole.report.displacement->drift);
         CHECK(resumed.report.choices == whole.report.choices);
+        CHECK(resumed.report.noise.has_value() == whole.report.noise.has_value());
         CHECK(resumed.report.remarks == whole.report.remarks);
         CHECK(resumed.report.convergence.steps_short_of_tolerance == whole.report.convergence.steps_short_of_tolerance);
         CHECK(resumed.report.seconds.step >= state->seconds.step);
@@ -99,6 +100,14 @@ TEST_CASE("a flow that goes on after any step ends with the same bits and the sa
             CAPTURE(kind.name);
             check_resumed(mesh, kind.options);
         }
+}
+
+TEST_CASE("steps that remove noise go on with what the first one found")
+{
+    FlowOptions options;
+    options.denoise = true;
+    options.steps = 3;
+    check_resumed(make_noisy_sphere(1500, {.amplitude = 0.1, .noise = 0.3}), options);
 }
 
 TEST_CASE("sweeps that begin with rescaled surfaces go on with the same bits, with copies of the interface, too")
