@@ -4,11 +4,16 @@
 
 #include "samples/process/launched_processes.h"
 #include "samples/smooth_program.h"
+#include "solvers/platform/library_threads.h"
 
 namespace seamflow {
 
 int run_program(std::string_view program, int argc, char** argv)
 {
+    // The threads that BLAS started when the program was loaded would wait by spinning. None of these programs needs
+    // them: the setting stays until the process ends.
+    static_cast<void>(new SingleThreadedBlas);
+    end_threads_of_blas();
     return run_program(std::string(program).c_str(), [&] {
         if (program == "generate")
             return run_generate_program(argc, argv);
