@@ -24,10 +24,15 @@ namespace {
 constexpr std::array<double, 2> edge_keeping_amounts{8.0, 32.0};
 /// The mean squared motion around a place, in squares of edge lengths: up to the first one the place may be replaced,
 /// from the second one on it may not.
-constexpr float replaced_up_to = 0.08F * 0.08F;
-constexpr float replaced_below = 0.105F * 0.105F;
-/// The mean squared motion around a place over that of the first result: some noise stays in that.
-constexpr float most_squared_motion = 1.2F * 1.2F;
+constexpr float replaced_up_to = 0.15F * 0.15F;
+constexpr float replaced_below = 0.195F * 0.195F;
+/// The mean squared motion around a place over that of the first result, in which some noise stays, the more the less
+/// there is.
+float most_squared_motion(float of_first)
+{
+    constexpr float little = 0.08F * 0.08F;
+    return of_first * (of_first < little ? 1.2F * 1.2F : 1.15F * 1.15F);
+}
 /// Squared chords of normals that count at most: sharper edges are no rougher.
 constexpr float largest_squared_chord = 0.2F;
 /// Larger surfaces are tried out on a sample first, of which at least this part must get smoother.
@@ -189,7 +194,7 @@ void replace_places(const DenoisedSurface& surface, const Components& components
         FaceRows better(n_faces, 1);
         for_each(exec, n_faces, [&](Index f) {
             const bool is_better = is_open[components.component_of[f]] != 0 &&
-                                   of_smoothed(f, 0) <= most_squared_motion * of_first(f, 0) &&
+                                   of_smoothed(f, 0) <= most_squared_motion(of_first(f, 0)) &&
                                    of_smoothed(f, 1) < of_result(f, 1);
             better(f, 0) = is_better ? replaced_part(of_first(f, 0)) : 0.0F;
         });

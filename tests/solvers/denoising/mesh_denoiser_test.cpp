@@ -228,12 +228,13 @@ TEST_CASE(
         result.vertices = MeshDenoiser(noisy, topology, run_serially, edge_angle).denoise(noisy.vertices);
         return test::angle_to_truth(truth, result);
     };
-    for (const double sigma : {0.05, 0.1}) {
+    for (const double sigma : {0.05, 0.1, 0.2}) {
         CAPTURE(sigma);
+        const double most = sigma < 0.15 ? 0.75 : 1.02;
         for (const PolygonMesh& part : {make_box(3000), make_gear(3000), make_chamfered_plate(3000)}) {
             CAPTURE(part.n_faces());
             const PolygonMesh noisy = test::with_gaussian_noise(part, sigma, 3);
-            CHECK(angle(part, noisy, 30.0) < 0.75 * angle(part, noisy, {}));
+            CHECK(angle(part, noisy, 30.0) < most * angle(part, noisy, {}));
         }
         for (const PolygonMesh& body : {bumpy_sphere(3000), make_noisy_sphere(642, {.amplitude = 0.0, .noise = 0.0})}) {
             CAPTURE(body.n_faces());
@@ -242,7 +243,7 @@ TEST_CASE(
         }
     }
     // With more noise single normals are better estimated.
-    const PolygonMesh noisy = test::with_gaussian_noise(make_gear(3000), 0.5, 3);
+    const PolygonMesh noisy = test::with_gaussian_noise(make_gear(3000), 0.9, 3);
     const Topology topology = make_topology(noisy);
     CHECK(MeshDenoiser(noisy, topology, run_serially, {}).denoise(noisy.vertices) ==
           MeshDenoiser(noisy, topology).denoise(noisy.vertices));
