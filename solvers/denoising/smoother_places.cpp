@@ -20,12 +20,18 @@ namespace {
 
 // Measured on parts, round bodies and natural shapes that are known, with noise of 0.03 to 0.4 along the normals.
 
-/// In squared mean edge lengths: the larger one where the smaller one is better than none; for large surfaces alone.
-constexpr std::array<double, 2> edge_keeping_amounts{8.0, 32.0};
-/// The mean squared motion around a place, in squares of edge lengths: up to the first one the place may be replaced,
-/// from the second one on it may not.
-constexpr float replaced_up_to = 0.15F * 0.15F;
-constexpr float replaced_below = 0.195F * 0.195F;
+/// Which amounts are tried, in squared mean edge lengths, a larger one where the smaller one is better than none; and
+/// the mean squared motion around a place, in squares of edge lengths, up to which the place may be replaced.
+struct Trial {
+    std::array<double, 2> amounts;
+    std::size_t n_amounts;
+    float replaced_up_to;
+};
+constexpr Trial of_small_surfaces{{8.0, 32.0}, 2, 0.15F * 0.15F};
+/// What bends at all is wide; and with more noise it takes too long for what is left to gain.
+constexpr Trial of_large_surfaces{{32.0, 0.0}, 1, 0.08F * 0.08F};
+/// From this many times that motion on the place may not be replaced.
+constexpr float replaced_below = 1.7F;
 /// The mean squared motion around a place over that of the first result, in which some noise stays, the more the less
 /// there is.
 float most_squared_motion(float of_first)
@@ -143,14 +149,14 @@ double mean_edge_of(const DenoisedSurface& surface, std::span<const Index> faces
 }
 
 /// From 1 to 0.
-float replaced_part(float squared_motion)
+float replaced_part(const Trial& trial, float squared_motion)
 {
-    return std::clamp((replaced_below - squared_motion) / (replaced_below - replaced_up_to), 0.0F, 1.0F);
+    return std::clamp((replaced_below - squared_motion / trial.replaced_up_to) / (replaced_below - 1.0F), 0.0F, 1.0F);
 }
 
 /// See take_smoother_places.
-void replace_places(const DenoisedSurface& surface, const Components& components, std::span<const double> amounts,
-                    double angle, Points& result, const Executor& exec)
+void replace_places(const DenoisedSurface& surface, const Components& components, const Trial& trial, double angle,
+                    Points& result, const Executor& exec)
 {
     const Index n_faces = surface.mesh.n_faces();
     const SmootherPlaces places(surface, exec);
@@ -167,9 +173,9 @@ void replace_places(const DenoisedSurface& surface, const Components& components
     const auto moves = [&](Index f) {
         return std::ranges::any_of(surface.mesh.face(f), [&](Index v) { return surface.parts[v] > 0.0; });
     };
-    bool any = open([&](Index f) { return of_first(f, 0) < replaced_below && moves(f); });
+    bool any = open([&](Index f) { return replaced_part(trial, of_first(f, 0)) > 0.0F && moves(f); });
     FaceRows of_result = of_first;
-    for (std::size_t i = 0; any && i < amounts.size(); ++i) {
+    for (std::size_t i = 0; any && i < trial.n_amounts; ++i) {
         Points smoothed = surface.before;
         for (Index c = 0; c < components.count(); ++c) {
             if (is_open[c] == 0)
@@ -182,7 +188,7 @@ void replace_places(const DenoisedSurface& surface, const Components& components
                                NormalDiffusion diffusion(piece.mesh, piece.topology, exec);
                                const Points there = smoothed_between_edges(
                                    piece.mesh, piece.topology, {}, diffusion, piece.mesh.vertices,
-                                   amounts[i] * mean_edge * mean_edge, angle, exec);
+                                   trial.amounts[i] * mean_edge * mean_edge, angle, exec);
                                for (Index f = 0; f < piece.mesh.n_faces(); ++f)
                                    if (is_own[f] != 0)
                                        for (const Index v : piece.mesh.face(f))
@@ -196,20 +202,20 @@ void replace_places(const DenoisedSurface& surface, const Components& components
             const bool is_better = is_open[components.component_of[f]] != 0 &&
                                    of_smoothed(f, 0) <= most_squared_motion(of_first(f, 0)) &&
                                    of_smoothed(f, 1) < of_result(f, 1);
-            better(f, 0) = is_better ? replaced_part(of_first(f, 0)) : 0.0F;
+            better(f, 0) = is_better ? replaced_part(trial, of_first(f, 0)) : 0.0F;
         });
         any = open([&](Index f) { return better(f, 0) > 0.0F; });
         const std::vector<double> weights = places.blended(std::move(better));
         for_each(exec, surface.mesh.n_vertices(),
                  [&](Index v) { result.row(v) += weights[v] * (smoothed.row(v) - result.row(v)); });
-        if (any && i + 1 < amounts.size())
+        if (any && i + 1 < trial.n_amounts)
             of_result = places.measured(result);
     }
 }
 
 /// Whether that replaces enough of patches that are spread all over the surface (see take_filter_sample).
-bool helps_on_sample(const DenoisedSurface& surface, std::span<const double> amounts, double angle,
-                     const Points& result, const Executor& exec)
+bool helps_on_sample(const DenoisedSurface& surface, const Trial& trial, double angle, const Points& result,
+                     const Executor& exec)
 {
     const FilterSample sample = take_filter_sample(surface.mesh, surface.topology, exec);
     std::vector<std::uint8_t> is_sampled(surface.parts.size(), 0);
@@ -229,7 +235,7 @@ bool helps_on_sample(const DenoisedSurface& surface, std::span<const double> amo
     const Points first = result(piece.vertices, Eigen::all);
     Points replaced = first;
     replace_places({piece.mesh, piece.topology, piece.mesh.vertices, normals, parts},
-                   face_components(piece.mesh, piece.topology), amounts, angle, replaced, exec);
+                   face_components(piece.mesh, piece.topology), trial, angle, replaced, exec);
     const auto n = std::ranges::count_if(sample.measured, [&](Index i) {
         const Index v = place_in(piece.vertices, sample.vertices[i]);
         return replaced.row(v) != first.row(v);
@@ -244,14 +250,10 @@ void take_smoother_places(const DenoisedSurface& surface, const Components& comp
 {
     if (std::ranges::none_of(surface.parts, [](double part) { return part > 0.0; }))
         return;
-    std::span<const double> amounts = edge_keeping_amounts;
-    if (surface.mesh.n_faces() > most_untried_faces) {
-        // What bends at all is wide.
-        amounts = amounts.last(1);
-        if (!helps_on_sample(surface, amounts, angle, result, exec))
-            return;
-    }
-    replace_places(surface, components, amounts, angle, result, exec);
+    const bool is_large = surface.mesh.n_faces() > most_untried_faces;
+    const Trial& trial = is_large ? of_large_surfaces : of_small_surfaces;
+    if (!is_large || helps_on_sample(surface, trial, angle, result, exec))
+        replace_places(surface, components, trial, angle, result, exec);
 }
 
 }  // namespace seamflow
