@@ -12,7 +12,7 @@ int run_program(std::string_view program, int argc, char** argv)
 {
     // The threads that BLAS started when the program was loaded would wait by spinning. None of these programs needs
     // them: the setting stays until the process ends.
-    static_cast<void>(new SingleThreadedBlas);
+    [[maybe_unused]] static const auto* const single_threaded = new SingleThreadedBlas;
     end_threads_of_blas();
     return run_program(std::string(program).c_str(), [&] {
         if (program == "generate")

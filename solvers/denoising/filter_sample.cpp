@@ -74,20 +74,13 @@ FilterSample take_filter_sample(const PolygonMesh& mesh, const Topology& topolog
     return sample;
 }
 
-PolygonMesh mesh_of(const FilterSample& sample, const PolygonMesh& mesh)
+std::vector<Index> faces_of(const FilterSample& sample, const PolygonMesh& mesh, const Executor& exec)
 {
-    PolygonMesh patches;
-    patches.vertices = mesh.vertices(sample.vertices, Eigen::all);
-    std::vector<Index> face;
-    for (Index f = 0; f < mesh.n_faces(); ++f) {
-        face.clear();
-        for (const Index v : mesh.face(f))
-            if (const Index place = position_in(sample.vertices, v); place >= 0)
-                face.push_back(place);
-        if (face.size() == mesh.face(f).size())
-            patches.add_face(face);
-    }
-    return patches;
+    std::vector<std::uint8_t> is_in(usize(mesh.n_vertices()), 0);
+    for (const Index v : sample.vertices)
+        is_in[v] = 1;
+    return select(exec, mesh.n_faces(),
+                  [&](Index f) { return std::ranges::all_of(mesh.face(f), [&](Index v) { return is_in[v] != 0; }); });
 }
 
 }  // namespace seamflow

@@ -23,7 +23,7 @@ struct FilterSample {
 /// The whole mesh up to 30,000 vertices; else 32 patches of 18 rings of faces, measured within 8.
 FilterSample take_filter_sample(const PolygonMesh& mesh, const Topology& topology, const Executor& exec = run_serially);
 
-/// The vertices of a sample, and the faces that have no other vertices.
-PolygonMesh mesh_of(const FilterSample& sample, const PolygonMesh& mesh);
+/// The faces all of whose vertices are in a sample, ascending.
+std::vector<Index> faces_of(const FilterSample& sample, const PolygonMesh& mesh, const Executor& exec = run_serially);
 
 }  // namespace seamflow

@@ -8,6 +8,7 @@
 #include "partition/metrics/triangulation.h"
 #include "partition/vector_area.h"
 #include "solvers/denoising/filter_sample.h"
+#include "solvers/denoising/mesh_piece.h"
 #include "solvers/denoising/normal_motion.h"
 #include "solvers/denoising/smoother_places.h"
 #include "solvers/normals/vertex_fit.h"
@@ -138,7 +139,7 @@ SurfaceNoise measure_noise(const PolygonMesh& mesh, const Topology& topology, co
     const FilterSample sample = take_filter_sample(mesh, topology, exec);
     if (static_cast<Index>(sample.vertices.size()) == mesh.n_vertices())
         return measured(mesh, topology, false);
-    const PolygonMesh patches = mesh_of(sample, mesh);
+    const PolygonMesh patches = cut_out(mesh, topology, mesh.vertices, faces_of(sample, mesh, exec), exec).mesh;
     return measured(patches, make_topology(patches, exec), true);
 }
 

@@ -80,16 +80,9 @@ struct Motion {
         , after(to)
         , found(normals)
         , lengths(usize(of_mesh.n_vertices()), 0.0F)
-        , edges(usize(of_mesh.n_vertices()), 0.0)
+        , edges(edge_lengths_at_vertices(of_mesh, of_topology, from, exec))
     {
         for_each(exec, mesh.n_vertices(), [&](Index v) {
-            double total = 0.0;
-            const auto corners = topology.corners_at(v);
-            for (const Index corner : corners) {
-                const Index next = mesh.face_vertices[topology.next(mesh, corner)];
-                total += (before.row(next) - before.row(v)).norm();
-            }
-            edges[v] = total / static_cast<double>(std::max(corners.size(), std::size_t{1}));
             if (edges[v] > 0.0)
                 lengths[v] = static_cast<float>(
                     motion_along_normal(topology, found.normals, v, after.row(v) - before.row(v)) / edges[v]);

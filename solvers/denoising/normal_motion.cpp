@@ -1,6 +1,8 @@
 #include "solvers/denoising/normal_motion.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -75,6 +77,22 @@ double motion_along_normal(const Topology& topology, const Points& normals, Inde
     }
     const double length = normal.norm();
     return length > 0.0 ? std::abs(motion.dot(normal)) / length : 0.0;
+}
+
+std::vector<double> edge_lengths_at_vertices(const PolygonMesh& mesh, const Topology& topology, const Points& positions,
+                                             const Executor& exec)
+{
+    std::vector<double> lengths(usize(mesh.n_vertices()));
+    for_each(exec, mesh.n_vertices(), [&](Index v) {
+        double total = 0.0;
+        const auto corners = topology.corners_at(v);
+        for (const Index corner : corners) {
+            const Index next = mesh.face_vertices[topology.next(mesh, corner)];
+            total += (positions.row(next) - positions.row(v)).norm();
+        }
+        lengths[v] = total / static_cast<double>(std::max(corners.size(), std::size_t{1}));
+    });
+    return lengths;
 }
 
 Points along_normals(const PolygonMesh& mesh, const Topology& topology, const Points& before, const Points& after,

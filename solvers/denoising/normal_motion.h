@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "partition/executor.h"
 #include "partition/polygon_mesh.h"
 #include "partition/topology.h"
@@ -10,6 +12,11 @@ namespace seamflow {
 /// The length of the motion of vertex v along the mean normal of its faces, without sign; 0 where there is no normal.
 /// @param topology needs no twins. @param normals #F by 3: of length 1 or 0, to either side.
 double motion_along_normal(const Topology& topology, const Points& normals, Index v, const Point& motion);
+
+/// #V: the mean length of the edges at each vertex; 0 without faces.
+/// @param topology needs no twins.
+std::vector<double> edge_lengths_at_vertices(const PolygonMesh& mesh, const Topology& topology, const Points& positions,
+                                             const Executor& exec = run_serially);
 
 /// Leaves of a motion what goes along the wanted normals of the faces at each vertex, so that vertices hardly slide and
 /// parameters stay: on smooth parts along the one normal, at edges and corners in all directions that change a face.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -20,25 +21,25 @@ namespace {
 
 // Measured on parts, round bodies and natural shapes that are known, with noise of 0.03 to 0.4 along the normals.
 
-/// Which amounts are tried, in squared mean edge lengths, a larger one where the smaller one is better than none; and
-/// the mean squared motion around a place, in squares of edge lengths, up to which the place may be replaced.
+/// In squared mean edge lengths.
+constexpr std::array<double, 2> edge_keeping_amounts{8.0, 32.0};
+
+/// What is tried.
 struct Trial {
-    std::array<double, 2> amounts;
-    std::size_t n_amounts;
+    /// A larger one counts where the smaller one is better than none.
+    std::span<const double> amounts;
+    /// The mean squared motion around a place, in squares of edge lengths, up to which the place may be replaced.
     float replaced_up_to;
 };
-constexpr Trial of_small_surfaces{{8.0, 32.0}, 2, 0.15F * 0.15F};
+constexpr Trial of_small_surfaces{edge_keeping_amounts, 0.15F * 0.15F};
 /// What bends at all is wide; and with more noise it takes too long for what is left to gain.
-constexpr Trial of_large_surfaces{{32.0, 0.0}, 1, 0.08F * 0.08F};
+constexpr Trial of_large_surfaces{std::span(edge_keeping_amounts).last(1), 0.08F * 0.08F};
 /// From this many times that motion on the place may not be replaced.
 constexpr float replaced_below = 1.7F;
-/// The mean squared motion around a place over that of the first result, in which some noise stays, the more the less
-/// there is.
-float most_squared_motion(float of_first)
-{
-    constexpr float little = 0.08F * 0.08F;
-    return of_first * (of_first < little ? 1.2F * 1.2F : 1.15F * 1.15F);
-}
+/// The mean motion around a place over that of the first result: some noise stays in that, the more the less there is.
+constexpr float little_motion = 0.08F;
+constexpr float most_motion_where_little = 1.2F;
+constexpr float most_motion = 1.15F;
 /// Squared chords of normals that count at most: sharper edges are no rougher.
 constexpr float largest_squared_chord = 0.2F;
 /// Larger surfaces are tried out on a sample first, of which at least this part must get smoother.
@@ -58,18 +59,9 @@ class SmootherPlaces {
         , with_twins_(make_topology(surface.mesh, exec))
         , faces_(surface.mesh, with_twins_, exec)
         , vertices_(surface.mesh, surface.topology, exec)
-        , edges_(usize(surface.mesh.n_vertices()))
+        , edges_(edge_lengths_at_vertices(surface.mesh, surface.topology, surface.before, exec))
     {
         faces_.measure(surface.before, exec_);
-        for_each(exec_, surface_.mesh.n_vertices(), [&](Index v) {
-            const auto corners = surface_.topology.corners_at(v);
-            double total = 0.0;
-            for (const Index corner : corners) {
-                const Index next = surface_.mesh.face_vertices[surface_.topology.next(surface_.mesh, corner)];
-                total += (surface_.before.row(next) - surface_.before.row(v)).norm();
-            }
-            edges_[v] = total / static_cast<double>(std::max(corners.size(), std::size_t{1}));
-        });
     }
 
     /// #F by 2: squared motions along the normals, in squares of edge lengths, and roughness, both around each face.
@@ -133,6 +125,14 @@ class SmootherPlaces {
     std::vector<double> edges_;
 };
 
+/// Up to which mean squared motion a place may be replaced.
+/// @param of_first that of the first result.
+float most_squared_motion(float of_first)
+{
+    const float ratio = of_first < little_motion * little_motion ? most_motion_where_little : most_motion;
+    return of_first * (ratio * ratio);
+}
+
 /// Of the edges of some faces, each face's own.
 double mean_edge_of(const DenoisedSurface& surface, std::span<const Index> faces)
 {
@@ -175,7 +175,7 @@ void replace_places(const DenoisedSurface& surface, const Components& components
     };
     bool any = open([&](Index f) { return replaced_part(trial, of_first(f, 0)) > 0.0F && moves(f); });
     FaceRows of_result = of_first;
-    for (std::size_t i = 0; any && i < trial.n_amounts; ++i) {
+    for (std::size_t i = 0; any && i < trial.amounts.size(); ++i) {
         Points smoothed = surface.before;
         for (Index c = 0; c < components.count(); ++c) {
             if (is_open[c] == 0)
@@ -208,7 +208,7 @@ void replace_places(const DenoisedSurface& surface, const Components& components
         const std::vector<double> weights = places.blended(std::move(better));
         for_each(exec, surface.mesh.n_vertices(),
                  [&](Index v) { result.row(v) += weights[v] * (smoothed.row(v) - result.row(v)); });
-        if (any && i + 1 < trial.n_amounts)
+        if (any && i + 1 < trial.amounts.size())
             of_result = places.measured(result);
     }
 }
@@ -218,16 +218,8 @@ bool helps_on_sample(const DenoisedSurface& surface, const Trial& trial, double 
                      const Executor& exec)
 {
     const FilterSample sample = take_filter_sample(surface.mesh, surface.topology, exec);
-    std::vector<std::uint8_t> is_sampled(surface.parts.size(), 0);
-    for (const Index v : sample.vertices)
-        is_sampled[v] = 1;
-    const MeshPiece piece = cut_out(surface.mesh, surface.topology, surface.before,
-                                    select(exec, surface.mesh.n_faces(),
-                                           [&](Index f) {
-                                               return std::ranges::all_of(surface.mesh.face(f),
-                                                                          [&](Index v) { return is_sampled[v] != 0; });
-                                           }),
-                                    exec);
+    const MeshPiece piece =
+        cut_out(surface.mesh, surface.topology, surface.before, faces_of(sample, surface.mesh, exec), exec);
     std::vector<double> parts;
     for (const Index v : piece.vertices)
         parts.push_back(surface.parts[v]);
