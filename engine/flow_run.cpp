@@ -248,6 +248,26 @@ void FlowRun::diffuse(Points& data, int n, DataSteps steps)
     mesh_.take_along(data);
 }
 
+bool FlowRun::diffuse_further(Eigen::Ref<Eigen::MatrixXd> fields, int n)
+{
+    // Few at a time, so that progress is seen.
+    constexpr Eigen::Index at_once = 192;
+    for (Eigen::Index first = 0; first < fields.cols(); first += at_once) {
+        auto portion = fields.middleCols(first, std::min(at_once, fields.cols() - first));
+        progress_.enter(FlowPhase::Step, fractions_->number(), fractions_->begin(), fractions_->end());
+        Stopwatch watch;
+        mesh_.join(portion);
+        if (!stepper_->take_steps(portion, n, progress_.exec()))
+            return false;
+        mesh_.take_along(portion);
+        report_.seconds.step += watch.seconds();
+        report_.seconds.total += watch.seconds();
+        for (Eigen::Index step = 0; step < n * ((portion.cols() + 2) / 3); ++step)
+            fractions_->end_step(watch.seconds(), 0.0, 0.0);
+    }
+    return true;
+}
+
 FlowState FlowRun::capture() const
 {
     if (was_changed_)

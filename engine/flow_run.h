@@ -46,6 +46,9 @@ class FlowRun {
     /// @param data #V by 3, in the order of the given mesh.
     void diffuse(Points& data, int n, DataSteps steps);
 
+    /// The same with further columns, if many can be taken at once. @returns whether they were.
+    bool diffuse_further(Eigen::Ref<Eigen::MatrixXd> fields, int n);
+
     /// Weighs K from now on by differences of data (see Stepper::weigh).
     /// @throws OptionError where the steps do not support it.
     void weigh(const std::function<double(Index v, Index w)>& squared_difference);

@@ -205,6 +205,8 @@ void Flow::diffuse(Eigen::Ref<Eigen::MatrixXd> fields, int n)
             block.leftCols(n_columns) = fields.middleCols(c, n_columns);
             run.diffuse(block, n, c == 0 ? DataSteps::Further : DataSteps::Again);
             fields.middleCols(c, n_columns) = block.leftCols(n_columns);
+            if (c == 0 && run.diffuse_further(fields.rightCols(fields.cols() - n_columns), n))
+                break;
         }
     });
 }

@@ -14,10 +14,12 @@
 #include "engine/fields/thin_faces.h"
 #include "engine/fields/white_noise.h"
 #include "engine/flow.h"
+#include "engine/options/option_table.h"
 #include "engine/setup/smoothed_radius.h"
 #include "engine/tasks/parallel_executor.h"
 #include "partition/connected_components.h"
 #include "partition/io/input_position.h"
+#include "partition/large_arrays.h"
 #include "partition/metrics/bounding_box.h"
 #include "partition/metrics/vertex_distance.h"
 #include "partition/weld.h"
@@ -131,6 +133,36 @@ PolygonMesh surface_for_extension(const PolygonMesh& mesh, const FieldGroup& gro
         sound, [&](Index f) { return std::ranges::none_of(sound.face(f), [&](Index v) { return is_held[v] != 0; }); });
 }
 
+/// So many solutions at least pay for a factorisation of the whole surface, with which many columns are solved for at a
+/// time (measured: see samples/benchmark/speed.md), up to so many vertices, whose factor takes about 1 GB.
+constexpr Eigen::Index enough_solutions = 64;
+constexpr Index most_vertices_of_factor = 1'500'000;
+
+/// Chooses how many columns are solved for, where that is left to us.
+/// @param n_solutions with one factorisation.
+/// @returns whether the whole surface is factorised.
+bool choose_for_columns(const PolygonMesh& surface, Eigen::Index n_solutions, const FlowControl& control,
+                        FlowOptions& options)
+{
+    if (options.accuracy.approach != Approach::Automatic || control.ranks != nullptr ||
+        options.resources.memory_limit || !first_set(options, concern::sub_meshes | concern::factors).empty() ||
+        !filter_of(options).is_plain() || n_solutions < enough_solutions ||
+        surface.n_vertices() > most_vertices_of_factor)
+        return false;
+    options.accuracy.approach = Approach::Undecomposed;
+    options.accuracy.tolerance.reset();
+    return true;
+}
+
+/// In large pages where the system has them.
+Eigen::MatrixXd copy_of(const Eigen::MatrixXd& fields)
+{
+    Eigen::MatrixXd copy;
+    resize_large(copy, fields.rows(), fields.cols());
+    for_each(run_in_parallel, static_cast<Index>(fields.cols()), [&](Index c) { copy.col(c) = fields.col(c); });
+    return copy;
+}
+
 /// The means of columns over the vertices with data.
 Eigen::RowVectorXd means_of(const Eigen::MatrixXd& fields, const FieldGroup& group)
 {
@@ -172,19 +204,23 @@ FlowReport extend(const PolygonMesh& mesh, FieldGroup& group, const FlowOptions&
             own.motion.fixed_vertices.push_back(v);
     // Far from 0, M would pull towards it.
     const Eigen::RowVectorXd means = means_of(fields, group);
-    Eigen::MatrixXd extended = fields.rowwise() - means;
+    choose_for_columns(surface, std::ssize(group.columns), control, own);
     Flow flow(surface, own, {}, control);
     const std::vector<ValueRange> ranges = ranges_of(fields, group);
-    ScaledFields scaled(extended, group, ranges_of(extended, group), own.time_step);
+    std::vector<ValueRange> about_means = ranges;
+    for (std::size_t c = 0; c < ranges.size(); ++c)
+        about_means[c] = {ranges[c].least - means[group.columns[c]], ranges[c].most - means[group.columns[c]]};
+    ScaledFields scaled(fields(Eigen::all, group.columns).rowwise() - means(group.columns), group, about_means,
+                        own.time_step);
     flow.diffuse(scaled.values());
     const std::vector<std::uint8_t> lacked = group.lacks;
     for (Index v = 0; v < mesh.n_vertices(); ++v)
         group.lacks[v] = lacked[v] != 0 && reached[v] != 0 ? 0 : 1;
-    scaled.write(group, extended);
-    for (Index v = 0; v < mesh.n_vertices(); ++v)
-        for (const Eigen::Index c : group.columns)
-            if (group.lacks[v] == 0)
-                fields(v, c) = extended(v, c) + means[c];
+    const Eigen::MatrixXd extended = scaled.take(group);
+    for (std::size_t i = 0; i < group.columns.size(); ++i)
+        for (Index v = 0; v < mesh.n_vertices(); ++v)
+            if (const Eigen::Index c = group.columns[i]; group.lacks[v] == 0)
+                fields(v, c) = extended(v, static_cast<Eigen::Index>(i)) + means[c];
     if (own.weights != Weights::OfLaplacian)
         keep_within(ranges, group, fields);
     for (Index v = 0; v < mesh.n_vertices(); ++v)
@@ -237,7 +273,7 @@ FieldReport diffuse(const PolygonMesh& mesh, Eigen::MatrixXd& fields, const Flow
     require_for_fields(options, field_options);
     require_fields_of(mesh.n_vertices(), fields);
     FieldReport report;
-    Eigen::MatrixXd results = fields;
+    Eigen::MatrixXd results = copy_of(fields);
     FlowOptions of_flow = flow_for_fields(options, field_options);
     of_flow.time_step = time_step_of(of_flow, mesh);
     of_flow.radius.reset();
@@ -256,9 +292,13 @@ FieldReport diffuse(const PolygonMesh& mesh, Eigen::MatrixXd& fields, const Flow
         std::ranges::transform(lacking, group.lacks, lacking.begin(), std::bit_or<>());
         const bool measures = field_options.fwhm && !report.fwhm && options.steps > 0;
         own.steps = options.steps * (n_blocks(std::ssize(group.columns)) + (measures ? 1 : 0));
+        const bool is_whole = choose_for_columns(
+            surface, std::ssize(group.columns) * (field_options.keep_edges ? 1 : options.steps), own_control, own);
         Flow flow(surface, own, {}, own_control);
         const std::vector<ValueRange> ranges = ranges_of(fields, group);
-        ScaledFields scaled(fields, group, ranges, own.time_step);
+        const bool has_all = std::ssize(group.columns) == results.cols();
+        ScaledFields scaled(has_all ? std::move(results) : Eigen::MatrixXd(results(Eigen::all, group.columns)), group,
+                            ranges, own.time_step);
         if (field_options.keep_edges)
             for (int step = 0; step < options.steps; ++step) {
                 flow.keep_field_edges(scaled.in_units(), *field_options.keep_edges);
@@ -266,11 +306,17 @@ FieldReport diffuse(const PolygonMesh& mesh, Eigen::MatrixXd& fields, const Flow
             }
         else
             flow.diffuse(scaled.values(), options.steps);
-        scaled.write(group, results);
+        if (has_all)
+            results = scaled.take(group);
+        else
+            results(Eigen::all, group.columns) = scaled.take(group);
         if (filter_of(own).is_plain() && own.weights != Weights::OfLaplacian)
             keep_within(ranges, group, results);
         // Steps that noise is measured with are none of the fields.
         FlowReport of_group = flow.report();
+        if (is_whole)
+            of_group.choices.emplace_back("The whole mesh is solved at once by one factorisation: that is fastest for "
+                                          "so many columns.");
         if (measures) {
             Eigen::MatrixXd noise = white_noise(mesh.n_vertices());
             flow.diffuse(noise, options.steps);

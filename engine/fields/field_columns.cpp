@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "engine/fields/thin_faces.h"
+#include "engine/tasks/parallel_executor.h"
 #include "partition/errors.h"
 #include "partition/io/input_position.h"
 
@@ -53,15 +56,16 @@ bool has_data(const PolygonMesh& mesh, Index f, const FieldGroup& group, Laplaci
 
 std::vector<ValueRange> ranges_of(const Eigen::MatrixXd& fields, const FieldGroup& group)
 {
-    std::vector<ValueRange> ranges;
-    for (const Eigen::Index c : group.columns) {
-        ValueRange& range = ranges.emplace_back();
-        for (Eigen::Index v = 0; v < fields.rows(); ++v)
-            if (group.lacks[static_cast<std::size_t>(v)] == 0) {
-                range.least = std::min(range.least, fields(v, c));
-                range.most = std::max(range.most, fields(v, c));
+    std::vector<ValueRange> ranges(group.columns.size());
+    for_each(run_in_parallel, static_cast<Index>(ranges.size()), [&](Index i) {
+        ValueRange range;
+        for (Index v = 0; v < static_cast<Index>(fields.rows()); ++v)
+            if (group.lacks[v] == 0) {
+                range.least = std::min(range.least, fields(v, group.columns[i]));
+                range.most = std::max(range.most, fields(v, group.columns[i]));
             }
-    }
+        ranges[i] = range;
+    });
     return ranges;
 }
 
@@ -71,36 +75,24 @@ namespace {
 constexpr int least_exponent = -1021;
 constexpr int largest_exponent = 1022;
 
-/// @throws ComputationError
-double finite(double value, Eigen::Index column)
-{
-    if (!std::isfinite(value))
-        throw ComputationError(fmt::format("column {} of the fields (numbered from 0) becomes larger than numbers can "
-                                           "be: give it in another unit, or NaN where there are no data",
-                                           column));
-    return value;
-}
-
 }  // namespace
 
-ScaledFields::ScaledFields(const Eigen::MatrixXd& fields, const FieldGroup& group, std::span<const ValueRange> ranges,
+ScaledFields::ScaledFields(Eigen::MatrixXd values, const FieldGroup& group, std::span<const ValueRange> ranges,
                            double time_step)
-    : values_(fields(Eigen::all, group.columns))
+    : values_(std::move(values))
     , units_(values_.cols())
 {
-    for (Eigen::Index v = 0; v < values_.rows(); ++v)
-        if (group.lacks[static_cast<std::size_t>(v)] != 0)
-            values_.row(v).setZero();
-    for (Eigen::Index c = 0; c < values_.cols(); ++c) {
-        const auto [least, most] = ranges[static_cast<std::size_t>(c)];
+    for_each(run_in_parallel, static_cast<Index>(values_.cols()), [&](Index c) {
+        const auto [least, most] = ranges[c];
         // Halved, even the spread of the largest numbers is one.
         const double half = 0.5 * most - 0.5 * least;
         units_[c] = half > 0.0 && std::isfinite(half)
                         ? std::ldexp(1.0, std::clamp(std::ilogb(half) + 1 - std::ilogb(std::sqrt(time_step)),
                                                      least_exponent, largest_exponent))
                         : 1.0;
-    }
-    values_.array().rowwise() /= units_.transpose().array();
+        for (Index v = 0; v < static_cast<Index>(values_.rows()); ++v)
+            values_(v, c) = group.lacks[v] == 0 ? values_(v, c) / units_[c] : 0.0;
+    });
 }
 
 Eigen::MatrixXd ScaledFields::in_units() const
@@ -108,20 +100,30 @@ Eigen::MatrixXd ScaledFields::in_units() const
     return (values_.array().rowwise() * units_.transpose().array()).matrix();
 }
 
-void ScaledFields::write(const FieldGroup& group, Eigen::MatrixXd& fields) const
+Eigen::MatrixXd ScaledFields::take(const FieldGroup& group)
 {
-    const Eigen::MatrixXd results = in_units();
-    for (Eigen::Index v = 0; v < fields.rows(); ++v)
-        for (std::size_t c = 0; group.lacks[static_cast<std::size_t>(v)] == 0 && c < group.columns.size(); ++c)
-            fields(v, group.columns[c]) = finite(results(v, static_cast<Eigen::Index>(c)), group.columns[c]);
+    std::vector<std::uint8_t> is_finite(static_cast<std::size_t>(values_.cols()), 1);
+    for_each(run_in_parallel, static_cast<Index>(values_.cols()), [&](Index c) {
+        for (Index v = 0; v < static_cast<Index>(values_.rows()); ++v) {
+            values_(v, c) = group.lacks[v] == 0 ? values_(v, c) * units_[c] : std::numeric_limits<double>::quiet_NaN();
+            if (group.lacks[v] == 0 && !std::isfinite(values_(v, c)))
+                is_finite[c] = 0;
+        }
+    });
+    if (const auto column = std::ranges::find(is_finite, 0); column != is_finite.end())
+        throw ComputationError(fmt::format("column {} of the fields (numbered from 0) becomes larger than numbers can "
+                                           "be: give it in another unit, or NaN where there are no data",
+                                           group.columns[static_cast<std::size_t>(column - is_finite.begin())]));
+    return std::move(values_);
 }
 
 void keep_within(std::span<const ValueRange> ranges, const FieldGroup& group, Eigen::MatrixXd& fields)
 {
-    for (std::size_t c = 0; c < group.columns.size(); ++c)
-        for (Eigen::Index v = 0; v < fields.rows(); ++v)
-            if (group.lacks[static_cast<std::size_t>(v)] == 0)
-                fields(v, group.columns[c]) = std::clamp(fields(v, group.columns[c]), ranges[c].least, ranges[c].most);
+    for_each(run_in_parallel, static_cast<Index>(group.columns.size()), [&](Index i) {
+        for (Index v = 0; v < static_cast<Index>(fields.rows()); ++v)
+            if (double& value = fields(v, group.columns[i]); group.lacks[v] == 0)
+                value = std::clamp(value, ranges[i].least, ranges[i].most);
+    });
 }
 
 int n_blocks(Eigen::Index n_columns)

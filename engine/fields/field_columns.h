@@ -50,17 +50,18 @@ std::vector<ValueRange> ranges_of(const Eigen::MatrixXd& fields, const FieldGrou
 /// what steps add fits in single precision.
 class ScaledFields {
   public:
-    /// @param ranges of the whole mesh (see ranges_of). @param time_step in length².
-    ScaledFields(const Eigen::MatrixXd& fields, const FieldGroup& group, std::span<const ValueRange> ranges,
-                 double time_step);
+    /// @param values #V by the columns of the group. @param ranges of the whole mesh (see ranges_of).
+    /// @param time_step in length².
+    ScaledFields(Eigen::MatrixXd values, const FieldGroup& group, std::span<const ValueRange> ranges, double time_step);
 
-    /// #V by the columns of the group; 0 where there are no data.
+    /// 0 where there are no data.
     Eigen::MatrixXd& values() { return values_; }
 
     [[nodiscard]] Eigen::MatrixXd in_units() const;
 
-    /// Writes the values back to the columns of the group, in their own units; vertices without data keep theirs.
-    void write(const FieldGroup& group, Eigen::MatrixXd& fields) const;
+    /// The values in their own units, NaN at vertices that lack data now. There are none here afterwards.
+    /// @throws ComputationError naming a column with values that are not finite.
+    [[nodiscard]] Eigen::MatrixXd take(const FieldGroup& group);
 
   private:
     Eigen::MatrixXd values_;

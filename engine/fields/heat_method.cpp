@@ -188,7 +188,8 @@ HeatEquation::HeatEquation(const PolygonMesh& mesh, const Topology& topology, co
     Decomposition whole = decompose(mesh, topology, std::vector<Index>(usize(mesh.n_faces()), 0), 1, exec);
     SubMesh sub_mesh = std::move(whole.sub_meshes.front());
     IndexLists faces = std::move(sub_mesh.face_vertices);
-    system_.emplace(sub_mesh, std::move(faces), ScaledLaplacian{Laplacian::VirtualRefinement});
+    system_.emplace(sub_mesh, std::move(faces), ScaledLaplacian{Laplacian::VirtualRefinement}, FlowTerms{},
+                    run_in_parallel);
     vertices_ = std::move(sub_mesh.local_to_global);
     positions_ = rows_of(mesh.vertices, vertices_);
 }

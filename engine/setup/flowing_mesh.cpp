@@ -219,27 +219,6 @@ void FlowingMesh::move_to(const Points& positions)
     bring_back(given_->vertices);
 }
 
-void FlowingMesh::join(Points& data) const
-{
-    if (copies_.empty())
-        return;
-    // The mean of equal values is exact.
-    Points sums = Points::Zero(data.rows(), 3);
-    std::vector<double> n(first_.size(), 1.0);
-    for (const Index v : copies_) {
-        sums.row(first_[v]) += data.row(v) - data.row(first_[v]);
-        n[first_[v]] += 1.0;
-    }
-    for (Index v = 0; v < data.rows(); ++v)
-        data.row(v) += sums.row(v) / n[v];
-}
-
-void FlowingMesh::take_along(Points& positions) const
-{
-    for (const Index v : copies_)
-        positions.row(v) = positions.row(first_[v]);
-}
-
 void FlowingMesh::bring_back(Points& positions) const
 {
     take_along(positions);

@@ -84,12 +84,33 @@ class FlowingMesh {
     void bring_back(PolygonMesh& separated) const;
 
     /// Gives the first of joined vertices the mean of all of them.
-    /// @param data #V by 3.
-    void join(Points& data) const;
+    /// @param data #V by any number of columns.
+    template <class Rows>
+    void join(Rows&& data) const
+    {
+        if (copies_.empty())
+            return;
+        std::vector<double> n(first_.size(), 1.0);
+        for (const Index v : copies_)
+            n[first_[v]] += 1.0;
+        for (Eigen::Index c = 0; c < data.cols(); ++c) {
+            // The mean of equal values is exact.
+            std::vector<double> sums(first_.size(), 0.0);
+            for (const Index v : copies_)
+                sums[first_[v]] += data(v, c) - data(first_[v], c);
+            for (Index v = 0; v < static_cast<Index>(first_.size()); ++v)
+                data(v, c) += sums[v] / n[v];
+        }
+    }
 
     /// Moves joined vertices to the first of them.
-    /// @param positions #V by 3, of mesh().
-    void take_along(Points& positions) const;
+    /// @param rows #V by any number of columns, of mesh().
+    template <class Rows>
+    void take_along(Rows&& rows) const
+    {
+        for (const Index v : copies_)
+            rows.row(v) = rows.row(first_[v]);
+    }
 
     /// Converts the report to the given mesh: faces that were left out get the sub-mesh of the face that they repeat,
     /// or the number after that of the last sub-mesh where nothing moves.

@@ -95,7 +95,8 @@ void SchurStepper::make_sub_meshes(Decomposition& decomposition, const PolygonMe
         std::unique_ptr<NeumannSystem> system;
         run_for_sub_mesh(names_[s], [&] {
             IndexLists faces = std::move(sub_mesh.face_vertices);
-            system = std::make_unique<NeumannSystem>(sub_mesh, std::move(faces), laplacian_of(options), terms);
+            system = std::make_unique<NeumannSystem>(sub_mesh, std::move(faces), laplacian_of(options), terms,
+                                                     sub_meshes_.size() == 1 ? run_in_parallel : Executor());
         });
         own.local_to_global = std::move(sub_mesh.local_to_global);
         own.owned = std::move(sub_mesh.owned);

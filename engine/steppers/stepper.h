@@ -52,6 +52,11 @@ class Stepper {
     /// @param data #V by 3.
     virtual void set_data(const Points& data, DataSteps) { set_positions(data, {}); }
 
+    /// Takes n steps with many columns of other data at once, after steps with the first ones: positions() stay.
+    /// @param fields #V by any number of columns.
+    /// @returns false, and nothing is done, where steps are taken with three columns at a time.
+    virtual bool take_steps(Eigen::Ref<Eigen::MatrixXd> /*fields*/, int /*n*/, const Executor&) { return false; }
+
     /// Moves some vertices, with all copies of them, to where the next step is to find them. What is known of updates
     /// and errors stays.
     /// @param vertices those below 0 are ignored. @param to #vertices by 3.

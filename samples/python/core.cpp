@@ -20,6 +20,7 @@
 #include "engine/fields/diffuse.h"
 #include "engine/fields/geodesic_distance.h"
 #include "partition/errors.h"
+#include "partition/large_arrays.h"
 #include "partition/version.h"
 #include "samples/command/command_line.h"
 #include "samples/command/parse_smooth_command.h"
@@ -241,7 +242,9 @@ py::tuple diffuse_arrays(const Array<double>& positions, const Array<Integer>& c
 {
     using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
     PolygonMesh mesh = make_mesh(positions, corners, offsets);
-    Eigen::MatrixXd values = Eigen::Map<const Rows>(fields.data(), fields.shape(0), fields.shape(1));
+    Eigen::MatrixXd values;
+    resize_large(values, fields.shape(0), fields.shape(1));
+    values = Eigen::Map<const Rows>(fields.data(), fields.shape(0), fields.shape(1));
     const auto& [fwhm, keep_edges, fill, is_free] = of_fields;
     const FieldWords field_words{fwhm, keep_edges, fill, is_free};
     const FieldArrays arrays{to_vector(fixed), to_vector(labels)};

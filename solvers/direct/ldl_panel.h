@@ -35,15 +35,18 @@ bool factorise_panel(const LdlPanel<Number>& panel, Index width = register_width
 
 /// Numbers in a row: three right-hand sides and an unused one, so that rows fill registers.
 constexpr Index ldl_row = 4;
+/// The same of many right-hand sides, for each of which a factor is read from memory less often.
+constexpr Index wide_ldl_row = 16;
 
-/// Eliminates a block's unknowns from three right-hand sides.
-/// @param x all unknowns by ldl_row, row by row.
-template <class Number>
+/// Eliminates a block's unknowns from right-hand sides.
+/// @tparam Length ldl_row; in double precision wide_ldl_row, too: each column is then as with that.
+/// @param x all unknowns by Length, row by row.
+template <Index Length, class Number>
 void forward_substitute_panel(const LdlPanel<Number>& panel, Number* x);
 
 /// Solves for a block's unknowns, with those of its other rows given.
-/// @param x all unknowns by ldl_row, row by row.
-template <class Number>
+/// @tparam Length, @param x as above.
+template <Index Length, class Number>
 void back_substitute_panel(const LdlPanel<Number>& panel, Number* x);
 
 }  // namespace seamflow

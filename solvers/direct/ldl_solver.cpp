@@ -92,7 +92,7 @@ LdlSolver::LdlSolver(const SparsePattern& upper, std::optional<Index> n_last, co
     , exec_(std::move(exec))
     , pivots_(pivots)
 {
-    assert((!exec_ || !has_rows_) && "several threads factorise matrices without last unknowns");
+    assert((!exec_ || n_last_ == 0) && "several threads factorise matrices without last unknowns");
     panels_.reserve(pattern_.first.size());
     for (Index b = 0; b < pattern_.n_supernodes(); ++b) {
         const std::size_t end = usize(panels_.back()) + usize(pattern_.width(b)) * pattern_.rows[b].size();
@@ -291,8 +291,8 @@ void LdlFactor<Number>::solve(const Columns& right_hand_side, Columns& solution,
             x[ldl_row * i + c] = static_cast<Number>(right_hand_side(i, c) / unit);
         x[ldl_row * i + 3] = Number{};
     }
-    forward_substitute(x, n);
-    back_substitute(x, n);
+    forward_substitute<ldl_row>(x, n);
+    back_substitute<ldl_row>(x, n);
     set_rows(solution, n);
     for (Index i = 0; i < n; ++i)
         for (Index c = 0; c < 3; ++c)
@@ -300,41 +300,66 @@ void LdlFactor<Number>::solve(const Columns& right_hand_side, Columns& solution,
 }
 
 template <class Number>
+void LdlFactor<Number>::solve_wide(Number* x) const
+    requires std::is_same_v<Number, double>
+{
+    assert(solver_->n_last_ == 0);
+    forward_substitute<wide_ldl_row>(x, solver_->n());
+    for (Index b = solver_->pattern_.n_supernodes(); b-- > 0;)
+        back_substitute_supernode<wide_ldl_row>(x, b);
+}
+
+template <class Number>
+void LdlFactor<Number>::forward_substitute()
+{
+    forward_substitute<ldl_row>(rows(), solver_->n() - solver_->n_last_);
+}
+
+template <class Number>
+void LdlFactor<Number>::back_substitute()
+{
+    back_substitute<ldl_row>(rows(), solver_->n() - solver_->n_last_);
+}
+
+template <class Number>
+template <Index Length>
 void LdlFactor<Number>::forward_substitute(Number* x, Index n) const
 {
     const SymbolicFactor& pattern = solver_->pattern_;
     for (Index b = 0; b < pattern.n_supernodes() && pattern.first[b] < n; ++b)
-        forward_substitute_panel(solver_->panel(numbers_.get(), b), x);
+        forward_substitute_panel<Length>(solver_->panel(numbers_.get(), b), x);
 }
 
 template <class Number>
+template <Index Length>
 void LdlFactor<Number>::back_substitute(Number* x, Index n) const
 {
     const SymbolicFactor& pattern = solver_->pattern_;
     const EliminationSchedule& schedule = solver_->schedule_;
     if (schedule.exists()) {
         for (std::size_t i = schedule.above.size(); i-- > 0;)
-            back_substitute_supernode(x, schedule.above[i]);
+            back_substitute_supernode<Length>(x, schedule.above[i]);
         for_each(solver_->exec_, schedule.groups.size(), [&](Index group) {
             const std::span<const Index> supernodes = schedule.groups[group];
             for (std::size_t i = supernodes.size(); i-- > 0;)
-                back_substitute_supernode(x, supernodes[i]);
+                back_substitute_supernode<Length>(x, supernodes[i]);
         });
         return;
     }
     for (Index b = pattern.n_supernodes(); b-- > 0;)
         if (pattern.first[b] < n)
-            back_substitute_supernode(x, b);
+            back_substitute_supernode<Length>(x, b);
 }
 
 /// Processors predict only forward access.
 template <class Number>
+template <Index Length>
 void LdlFactor<Number>::back_substitute_supernode(Number* x, Index supernode) const
 {
     const std::vector<Index>& panels = solver_->panels_;
     for (std::ptrdiff_t i = panels[supernode]; i < panels[supernode + 1]; i += cache_line<Number>)
         __builtin_prefetch(numbers_.get() + std::max(std::ptrdiff_t{0}, i - substituted_ahead));
-    back_substitute_panel(solver_->panel(numbers_.get(), supernode), x);
+    back_substitute_panel<Length>(solver_->panel(numbers_.get(), supernode), x);
 }
 
 template class LdlFactor<float>;

@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <tuple>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -160,17 +161,23 @@ class LdlFactor {
     /// @param solution n by 3; may be the right-hand side.
     void solve(const Columns& right_hand_side, Columns& solution, LdlWorkspace& workspace) const;
 
+    /// Solves for many right-hand sides, in the thread of the caller. Each is as with `solve`.
+    /// @pre no unknowns are kept together at the end.
+    /// @param x n by wide_ldl_row, row by row: right-hand sides, replaced by solutions.
+    void solve_wide(Number* x) const
+        requires std::is_same_v<Number, double>;
+
     /// The factor's own memory for three right-hand sides or what replaces them: n by ldl_row, row by row.
     /// @pre the solver was constructed with n_last.
     [[nodiscard]] Number* rows() { return numbers_.get() + solver_->n_factor_numbers(); }
 
     /// Forward substitution for all except the last unknowns: rows() become L⁻¹ rows() above, and below the rest for
     /// the last unknowns.
-    void forward_substitute() { forward_substitute(rows(), solver_->n() - solver_->n_last_); }
+    void forward_substitute();
 
     /// Solves for all unknowns except the last, in units of 1 / scale(). rows() in: `forward_substitute`'s result and
     /// the last ones; out: the solution.
-    void back_substitute() { back_substitute(rows(), solver_->n() - solver_->n_last_); }
+    void back_substitute();
 
   private:
     friend class LdlSolver;
@@ -181,8 +188,11 @@ class LdlFactor {
     {
     }
 
+    template <Index Length>
     void forward_substitute(Number* x, Index n) const;
+    template <Index Length>
     void back_substitute(Number* x, Index n) const;
+    template <Index Length>
     void back_substitute_supernode(Number* x, Index supernode) const;
 
     const LdlSolver* solver_;

@@ -1,5 +1,6 @@
 #include "solvers/sparse/elimination_ordering.h"
 
+#include <algorithm>
 #include <limits>
 #include <utility>
 
@@ -115,7 +116,7 @@ std::vector<Index> elimination_ordering(const SparsePattern& upper)
 std::vector<Index> elimination_ordering(const SparsePattern& upper, const std::vector<bool>& is_last)
 {
     // CAMD supports at most as many groups as there are unknowns: a single one cannot be in the second.
-    if (is_last.size() < 2)
+    if (is_last.size() < 2 || std::ranges::find(is_last, true) == is_last.end())
         return elimination_ordering(upper);
     std::vector<Index> order(is_last.size());
     const std::vector<Index> groups(is_last.begin(), is_last.end());

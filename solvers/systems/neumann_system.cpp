@@ -10,6 +10,7 @@
 #include "solvers/laplacian/kept_stiffness.h"
 #include "solvers/sparse/elimination_ordering.h"
 #include "solvers/systems/checks.h"
+#include "solvers/systems/wide_steps.h"
 
 namespace seamflow {
 
@@ -21,7 +22,7 @@ constexpr float least_pivot_of_single = 1e-3F;
 }  // namespace
 
 NeumannSystem::NeumannSystem(const SubMesh& sub_mesh, IndexLists faces, const ScaledLaplacian& laplacian,
-                             const FlowTerms& terms)
+                             const FlowTerms& terms, const Executor& exec)
     : n_interface_(sub_mesh.interface.size())
     , faces_(std::move(faces))
     , matrix_{make_symmetric_laplacian(laplacian,
@@ -29,7 +30,7 @@ NeumannSystem::NeumannSystem(const SubMesh& sub_mesh, IndexLists faces, const Sc
                                         sub_mesh.n_vertices + sub_mesh.n_halo, Contributions::OwnFaces},
                                        most_corners_without_auxiliary),
               sub_mesh.n_vertices + sub_mesh.n_halo}
-    , solver_(number_unknowns(sub_mesh), n_interface_, {}, {}, matrix_.pivots())
+    , solver_(number_unknowns(sub_mesh), n_interface_, {}, n_interface_ == 0 ? exec : Executor(), matrix_.pivots())
 {
     const std::span<const Index> local_to_global = sub_mesh.local_to_global;
     matrix_.screening = make_screening(terms, local_to_global.first(usize(sub_mesh.n_vertices)));
@@ -112,6 +113,28 @@ NeumannSystem::Assembled NeumannSystem::assemble(const Points& positions, const 
             workspace.mass[v] * ((1.0 + time_step * matrix_.screening.weight(v)) * increments.row(v) - data.row(v));
     leave_out_held(matrix, increments, residual);
     return {matrix, residual, power_of_two_near(std::sqrt(time_step))};
+}
+
+bool NeumannSystem::take_steps(const Factor& factor, double time_step, int n, std::span<const Index> rows,
+                               Eigen::Ref<Eigen::MatrixXd> fields, const Executor& exec) const
+{
+    const auto* const numbers = std::get_if<LdlFactor<double>>(&factor.numbers_);
+    if (numbers == nullptr || n_interface_ > 0 || matrix_.laplacian->n_auxiliary() > 0 || matrix_.screening.exists())
+        return false;
+    const std::vector<VertexPair> pairs = matrix_.laplacian->pairs();
+    std::vector<Index> slots(pairs.size());
+    std::iota(slots.begin(), slots.end(), 0);
+    std::vector<double> entries(pairs.size(), 0.0);
+    std::vector<double> diagonal(usize(matrix_.n_vertices));
+    std::vector<double> mass(diagonal.size());
+    // What is kept does not depend on them.
+    const Points any = Points::Zero(matrix_.n_vertices, 3);
+    matrix_.laplacian->assemble(any, time_step, slots, entries, diagonal, mass);
+    std::vector<Index> unknown_of(diagonal.size(), -1);
+    for (Index u = 0; u < matrix_.n(); ++u)
+        unknown_of[matrix_.vertex_of[u]] = u;
+    WideSteps(unknown_of, matrix_.n(), is_held_, pairs, entries).take(*numbers, n, rows, fields, exec);
+    return true;
 }
 
 void NeumannSystem::hold(Index v, bool is_held)

@@ -140,6 +140,31 @@ constexpr double rounding = 1e4 * std::numeric_limits<Number>::epsilon();
 
 }  // namespace
 
+TEST_CASE("many right-hand sides are solved for at once, each as it is among three")
+{
+    RandomNumbers random(4);
+    LdlWorkspace workspace;
+    const auto check = [&](const SymmetricMatrix& matrix) {
+        const LdlSolver solver(matrix.upper);
+        const auto factor = solver.factorise<double>(matrix.values, heap(), workspace);
+        REQUIRE(factor);
+        const Index n = solver.n();
+        using Rows = Eigen::Matrix<double, Eigen::Dynamic, wide_ldl_row, Eigen::RowMajor>;
+        const Rows right = Rows::NullaryExpr(n, wide_ldl_row, [&] { return random.symmetric(); });
+        Rows solution = right;
+        factor->solve_wide(solution.data());
+        for (Index c = 0; c + 3 <= wide_ldl_row; ++c) {
+            Columns of_three;
+            factor->solve(right.middleCols<3>(c), of_three, workspace);
+            CHECK(of_three == solution.middleCols<3>(c));
+        }
+    };
+    for (const Index side : {1, 2, 5, 23})
+        check(grid_matrix(side, 1.0, random));
+    for (const Index n : {2, 7, 40})
+        check(full_matrix(n, random));
+}
+
 TEST_CASE("three systems are solved at once, for one set of values after the other, with any workspace")
 {
     RandomNumbers random(1);
