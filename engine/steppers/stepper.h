@@ -55,7 +55,11 @@ class Stepper {
     /// Takes n steps with many columns of other data at once, after steps with the first ones: positions() stay.
     /// @param fields #V by any number of columns.
     /// @returns false, and nothing is done, where steps are taken with three columns at a time.
-    virtual bool take_steps(Eigen::Ref<Eigen::MatrixXd> /*fields*/, int /*n*/, const Executor&) { return false; }
+    virtual bool take_steps([[maybe_unused]] Eigen::Ref<Eigen::MatrixXd> fields, [[maybe_unused]] int n,
+                            const Executor&)
+    {
+        return false;
+    }
 
     /// Moves some vertices, with all copies of them, to where the next step is to find them. What is known of updates
     /// and errors stays.

@@ -45,7 +45,7 @@ template <Index Length, class Number>
 void forward_substitute_panel(const LdlPanel<Number>& panel, Number* x);
 
 /// Solves for a block's unknowns, with those of its other rows given.
-/// @tparam Length, @param x as above.
+/// @tparam Length as above. @param x as above.
 template <Index Length, class Number>
 void back_substitute_panel(const LdlPanel<Number>& panel, Number* x);
 

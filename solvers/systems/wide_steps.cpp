@@ -1,7 +1,6 @@
 #include "solvers/systems/wide_steps.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <functional>
 
@@ -61,8 +60,9 @@ void WideSteps::take(const LdlFactor<double>& factor, int n_steps, std::span<con
     const auto n_columns = static_cast<Index>(fields.cols());
     const auto n_places = static_cast<Index>(vertex_at_.size());
     const std::size_t n_changes = usize(n_) * usize(wide_ldl_row);
-    std::atomic<bool> all_finite = true;
-    exec((n_columns + wide_ldl_row - 1) / wide_ldl_row, [&](Index begin, Index end) {
+    const Index n_portions = (n_columns + wide_ldl_row - 1) / wide_ldl_row;
+    std::vector<std::uint8_t> is_finite(usize(n_portions));
+    exec(n_portions, [&](Index begin, Index end) {
         const auto x = uninitialised<double>(usize(n_places) * usize(wide_ldl_row));
         const auto changes = uninitialised<double>(n_changes);
         for (Index portion = begin; portion < end; ++portion) {
@@ -78,14 +78,14 @@ void WideSteps::take(const LdlFactor<double>& factor, int n_steps, std::span<con
                 factor.solve_wide(changes.get());
                 std::transform(x.get(), x.get() + n_changes, changes.get(), x.get(), std::plus<>());
             }
-            if (!std::all_of(x.get(), x.get() + n_changes, [](double value) { return std::isfinite(value); }))
-                all_finite = false;
+            is_finite[portion] =
+                std::all_of(x.get(), x.get() + n_changes, [](double value) { return std::isfinite(value); }) ? 1 : 0;
             for (Index i = 0; i < n_; ++i)
                 for (Index c = 0; c < width; ++c)
                     fields(rows[vertex_at_[i]], first + c) = x[usize(i) * usize(wide_ldl_row) + usize(c)];
         }
     });
-    require_finite_result(all_finite);
+    require_finite_result(std::ranges::find(is_finite, 0) == is_finite.end());
 }
 
 }  // namespace seamflow
