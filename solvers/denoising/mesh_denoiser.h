@@ -28,15 +28,19 @@ struct SurfaceNoise {
 
 /// Removes noise: face normals are estimated, and the vertices move to fit them, along the normals unless a face would
 /// fold; each as far as there is noise (see denoise_normals, NoisyPlaces, along_normals). Rims lose theirs within the
-/// surface. No face turns over. Polygons count as the triangles into which their diagonals cut them (see triangulate):
-/// estimates of normals are trained on triangles. Bits do not depend on how loops are run.
+/// surface. No face turns over. Noise that is alike at neighbours looks like shape; it does not where few vertices are
+/// left, far from each other. So where none or such noise is found, it is looked for on thinned meshes, each of which
+/// has other vertices, and removed there (as Zhou and others, When AWGN-Based Denoiser Meets Real Noises, 2020, do with
+/// pictures); then what is left of it is removed as above. Polygons count as the triangles into which their diagonals
+/// cut them (see triangulate): estimates of normals are trained on triangles. Bits do not depend on how loops are run.
 class MeshDenoiser {
   public:
     /// @param mesh, topology must outlive the object; the twins of the topology are not needed later.
     /// @param edge_angle between the normals of faces, in degrees: the edges that stay where noise is small (see
     /// take_smoother_places), if that is to be used. @param as_one whether all components have noise or none.
+    /// @param n_thinned how often the mesh has been thinned out.
     MeshDenoiser(const PolygonMesh& mesh, const Topology& topology, const Executor& exec = run_serially,
-                 std::optional<double> edge_angle = default_edge_angle, bool as_one = false);
+                 std::optional<double> edge_angle = default_edge_angle, bool as_one = false, int n_thinned = 0);
 
     static constexpr double default_edge_angle = 30.0;
 
@@ -56,8 +60,26 @@ class MeshDenoiser {
         Topology topology;
     };
 
-    /// @param before without spikes.
+    /// What is found in some positions.
+    struct Findings {
+        DenoisedNormals normals;
+        /// #V by 3: where vertices would go.
+        Points fitted;
+        /// #V.
+        std::vector<std::uint8_t> is_flat;
+        NoisyPlaces::Found places;
+    };
+
+    /// @param before #V by 3, without spikes.
+    [[nodiscard]] Findings examine(const Points& before, const Executor& exec) const;
+    /// @param strengths #V, or empty.
     Points without_noise(const Points& before, std::span<const double> strengths, const Executor& exec);
+    /// Removes noise that is alike at neighbours from the components that are not known to have other noise.
+    /// @param kinds per component. @returns #V by 3; nothing if there is no such noise.
+    [[nodiscard]] std::optional<Points> without_alike_noise(const Points& before, std::span<const NoiseKind> kinds,
+                                                            const Executor& exec) const;
+    /// Whether the same finds any on patches all over the mesh.
+    [[nodiscard]] bool has_alike_noise_on_sample(const Points& before, const Executor& exec) const;
     /// @param motions #V by 3, to the positions after. @param parts #V: 0 where there is no noise, nor where is_flat.
     /// @param normals #F by 3.
     void measure_noise(const Points& motions, std::span<const double> parts, std::span<const std::uint8_t> is_flat,
@@ -76,6 +98,8 @@ class MeshDenoiser {
     NoisyPlaces places_;
     RimFilter rims_;
     std::optional<double> edge_angle_;
+    bool as_one_;
+    int n_thinned_;
     SurfaceNoise noise_;
     std::vector<Spike> spikes_;
 };

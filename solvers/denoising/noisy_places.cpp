@@ -34,10 +34,20 @@ constexpr float much_noise = 0.16F;
 constexpr std::size_t fewest_without_doubt = 1000;
 /// With fewer triangles nothing can be told.
 constexpr std::size_t fewest_faces = 200;
+constexpr std::size_t fewest_faces_if_thinned = 1000;
 /// Modelled surfaces of few triangles, such as cages of subdivision surfaces, bend like noise. Their motions had
 /// correlations of 0.1 to 0.2, or medians of less than this part of the noise that was estimated.
 constexpr std::size_t few_faces = 10'000;
 constexpr float least_part_of_noise = 0.2F;
+/// Larger correlations are those of noise that is alike at neighbours, and so are medians of a smaller part of the
+/// noise that was estimated.
+constexpr double most_correlation_of_white = 0.1;
+constexpr float least_part_if_white = 0.35F;
+/// On thinned surfaces, which bend more from vertex to vertex than they were made to, only clear noise counts: its
+/// medians were 0.011 and more and 0.32 to 0.5 of the noise that was estimated, its correlations up to 0.09; those of
+/// wrinkles, voxels and mouldings up to 0.035, 0.46 and 0.14 to 0.5, or 0.094 and more.
+constexpr float least_part_if_thinned = 0.25F;
+constexpr double most_correlation_if_thinned = 0.09;
 /// Squared chord of normals that are equal up to rounding.
 constexpr double same_normal = 1e-12;
 /// The mean motion around a vertex up to which it stays, and from which on it goes all the way.
@@ -117,14 +127,15 @@ Components all_together(const PolygonMesh& mesh)
 }
 
 /// @param of_component its faces. @param is_flat #V: see flat_vertices.
-bool is_noisy(const Motion& motion, std::span<const Index> of_component, std::span<const std::uint8_t> is_flat)
+NoiseKind kind_of_noise(const Motion& motion, std::span<const Index> of_component,
+                        std::span<const std::uint8_t> is_flat, bool is_thinned)
 {
     std::vector<Index> faces;
     std::ranges::copy_if(of_component, std::back_inserter(faces), [&](Index f) {
         return std::ranges::any_of(motion.mesh.face(f), [&](Index v) { return is_flat[v] == 0; });
     });
-    if (faces.size() < fewest_faces)
-        return false;
+    if (faces.size() < (is_thinned ? fewest_faces_if_thinned : fewest_faces))
+        return NoiseKind::None;
     std::vector<float> of_vertices;
     std::vector<float> of_faces;
     for (const Index f : faces) {
@@ -133,14 +144,13 @@ bool is_noisy(const Motion& motion, std::span<const Index> of_component, std::sp
             if (motion.topology.moves(v))
                 of_vertices.push_back(motion.lengths[v]);
     }
-    const float noise = middle_of(of_faces);
-    if (noise > much_noise && faces.size() >= fewest_without_doubt)
-        return true;
     if (of_vertices.empty())
-        return false;
+        return NoiseKind::None;
+    const float noise = middle_of(of_faces);
     const float median = middle_of(of_vertices);
-    if (median <= least_median)
-        return false;
+    const bool is_without_doubt = noise > much_noise && faces.size() >= fewest_without_doubt && !is_thinned;
+    if (!is_without_doubt && median <= (is_thinned ? clear_median : least_median))
+        return NoiseKind::None;
     Eigen::Array2d all = Eigen::Array2d::Zero();
     Eigen::Array2d of_calm = Eigen::Array2d::Zero();
     for (const Index f : faces) {
@@ -150,11 +160,23 @@ bool is_noisy(const Motion& motion, std::span<const Index> of_component, std::sp
                                  [&](Index v) { return motion.lengths[v] > most_medians * median; }))
             of_calm += of_face;
     }
+    const auto is_below = [](const Eigen::Array2d& sums, double correlation) {
+        return sums[0] < correlation * sums[1];
+    };
+    const NoiseKind kind = is_below(all, most_correlation_of_white) && median >= least_part_if_white * noise
+                               ? NoiseKind::White
+                               : NoiseKind::Alike;
+    if (is_without_doubt)
+        return kind;
+    if (is_thinned)
+        return median >= least_part_if_thinned * noise && is_below(all, most_correlation_if_thinned) ? kind
+                                                                                                     : NoiseKind::None;
     if (faces.size() < few_faces && median < least_part_of_noise * noise)
-        return false;
-    if (median <= clear_median || faces.size() < few_faces)
-        return all[0] < most_correlation_of_little * all[1];
-    return all[0] < most_correlation * all[1] || of_calm[0] < most_calm_correlation * of_calm[1];
+        return NoiseKind::None;
+    const bool is_noise = median <= clear_median || faces.size() < few_faces
+                              ? is_below(all, most_correlation_of_little)
+                              : is_below(all, most_correlation) || is_below(of_calm, most_calm_correlation);
+    return is_noise ? kind : NoiseKind::None;
 }
 
 }  // namespace
@@ -179,20 +201,21 @@ std::vector<std::uint8_t> flat_vertices(const PolygonMesh& mesh, const Topology&
     return is_flat;
 }
 
-NoisyPlaces::NoisyPlaces(const PolygonMesh& mesh, const Topology& topology, bool as_one)
+NoisyPlaces::NoisyPlaces(const PolygonMesh& mesh, const Topology& topology, bool as_one, bool is_thinned)
     : components_(as_one ? all_together(mesh) : face_components(mesh, topology))
+    , is_thinned_(is_thinned)
 {
 }
 
-std::vector<double> NoisyPlaces::find(const PolygonMesh& mesh, const Topology& topology, const Points& before,
-                                      const Points& after, const DenoisedNormals& found,
-                                      std::span<const std::uint8_t> is_flat, const Executor& exec) const
+NoisyPlaces::Found NoisyPlaces::find(const PolygonMesh& mesh, const Topology& topology, const Points& before,
+                                     const Points& after, const DenoisedNormals& found,
+                                     std::span<const std::uint8_t> is_flat, const Executor& exec) const
 {
     const Index n = mesh.n_vertices();
     const Motion motion(mesh, topology, before, after, found, exec);
-    std::vector<std::uint8_t> noisy(usize(components_.count()));
+    Found result{std::vector<double>(usize(n), 0.0), std::vector<NoiseKind>(usize(components_.count()))};
     for_each(exec, components_.count(),
-             [&](Index c) { noisy[c] = is_noisy(motion, components_.nodes[c], is_flat) ? 1 : 0; });
+             [&](Index c) { result.kinds[c] = kind_of_noise(motion, components_.nodes[c], is_flat, is_thinned_); });
     VertexAverages::Rows near(mesh.n_faces(), 1);
     VertexAverages::Rows around(mesh.n_faces(), 1);
     for_each(exec, mesh.n_faces(), [&](Index f) {
@@ -201,17 +224,16 @@ std::vector<double> NoisyPlaces::find(const PolygonMesh& mesh, const Topology& t
             near(f, 0) += motion.lengths[v] / static_cast<float>(mesh.face(f).size());
     });
     VertexAverages(mesh, topology, exec).spread(near, around, 0, rounds, exec);
-    std::vector<double> parts(usize(n), 0.0);
     for_each(exec, n, [&](Index v) {
         const auto corners = topology.corners_at(v);
         const auto count = static_cast<double>(corners.size());
         for (const Index corner : corners) {
             const Index f = topology.face_of[corner];
-            if (noisy[components_.component_of[f]] != 0)
-                parts[v] += smooth_step((around(f, 0) - calm) / (restless - calm)) / count;
+            if (result.kinds[components_.component_of[f]] != NoiseKind::None)
+                result.parts[v] += smooth_step((around(f, 0) - calm) / (restless - calm)) / count;
         }
     });
-    return parts;
+    return result;
 }
 
 }  // namespace seamflow

@@ -17,6 +17,15 @@ namespace seamflow {
 std::vector<std::uint8_t> flat_vertices(const PolygonMesh& mesh, const Topology& topology, const Points& positions,
                                         const Executor& exec = run_serially);
 
+/// What a component has.
+enum class NoiseKind {
+    None,
+    /// Independent, or nearly, from vertex to vertex.
+    White,
+    /// Also alike at neighbours, so that a denoiser cannot tell all of it from shape.
+    Alike,
+};
+
 /// Tells noise from shape by what a denoiser would take away.
 ///
 /// Noise moves most vertices of a component, and neighbours hardly alike (its residual is white); a detail that the
@@ -27,14 +36,20 @@ std::vector<std::uint8_t> flat_vertices(const PolygonMesh& mesh, const Topology&
 class NoisyPlaces {
   public:
     /// @param topology with twins; not needed later. @param as_one whether all components are judged as one.
-    NoisyPlaces(const PolygonMesh& mesh, const Topology& topology, bool as_one = false);
+    /// @param is_thinned whether the surface bends more from edge to edge than it was made to: less counts as noise.
+    NoisyPlaces(const PolygonMesh& mesh, const Topology& topology, bool as_one = false, bool is_thinned = false);
+
+    struct Found {
+        /// #V: how much of its motion each vertex should make, from 0 to 1.
+        std::vector<double> parts;
+        /// Per component.
+        std::vector<NoiseKind> kinds;
+    };
 
     /// @param before, after #V by 3. @param found of the positions before. @param is_flat #V: see flat_vertices.
-    /// @returns #V: how much of its motion each vertex should make, from 0 to 1.
-    [[nodiscard]] std::vector<double> find(const PolygonMesh& mesh, const Topology& topology, const Points& before,
-                                           const Points& after, const DenoisedNormals& found,
-                                           std::span<const std::uint8_t> is_flat,
-                                           const Executor& exec = run_serially) const;
+    [[nodiscard]] Found find(const PolygonMesh& mesh, const Topology& topology, const Points& before,
+                             const Points& after, const DenoisedNormals& found, std::span<const std::uint8_t> is_flat,
+                             const Executor& exec = run_serially) const;
 
     /// Of faces.
     [[nodiscard]] const Components& components() const { return components_; }
@@ -42,6 +57,7 @@ class NoisyPlaces {
   private:
     /// The components of the mesh, by faces: each is judged by itself.
     Components components_;
+    bool is_thinned_;
 };
 
 }  // namespace seamflow

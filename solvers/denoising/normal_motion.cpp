@@ -8,6 +8,7 @@
 
 #include <Eigen/LU>
 
+#include "partition/metrics/flipped_faces.h"
 #include "partition/vector_area.h"
 
 namespace seamflow {
@@ -133,12 +134,16 @@ void keep_facing(const PolygonMesh& mesh, const Topology& topology, const Points
 {
     const FoldedFaces faces(mesh, topology, wanted, exec);
     const std::vector<double> of_before = faces.cosines(before);
-    for (int round = 0; round <= halvings; ++round) {
+    // It ends: a face whose vertices are all back has not turned over.
+    for (int round = 0;; ++round) {
         const std::vector<double> cosines = faces.cosines(positions);
+        std::vector<std::uint8_t> is_folded(usize(mesh.n_faces()), 0);
+        for (const Index f : folded_faces(mesh, before, positions, flipped_faces(mesh, before, positions, exec)))
+            is_folded[f] = 1;
         const std::vector<Index> turned =
-            faces.vertices_of([&](Index f) { return cosines[f] <= 0.0 && of_before[f] > 0.0; });
+            faces.vertices_of([&](Index f) { return is_folded[f] != 0 || (cosines[f] <= 0.0 && of_before[f] > 0.0); });
         if (turned.empty())
-            break;
+            return;
         for (const Index v : turned)
             positions.row(v) = before.row(v) + (round < halvings ? 0.5 : 0.0) * (positions.row(v) - before.row(v));
     }

@@ -29,7 +29,8 @@ Points along_normals(const PolygonMesh& mesh, const Topology& topology, const Po
                      const Points& wanted, const Executor& exec = run_serially);
 
 /// Takes back half of the motion, and so on, of the vertices of faces that point away from their wanted normals, to
-/// which they pointed before: no face turns over. Arguments as above.
+/// which they pointed before, and of faces that have turned over against their neighbours (see folded_faces). In the
+/// end there are none. Arguments as above.
 /// @param positions #V by 3; replaced.
 void keep_facing(const PolygonMesh& mesh, const Topology& topology, const Points& before, const Points& wanted,
                  Points& positions, const Executor& exec = run_serially);
