@@ -14,6 +14,7 @@
 #include "solvers/denoising/smoother_places.h"
 #include "solvers/denoising/thinned_mesh.h"
 #include "solvers/denoising/vertex_averages.h"
+#include "solvers/normals/face_neighbours.h"
 #include "solvers/normals/vertex_fit.h"
 
 namespace seamflow {
@@ -62,12 +63,20 @@ MeshDenoiser::MeshDenoiser(const PolygonMesh& mesh, const Topology& topology, co
     , polygon_topology_(&topology)
     , mesh_(triangles_ ? &triangles_->mesh : &mesh)
     , topology_(triangles_ ? &triangles_->topology : &topology)
+    , signs_(face_signs(*mesh_, *topology_))
     , places_(*mesh_, *topology_, as_one, n_thinned > 0)
     , rims_(*mesh_, *topology_)
     , edge_angle_(edge_angle)
     , as_one_(as_one)
     , n_thinned_(n_thinned)
 {
+    if (signs_.empty())
+        return;
+    oriented_ = *mesh_;
+    for (Index f = 0; f < mesh_->n_faces(); ++f)
+        if (signs_[f] < 0)
+            std::reverse(oriented_.face_vertices.begin() + oriented_.face_offsets[f],
+                         oriented_.face_vertices.begin() + oriented_.face_offsets[f + 1]);
 }
 
 std::unique_ptr<const MeshDenoiser::Triangles>
@@ -94,8 +103,7 @@ Points MeshDenoiser::denoise(const Points& before, std::span<const double> stren
         return positions;
     for (const Spike& spike : spikes_)
         positions.row(spike.vertex) = before.row(spike.vertex);
-    const Points none = Points::Zero(mesh_->n_faces(), 3);
-    keep_facing(*mesh_, *topology_, before, none, positions, exec);
+    keep_all_facing(before, Points::Zero(mesh_->n_faces(), 3), positions, exec);
     return positions;
 }
 
@@ -118,7 +126,7 @@ Points MeshDenoiser::without_noise(const Points& before, std::span<const double>
     if (const std::optional<Points> without = without_alike_noise(before, found.places.kinds, exec)) {
         for_each(exec, mesh_->n_vertices(),
                  [&](Index v) { begun.row(v) += strength(v) * (without->row(v) - before.row(v)); });
-        keep_facing(*mesh_, *topology_, before, found.normals.normals, begun, exec);
+        keep_all_facing(before, found.normals.normals, begun, exec);
         found = examine(begun, exec);
     }
     const Points& normals = found.normals.normals;
@@ -140,7 +148,7 @@ Points MeshDenoiser::without_noise(const Points& before, std::span<const double>
     if (edge_angle_)
         take_smoother_places({*mesh_, *topology_, begun, normals, parts}, places_.components(), *edge_angle_, result,
                              exec);
-    keep_facing(*mesh_, *topology_, before, normals, result, exec);
+    keep_all_facing(before, normals, result, exec);
     return result;
 }
 
@@ -193,6 +201,12 @@ bool MeshDenoiser::has_alike_noise_on_sample(const Points& before, const Executo
     const MeshPiece patches = cut_out(*mesh_, *topology_, before, faces, exec);
     const MeshDenoiser denoiser(patches.mesh, patches.topology, exec, {}, true, n_thinned_);
     return denoiser.without_alike_noise(patches.mesh.vertices, std::vector{NoiseKind::None}, exec).has_value();
+}
+
+void MeshDenoiser::keep_all_facing(const Points& before, Points wanted, Points& positions, const Executor& exec) const
+{
+    for_each(exec, static_cast<Index>(signs_.size()), [&](Index f) { wanted.row(f) *= signs_[f]; });
+    keep_facing(signs_.empty() ? *mesh_ : oriented_, *topology_, before, wanted, positions, exec);
 }
 
 void MeshDenoiser::measure_noise(const Points& motions, std::span<const double> parts,

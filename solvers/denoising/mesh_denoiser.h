@@ -80,6 +80,8 @@ class MeshDenoiser {
                                                             const Executor& exec) const;
     /// Whether the same finds any on patches all over the mesh.
     [[nodiscard]] bool has_alike_noise_on_sample(const Points& before, const Executor& exec) const;
+    /// See keep_facing.
+    void keep_all_facing(const Points& before, Points wanted, Points& positions, const Executor& exec) const;
     /// @param motions #V by 3, to the positions after. @param parts #V: 0 where there is no noise, nor where is_flat.
     /// @param normals #F by 3.
     void measure_noise(const Points& motions, std::span<const double> parts, std::span<const std::uint8_t> is_flat,
@@ -95,6 +97,9 @@ class MeshDenoiser {
     /// The triangles that polygons are cut into, or the mesh itself if it has no others.
     const PolygonMesh* mesh_;
     const Topology* topology_;
+    /// #F: -1 for the faces that are turned round in oriented_, so that all look to the same side; both empty: none is.
+    std::vector<std::int8_t> signs_;
+    PolygonMesh oriented_;
     NoisyPlaces places_;
     RimFilter rims_;
     std::optional<double> edge_angle_;

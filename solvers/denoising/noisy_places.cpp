@@ -163,9 +163,9 @@ NoiseKind kind_of_noise(const Motion& motion, std::span<const Index> of_componen
     const auto is_below = [](const Eigen::Array2d& sums, double correlation) {
         return sums[0] < correlation * sums[1];
     };
-    const NoiseKind kind = is_below(all, most_correlation_of_white) && median >= least_part_if_white * noise
-                               ? NoiseKind::White
-                               : NoiseKind::Alike;
+    const bool is_white =
+        is_below(all, most_correlation_of_white) && (noise > much_noise || median >= least_part_if_white * noise);
+    const NoiseKind kind = is_white ? NoiseKind::White : NoiseKind::Alike;
     if (is_without_doubt)
         return kind;
     if (is_thinned)
