@@ -300,8 +300,7 @@ void LdlFactor<Number>::solve(const Columns& right_hand_side, Columns& solution,
 }
 
 template <class Number>
-void LdlFactor<Number>::solve_wide(Number* x) const
-    requires std::is_same_v<Number, double>
+void LdlFactor<Number>::solve_wide(Number* x) const requires std::is_same_v<Number, double>
 {
     assert(solver_->n_last_ == 0);
     forward_substitute<wide_ldl_row>(x, solver_->n());

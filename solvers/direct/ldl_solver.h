@@ -164,8 +164,7 @@ class LdlFactor {
     /// Solves for many right-hand sides, in the thread of the caller. Each is as with `solve`.
     /// @pre no unknowns are kept together at the end.
     /// @param x n by wide_ldl_row, row by row: right-hand sides, replaced by solutions.
-    void solve_wide(Number* x) const
-        requires std::is_same_v<Number, double>;
+    void solve_wide(Number* x) const requires std::is_same_v<Number, double>;
 
     /// The factor's own memory for three right-hand sides or what replaces them: n by ldl_row, row by row.
     /// @pre the solver was constructed with n_last.
