@@ -33,7 +33,7 @@ constexpr int most_thinned = 2;
 constexpr std::size_t fewest_to_thin = 3000;
 constexpr int rounds_of_thinning = 6;
 /// In faces: with more, patches decide whether there is anything to do.
-constexpr Index most_without_sample = 300'000;
+constexpr Index most_without_sample = 100'000;
 
 /// The mean chord between faces and their wanted normals.
 double mean_chord(const PolygonMesh& mesh, const Points& positions, const Points& wanted, const Executor& exec)
