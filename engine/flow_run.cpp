@@ -252,13 +252,14 @@ bool FlowRun::diffuse_further(Eigen::Ref<Eigen::MatrixXd> fields, int n)
 {
     // Few at a time, so that progress is seen.
     constexpr Eigen::Index at_once = 192;
+    if (!stepper_->can_take_columns())
+        return false;
     for (Eigen::Index first = 0; first < fields.cols(); first += at_once) {
         auto portion = fields.middleCols(first, std::min(at_once, fields.cols() - first));
         progress_.enter(FlowPhase::Step, fractions_->number(), fractions_->begin(), fractions_->end());
         Stopwatch watch;
         mesh_.join(portion);
-        if (!stepper_->take_steps(portion, n, progress_.exec()))
-            return false;
+        stepper_->take_steps(portion, n, progress_.exec());
         mesh_.take_along(portion);
         report_.seconds.step += watch.seconds();
         report_.seconds.total += watch.seconds();

@@ -17,6 +17,7 @@
 #include "engine/options/option_table.h"
 #include "engine/setup/smoothed_radius.h"
 #include "engine/tasks/parallel_executor.h"
+#include "engine/tasks/workers.h"
 #include "partition/connected_components.h"
 #include "partition/io/input_position.h"
 #include "partition/large_arrays.h"
@@ -155,11 +156,11 @@ bool choose_for_columns(const PolygonMesh& surface, Eigen::Index n_solutions, co
 }
 
 /// In large pages where the system has them.
-Eigen::MatrixXd copy_of(const Eigen::MatrixXd& fields)
+Eigen::MatrixXd copy_of(const Eigen::MatrixXd& fields, const Executor& exec)
 {
     Eigen::MatrixXd copy;
     resize_large(copy, fields.rows(), fields.cols());
-    for_each(run_in_parallel, static_cast<Index>(fields.cols()), [&](Index c) { copy.col(c) = fields.col(c); });
+    for_each(exec, static_cast<Index>(fields.cols()), [&](Index c) { copy.col(c) = fields.col(c); });
     return copy;
 }
 
@@ -180,7 +181,7 @@ Eigen::RowVectorXd means_of(const Eigen::MatrixXd& fields, const FieldGroup& gro
 /// The harmonic extension, as what a long step makes of it.
 /// @param filled #V: gets 1 where there are data now. @returns the report of that step.
 FlowReport extend(const PolygonMesh& mesh, FieldGroup& group, const FlowOptions& options, const FlowControl& control,
-                  Eigen::MatrixXd& fields, std::vector<std::uint8_t>& filled)
+                  const Executor& exec, Eigen::MatrixXd& fields, std::vector<std::uint8_t>& filled)
 {
     const std::vector<std::uint8_t> lacked_first = group.lacks;
     PolygonMesh surface = surface_for_extension(mesh, group, options.laplacian);
@@ -206,23 +207,23 @@ FlowReport extend(const PolygonMesh& mesh, FieldGroup& group, const FlowOptions&
     const Eigen::RowVectorXd means = means_of(fields, group);
     choose_for_columns(surface, std::ssize(group.columns), control, own);
     Flow flow(surface, own, {}, control);
-    const std::vector<ValueRange> ranges = ranges_of(fields, group);
+    const std::vector<ValueRange> ranges = ranges_of(fields, group, exec);
     std::vector<ValueRange> about_means = ranges;
     for (std::size_t c = 0; c < ranges.size(); ++c)
         about_means[c] = {ranges[c].least - means[group.columns[c]], ranges[c].most - means[group.columns[c]]};
     ScaledFields scaled(fields(Eigen::all, group.columns).rowwise() - means(group.columns), group, about_means,
-                        own.time_step);
+                        own.time_step, exec);
     flow.diffuse(scaled.values());
     const std::vector<std::uint8_t> lacked = group.lacks;
     for (Index v = 0; v < mesh.n_vertices(); ++v)
         group.lacks[v] = lacked[v] != 0 && reached[v] != 0 ? 0 : 1;
-    const Eigen::MatrixXd extended = scaled.take(group);
+    const Eigen::MatrixXd extended = scaled.take(group, exec);
     for (std::size_t i = 0; i < group.columns.size(); ++i)
         for (Index v = 0; v < mesh.n_vertices(); ++v)
             if (const Eigen::Index c = group.columns[i]; group.lacks[v] == 0)
                 fields(v, c) = extended(v, static_cast<Eigen::Index>(i)) + means[c];
     if (own.weights != Weights::OfLaplacian)
-        keep_within(ranges, group, fields);
+        keep_within(ranges, group, fields, exec);
     for (Index v = 0; v < mesh.n_vertices(); ++v)
         if (lacked_first[v] != 0 && !std::isnan(fields(v, group.columns.front())))
             filled[v] = 1;
@@ -273,7 +274,9 @@ FieldReport diffuse(const PolygonMesh& mesh, Eigen::MatrixXd& fields, const Flow
     require_for_fields(options, field_options);
     require_fields_of(mesh.n_vertices(), fields);
     FieldReport report;
-    Eigen::MatrixXd results = copy_of(fields);
+    Workers workers(options.resources.threads);
+    const Executor exec = workers.exec();
+    Eigen::MatrixXd results = copy_of(fields, exec);
     FlowOptions of_flow = flow_for_fields(options, field_options);
     of_flow.time_step = time_step_of(of_flow, mesh);
     of_flow.radius.reset();
@@ -295,10 +298,10 @@ FieldReport diffuse(const PolygonMesh& mesh, Eigen::MatrixXd& fields, const Flow
         const bool is_whole = choose_for_columns(
             surface, std::ssize(group.columns) * (field_options.keep_edges ? 1 : options.steps), own_control, own);
         Flow flow(surface, own, {}, own_control);
-        const std::vector<ValueRange> ranges = ranges_of(fields, group);
+        const std::vector<ValueRange> ranges = ranges_of(fields, group, exec);
         const bool has_all = std::ssize(group.columns) == results.cols();
         ScaledFields scaled(has_all ? std::move(results) : Eigen::MatrixXd(results(Eigen::all, group.columns)), group,
-                            ranges, own.time_step);
+                            ranges, own.time_step, exec);
         if (field_options.keep_edges)
             for (int step = 0; step < options.steps; ++step) {
                 flow.keep_field_edges(scaled.in_units(), *field_options.keep_edges);
@@ -307,11 +310,11 @@ FieldReport diffuse(const PolygonMesh& mesh, Eigen::MatrixXd& fields, const Flow
         else
             flow.diffuse(scaled.values(), options.steps);
         if (has_all)
-            results = scaled.take(group);
+            results = scaled.take(group, exec);
         else
-            results(Eigen::all, group.columns) = scaled.take(group);
+            results(Eigen::all, group.columns) = scaled.take(group, exec);
         if (filter_of(own).is_plain() && own.weights != Weights::OfLaplacian)
-            keep_within(ranges, group, results);
+            keep_within(ranges, group, results, exec);
         // Steps that noise is measured with are none of the fields.
         FlowReport of_group = flow.report();
         if (is_whole)
@@ -326,7 +329,7 @@ FieldReport diffuse(const PolygonMesh& mesh, Eigen::MatrixXd& fields, const Flow
         }
         remarks.push_back(of_group.remarks);
         if (field_options.fill && group.n_lacking > 0 && group.n_lacking < mesh.n_vertices()) {
-            const FlowReport of_fill = extend(mesh, group, of_flow, control, results, filled);
+            const FlowReport of_fill = extend(mesh, group, of_flow, control, exec, results, filled);
             add_filling(of_fill, of_group, remarks.back());
         }
         if (field_options.fill)

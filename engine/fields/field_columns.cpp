@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 
 #include "engine/fields/thin_faces.h"
-#include "engine/tasks/parallel_executor.h"
 #include "partition/errors.h"
 #include "partition/io/input_position.h"
 
@@ -54,10 +53,10 @@ bool has_data(const PolygonMesh& mesh, Index f, const FieldGroup& group, Laplaci
            !is_unusable(mesh, f, laplacian);
 }
 
-std::vector<ValueRange> ranges_of(const Eigen::MatrixXd& fields, const FieldGroup& group)
+std::vector<ValueRange> ranges_of(const Eigen::MatrixXd& fields, const FieldGroup& group, const Executor& exec)
 {
     std::vector<ValueRange> ranges(group.columns.size());
-    for_each(run_in_parallel, static_cast<Index>(ranges.size()), [&](Index i) {
+    for_each(exec, static_cast<Index>(ranges.size()), [&](Index i) {
         ValueRange range;
         for (Index v = 0; v < static_cast<Index>(fields.rows()); ++v)
             if (group.lacks[v] == 0) {
@@ -78,11 +77,11 @@ constexpr int largest_exponent = 1022;
 }  // namespace
 
 ScaledFields::ScaledFields(Eigen::MatrixXd values, const FieldGroup& group, std::span<const ValueRange> ranges,
-                           double time_step)
+                           double time_step, const Executor& exec)
     : values_(std::move(values))
     , units_(values_.cols())
 {
-    for_each(run_in_parallel, static_cast<Index>(values_.cols()), [&](Index c) {
+    for_each(exec, static_cast<Index>(values_.cols()), [&](Index c) {
         const auto [least, most] = ranges[c];
         // Halved, even the spread of the largest numbers is one.
         const double half = 0.5 * most - 0.5 * least;
@@ -100,10 +99,10 @@ Eigen::MatrixXd ScaledFields::in_units() const
     return (values_.array().rowwise() * units_.transpose().array()).matrix();
 }
 
-Eigen::MatrixXd ScaledFields::take(const FieldGroup& group)
+Eigen::MatrixXd ScaledFields::take(const FieldGroup& group, const Executor& exec)
 {
     std::vector<std::uint8_t> is_finite(static_cast<std::size_t>(values_.cols()), 1);
-    for_each(run_in_parallel, static_cast<Index>(values_.cols()), [&](Index c) {
+    for_each(exec, static_cast<Index>(values_.cols()), [&](Index c) {
         for (Index v = 0; v < static_cast<Index>(values_.rows()); ++v) {
             values_(v, c) = group.lacks[v] == 0 ? values_(v, c) * units_[c] : std::numeric_limits<double>::quiet_NaN();
             if (group.lacks[v] == 0 && !std::isfinite(values_(v, c)))
@@ -117,9 +116,10 @@ Eigen::MatrixXd ScaledFields::take(const FieldGroup& group)
     return std::move(values_);
 }
 
-void keep_within(std::span<const ValueRange> ranges, const FieldGroup& group, Eigen::MatrixXd& fields)
+void keep_within(std::span<const ValueRange> ranges, const FieldGroup& group, Eigen::MatrixXd& fields,
+                 const Executor& exec)
 {
-    for_each(run_in_parallel, static_cast<Index>(group.columns.size()), [&](Index i) {
+    for_each(exec, static_cast<Index>(group.columns.size()), [&](Index i) {
         for (Index v = 0; v < static_cast<Index>(fields.rows()); ++v)
             if (double& value = fields(v, group.columns[i]); group.lacks[v] == 0)
                 value = std::clamp(value, ranges[i].least, ranges[i].most);

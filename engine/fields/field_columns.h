@@ -9,6 +9,7 @@
 #include <Eigen/Core>
 
 #include "engine/measure/flow_report.h"
+#include "partition/executor.h"
 #include "partition/polygon_mesh.h"
 #include "solvers/laplacian/laplacian.h"
 
@@ -44,7 +45,7 @@ struct ValueRange {
 };
 
 /// One for each column of the group, over the vertices with data.
-std::vector<ValueRange> ranges_of(const Eigen::MatrixXd& fields, const FieldGroup& group);
+std::vector<ValueRange> ranges_of(const Eigen::MatrixXd& fields, const FieldGroup& group, const Executor& exec);
 
 /// Columns in the unit in which their values spread about as far as the steps do, which powers of two change exactly:
 /// what steps add fits in single precision.
@@ -52,7 +53,8 @@ class ScaledFields {
   public:
     /// @param values #V by the columns of the group. @param ranges of the whole mesh (see ranges_of).
     /// @param time_step in length².
-    ScaledFields(Eigen::MatrixXd values, const FieldGroup& group, std::span<const ValueRange> ranges, double time_step);
+    ScaledFields(Eigen::MatrixXd values, const FieldGroup& group, std::span<const ValueRange> ranges, double time_step,
+                 const Executor& exec);
 
     /// 0 where there are no data.
     Eigen::MatrixXd& values() { return values_; }
@@ -61,7 +63,7 @@ class ScaledFields {
 
     /// The values in their own units, NaN at vertices that lack data now. There are none here afterwards.
     /// @throws ComputationError naming a column with values that are not finite.
-    [[nodiscard]] Eigen::MatrixXd take(const FieldGroup& group);
+    [[nodiscard]] Eigen::MatrixXd take(const FieldGroup& group, const Executor& exec);
 
   private:
     Eigen::MatrixXd values_;
@@ -70,7 +72,8 @@ class ScaledFields {
 
 /// Moves values that are out of the range of their column into it: rounding errors, and those of a solution to a
 /// tolerance.
-void keep_within(std::span<const ValueRange> ranges, const FieldGroup& group, Eigen::MatrixXd& fields);
+void keep_within(std::span<const ValueRange> ranges, const FieldGroup& group, Eigen::MatrixXd& fields,
+                 const Executor& exec);
 
 /// How many times the steps of the flow are taken: once for each three columns.
 int n_blocks(Eigen::Index n_columns);

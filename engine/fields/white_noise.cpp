@@ -5,17 +5,11 @@
 #include <numbers>
 #include <vector>
 
+#include "partition/mixed_bits.h"
+
 namespace seamflow {
 
 namespace {
-
-/// The mixing function of SplitMix64 (Steele, Lea and Flood, Fast Splittable Pseudorandom Number Generators, 2014).
-std::uint64_t mixed(std::uint64_t z)
-{
-    z = (z ^ (z >> 30U)) * 0xbf58476d1ce4e5b9U;
-    z = (z ^ (z >> 27U)) * 0x94d049bb133111ebU;
-    return z ^ (z >> 31U);
-}
 
 /// Between -√3 and √3, all equally likely.
 double uniform(std::uint64_t number)

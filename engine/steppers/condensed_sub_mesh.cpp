@@ -156,10 +156,15 @@ void CondensedSubMesh::back_substitute(const CondensedStep& step, const Points& 
     seconds_->solve += watch.lap();
 }
 
-bool CondensedSubMesh::take_steps(double time_step, int n, Eigen::Ref<Eigen::MatrixXd> fields,
+bool CondensedSubMesh::can_take_columns() const
+{
+    return factor_ && system_->can_take_columns(*factor_);
+}
+
+void CondensedSubMesh::take_steps(double time_step, int n, Eigen::Ref<Eigen::MatrixXd> fields,
                                   const Executor& exec) const
 {
-    return factor_ && system_->take_steps(*factor_, time_step, n, vertices_.local_to_global, fields, exec);
+    system_->take_steps(*factor_, time_step, n, vertices_.local_to_global, fields, exec);
 }
 
 }  // namespace seamflow

@@ -76,9 +76,10 @@ class CondensedSubMesh {
     void back_substitute(const CondensedStep& step, const Points& update, bool keeps_factor,
                          SolverWorkspace& workspace);
 
-    /// See NeumannSystem::take_steps. Nor is anything done before there is a factor that is kept.
+    /// See NeumannSystem. It takes a factor that is kept.
+    [[nodiscard]] bool can_take_columns() const;
     /// @param fields #V by any number of columns.
-    bool take_steps(double time_step, int n, Eigen::Ref<Eigen::MatrixXd> fields, const Executor& exec) const;
+    void take_steps(double time_step, int n, Eigen::Ref<Eigen::MatrixXd> fields, const Executor& exec) const;
 
   private:
     [[nodiscard]] std::span<const Index> interior() const

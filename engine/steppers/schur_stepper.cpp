@@ -194,13 +194,15 @@ void SchurStepper::set_data(const Points& data, DataSteps steps)
     interface_.has_update = false;
 }
 
-bool SchurStepper::take_steps(Eigen::Ref<Eigen::MatrixXd> fields, int n, const Executor& exec)
+bool SchurStepper::can_take_columns() const
 {
-    if (sub_meshes_.size() != 1 || !filter_.is_plain() || !interface_.has_complements || has_changed_)
-        return false;
-    bool taken = false;
-    run_for_sub_mesh(names_.front(), [&] { taken = sub_meshes_.front()->take_steps(time_step_, n, fields, exec); });
-    return taken;
+    return sub_meshes_.size() == 1 && filter_.is_plain() && interface_.has_complements && !has_changed_ &&
+           sub_meshes_.front()->can_take_columns();
+}
+
+void SchurStepper::take_steps(Eigen::Ref<Eigen::MatrixXd> fields, int n, const Executor& exec)
+{
+    run_for_sub_mesh(names_.front(), [&] { sub_meshes_.front()->take_steps(time_step_, n, fields, exec); });
 }
 
 /// x_I = A_II⁻¹ (b_I - A_IΓ x_Γ)

@@ -56,7 +56,8 @@ class SchurStepper final : public ConvergedStepper {
     SchurStepper(const PolygonMesh& mesh, PeerSubMeshes sub_meshes, const FlowOptions& options, Progress& progress);
 
     void set_data(const Points& data, DataSteps steps) override;
-    bool take_steps(Eigen::Ref<Eigen::MatrixXd> fields, int n, const Executor& exec) override;
+    [[nodiscard]] bool can_take_columns() const override;
+    void take_steps(Eigen::Ref<Eigen::MatrixXd> fields, int n, const Executor& exec) override;
     [[nodiscard]] bool can_change() const override { return true; }
     void hold(std::span<const Index> vertices, bool is_held) override;
     void attach(std::span<const Index> vertices, std::span<const double> weights) override;

@@ -52,13 +52,14 @@ class Stepper {
     /// @param data #V by 3.
     virtual void set_data(const Points& data, DataSteps) { set_positions(data, {}); }
 
-    /// Takes n steps with many columns of other data at once, after steps with the first ones: positions() stay.
+    /// Whether many columns of other data can take steps at once, after steps with the first ones.
+    [[nodiscard]] virtual bool can_take_columns() const { return false; }
+
+    /// Takes n steps with them; positions() stay. Only where that is possible.
     /// @param fields #V by any number of columns.
-    /// @returns false, and nothing is done, where steps are taken with three columns at a time.
-    virtual bool take_steps([[maybe_unused]] Eigen::Ref<Eigen::MatrixXd> fields, [[maybe_unused]] int n,
+    virtual void take_steps([[maybe_unused]] Eigen::Ref<Eigen::MatrixXd> fields, [[maybe_unused]] int n,
                             const Executor&)
     {
-        return false;
     }
 
     /// Moves some vertices, with all copies of them, to where the next step is to find them. What is known of updates

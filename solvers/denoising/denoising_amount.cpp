@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include "partition/metrics/vertex_normals.h"
+#include "partition/mixed_bits.h"
 #include "solvers/denoising/chebyshev.h"
 #include "solvers/denoising/filter_sample.h"
 
@@ -44,13 +45,10 @@ double amount_at(double place)
     return smallest_amount * std::pow(largest_amount / smallest_amount, place / (n_amounts - 1));
 }
 
-/// 1 or -1, depending only on the number of a vertex (the mixing of splitmix64: Steele, Lea, Flood 2014).
+/// 1 or -1, depending only on the number of a vertex.
 double random_sign(Index v)
 {
-    std::uint64_t bits = (static_cast<std::uint64_t>(v) + 1) * 0x9e3779b97f4a7c15ULL;
-    bits = (bits ^ bits >> 30) * 0xbf58476d1ce4e5b9ULL;
-    bits = (bits ^ bits >> 27) * 0x94d049bb133111ebULL;
-    return (bits >> 63) == 0 ? 1.0 : -1.0;
+    return mixed((static_cast<std::uint64_t>(v) + 1) * 0x9e3779b97f4a7c15ULL) >> 63U == 0 ? 1.0 : -1.0;
 }
 
 /// The positions relative to their mean, and the random vector.

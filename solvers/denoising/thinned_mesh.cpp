@@ -7,25 +7,19 @@
 #include <limits>
 #include <utility>
 
+#include "partition/mixed_bits.h"
+
 namespace seamflow {
 
 namespace {
 
-/// Steele and others, Fast Splittable Pseudorandom Number Generators (2014).
-std::uint64_t mix(std::uint64_t x)
-{
-    x = (x ^ (x >> 30U)) * 0xbf58476d1ce4e5b9U;
-    x = (x ^ (x >> 27U)) * 0x94d049bb133111ebU;
-    return x ^ (x >> 31U);
-}
-
 /// The same in every unit of length that is a power of two times another.
 std::uint64_t random_number_of(const Point& position, std::uint64_t round)
 {
-    std::uint64_t x = mix(round + 1);
+    std::uint64_t x = mixed(round + 1);
     for (const double coordinate : position) {
         int exponent = 0;
-        x = mix(x + std::bit_cast<std::uint64_t>(std::frexp(coordinate, &exponent)));
+        x = mixed(x + std::bit_cast<std::uint64_t>(std::frexp(coordinate, &exponent)));
     }
     return x;
 }

@@ -115,12 +115,15 @@ NeumannSystem::Assembled NeumannSystem::assemble(const Points& positions, const 
     return {matrix, residual, power_of_two_near(std::sqrt(time_step))};
 }
 
-bool NeumannSystem::take_steps(const Factor& factor, double time_step, int n, std::span<const Index> rows,
+bool NeumannSystem::can_take_columns(const Factor& factor) const
+{
+    return n_interface_ == 0 && matrix_.laplacian->n_auxiliary() == 0 && !matrix_.screening.exists() &&
+           !factor.is_single();
+}
+
+void NeumannSystem::take_steps(const Factor& factor, double time_step, int n, std::span<const Index> rows,
                                Eigen::Ref<Eigen::MatrixXd> fields, const Executor& exec) const
 {
-    const auto* const numbers = std::get_if<LdlFactor<double>>(&factor.numbers_);
-    if (numbers == nullptr || n_interface_ > 0 || matrix_.laplacian->n_auxiliary() > 0 || matrix_.screening.exists())
-        return false;
     const std::vector<VertexPair> pairs = matrix_.laplacian->pairs();
     std::vector<Index> slots(pairs.size());
     std::iota(slots.begin(), slots.end(), 0);
@@ -133,8 +136,8 @@ bool NeumannSystem::take_steps(const Factor& factor, double time_step, int n, st
     std::vector<Index> unknown_of(diagonal.size(), -1);
     for (Index u = 0; u < matrix_.n(); ++u)
         unknown_of[matrix_.vertex_of[u]] = u;
-    WideSteps(unknown_of, matrix_.n(), is_held_, pairs, entries).take(*numbers, n, rows, fields, exec);
-    return true;
+    WideSteps(unknown_of, matrix_.n(), is_held_, pairs, entries)
+        .take(std::get<LdlFactor<double>>(factor.numbers_), n, rows, fields, exec);
 }
 
 void NeumannSystem::hold(Index v, bool is_held)

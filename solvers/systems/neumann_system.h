@@ -102,12 +102,15 @@ class NeumannSystem {
     /// @throws ComputationError if the result is not finite.
     void back_substitute(Factor& factor, const Points& on_interface, Points& increments) const;
 
+    /// Whether many columns of data can take steps at once: without Γ, auxiliary unknowns and attachment, with a factor
+    /// in double precision.
+    [[nodiscard]] bool can_take_columns(const Factor& factor) const;
+
     /// Takes n steps of the heat equation with many columns of data, faster than column by column, in a flow that keeps
-    /// M and K. Held vertices keep their values.
+    /// M and K. Only where that is possible. Held vertices keep their values.
     /// @param factor of the steps. @param rows per own vertex, its row of the fields.
-    /// @returns false, and nothing is done, with Γ, auxiliary unknowns, an attachment, or a factor in single precision.
     /// @throws ComputationError if a result is not finite.
-    bool take_steps(const Factor& factor, double time_step, int n, std::span<const Index> rows,
+    void take_steps(const Factor& factor, double time_step, int n, std::span<const Index> rows,
                     Eigen::Ref<Eigen::MatrixXd> fields, const Executor& exec) const;
 
     /// Holds an own vertex where it is from now on, or lets it move again: its correction is 0. All sub-meshes that
