@@ -91,13 +91,25 @@ BlockRowMatrix::BlockRowMatrix(std::vector<Index> blocks, const Pattern& pattern
     });
 }
 
-float& BlockRowMatrix::entry(const Place& place, Index column)
+BlockRowMatrix::Entry BlockRowMatrix::entry(const Place& place, Index column)
 {
     const Index inner = column - place.begin;
-    if (inner >= 0 && inner < most_rows)
-        if (float* const value = (column < place.row ? lower_ : upper_).find(place.row, static_cast<Inner>(inner)))
-            return *value;
-    return *outer_.find(place.row, column);
+    if (inner >= 0 && inner < most_rows) {
+        Entries<Inner>& part = column < place.row ? lower_ : upper_;
+        if (const Index e = part.find(place.row, static_cast<Inner>(inner)); e >= 0)
+            return part.entry(e);
+    }
+    return outer_.entry(outer_.find(place.row, column));
+}
+
+void BlockRowMatrix::keep_exact()
+{
+    if (std::exchange(keeps_exact_, true))
+        return;
+    const auto make_room = [](auto& entries) { entries.exact = uninitialised<double>(usize(entries.begin.back())); };
+    make_room(lower_);
+    make_room(upper_);
+    make_room(outer_);
 }
 
 /// If entries are not positive, the fill of the factors is dropped and partly subtracted from the diagonal, as in a

@@ -78,11 +78,20 @@ class BlockRowMatrix {
     /// @returns the sum of its results, of some matrix type.
     template <class Sum, class Body>
     Sum sum_of_rows(const Executor& exec, Body&& body) const;
-    /// Calls visit(column, value) for the off-diagonal entries of a row.
+    /// An off-diagonal entry.
+    struct Entry {
+        float& value;
+        /// A number beside it in double precision; null unless they are kept.
+        double* exact;
+    };
+    /// Calls visit(column, entry) for the off-diagonal entries of a row.
     template <class Visit>
     void for_each_entry(const Place& place, Visit&& visit);
     /// An existing entry of a row.
-    float& entry(const Place& place, Index column);
+    Entry entry(const Place& place, Index column);
+    /// From now on there is a number in double precision beside each entry, which is still to be set.
+    void keep_exact();
+    [[nodiscard]] bool keeps_exact() const { return keeps_exact_; }
     void set_diagonal(Index i, float value) { diagonal_[i] = value; }
     [[nodiscard]] float diagonal(Index i) const { return diagonal_[i]; }
     /// Sets row i of the residual, from which the iteration starts; to be called for all rows before `start`.
@@ -116,6 +125,8 @@ class BlockRowMatrix {
         std::vector<Index> begin;
         Buffer<Column> columns;
         Buffer<float> values;
+        /// Empty unless they are kept.
+        Buffer<double> exact;
 
         /// Multiplies by the entries. Keeps pointers, as a written row may alias anything to the compiler.
         class Product {
@@ -141,13 +152,15 @@ class BlockRowMatrix {
             const float* values_;
         };
 
-        /// The value of a column, or nullptr if there is none.
-        float* find(Index i, Column column)
+        Entry entry(Index e) { return {values[e], exact ? &exact[e] : nullptr}; }
+
+        /// The place of a column in row i, or -1 if there is none.
+        Index find(Index i, Column column) const
         {
             const Column* const end = columns.get() + begin[i + 1];
             const Column* const first = columns.get() + begin[i];
             const Column* const place = std::lower_bound(first, end, column);
-            return place != end && *place == column ? &values[place - columns.get()] : nullptr;
+            return place != end && *place == column ? static_cast<Index>(place - columns.get()) : -1;
         }
     };
 
@@ -180,6 +193,7 @@ class BlockRowMatrix {
     Entries<Inner> upper_;
     /// Entries whose columns are in other blocks; the preconditioner leaves them out.
     Entries<Index> outer_;
+    bool keeps_exact_ = false;
     Buffer<float> diagonal_;
     /// The diagonal D of the incomplete factorisation (D + L) D⁻¹ (D + Lᵀ) of each block.
     Buffer<float> pivot_;
@@ -209,9 +223,9 @@ void BlockRowMatrix::for_each_entry(const Place& place, Visit&& visit)
     const Index i = place.row;
     for (Entries<Inner>* part : {&lower_, &upper_})
         for (Index e = part->begin[i]; e < part->begin[i + 1]; ++e)
-            visit(place.begin + part->columns[e], part->values[e]);
+            visit(place.begin + part->columns[e], part->entry(e));
     for (Index e = outer_.begin[i]; e < outer_.begin[i + 1]; ++e)
-        visit(outer_.columns[e], outer_.values[e]);
+        visit(outer_.columns[e], outer_.entry(e));
 }
 
 }  // namespace seamflow

@@ -25,8 +25,8 @@ struct RowGeometry {
     const GivenStiffness* given;
 };
 
-/// Calls entry(value, j, K_ij) for a row i, value() being the entry of the matrix, possibly several times for one j;
-/// the rows of K sum to zero.
+/// Calls entry(find, j, K_ij) for a row i, find() being the entry of the matrix, possibly several times for one j; the
+/// rows of K sum to zero.
 /// @returns M_i.
 template <class Kernel, class Entry>
 double visit_matrix_row(Kernel kernel, const RowGeometry& g, const BlockRowMatrix::Place& place, Entry&& entry)
@@ -38,9 +38,9 @@ double visit_matrix_row(Kernel kernel, const RowGeometry& g, const BlockRowMatri
             const Point here = g.of_rows.row(place.row);
             double mass = 0.0;
             int n_edges = 0;
-            g.matrix.for_each_entry(place, [&](Index j, float& value) {
+            g.matrix.for_each_entry(place, [&](Index j, const BlockRowMatrix::Entry& of_edge) {
                 const auto edge = kernel.edge(here - g.of_rows.row(j));
-                entry([&]() -> float& { return value; }, j, -edge.weight(1.0));
+                entry([&] { return of_edge; }, j, -edge.weight(1.0));
                 mass += edge.mass();
                 ++n_edges;
             });
@@ -48,7 +48,7 @@ double visit_matrix_row(Kernel kernel, const RowGeometry& g, const BlockRowMatri
         }
     return visit_row(kernel, g.mesh, g.topology, g.positions, v, [&](Index w, double k) {
         const Index j = g.rows.row_of[w];
-        entry([&]() -> float& { return g.matrix.entry(place, j); }, j, k);
+        entry([&] { return g.matrix.entry(place, j); }, j, k);
     });
 }
 
@@ -62,7 +62,7 @@ void with_rows(const ScaledLaplacian& laplacian, const RowGeometry& geometry, Ac
             const Index v = geometry.rows.vertices.values[place.row];
             for (Index i = given.neighbours.offsets[v]; i < given.neighbours.offsets[v + 1]; ++i) {
                 const Index j = geometry.rows.row_of[given.neighbours.values[i]];
-                entry([&]() -> float& { return geometry.matrix.entry(place, j); }, j, -given.weights[i]);
+                entry([&] { return geometry.matrix.entry(place, j); }, j, -given.weights[i]);
             }
             return given.mass[v];
         });
@@ -131,22 +131,32 @@ WholeMeshSystem::Sizes WholeMeshSystem::assemble(const Points& of_rows, const Ex
     const RowGeometry geometry{*mesh_, *topology_, *before_, of_rows, rows_, matrix_, given_};
     using Sums = Eigen::Array<double, 8, 1>;
     Sums sums;
+    const bool keeps_exact = matrix_.keeps_exact();
     with_rows(laplacian_, geometry, [&](auto&& visit) {
         sums = matrix_.sum_of_rows<Sums>(exec, [&](const BlockRowMatrix::Place& place) -> Sums {
             const Index i = place.row;
             if (moves_[i] == 0)
                 return Sums::Zero();
-            matrix_.for_each_entry(place, [](Index, float& value) { value = 0.0F; });
+            matrix_.for_each_entry(place, [](Index, const BlockRowMatrix::Entry& entry) {
+                entry.value = 0.0F;
+                if (entry.exact != nullptr)
+                    *entry.exact = 0.0;
+            });
             const Point here = of_rows.row(i);
             double diagonal = 0.0;
             Eigen::Array4d size = Eigen::Array4d::Zero();
             Point residual = Point::Zero();
-            const double whole_mass = visit(place, [&](auto&& value, Index j, double k) {
+            const double whole_mass = visit(place, [&](auto&& find, Index j, double k) {
                 const double entry = units_.stiffness * k;
                 const Point share = entry * (of_rows.row(j) - here);
-                // Vertices that stay have no equation.
-                if (moves_[j] != 0)
-                    value() += static_cast<float>(entry);
+                if (moves_[j] != 0 || keeps_exact) {
+                    const BlockRowMatrix::Entry found = find();
+                    // Vertices that stay have no equation.
+                    if (moves_[j] != 0)
+                        found.value += static_cast<float>(entry);
+                    if (keeps_exact)
+                        *found.exact += entry;
+                }
                 diagonal -= entry;
                 residual -= share;
                 size.head<3>() += share.array().abs().transpose();
@@ -181,30 +191,37 @@ WholeMeshSystem::Sizes WholeMeshSystem::assemble(const Points& of_rows, const Ex
 /// @returns the sum of its squares, each over the diagonal.
 double WholeMeshSystem::measure(const Points& of_rows, const Points& data, bool is_pulled, const Executor& exec)
 {
-    const RowGeometry geometry{*mesh_, *topology_, *before_, of_rows, rows_, matrix_, given_};
+    if (!matrix_.keeps_exact()) {
+        keep_exact();
+        assemble(of_rows, exec);
+    }
     using Sum = Eigen::Array<double, 1, 1>;
-    Sum squared;
-    with_rows(laplacian_, geometry, [&](auto&& visit) {
-        squared = matrix_.sum_of_rows<Sum>(exec, [&](const BlockRowMatrix::Place& place) -> Sum {
-            const Index i = place.row;
-            if (moves_[i] == 0)
-                return Sum::Zero();
-            const Point there = after_.row(i);
-            Point residual = Point::Zero();
-            const auto add_product = [&](auto&&, Index j, double k) {
-                residual -= units_.stiffness * k * (after_.row(j) - there);
-            };
-            const double mass = visit(place, add_product) / step_scale(i);
-            residual -= units_.mass * mass * (there - data.row(i));
-            if (screening(i) > 0.0)
-                residual +=
-                    units_.mass * mass * screening(i) * ((is_pulled ? Point(first_.row(i)) : Point::Zero()) - there);
-            residual *= units_.length;
-            matrix_.set_residual(i, to_row(residual));
-            return Sum::Constant(residual.squaredNorm() / matrix_.diagonal(i));
-        });
-    });
-    return squared.value();
+    return matrix_
+        .sum_of_rows<Sum>(exec,
+                          [&](const BlockRowMatrix::Place& place) -> Sum {
+                              const Index i = place.row;
+                              if (moves_[i] == 0)
+                                  return Sum::Zero();
+                              const Point there = after_.row(i);
+                              Point residual = -masses_[i] * (there - data.row(i));
+                              matrix_.for_each_entry(place, [&](Index j, const BlockRowMatrix::Entry& entry) {
+                                  residual -= *entry.exact * (after_.row(j) - there);
+                              });
+                              if (screening(i) > 0.0)
+                                  residual += masses_[i] * screening(i) *
+                                              ((is_pulled ? Point(first_.row(i)) : Point::Zero()) - there);
+                              residual *= units_.length;
+                              matrix_.set_residual(i, to_row(residual));
+                              return Sum::Constant(residual.squaredNorm() / matrix_.diagonal(i));
+                          })
+        .value();
+}
+
+/// Residuals will be renewed.
+void WholeMeshSystem::keep_exact()
+{
+    matrix_.keep_exact();
+    masses_.resize(moves_.size());
 }
 
 /// @param squared the sum of the residual's squares, each over the diagonal.
@@ -252,6 +269,7 @@ WholeMeshSystem::Result WholeMeshSystem::step_with_kept_matrix(const Points& bef
 {
     before_ = &kept_;
     if (!has_matrix_) {
+        keep_exact();
         assemble(kept_of_rows_, exec);
         matrix_.factorise(exec);
         has_matrix_ = true;
@@ -275,6 +293,8 @@ WholeMeshSystem::Result WholeMeshSystem::step(const Points& before, double time_
         return step_with_kept_matrix(before, stop, after, exec);
     before_ = &before;
     list_before(after, exec);
+    if (guess != nullptr || stop.tolerance <= most_reduction_at_once)
+        keep_exact();
     const Sizes sizes = assemble(after, exec);
     // There is nothing to smooth.
     if ((sizes.residual <= sizes.rounding).all()) {

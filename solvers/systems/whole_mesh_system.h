@@ -19,7 +19,7 @@ namespace seamflow {
 
 /// The backward Euler step of a whole mesh, (M + dt K)(Vᵏ⁺¹ - Vᵏ) = -dt K Vᵏ, by conjugate gradients: no sub-meshes, no
 /// factorisation. The matrix and the vectors of an iteration are in single precision; the residual is recomputed in
-/// double precision, from the geometry, so that rounding limits no tolerance. Three columns are iterated at once. Sums
+/// double precision, with entries that are then kept beside the matrix, so that rounding limits no tolerance. Three columns are iterated at once. Sums
 /// are taken in a fixed order: the bits do not depend on how loops are run. For symmetric Laplacians. An attachment to
 /// V⁰ adds dt M w to the diagonal and dt M w (V⁰ - Vᵏ) to the right-hand side. If terms keep M, all steps have the
 /// matrix of V⁰.
@@ -99,6 +99,7 @@ class WholeMeshSystem {
     void list_before(Points& result, const Executor& exec) const;
     void take_units(double time_step);
     Sizes assemble(const Points& of_rows, const Executor& exec);
+    void keep_exact();
     double measure(const Points& of_rows, const Points& data, bool is_pulled, const Executor& exec);
     Result step_with_kept_matrix(const Points& before, const IterationStop& stop, Points& after, const Executor& exec);
     Result solve(const Beginning& beginning, const IterationStop& stop, Points& after, const Executor& exec);
@@ -128,8 +129,9 @@ class WholeMeshSystem {
     std::vector<double> step_scales_;
     std::vector<double> screenings_;
     Points first_ = Points(0, 3);
-    /// For `apply`: by rows, M in the unit of the matrix. For that and for a kept matrix: by rows, D, which is then Vᵏ.
+    /// For `apply` and to renew residuals: by rows, M in the unit of the matrix.
     std::vector<double> masses_;
+    /// For `apply` and with a kept matrix: by rows, D, which is then Vᵏ.
     Points data_ = Points(0, 3);
     /// Of a kept matrix: V⁰, by vertices and by rows; and whether there is the matrix of the time step.
     bool keeps_matrix_ = false;

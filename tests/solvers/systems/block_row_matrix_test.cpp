@@ -54,7 +54,7 @@ BlockRowMatrix make(const Eigen::MatrixXf& a, const std::vector<Index>& blocks)
         for (Index i = blocks[block]; i < blocks[block + 1]; ++i) {
             for (Index j = 0; j < n; ++j)
                 if (i != j && a(i, j) != 0.0F)
-                    matrix.entry({blocks[block], i}, j) = a(i, j);
+                    matrix.entry({blocks[block], i}, j).value = a(i, j);
             matrix.set_diagonal(i, a(i, i));
         }
     return matrix;
@@ -98,7 +98,8 @@ TEST_CASE("a matrix by blocks has the entries that were set, wherever a block en
     BlockRowMatrix matrix = make(a, {0, 10, 10, 37, 64});
     Eigen::MatrixXf seen = Eigen::MatrixXf::Zero(64, 64);
     matrix.sum_of_rows<Eigen::Array4d>(run_serially, [&](const BlockRowMatrix::Place& place) -> Eigen::Array4d {
-        matrix.for_each_entry(place, [&](Index j, float& value) { seen(place.row, j) = value; });
+        matrix.for_each_entry(place,
+                              [&](Index j, const BlockRowMatrix::Entry& entry) { seen(place.row, j) = entry.value; });
         seen(place.row, place.row) = matrix.diagonal(place.row);
         return Eigen::Array4d::Zero();
     });
