@@ -51,7 +51,10 @@ class ObjReader {
     }
 
     /// See scan_obj.
-    void plain_vertex(const std::array<double, 3>& position) { builder_.add_vertex(position); }
+    void plain_vertex(Index /*v*/, const WrittenNumbers& p)
+    {
+        builder_.add_vertex({p.values[0], p.values[1], p.values[2]});
+    }
     void plain_face(std::span<const Index> vertices) { builder_.add_face(vertices); }
     void position(Index /*v*/, TextScanner& scanner) { builder_.add_vertex(scanner.coordinates()); }
     void colour(Index v, TextScanner& scanner, std::size_t n_behind);

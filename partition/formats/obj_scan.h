@@ -52,30 +52,34 @@ inline bool is_obj_face(std::string_view keyword)
     return keyword.starts_with('f') && (keyword.size() == 1 || keyword == "fo");
 }
 
-/// Scans the next line if it is a vertex or a face in the commonest form, without fault; see scan_obj.
+/// Scans the next line if it is a vertex or, for visitors of faces, a face in the commonest form, without fault; see
+/// scan_obj.
 /// @param corners scratch.
 template <class Visitor>
 bool scan_plain_obj_line(TextScanner& scanner, Visitor& visitor, ObjCounts& counts, std::vector<Index>& corners)
 {
-    std::array<double, 3> position{};
+    WrittenNumbers numbers;
     if (scanner.next_plain_line([&](PlainLine& line) {
-            return line.keyword('v') && line.real(position[0]) && line.real(position[1]) && line.real(position[2]) &&
-                   line.ends();
+            const auto number = [&](Index k) { return line.real(numbers.values[k], numbers.parts[usize(k)]); };
+            return line.keyword('v') && number(0) && number(1) && number(2) && line.ends();
         })) {
-        visitor.plain_vertex(position);
+        visitor.plain_vertex(static_cast<Index>(counts.n_vertices), numbers);
         ++counts.n_vertices;
         return true;
     }
-    corners.clear();
-    const bool is_face = scanner.next_plain_line([&](PlainLine& line) {
-        bool goes_on = line.keyword('f');
-        for (std::uint64_t number = 0; goes_on && !line.ends(); corners.push_back(static_cast<Index>(number - 1)))
-            goes_on = line.corner(number) && number > 0 && number <= static_cast<std::uint64_t>(counts.n_vertices);
-        return goes_on;
-    });
-    if (is_face)
-        visitor.plain_face(corners);
-    return is_face;
+    if constexpr (requires { visitor.plain_face(corners); }) {
+        corners.clear();
+        const bool is_face = scanner.next_plain_line([&](PlainLine& line) {
+            bool goes_on = line.keyword('f');
+            for (std::uint64_t number = 0; goes_on && !line.ends(); corners.push_back(static_cast<Index>(number - 1)))
+                goes_on = line.corner(number) && number > 0 && number <= static_cast<std::uint64_t>(counts.n_vertices);
+            return goes_on;
+        });
+        if (is_face)
+            visitor.plain_face(corners);
+        return is_face;
+    }
+    return false;
 }
 
 /// Scans a file, or a slice of it, with a TextScanner. Of these functions the visitor has those that it needs, besides
@@ -84,8 +88,8 @@ bool scan_plain_obj_line(TextScanner& scanner, Visitor& visitor, ObjCounts& coun
 /// - face(scanner, counts): reads a face from its first corner on; the counts are those before it;
 /// - line(scanner, counts): the same for a polyline;
 /// - other(keyword): any other statement;
-/// - plain_vertex(position) and plain_face(vertices): get vertices, and faces of vertices before them, whose lines are
-///   in the commonest form; then the functions above get only other lines.
+/// - plain_vertex(v, coordinates) and perhaps plain_face(vertices): get vertices, and faces of vertices before them,
+///   whose lines are in the commonest form; then the functions above get only other lines.
 /// @param counts of what precedes the slice. @param end of what precedes the next one, for a visitor of vertices and
 /// normals alone: it is done when it has seen the last of them.
 /// @returns the counts at the end.
@@ -95,7 +99,7 @@ ObjCounts scan_obj(auto&& scanner, Visitor& visitor, ObjCounts counts = {}, cons
     constexpr bool counts_alone = std::is_same_v<Visitor, ObjCounter>;
     std::vector<Index> corners;
     while (counts != end) {
-        if constexpr (requires { visitor.plain_face(corners); })
+        if constexpr (requires { visitor.plain_vertex(Index{}, WrittenNumbers()); })
             if (scan_plain_obj_line(scanner, visitor, counts, corners))
                 continue;
         const std::string_view keyword = counts_alone          ? scanner.next_keyword()

@@ -40,26 +40,34 @@ bool differ_as_data(double a, double b)
     return differ(a, b) && !(std::isnan(a) && std::isnan(b));
 }
 
-void exchange_position(TextScanner& scanner, Splicer& splicer, const Point& position)
+WrittenNumbers read_position(TextScanner& scanner)
 {
+    WrittenNumbers position;
     for (Index k = 0; k < 3; ++k) {
-        const std::string_view part = scanner.peek();
-        if (differ(scanner.real("a coordinate"), position[k]))
-            splicer.exchange(part).number(position[k]);
+        position.parts[k] = scanner.peek();
+        position.values[k] = scanner.real("a coordinate");
     }
+    return position;
 }
 
-WrittenNormal read_normal(TextScanner& scanner)
+void exchange_position(Splicer& splicer, const WrittenNumbers& before, const Point& after)
 {
-    WrittenNormal normal;
+    for (Index k = 0; k < 3; ++k)
+        if (differ(before.values[k], after[k]))
+            splicer.exchange(before.parts[k]).number(after[k]);
+}
+
+WrittenNumbers read_normal(TextScanner& scanner)
+{
+    WrittenNumbers normal;
     for (Index k = 0; k < 3; ++k) {
         normal.parts[k] = scanner.peek();
-        normal.value[k] = scanner.number_or_nan();
+        normal.values[k] = scanner.number_or_nan();
     }
     return normal;
 }
 
-void exchange_normal(Splicer& splicer, const WrittenNormal& before, const Point& after)
+void exchange_normal(Splicer& splicer, const WrittenNumbers& before, const Point& after)
 {
     for (Index k = 0; k < 3; ++k)
         if (!before.parts[k].empty())

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -8,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "partition/formats/text_vertices.h"
 #include "partition/io/byte_writer.h"
 #include "partition/io/text_scanner.h"
 #include "partition/metrics/vertex_normals.h"
@@ -43,20 +43,17 @@ bool differ(double a, double b);
 /// The same for data, of which any NaN means that there are none.
 bool differ_as_data(double a, double b);
 
-/// Reads the next three numbers of the line and replaces those that differ from the coordinates of `position`.
-void exchange_position(TextScanner& scanner, Splicer& splicer, const Point& position);
+/// Reads the next three numbers of the line.
+WrittenNumbers read_position(TextScanner& scanner);
 
-/// Three numbers of a line as written, whatever they are.
-struct WrittenNormal {
-    std::array<std::string_view, 3> parts;
-    Point value;
-};
+/// Replaces those coordinates that differ from the ones written.
+void exchange_position(Splicer& splicer, const WrittenNumbers& before, const Point& after);
 
-/// Reads the next three tokens of the line.
-WrittenNormal read_normal(TextScanner& scanner);
+/// Reads the next three tokens of the line, whatever they are.
+WrittenNumbers read_normal(TextScanner& scanner);
 
 /// Writes a normal, in single precision, in place of another.
-void exchange_normal(Splicer& splicer, const WrittenNormal& before, const Point& after);
+void exchange_normal(Splicer& splicer, const WrittenNumbers& before, const Point& after);
 
 /// New normals for a file after its vertices have moved. A normal that pointed to the back of its faces still does.
 class MovedNormals {

@@ -21,7 +21,7 @@ namespace {
 
 /// A facet as written in a file.
 struct WrittenFacet {
-    WrittenNormal normal;
+    WrittenNumbers normal;
     StlFacet corners;
     std::array<std::array<std::string_view, 3>, 3> parts;
 };
@@ -51,7 +51,7 @@ void walk_binary(std::string_view facets, Visit&& visit)
 {
     for (; !facets.empty(); facets.remove_prefix(stl_facet_bytes)) {
         WrittenFacet facet;
-        facet.normal.value = read_floats(facets, facet.normal.parts);
+        facet.normal.values = read_floats(facets, facet.normal.parts);
         for (std::size_t corner = 0; corner < 3; ++corner)
             facet.corners[corner] = read_floats(facets.substr(12 * (corner + 1)), facet.parts[corner]);
         visit(facet);
@@ -150,7 +150,7 @@ Index StlForm::rewrite(ByteWriter& file, std::string_view piece,
         if (!is_other_facet(before.corners, after))
             return;
         n_lines += is_line(after) ? 1 : 0;
-        const double side = before.normal.value.dot(normal_of_facet(before.corners)) < 0.0 ? -1.0 : 1.0;
+        const double side = before.normal.values.dot(normal_of_facet(before.corners)) < 0.0 ? -1.0 : 1.0;
         // The sum has no negative zeros, which nobody likes to read.
         const Point normal = side * normal_of_facet(after) + Point::Zero();
         for (std::size_t k = 0; k < 3; ++k)

@@ -82,11 +82,12 @@ struct VertexRewriter {
     /// Returns the new value of the n-th normal, which is `given` in the file; empty: the normal stays.
     std::function<std::optional<Point>(Index n, const Point& given)> new_normal;
 
-    void position(Index v, TextScanner& scanner) { exchange_position(scanner, splicer, positions.row(v)); }
+    void plain_vertex(Index v, const WrittenNumbers& given) { exchange_position(splicer, given, positions.row(v)); }
+    void position(Index v, TextScanner& scanner) { plain_vertex(v, read_position(scanner)); }
     void normal(Index n, TextScanner& scanner)
     {
-        const WrittenNormal given = read_normal(scanner);
-        if (const std::optional<Point> now = new_normal(n, given.value))
+        const WrittenNumbers given = read_normal(scanner);
+        if (const std::optional<Point> now = new_normal(n, given.values))
             exchange_normal(splicer, given, *now);
     }
     void colour(Index v, TextScanner& scanner, std::size_t n_behind)

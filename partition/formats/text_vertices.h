@@ -1,12 +1,20 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <string_view>
 
-#include "partition/index.h"
 #include "partition/io/text_scanner.h"
+#include "partition/vector_area.h"
 
 /// Vertices in lines of text: what the scans of OBJ and OFF have in common.
 namespace seamflow {
+
+/// Three numbers of a line, and how they are written.
+struct WrittenNumbers {
+    std::array<std::string_view, 3> parts;
+    Point values;
+};
 
 /// What follows the coordinates of a vertex: perhaps a normal, then as many numbers of a colour as there are.
 struct VertexLayout {

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <string_view>
 
 #include "partition/io/plain_numbers.h"
 
@@ -27,11 +29,16 @@ class PlainLine {
     }
 
     /// Reads a number without an exponent.
-    bool real(double& value)
+    /// @param written receives its text.
+    bool real(double& value, std::string_view& written)
     {
         skip_spaces();
-        next_ = read_plain_real(next_, end_, value);
-        return next_ != nullptr && ends_token();
+        const char* const first = next_;
+        next_ = read_plain_real(first, end_, value);
+        if (next_ == nullptr || !ends_token())
+            return false;
+        written = {first, static_cast<std::size_t>(next_ - first)};
+        return true;
     }
 
     /// Reads a whole number without a sign and passes over up to two others, after slashes: as in 7, 7/1, 7//2, 7/1/2.
