@@ -68,12 +68,8 @@ void read_magic(TextScanner& scanner)
 Encoding read_encoding(TextScanner& scanner)
 {
     const auto name = scanner.token();
-    if (name == "ascii")
-        return Encoding::Ascii;
-    if (name == "binary_little_endian")
-        return Encoding::BinaryLittleEndian;
-    if (name == "binary_big_endian")
-        return Encoding::BinaryBigEndian;
+    if (const auto* const found = std::ranges::find(ply_encodings, name); found != ply_encodings.end())
+        return static_cast<Encoding>(found - ply_encodings.begin());
     scanner.fail("expected the format ascii, binary_little_endian or binary_big_endian, but found " + in_quotes(name) +
                  "; correct the header");
 }

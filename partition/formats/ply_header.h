@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -15,6 +16,9 @@
 namespace seamflow {
 
 inline constexpr TextSyntax ply_syntax = {.comment = '\0', .first_line_end_decides = true};
+
+/// One for each Encoding, in its order.
+inline constexpr std::array<std::string_view, 3> ply_encodings = {"ascii", "binary_little_endian", "binary_big_endian"};
 
 /// The types of numbers in a PLY file: char, uchar, short, ushort, int, uint, float and double, or int8 to float64, and
 /// 64-bit whole numbers, which some programs add.
