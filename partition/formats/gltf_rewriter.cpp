@@ -220,9 +220,10 @@ void edit_sparse_accessors(JsonEdits& edits, const GltfContent& content, const G
 std::vector<std::string> write_buffers(JsonEdits& edits, OutputFile& file, const GltfContent& content,
                                        const NewBuffers& now)
 {
-    std::optional<GltfBufferFiles> files;
+    std::vector<std::filesystem::path> places;
     std::string names;
     const GltfValue buffers = content.root()["buffers"];
+    std::size_t n = 0;
     for (std::size_t i = 0; i < buffers.size(); ++i) {
         const GltfValue uri = buffers.at(i)["uri"];
         if (!uri.is_there())
@@ -237,10 +238,10 @@ std::vector<std::string> write_buffers(JsonEdits& edits, OutputFile& file, const
             edits.emplace_back(uri.source(), json_of_text(gltf_data(head, bytes)));
             continue;
         }
-        if (!files)
-            files.emplace(file.path(), content.path());
-        const std::string name = files->next_name();
-        file.beside(files->place_of(name)).text(bytes);
+        if (places.empty())
+            places = places_of_gltf_buffers(file.path(), content.path(), buffers.size());
+        const std::string name = places[n].filename().string();
+        file.beside(places[n++]).text(bytes);
         edits.emplace_back(uri.source(), json_of_text(gltf_uri_of(name)));
         names += (names.empty() ? "" : ", ") + name;
     }

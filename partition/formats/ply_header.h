@@ -87,6 +87,22 @@ struct PlyElement {
     [[nodiscard]] const PlyProperty* property(std::string_view wanted) const;
 };
 
+/// For each property of an element, in order, what `column` makes of it: where its number goes, or -1 if it is passed
+/// over.
+std::vector<Index> columns_of(const PlyElement& element, const auto& column)
+{
+    std::vector<Index> columns;
+    for (const PlyProperty& property : element.properties)
+        columns.push_back(column(property));
+    return columns;
+}
+
+/// The columns of coordinates: 0 to 2 for x, y and z.
+std::vector<Index> coordinates_in(const PlyElement& vertices);
+
+/// The columns of corners: 0 for the list of them.
+std::vector<Index> corners_in(const PlyElement& faces);
+
 struct PlyHeader {
     Encoding encoding = Encoding::Ascii;
     /// In the order in which they follow the header.
