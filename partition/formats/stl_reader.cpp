@@ -116,6 +116,8 @@ PolygonMesh read_binary(const std::filesystem::path& path, std::string_view file
         scanner.note_faults_in(faults);
         BinaryFacets collector(scanner, place);
         collector.expect_facets(end - begin);
+        place.faces.face_offsets.reserve(end - begin + 1);
+        place.faces.face_vertices.reserve(3 * (end - begin));
         read_facets(scanner, begin, end, collector);
         if (end == n)
             scanner.require_end();
