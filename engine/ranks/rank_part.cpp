@@ -110,7 +110,7 @@ RankPart::RankPart(Communicator& comm, DealtMesh dealt, Progress& progress)
         labels_around(dealt_.topology, dealt_.labels, v, around);
         saved_.push_back({dealt_.known[around.front()], dealt_.vertex_numbers[v]});
     }
-    if (sweeps_ != nullptr)
+    if (!dealt_.options.accuracy.tolerance)
         return;
     // Converged steps keep what they need of them.
     dealt_.mesh = {};
@@ -120,12 +120,11 @@ RankPart::RankPart(Communicator& comm, DealtMesh dealt, Progress& progress)
 
 void RankPart::take_sweeps(Decomposition decomposition, Progress& progress)
 {
-    RankSubMeshes own;
+    SweepSubMeshes own;
     exchange_.emplace(comm_, dealt_);
     own.names = names_of(dealt_, decomposition);
     own.n_of_all_ranks = dealt_.holders.size();
     own.foreign = &*exchange_;
-    own.topology = &dealt_.topology;
     own.peers = std::make_unique<RankPeers>(comm_, dealt_.holders, dealt_.known);
     const auto adjacency = gather_adjacency(comm_, dealt_, decomposition);
     const auto curvatures = gather_curvatures(comm_, dealt_, decomposition);
@@ -143,14 +142,7 @@ void RankPart::take_sweeps(Decomposition decomposition, Progress& progress)
     for (const FactorWindow& window : sufficient_windows(adjacency, stage_of_all))
         own.windows.push_back({own_of(window.order), own_of(window.freed), window.size});
     own.decomposition = std::move(decomposition);
-    auto sweeps = std::make_unique<SweepStepper>(dealt_.mesh, std::move(own), dealt_.options, progress);
-    sweeps_ = sweeps.get();
-    stepper_ = std::move(sweeps);
-}
-
-std::vector<SavedRow> RankPart::saved_rows() const
-{
-    return saved_;
+    stepper_ = std::make_unique<SweepStepper>(dealt_.mesh, dealt_.topology, std::move(own), dealt_.options, progress);
 }
 
 /// Counts what it sends.
@@ -222,11 +214,7 @@ Bytes RankPart::act(RankTask task, Unpacker& message)
 void RankPart::report_to(Packer& answer) const
 {
     FlowReport report;
-    SweptSubMeshes swept;
-    if (sweeps_ != nullptr)
-        swept = sweeps_->describe_sub_meshes(report);
-    else
-        stepper_->report_to(report);
+    stepper_->report_to(report);
     const auto n_known = static_cast<std::int64_t>(dealt_.vertex_numbers.size());
     const auto n_sent = static_cast<std::int64_t>(sent_vertices_.size());
     RankShare share{.record = {.vertices = n_sent,
@@ -241,8 +229,6 @@ void RankPart::report_to(Packer& answer) const
     share.resources.threads = n_threads_;
     answer.put(share);
     answer.put_all(std::span<const SubMeshReport>(report.cut.sub_meshes));
-    answer.put_all(std::span<const Index>(swept.n_nearly_singular));
-    answer.put_all(std::span<const Factorisation>(swept.factorisations));
 }
 
 }  // namespace seamflow

@@ -41,7 +41,7 @@ void hold_still(Topology& topology, const PolygonMesh& mesh, const std::vector<d
         if (is_still(strength[v]))
             topology.fixed[v] = 1;
     if (std::ranges::all_of(strength, is_still))
-        remarks.push_back(remark_on_empty_region());
+        remarks.emplace_back("The region is empty: no vertex has a strength above 0, and nothing moves.");
 }
 
 std::size_t count_moving(const Topology& topology)

@@ -125,6 +125,12 @@ void ConvergedStepper::restore(const StepMemory& memory)
     reader.require_end();
 }
 
+void ConvergedStepper::add_seconds(PhaseSeconds& seconds) const
+{
+    for (const PhaseSeconds& of_tasks : seconds_)
+        seconds.add_tasks(of_tasks);
+}
+
 void ConvergedStepper::report_to(StepReport& report) const
 {
     report.iterations = reached_.last.iterations;
@@ -132,12 +138,12 @@ void ConvergedStepper::report_to(StepReport& report) const
     report.estimated_v_max = reached_.distance;
 }
 
-void ConvergedStepper::describe_steps(const std::string& advice, FlowReport& report) const
+void ConvergedStepper::describe_steps(FlowReport& report) const
 {
     add_seconds(report.seconds);
     report.convergence.steps_short_of_tolerance = reached_.n_short_of_tolerance;
     report.convergence.steps_stagnated = reached_.n_stagnated;
-    remark_on_missed_tolerance(stop_.iterations, advice, report);
+    remark_on_missed_tolerance(stop_.iterations, report);
     report.schedule = graph_.schedule();
 }
 

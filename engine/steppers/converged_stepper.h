@@ -1,7 +1,6 @@
 #pragma once
 
 #include <span>
-#include <string>
 #include <vector>
 
 #include "engine/options/flow_options.h"
@@ -25,7 +24,7 @@ class ConvergedStepper : public Stepper {
     void set_vertices(std::span<const Index> vertices, const Points& to) final { move_rows(vertices, to, positions_); }
     void save(StepMemory& memory) const override;
     void restore(const StepMemory& memory) final;
-    void add_seconds(PhaseSeconds& seconds) const final { add_up(seconds_, seconds); }
+    void add_seconds(PhaseSeconds& seconds) const final;
     void report_to(StepReport& report) const final;
 
   protected:
@@ -45,8 +44,7 @@ class ConvergedStepper : public Stepper {
     virtual void restore_further(StepMemoryReader&) {}
 
     /// Fills in what all such steps report.
-    /// @param advice what to do where steps missed the tolerance for lack of iterations; may be empty.
-    void describe_steps(const std::string& advice, FlowReport& report) const;
+    void describe_steps(FlowReport& report) const;
 
     Workspaces workspaces_;
     double time_step_;

@@ -5,7 +5,6 @@
 
 #include "engine/setup/sub_mesh_options.h"
 #include "engine/tasks/parallel_executor.h"
-#include "engine/tasks/stopwatch.h"
 #include "partition/index_lists.h"
 #include "solvers/direct/columns.h"
 
@@ -127,8 +126,7 @@ const Points& ErrorEstimate::stiffness_at(const SubMeshState& state, Points& fir
 void ErrorEstimate::measure(std::vector<SubMeshState>& states, Index s, SolverWorkspace& workspace)
 {
     receive_solution(states, s, decomposition_->halo[s]);
-    SubMeshState& state = states[s];
-    Stopwatch watch;
+    const SubMeshState& state = states[s];
     const Points& after = joined(states, s, workspace.other_side);
     equation_.assemble(s, state.position, after, stiffness_at(state, workspace.positions), time_step_);
     for (Index i = equation_.first(s); !attached_.empty() && i < equation_.first(s + 1); ++i)
@@ -137,7 +135,6 @@ void ErrorEstimate::measure(std::vector<SubMeshState>& states, Index s, SolverWo
         for (Index v = 0; v < state.sub_mesh->n_vertices; ++v)
             if (state.sub_mesh->owned[v] != 0)
                 solved_.row(state.sub_mesh->local_to_global[v]) = after.row(v);
-    state.seconds.correct += watch.lap();
 }
 
 void ErrorEstimate::note_correction(const std::vector<SubMeshState>& states, Index s)

@@ -316,13 +316,15 @@ void SchurStepper::report_to(FlowReport& report) const
     for (const auto& one : sub_meshes_) {
         if (!one)
             continue;
-        describe_sub_mesh(one->vertices(), 0, 0.0, report);
+        report.cut.sub_meshes.push_back({.faces = static_cast<Index>(one->vertices().faces.size()),
+                                         .vertices = one->vertices().n_vertices,
+                                         .factorisation = Factorisation::Own});
         report.resources.single_factors += one->is_single() ? 1 : 0;
         if (one->is_kept())
             report.resources.factor_memory_bytes +=
                 one->is_single() ? one->system().factor_bytes<float>() : one->system().factor_bytes<double>();
     }
-    describe_steps({}, report);
+    describe_steps(report);
 }
 
 }  // namespace seamflow

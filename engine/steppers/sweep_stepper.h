@@ -26,8 +26,8 @@
 
 namespace seamflow {
 
-/// The sub-meshes of a rank, and their places in a sweep over those of all ranks.
-struct RankSubMeshes {
+/// Sub-meshes, of a whole mesh or of one of several ranks, and their places in a sweep over all.
+struct SweepSubMeshes {
     /// Those of this rank, and the known part of those around them (see decompose_part).
     Decomposition decomposition;
     /// #sub-meshes.
@@ -36,20 +36,13 @@ struct RankSubMeshes {
     std::size_t n_of_all_ranks = 0;
     /// #sub-meshes: the sweep's order.
     std::vector<Index> stage;
-    /// For a sweep forward and one backward: those of this rank, in orders common to all ranks, and the smallest size
-    /// with which the sweep cannot deadlock.
-    std::vector<FactorWindow> windows;
-    /// Both must outlive the stepper.
-    ForeignSubMeshes* foreign = nullptr;
-    const Topology* topology = nullptr;
-    /// The ranks as peers that estimate the error together.
+    /// The ranks as peers that estimate the error together; null with Conditions::Schwarz.
     std::unique_ptr<InterfacePeers> peers;
-};
-
-/// What the factorisations of each sub-mesh were.
-struct SweptSubMeshes {
-    std::vector<Index> n_nearly_singular;
-    std::vector<Factorisation> factorisations;
+    /// Of ranks, for a sweep forward and one backward: those of this rank, in orders common to all ranks, and the
+    /// smallest size with which the sweep cannot deadlock. Empty: they follow from the plans.
+    std::vector<FactorWindow> windows = {};
+    /// Null where all sub-meshes are here; must outlive the stepper.
+    ForeignSubMeshes* foreign = nullptr;
 };
 
 /// Takes a step in one sweep over the colours of the sub-meshes (see add_sweep), with InterfaceOptions::conditions on
@@ -64,10 +57,11 @@ class SweepStepper final : public Stepper {
     SweepStepper(const PolygonMesh& mesh, const Topology& topology, const Cut& cut, const FlowOptions& options,
                  std::vector<double> curvature, Progress& progress);
 
-    /// The same for the sub-meshes of one rank.
-    /// @param mesh the part of the mesh that the rank knows. @param options not the classical conditions, nor
-    /// Schwarz's.
-    SweepStepper(const PolygonMesh& mesh, RankSubMeshes sub_meshes, const FlowOptions& options, Progress& progress);
+    /// The same for sub-meshes that are cut out, maybe those of one rank.
+    /// @param mesh, topology the part of the mesh that the rank knows. @param options of ranks not the classical
+    /// conditions, nor Schwarz's.
+    SweepStepper(const PolygonMesh& mesh, const Topology& topology, SweepSubMeshes sub_meshes,
+                 const FlowOptions& options, Progress& progress);
 
     void step(const Points& before) override;
     [[nodiscard]] const Points& positions() const override { return positions_; }
@@ -81,9 +75,6 @@ class SweepStepper final : public Stepper {
     void report_to(StepReport& report) const override;
     void report_to(FlowReport& report) const override;
 
-    /// The same without remarks, which are about the sub-meshes of all ranks.
-    SweptSubMeshes describe_sub_meshes(FlowReport& report) const;
-
   private:
     void make_states(const PolygonMesh& mesh, const FlowOptions& options, Progress& progress);
     [[nodiscard]] bool is_own(Index s) const { return foreign_ == nullptr || !foreign_->is_foreign(s); }
@@ -95,7 +86,6 @@ class SweepStepper final : public Stepper {
     void run_sweep(std::size_t sweep, const std::function<void()>& join = {});
     void perform(const ScheduledTask& task);
     void perform_own(TaskKind kind, Index s);
-    void make_factor(Index s, SolverWorkspace& workspace);
     void finish(Index s, SolverWorkspace& workspace);
     Points& rows_of(MessageKind kind, Index s);
     void accept_solution(Index s);
@@ -130,10 +120,8 @@ class SweepStepper final : public Stepper {
     /// The plan of the sweep that runs.
     std::size_t sweep_ = 0;
     double time_step_;
-    bool is_classical_;
     StepFilter filter_;
     bool corrects_;
-    Factorisation factorisation_;
 };
 
 }  // namespace seamflow
