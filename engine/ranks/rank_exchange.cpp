@@ -119,7 +119,7 @@ bool RankExchange::awaits(MessageKind kind, std::size_t sweep, Index s) const
     return own_interest_[s].includes(kind, sweep);
 }
 
-void RankExchange::set_event(MessageKind kind, std::size_t sweep, Index s, StepGraph::Node event)
+void RankExchange::set_event(MessageKind kind, std::size_t sweep, Index s, TaskGraph::Node event)
 {
     pending_[sweep].push_back({kind, s, event, false});
 }
@@ -150,7 +150,7 @@ void RankExchange::send(MessageKind kind, std::size_t sweep, Index s, const Poin
 }
 
 /// Keeps a message for a later run; else starts the task that waits for it.
-void RankExchange::deliver(Message message, StepGraph& graph, std::vector<PendingMessage>& pending)
+void RankExchange::deliver(Message message, TaskGraph& graph, std::vector<PendingMessage>& pending)
 {
     const Header header = header_of(message);
     if (header.run > run_) {
@@ -169,7 +169,7 @@ void RankExchange::deliver(Message message, StepGraph& graph, std::vector<Pendin
 }
 
 /// If the run fails, here or at another rank, waiting tasks are started, too: they are then skipped.
-void RankExchange::receive_all(StepGraph& graph, std::vector<PendingMessage>& pending)
+void RankExchange::receive_all(TaskGraph& graph, std::vector<PendingMessage>& pending)
 {
     try {
         for (Message& message : std::exchange(early_, {}))
@@ -186,7 +186,7 @@ void RankExchange::receive_all(StepGraph& graph, std::vector<PendingMessage>& pe
             retry([&] { graph.signal(arrival.event); });
 }
 
-void RankExchange::run(StepGraph& graph, std::size_t sweep, const std::function<void()>& begin,
+void RankExchange::run(TaskGraph& graph, std::size_t sweep, const std::function<void()>& begin,
                        const std::function<void()>& join)
 {
     ++run_;

@@ -23,10 +23,9 @@ ConvergedStepper::ConvergedStepper(const PolygonMesh& mesh, Index n_sub_meshes, 
     : time_step_(options.time_step)
     , filter_(filter_of(options))
     , seconds_(usize(n_sub_meshes) + 1)
-    , graph_([this](const ScheduledTask& task) { task.kind == TaskKind::SolveInterface ? solve() : perform(task); },
-             options.report.record_schedule, progress)
+    , graph_(&progress, options.report.record_schedule)
     , root_(graph_.add_root())
-    , equation_solved_(graph_.add_task({TaskKind::SolveInterface, -1}))
+    , equation_solved_(graph_.add_task([this] { solve(); }, {TaskKind::SolveInterface, -1}))
     , stop_{options.accuracy.tolerance.value_or(tolerance_without_interface), options.accuracy.converge_iterations}
     , loops_(parts_of_equation, progress)
 {

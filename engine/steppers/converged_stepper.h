@@ -6,7 +6,7 @@
 #include "engine/options/flow_options.h"
 #include "engine/steppers/stepper.h"
 #include "engine/tasks/progress.h"
-#include "engine/tasks/step_graph.h"
+#include "engine/tasks/task_graph.h"
 #include "engine/tasks/workspaces.h"
 #include "solvers/filters/step_filter.h"
 #include "solvers/interface/interface_result.h"
@@ -34,9 +34,6 @@ class ConvergedStepper : public Stepper {
     ConvergedStepper(const PolygonMesh& mesh, Index n_sub_meshes, const FlowOptions& options, double parts_of_equation,
                      Progress& progress);
 
-    /// Does a task of a sub-mesh.
-    virtual void perform(const ScheduledTask&) {}
-
     /// Solves the equation.
     virtual InterfaceResult solve_equation(const IterationStop& stop, const Executor& exec) = 0;
 
@@ -57,9 +54,9 @@ class ConvergedStepper : public Stepper {
     Points positions_;
     /// Per sub-mesh, and of the equation.
     std::vector<PhaseSeconds> seconds_;
-    StepGraph graph_;
-    StepGraph::Node root_;
-    StepGraph::Node equation_solved_;
+    TaskGraph graph_;
+    TaskGraph::Node root_;
+    TaskGraph::Node equation_solved_;
 
   private:
     /// How a step has missed its tolerance.

@@ -129,13 +129,15 @@ void SchurStepper::choose_factors(const FlowOptions& options)
 
 void SchurStepper::make_graph()
 {
-    std::vector<StepGraph::Node> passing_condensed;
-    std::vector<StepGraph::Node> passing_substituted;
+    std::vector<TaskGraph::Node> passing_condensed;
+    std::vector<TaskGraph::Node> passing_substituted;
     for (Index s = 0; s < static_cast<Index>(sub_meshes_.size()); ++s) {
         if (!is_own(s))
             continue;
-        const auto condensed = graph_.add_task({TaskKind::Condense, s});
-        const auto substituted = graph_.add_task({TaskKind::BackSubstitute, s});
+        const auto condensed =
+            graph_.add_task([this, s] { run_for_sub_mesh(names_[s], [&] { condense(s); }); }, {TaskKind::Condense, s});
+        const auto substituted = graph_.add_task(
+            [this, s] { run_for_sub_mesh(names_[s], [&] { back_substitute(s); }); }, {TaskKind::BackSubstitute, s});
         graph_.add_dependency(root_, condensed);
         graph_.add_dependency(condensed, equation_solved_);
         graph_.add_dependency(equation_solved_, substituted);
@@ -149,7 +151,7 @@ void SchurStepper::make_graph()
 }
 
 /// Each waits until an earlier one has given back the place of its factor.
-void SchurStepper::take_turns(const std::vector<StepGraph::Node>& tasks)
+void SchurStepper::take_turns(const std::vector<TaskGraph::Node>& tasks)
 {
     for (std::size_t i = usize(factors_.plan.n_places); i < tasks.size(); ++i)
         graph_.add_dependency(tasks[i - usize(factors_.plan.n_places)], tasks[i]);

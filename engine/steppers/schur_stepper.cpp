@@ -39,13 +39,6 @@ void SchurStepper::for_each_sub_mesh(const Executor& exec, Action&& action)
     });
 }
 
-void SchurStepper::perform(const ScheduledTask& task)
-{
-    run_for_sub_mesh(names_[task.sub_mesh], [&] {
-        task.kind == TaskKind::Condense ? condense(task.sub_mesh) : back_substitute(task.sub_mesh);
-    });
-}
-
 CondensedStep SchurStepper::shared_step()
 {
     return {.before = *before_,

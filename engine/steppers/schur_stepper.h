@@ -97,14 +97,13 @@ class SchurStepper final : public ConvergedStepper {
         Points reached;
     };
 
-    void perform(const ScheduledTask& task) override;
     [[nodiscard]] bool is_own(Index s) const { return peers_->is_own(s); }
     [[nodiscard]] bool is_kept(Index s) const { return factors_.plan.whole[s] != 0; }
     void make_sub_meshes(Decomposition& decomposition, const PolygonMesh& mesh, const FlowOptions& options,
                          Progress& progress);
     void choose_factors(const FlowOptions& options);
     void make_graph();
-    void take_turns(const std::vector<StepGraph::Node>& tasks);
+    void take_turns(const std::vector<TaskGraph::Node>& tasks);
     template <class Action>
     void for_each_sub_mesh(const Executor& exec, Action&& action);
     CondensedStep shared_step();

@@ -66,7 +66,7 @@ SweepStepper::SweepStepper(const PolygonMesh& mesh, const Topology& topology, Sw
     , foreign_(sub_meshes.foreign)
     , windows_(std::move(sub_meshes.windows))
     , peers_(std::move(sub_meshes.peers))
-    , graph_([this](const ScheduledTask& task) { perform(task); }, options.report.record_schedule, progress)
+    , graph_(&progress, options.report.record_schedule)
     , time_step_(options.time_step)
     , filter_(filter_of(options))
     , corrects_(corrects(options))
@@ -99,8 +99,10 @@ void SweepStepper::make_plans(const std::vector<Index>& stage, std::size_t n_sub
 
 void SweepStepper::add_sweeps(const FlowOptions& options)
 {
+    const PerformTask perform = [this](TaskKind kind, Index s) { this->perform(kind, s); };
     for (std::size_t sweep = 0; sweep < plans_.size(); ++sweep)
-        add_sweep(graph_, sweep, plans_[sweep], decomposition_.adjacency, windows_[sweep], predicts(options), foreign_);
+        add_sweep(graph_, perform, sweep, plans_[sweep], decomposition_.adjacency, windows_[sweep], predicts(options),
+                  foreign_);
 }
 
 void SweepStepper::order_factors()

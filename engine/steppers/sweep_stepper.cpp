@@ -9,15 +9,14 @@ namespace seamflow {
 
 /// Does what a task is named after. Other ranks get what they wait for as soon as it is found; where they find it, it
 /// arrives.
-void SweepStepper::perform(const ScheduledTask& task)
+void SweepStepper::perform(TaskKind kind, Index s)
 {
-    const Index s = task.sub_mesh;
-    const MessageKind kind = message_of(task.kind);
+    const MessageKind message = message_of(kind);
     if (!is_own(s))
-        return foreign_->receive(kind, s, rows_of(kind, s));
-    run_for_sub_mesh(names_[s], [&] { perform_own(task.kind, s); });
-    if (foreign_ != nullptr && (task.kind == TaskKind::Predict || task.kind == TaskKind::Solve))
-        foreign_->send(kind, sweep_, s, rows_of(kind, s));
+        return foreign_->receive(message, s, rows_of(message, s));
+    run_for_sub_mesh(names_[s], [&] { perform_own(kind, s); });
+    if (foreign_ != nullptr && (kind == TaskKind::Predict || kind == TaskKind::Solve))
+        foreign_->send(message, sweep_, s, rows_of(message, s));
 }
 
 /// The rows of A are those of I + dt Δ, and on Γ the transmission condition where the sub-mesh leads, the identity
@@ -101,7 +100,7 @@ void SweepStepper::accept_solution(Index s)
 /// The same graph is run once for each solution.
 void SweepStepper::step(const Points& before)
 {
-    const std::size_t root = static_cast<std::size_t>(steps_done_) % graph_.n_roots();
+    const std::size_t root = static_cast<std::size_t>(steps_done_) % plans_.size();
     const auto end = [&] {
         ++steps_done_;
         join();

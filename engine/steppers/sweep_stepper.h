@@ -18,7 +18,7 @@
 #include "engine/steppers/sweep_graph.h"
 #include "engine/tasks/progress.h"
 #include "engine/tasks/run_for_sub_mesh.h"
-#include "engine/tasks/step_graph.h"
+#include "engine/tasks/task_graph.h"
 #include "engine/tasks/workspaces.h"
 #include "partition/cut/cut.h"
 #include "partition/topology.h"
@@ -84,7 +84,7 @@ class SweepStepper final : public Stepper {
     void choose_factor_window(const FlowOptions& options);
     [[nodiscard]] const SweepPlan& plan() const { return plans_[sweep_]; }
     void run_sweep(std::size_t sweep, const std::function<void()>& join = {});
-    void perform(const ScheduledTask& task);
+    void perform(TaskKind kind, Index s);
     void perform_own(TaskKind kind, Index s);
     void finish(Index s, SolverWorkspace& workspace);
     Points& rows_of(MessageKind kind, Index s);
@@ -114,7 +114,7 @@ class SweepStepper final : public Stepper {
     std::unique_ptr<InterfacePeers> peers_;
     std::optional<ErrorEstimate> error_;
     /// A root for each plan.
-    StepGraph graph_;
+    TaskGraph graph_;
     Points positions_;
     int steps_done_ = 0;
     /// The plan of the sweep that runs.
