@@ -139,18 +139,12 @@ class Unpacker {
 
 /// Bytes of one list of values.
 template <class Value>
-Bytes packed(std::span<const Value> values)
-{
-    Packer packer;
-    packer.reserve(sizeof(std::size_t) + values.size_bytes());
-    packer.put_all(values);
-    return packer.take();
-}
-
-template <class Value>
 Bytes packed(const std::vector<Value>& values)
 {
-    return packed(std::span<const Value>(values));
+    Packer packer;
+    packer.reserve(sizeof(std::size_t) + values.size() * sizeof(Value));
+    packer.put_all(std::span<const Value>(values));
+    return packer.take();
 }
 
 /// The list of values that packed() was given.

@@ -97,15 +97,19 @@ void RankExchange::connect(const Decomposition& decomposition, std::span<const S
         }
         packer.put_all(std::span<const std::uint8_t>(own_interest_[s].predicts));
     }
+    std::vector<int> others;
     std::vector<Bytes> bytes;
-    for (Packer& packer : per_rank)
-        bytes.push_back(packer.take());
-    const std::vector<Bytes> from_each = comm_->exchange(std::move(bytes));
     for (int rank = 0; rank < comm_->size(); ++rank)
-        for (Unpacker unpacker(from_each[rank]); !unpacker.is_at_end();) {
+        if (rank != comm_->rank()) {
+            others.push_back(rank);
+            bytes.push_back(per_rank[rank].take());
+        }
+    const std::vector<Bytes> from_each = comm_->exchange(others, std::move(bytes));
+    for (std::size_t i = 0; i < others.size(); ++i)
+        for (Unpacker unpacker(from_each[i]); !unpacker.is_at_end();) {
             const Index s = known_index(unpacker.get<Index>());
             Interest& interest = listeners_[s].emplace_back();
-            interest.rank = rank;
+            interest.rank = others[i];
             for (auto& rows : interest.rows)
                 for (const Index number : unpacker.get_all<Index>())
                     rows.push_back(

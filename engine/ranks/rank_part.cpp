@@ -8,7 +8,6 @@
 #include "engine/steppers/schur_stepper.h"
 #include "engine/steppers/sweep_order.h"
 #include "engine/tasks/parallel_executor.h"
-#include "engine/tasks/run_for_sub_mesh.h"
 #include "partition/decomposition/part_of_mesh.h"
 #include "partition/decomposition/reverse_cuthill_mckee.h"
 #include "partition/index_lists.h"
@@ -55,14 +54,6 @@ std::vector<double> gather_curvatures(Communicator& comm, const DealtMesh& dealt
     return of_all;
 }
 
-std::vector<SubMeshName> names_of(const DealtMesh& dealt, const Decomposition& decomposition)
-{
-    std::vector<SubMeshName> names;
-    for (std::size_t s = 0; s < dealt.known.size(); ++s)
-        names.push_back({dealt.known[s], decomposition.sub_meshes[s].n_vertices, dealt.first_faces[s]});
-    return names;
-}
-
 /// Windows that are large enough forward and backward, whatever crosses Γ: as if every sub-mesh needed the results of
 /// all around it. Ranks that each have their part of both orders, and windows of at least this size, do not wait for
 /// each other in a circle: a solution waits for factorisations at lower places than those that wait for it.
@@ -97,14 +88,15 @@ RankPart::RankPart(Communicator& comm, DealtMesh dealt, Progress& progress)
         is_own.push_back(dealt_.holders[number] == comm.rank() ? 1 : 0);
     Decomposition decomposition = decompose_part(dealt_.mesh, dealt_.topology, dealt_.labels, is_own, run_in_parallel);
     n_interface_vertices_ = decomposition.n_interface_vertices;
-    if (dealt_.options.accuracy.tolerance) {
-        std::vector<SubMeshName> names = names_of(dealt_, decomposition);
-        PeerSubMeshes own{std::move(decomposition), std::make_unique<RankPeers>(comm, dealt_.holders, dealt_.known),
-                          std::move(names)};
+    std::vector<SubMeshName> names;
+    for (std::size_t s = 0; s < dealt_.known.size(); ++s)
+        names.push_back({dealt_.known[s], decomposition.sub_meshes[s].n_vertices, dealt_.first_faces[s]});
+    PeerSubMeshes own{std::move(decomposition), std::make_unique<RankPeers>(comm, dealt_.holders, dealt_.known),
+                      std::move(names)};
+    if (dealt_.options.accuracy.tolerance)
         stepper_ = std::make_unique<SchurStepper>(dealt_.mesh, std::move(own), dealt_.options, progress);
-    } else {
-        take_sweeps(std::move(decomposition), progress);
-    }
+    else
+        take_sweeps(std::move(own), progress);
     std::vector<Index> around;
     for (const Index v : stepper_->saved_vertices()) {
         labels_around(dealt_.topology, dealt_.labels, v, around);
@@ -118,16 +110,12 @@ RankPart::RankPart(Communicator& comm, DealtMesh dealt, Progress& progress)
     dealt_.labels = std::vector<Index>();
 }
 
-void RankPart::take_sweeps(Decomposition decomposition, Progress& progress)
+void RankPart::take_sweeps(PeerSubMeshes sub_meshes, Progress& progress)
 {
-    SweepSubMeshes own;
     exchange_.emplace(comm_, dealt_);
-    own.names = names_of(dealt_, decomposition);
-    own.n_of_all_ranks = dealt_.holders.size();
-    own.foreign = &*exchange_;
-    own.peers = std::make_unique<RankPeers>(comm_, dealt_.holders, dealt_.known);
-    const auto adjacency = gather_adjacency(comm_, dealt_, decomposition);
-    const auto curvatures = gather_curvatures(comm_, dealt_, decomposition);
+    SweepSubMeshes own{.own = std::move(sub_meshes), .foreign = &*exchange_};
+    const auto adjacency = gather_adjacency(comm_, dealt_, own.own.decomposition);
+    const auto curvatures = gather_curvatures(comm_, dealt_, own.own.decomposition);
     const std::vector<Index> stage_of_all = assign_stages(adjacency, dealt_.options.interface.colouring, curvatures);
     for (const Index number : dealt_.known)
         own.stage.push_back(stage_of_all[number]);
@@ -141,7 +129,6 @@ void RankPart::take_sweeps(Decomposition decomposition, Progress& progress)
     };
     for (const FactorWindow& window : sufficient_windows(adjacency, stage_of_all))
         own.windows.push_back({own_of(window.order), own_of(window.freed), window.size});
-    own.decomposition = std::move(decomposition);
     stepper_ = std::make_unique<SweepStepper>(dealt_.mesh, dealt_.topology, std::move(own), dealt_.options, progress);
 }
 

@@ -32,7 +32,7 @@ class RankPart {
 
   private:
     void step();
-    void take_sweeps(Decomposition decomposition, Progress& progress);
+    void take_sweeps(PeerSubMeshes sub_meshes, Progress& progress);
     void report_to(Packer& answer) const;
 
     Communicator& comm_;

@@ -116,11 +116,7 @@ const Points& ErrorEstimate::stiffness_at(const SubMeshState& state, Points& fir
 {
     if (first_.rows() == 0)
         return state.position;
-    const std::vector<Index>& global = state.sub_mesh->local_to_global;
-    set_rows(first, state.position.rows());
-    for (std::size_t v = 0; v < global.size(); ++v)
-        first.row(static_cast<Eigen::Index>(v)) = first_.row(global[v]);
-    return first;
+    return gather_rows(state.sub_mesh->local_to_global, first_, first);
 }
 
 void ErrorEstimate::measure(std::vector<SubMeshState>& states, Index s, SolverWorkspace& workspace)

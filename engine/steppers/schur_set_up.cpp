@@ -38,14 +38,6 @@ Balancing balancing_for(const Decomposition& decomposition, const PolygonMesh& m
                : Balancing::None;
 }
 
-/// The sub-meshes of a single peer.
-PeerSubMeshes alone(Decomposition decomposition)
-{
-    auto peers = std::make_unique<OnePeer>(static_cast<Index>(decomposition.sub_meshes.size()));
-    std::vector<SubMeshName> names = names_of(decomposition);
-    return {std::move(decomposition), std::move(peers), std::move(names)};
-}
-
 }  // namespace
 
 SchurStepper::SchurStepper(const PolygonMesh& mesh, const Topology& topology, const Cut& cut,

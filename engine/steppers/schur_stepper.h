@@ -21,15 +21,6 @@
 
 namespace seamflow {
 
-/// The sub-meshes of one of several peers.
-struct PeerSubMeshes {
-    /// Its own sub-meshes in full, and the known part of those around them (see decompose_part).
-    Decomposition decomposition;
-    std::unique_ptr<InterfacePeers> peers;
-    /// #sub-meshes.
-    std::vector<SubMeshName> names;
-};
-
 /// Takes the undecomposed backward Euler step itself, sub-mesh by sub-mesh, for symmetric Laplacians: every sub-mesh
 /// condenses its equations to Γ, the equation of the Schur complement is solved there, and back substitution then gives
 /// the interiors. One task graph, run once per step:

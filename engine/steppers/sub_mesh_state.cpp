@@ -71,22 +71,22 @@ Point mean_of_copies(const std::vector<SubMeshState>& states, const SubMeshInter
 }
 
 void assemble_and_factorise(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& halo,
-                            const SweepPlan& plan, double time_step, const Resources& resources)
+                            const SweepPlan& plan, double time_step, FactorMemory& memory, SolverWorkspace& workspace)
 {
     SubMeshState& state = states[s];
     Stopwatch watch;
     receive(states, halo, &SubMeshState::position, state.position);
     const bool is_mutual = !plan.copies[s].empty();
-    Points& other_side = resources.workspace.other_side;
+    Points& other_side = workspace.other_side;
     if (is_mutual)
         receive_other_side(
             states, halo, plan.copies[s], [](Index) { return &SubMeshState::position; }, state, other_side);
     const auto equations = state.system->assemble(state.position, is_mutual ? other_side : state.position, time_step,
-                                                  state.p, plan.roles[s], resources.workspace);
+                                                  state.p, plan.roles[s], workspace);
     state.seconds.assemble += watch.lap();
     // If a step has failed, a factor is left.
     state.factor.reset();
-    state.factor = state.system->factorise(equations, resources.memory, resources.workspace);
+    state.factor = state.system->factorise(equations, memory, workspace);
     state.seconds.factorise += watch.lap();
 }
 

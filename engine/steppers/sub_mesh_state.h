@@ -47,17 +47,11 @@ struct SubMeshState {
 Point mean_of_copies(const std::vector<SubMeshState>& states, const SubMeshInterface& interface, Index i,
                      Points SubMeshState::*array);
 
-/// What a task works with.
-struct Resources {
-    /// Must outlive the states.
-    FactorMemory& memory;
-    SolverWorkspace& workspace;
-};
-
 /// Fetches Vᵏ for the halo, and in a mutual sweep the copies that the others have of Γ, fills the equations and
 /// factorises them. Adds its seconds, which those of the others are not.
+/// @param memory must outlive the states.
 void assemble_and_factorise(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& halo,
-                            const SweepPlan& plan, double time_step, const Resources& resources);
+                            const SweepPlan& plan, double time_step, FactorMemory& memory, SolverWorkspace& workspace);
 
 /// Solves with Γ held at Vᵏ.
 void predict(SubMeshState& state, SolverWorkspace& workspace);

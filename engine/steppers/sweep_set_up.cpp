@@ -34,20 +34,14 @@ Decomposition overlap_sub_meshes(const PolygonMesh& mesh, const Topology& topolo
 SweepSubMeshes all_of(const PolygonMesh& mesh, const Topology& topology, const Cut& cut, const FlowOptions& options,
                       std::vector<double> curvature, Progress& progress)
 {
-    Decomposition decomposition = decompose(mesh, topology, cut.labels, cut.n_parts, progress.exec());
-    const auto n = static_cast<Index>(decomposition.sub_meshes.size());
-    std::vector<SubMeshName> names = names_of(decomposition);
-    std::vector<Index> stage = assign_stages(decomposition.adjacency, options.interface.colouring,
-                                             total_curvatures(decomposition, std::exchange(curvature, {})));
-    const bool do_overlap = options.interface.conditions == Conditions::Schwarz;
-    if (do_overlap)
-        decomposition = overlap_sub_meshes(mesh, topology, cut, stage, options.interface.overlap);
+    SweepSubMeshes all{.own = alone(decompose(mesh, topology, cut.labels, cut.n_parts, progress.exec()))};
+    Decomposition& decomposition = all.own.decomposition;
+    all.stage = assign_stages(decomposition.adjacency, options.interface.colouring,
+                              total_curvatures(decomposition, std::exchange(curvature, {})));
+    if (options.interface.conditions == Conditions::Schwarz)
+        decomposition = overlap_sub_meshes(mesh, topology, cut, all.stage, options.interface.overlap);
     progress.require_going_on();
-    return {.decomposition = std::move(decomposition),
-            .names = std::move(names),
-            .n_of_all_ranks = usize(n),
-            .stage = std::move(stage),
-            .peers = do_overlap ? nullptr : std::make_unique<OnePeer>(n)};
+    return all;
 }
 
 }  // namespace
@@ -61,11 +55,11 @@ SweepStepper::SweepStepper(const PolygonMesh& mesh, const Topology& topology, co
 
 SweepStepper::SweepStepper(const PolygonMesh& mesh, const Topology& topology, SweepSubMeshes sub_meshes,
                            const FlowOptions& options, Progress& progress)
-    : decomposition_(std::move(sub_meshes.decomposition))
-    , names_(std::move(sub_meshes.names))
+    : decomposition_(std::move(sub_meshes.own.decomposition))
+    , names_(std::move(sub_meshes.own.names))
     , foreign_(sub_meshes.foreign)
     , windows_(std::move(sub_meshes.windows))
-    , peers_(std::move(sub_meshes.peers))
+    , peers_(std::move(sub_meshes.own.peers))
     , graph_(&progress, options.report.record_schedule)
     , time_step_(options.time_step)
     , filter_(filter_of(options))
@@ -77,10 +71,10 @@ SweepStepper::SweepStepper(const PolygonMesh& mesh, const Topology& topology, Sw
     make_states(mesh, options, progress);
     run_both(
         [&] {
-            if (peers_)
+            if (options.interface.conditions != Conditions::Schwarz)
                 error_.emplace(decomposition_, mesh, topology, options, *peers_);
         },
-        [&] { make_plans(sub_meshes.stage, sub_meshes.n_of_all_ranks, options); });
+        [&] { make_plans(sub_meshes.stage, options); });
     if (windows_.empty())
         order_factors();
     choose_factor_window(options);
@@ -89,11 +83,10 @@ SweepStepper::SweepStepper(const PolygonMesh& mesh, const Topology& topology, Sw
     add_sweeps(options);
 }
 
-/// @param n_sub_meshes in the whole mesh.
-void SweepStepper::make_plans(const std::vector<Index>& stage, std::size_t n_sub_meshes, const FlowOptions& options)
+void SweepStepper::make_plans(const std::vector<Index>& stage, const FlowOptions& options)
 {
     plans_.push_back(make_plan(decomposition_, options, stage));
-    if (alternates(options, n_sub_meshes))
+    if (alternates(options, usize(peers_->n_places())))
         plans_.push_back(make_plan(decomposition_, options, reversed(stage)));
 }
 

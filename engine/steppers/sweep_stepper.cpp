@@ -30,8 +30,7 @@ void SweepStepper::perform_own(TaskKind kind, Index s)
     case TaskKind::AssembleAndFactorise:
         // A(Vᵏ) = L U
         if (state.solution != SubMeshState::Solution::OfData)
-            return assemble_and_factorise(states_, s, decomposition_.halo[s], plan(), time_step_,
-                                          {*factors_, workspace});
+            return assemble_and_factorise(states_, s, decomposition_.halo[s], plan(), time_step_, *factors_, workspace);
         state.system->use_data(state.data);
         break;
     case TaskKind::Predict:

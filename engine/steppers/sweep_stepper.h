@@ -28,16 +28,9 @@ namespace seamflow {
 
 /// Sub-meshes, of a whole mesh or of one of several ranks, and their places in a sweep over all.
 struct SweepSubMeshes {
-    /// Those of this rank, and the known part of those around them (see decompose_part).
-    Decomposition decomposition;
-    /// #sub-meshes.
-    std::vector<SubMeshName> names;
-    /// How many all ranks have together.
-    std::size_t n_of_all_ranks = 0;
+    PeerSubMeshes own;
     /// #sub-meshes: the sweep's order.
-    std::vector<Index> stage;
-    /// The ranks as peers that estimate the error together; null with Conditions::Schwarz.
-    std::unique_ptr<InterfacePeers> peers;
+    std::vector<Index> stage = {};
     /// Of ranks, for a sweep forward and one backward: those of this rank, in orders common to all ranks, and the
     /// smallest size with which the sweep cannot deadlock. Empty: they follow from the plans.
     std::vector<FactorWindow> windows = {};
@@ -77,8 +70,8 @@ class SweepStepper final : public Stepper {
 
   private:
     void make_states(const PolygonMesh& mesh, const FlowOptions& options, Progress& progress);
-    [[nodiscard]] bool is_own(Index s) const { return foreign_ == nullptr || !foreign_->is_foreign(s); }
-    void make_plans(const std::vector<Index>& stage, std::size_t n_sub_meshes, const FlowOptions& options);
+    [[nodiscard]] bool is_own(Index s) const { return peers_->is_own(s); }
+    void make_plans(const std::vector<Index>& stage, const FlowOptions& options);
     void add_sweeps(const FlowOptions& options);
     void order_factors();
     void choose_factor_window(const FlowOptions& options);
@@ -110,8 +103,8 @@ class SweepStepper final : public Stepper {
     std::vector<FactorWindow> windows_;
     /// With the classical conditions.
     std::optional<InterfaceGaps> copies_;
-    /// Not for overlapping sub-meshes: peers, and their estimate.
     std::unique_ptr<InterfacePeers> peers_;
+    /// Not for overlapping sub-meshes.
     std::optional<ErrorEstimate> error_;
     /// A root for each plan.
     TaskGraph graph_;

@@ -52,9 +52,9 @@ class Machines {
             forget_others(s);
             states_[s].solved.setConstant(unknown);
         }
-        const Resources resources{test::heap(), workspace_};
         for (Index s = 0; s < n(); ++s)
-            assemble_and_factorise(states_, s, decomposition_.halo[s], plan_, options_.time_step, resources);
+            assemble_and_factorise(states_, s, decomposition_.halo[s], plan_, options_.time_step, test::heap(),
+                                   workspace_);
         if (options_.interface.conditions == Conditions::AdaptedRobin)
             exchange_predictions();
         for (Index stage = 0; stage < n(); ++stage)
