@@ -25,11 +25,6 @@ struct Header {
     MessageKind kind;
 };
 
-Header header_of(const Message& message)
-{
-    return Unpacker(message.bytes).get<Header>();
-}
-
 }  // namespace
 
 RankExchange::RankExchange(Communicator& comm, const DealtMesh& dealt)
@@ -156,7 +151,7 @@ void RankExchange::send(MessageKind kind, std::size_t sweep, Index s, const Poin
 /// Keeps a message for a later run; else starts the task that waits for it.
 void RankExchange::deliver(Message message, TaskGraph& graph, std::vector<PendingMessage>& pending)
 {
-    const Header header = header_of(message);
+    const auto header = Unpacker(message.bytes).get<Header>();
     if (header.run > run_) {
         early_.push_back(std::move(message));
         return;

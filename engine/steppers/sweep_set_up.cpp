@@ -74,35 +74,21 @@ SweepStepper::SweepStepper(const PolygonMesh& mesh, const Topology& topology, Sw
             if (options.interface.conditions != Conditions::Schwarz)
                 error_.emplace(decomposition_, mesh, topology, options, *peers_);
         },
-        [&] { make_plans(sub_meshes.stage, options); });
-    if (windows_.empty())
-        order_factors();
+        [&] {
+            plans_.push_back(make_plan(decomposition_, options, sub_meshes.stage));
+            if (alternates(options, usize(peers_->n_places())))
+                plans_.push_back(make_plan(decomposition_, options, reversed(sub_meshes.stage)));
+        });
+    const std::vector<Index> order = reverse_cuthill_mckee(decomposition_.adjacency);
+    for (std::size_t sweep = windows_.size(); sweep < plans_.size(); ++sweep)
+        windows_.push_back(least_window(plans_[sweep], order_by_need(plans_[sweep], order)));
     choose_factor_window(options);
     if (foreign_ != nullptr)
         foreign_->connect(decomposition_, plans_, error_->foreign_rows());
-    add_sweeps(options);
-}
-
-void SweepStepper::make_plans(const std::vector<Index>& stage, const FlowOptions& options)
-{
-    plans_.push_back(make_plan(decomposition_, options, stage));
-    if (alternates(options, usize(peers_->n_places())))
-        plans_.push_back(make_plan(decomposition_, options, reversed(stage)));
-}
-
-void SweepStepper::add_sweeps(const FlowOptions& options)
-{
     const PerformTask perform = [this](TaskKind kind, Index s) { this->perform(kind, s); };
     for (std::size_t sweep = 0; sweep < plans_.size(); ++sweep)
         add_sweep(graph_, perform, sweep, plans_[sweep], decomposition_.adjacency, windows_[sweep], predicts(options),
                   foreign_);
-}
-
-void SweepStepper::order_factors()
-{
-    const std::vector<Index> order = reverse_cuthill_mckee(decomposition_.adjacency);
-    for (const SweepPlan& plan : plans_)
-        windows_.push_back(least_window(plan, order_by_need(plan, order)));
 }
 
 /// Each thread has enough work within the window, as far as the limit allows. The windows are as small as they can be

@@ -71,9 +71,6 @@ class SweepStepper final : public Stepper {
   private:
     void make_states(const PolygonMesh& mesh, const FlowOptions& options, Progress& progress);
     [[nodiscard]] bool is_own(Index s) const { return peers_->is_own(s); }
-    void make_plans(const std::vector<Index>& stage, const FlowOptions& options);
-    void add_sweeps(const FlowOptions& options);
-    void order_factors();
     void choose_factor_window(const FlowOptions& options);
     [[nodiscard]] const SweepPlan& plan() const { return plans_[sweep_]; }
     void run_sweep(std::size_t sweep, const std::function<void()>& join = {});

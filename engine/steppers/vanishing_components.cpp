@@ -53,12 +53,8 @@ Point spread_point(std::size_t i, std::size_t n)
     return 0.5 * Point(radius * std::cos(angle), radius * std::sin(angle), height);
 }
 
-/// Whether the steps of a vertex are so weak that something of the shape of a small component may be left.
-/// @param strength #V, or empty: 1 everywhere.
-bool is_weak(std::span<const double> strength, Index v)
-{
-    return !strength.empty() && strength[v] < 0.01;
-}
+/// Steps of a smaller strength may leave something of the shape of a small component.
+constexpr double weak = 0.01;
 
 void append(std::span<const Index> list, IndexLists& lists)
 {
@@ -118,7 +114,7 @@ VanishingComponents::VanishingComponents(const PolygonMesh& mesh, const Topology
 IndexLists VanishingComponents::free_components() const
 {
     const std::vector<double>& strength = options_.motion.strength;
-    const auto is_held = [&](Index v) { return !topology_.moves(v) || is_weak(strength, v); };
+    const auto is_held = [&](Index v) { return !topology_.moves(v) || (!strength.empty() && strength[v] < weak); };
     IndexLists free;
     const IndexLists all = surface_components(mesh_, run_in_parallel).vertices();
     for (Index c = 0; c < all.size(); ++c)
