@@ -32,8 +32,8 @@ class Machines {
         , cut_(cut_into(mesh, topology_, options.cut.subdomains))
         , decomposition_(decompose(mesh, topology_, cut_.labels, cut_.n_parts))
     {
-        const std::vector<double> no_curvature(mesh.n_vertices(), 0.0);
-        const auto rank = assign_stages(decomposition_, options.interface.colouring, no_curvature);
+        const std::vector<double> no_curvature(decomposition_.sub_meshes.size(), 0.0);
+        const auto rank = assign_stages(decomposition_.adjacency, options.interface.colouring, no_curvature);
         if (options.interface.conditions == Conditions::Schwarz)
             grow_sub_meshes(mesh, rank);
         else
@@ -52,23 +52,18 @@ class Machines {
             forget_others(s);
             states_[s].solved.setConstant(unknown);
         }
-        const Resources resources{test::heap(), workspace_};
         for (Index s = 0; s < n(); ++s)
-            if (mutual())
-                assemble_and_factorise_mutual(states_, s, decomposition_.halo[s], plan_, options_.time_step, resources);
-            else
-                assemble_and_factorise(states_, s, decomposition_.halo[s], plan_.roles[s], options_.time_step,
-                                       resources);
+            assemble_and_factorise(states_, s, decomposition_.halo[s], plan_, options_.time_step, test::heap(),
+                                   workspace_);
         if (options_.interface.conditions == Conditions::AdaptedRobin)
             exchange_predictions();
         for (Index stage = 0; stage < n(); ++stage)
             for (Index s = 0; s < n(); ++s)
                 if (plan_.stage[s] == stage)
-                    mutual() ? solve_mutual(states_, s, decomposition_.halo[s], plan_, workspace_)
-                             : solve(states_, s, plan_.traces[s], workspace_);
+                    solve(states_, s, decomposition_.halo[s], plan_, workspace_);
         for (Index s = 0; s < n(); ++s)
             options_.interface.correction == Correction::None || mutual()
-                ? accept(states_, s)
+                ? accept(states_[s])
                 : accept_corrected(states_, s, decomposition_.halo[s]);
     }
 
@@ -94,7 +89,7 @@ class Machines {
     void exchange_predictions()
     {
         for (Index s = 0; s < n(); ++s) {
-            predict(states_, s, workspace_);
+            predict(states_[s], workspace_);
             states_[s].predicted.bottomRows(decomposition_.sub_meshes[s].n_halo).setConstant(unknown);
         }
         for (Index s = 0; s < n(); ++s)
