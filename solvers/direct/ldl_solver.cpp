@@ -203,14 +203,6 @@ bool LdlSolver::factorise_supernode(Index supernode, const LdlPanel<Number>& pan
     return factorise_panel(panel) && !has_small_pivot(panel, workspace.diagonal, least_pivot, pivots_);
 }
 
-template <class Number>
-bool LdlSolver::factorise_in_order(std::span<const Index> supernodes, Number* factor, LdlWorkspace& workspace,
-                                   Number least_pivot) const
-{
-    return std::ranges::all_of(
-        supernodes, [&](Index b) { return factorise_supernode(b, panel(factor, b), factor, workspace, least_pivot); });
-}
-
 /// The groups; their updates of the supernodes above them; these one by one, each with its updates of later ones.
 template <class Number>
 bool LdlSolver::factorise_by_subtrees(Number* factor, Number least_pivot) const
@@ -221,8 +213,11 @@ bool LdlSolver::factorise_by_subtrees(Number* factor, Number least_pivot) const
     exec_(n_groups, [&](Index begin, Index end) {
         LdlWorkspace workspace;
         enlarge(workspace);
+        const auto factorise = [&](Index b) {
+            return factorise_supernode(b, panel(factor, b), factor, workspace, least_pivot);
+        };
         for (Index group = begin; group < end; ++group)
-            has_pivots[group] = factorise_in_order(schedule_.groups[group], factor, workspace, least_pivot) ? 1 : 0;
+            has_pivots[group] = std::ranges::all_of(schedule_.groups[group], factorise) ? 1 : 0;
     });
     if (std::ranges::find(has_pivots, 0) != has_pivots.end())
         return false;

@@ -114,9 +114,6 @@ class LdlSolver {
     void find_places(const SparsePattern& upper, const std::vector<Index>& supernode_of);
     void enlarge(LdlWorkspace& workspace) const;
     template <class Number>
-    [[nodiscard]] bool factorise_in_order(std::span<const Index> supernodes, Number* factor, LdlWorkspace& workspace,
-                                          Number least_pivot) const;
-    template <class Number>
     [[nodiscard]] bool factorise_supernode(Index supernode, const LdlPanel<Number>& panel, Number* factor,
                                            LdlWorkspace& workspace, Number least_pivot) const;
     template <class Number>

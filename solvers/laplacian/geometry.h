@@ -29,6 +29,34 @@ struct RingEntries {
     double to_next = 0.0;
 };
 
+/// A polygon whose corners have equal shares of its area.
+class AreaPolygon {
+  public:
+    /// The arrays must outlive this.
+    AreaPolygon(std::span<const Index> corners, const Points& positions, double face_area)
+        : corners_(corners)
+        , positions_(positions)
+        , area_(face_area)
+    {
+    }
+
+    [[nodiscard]] std::size_t size() const { return corners_.size(); }
+    [[nodiscard]] Index corner(std::size_t k) const { return corners_[k]; }
+    /// |f| / p, in length².
+    [[nodiscard]] double mass(std::size_t /*k*/) const { return corner_area(area_, size()); }
+    [[nodiscard]] Point difference(std::size_t i, std::size_t k) const
+    {
+        return positions_.row(corners_[k]) - positions_.row(corners_[i]);
+    }
+    /// |f|, in length².
+    [[nodiscard]] double face_area() const { return area_; }
+
+  private:
+    std::span<const Index> corners_;
+    const Points& positions_;
+    double area_;
+};
+
 /// Mean of a polygon's corners.
 inline Point centroid(std::span<const Index> corners, const Points& positions)
 {

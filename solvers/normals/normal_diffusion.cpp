@@ -7,7 +7,6 @@
 #include <numbers>
 #include <span>
 
-#include "solvers/krylov/sums.h"
 #include "solvers/laplacian/geometry.h"
 
 namespace seamflow {

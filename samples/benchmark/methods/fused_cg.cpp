@@ -16,7 +16,6 @@
 #include "partition/errors.h"
 #include "partition/index_lists.h"
 #include "partition/topology.h"
-#include "solvers/krylov/sums.h"
 #include "solvers/laplacian/kernels.h"
 
 namespace seamflow {
@@ -147,8 +146,9 @@ void assemble(const Flow& flow, const Points& before, const Point& centroid, Equ
 {
     const Index n = flow.mesh.n_vertices();
     const double dt = flow.time_step;
-    Eigen::Array<double, 8, 1> both = sum_of<Eigen::Array<double, 8, 1>>(run_in_parallel, n, [&](Index v) {
-        Eigen::Array<double, 8, 1> sums = Eigen::Array<double, 8, 1>::Zero();
+    const Eigen::Array<double, 8, 1> zero = Eigen::Array<double, 8, 1>::Zero();
+    const auto squares_of = [&](Index v) {
+        Eigen::Array<double, 8, 1> sums = zero;
         if (!flow.topology.moves(v))
             return sums;
         const Index begin = equations.offsets[v];
@@ -169,7 +169,8 @@ void assemble(const Flow& flow, const Points& before, const Point& centroid, Equ
         equations.residual[v] = to_row(scale * residual);
         sums << squares(scale * residual), squares(scale * (mass * (before.row(v) - centroid) + known));
         return sums;
-    });
+    };
+    const Eigen::Array<double, 8, 1> both = sum(run_in_parallel, n, squares_of, zero);
     equations.squared_residual = both.head<4>();
     equations.squared_right_hand_side = both.tail<4>();
     for_each(run_in_parallel, n, [&](Index v) {
@@ -182,7 +183,7 @@ void assemble(const Flow& flow, const Points& before, const Point& centroid, Equ
 void renew_residual(const Flow& flow, const Points& before, const Points& after, Equations& equations)
 {
     const double dt = flow.time_step;
-    equations.squared_residual = sum_of<Sums>(run_in_parallel, flow.mesh.n_vertices(), [&](Index v) -> Sums {
+    const auto squares_of = [&](Index v) -> Sums {
         if (!flow.topology.moves(v))
             return Sums::Zero();
         const Index* const columns = equations.columns.data() + equations.offsets[v];
@@ -193,7 +194,8 @@ void renew_residual(const Flow& flow, const Points& before, const Points& after,
         residual = equations.scale[v] * (residual - mass * (after.row(v) - before.row(v)));
         equations.residual[v] = to_row(residual);
         return squares(residual);
-    });
+    };
+    equations.squared_residual = sum(run_in_parallel, flow.mesh.n_vertices(), squares_of, Sums(Sums::Zero()));
 }
 
 /// The vectors of conjugate gradients, each thread on its own range of the rows.
