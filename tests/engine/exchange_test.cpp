@@ -11,7 +11,7 @@
 #include "partition/decomposition/overlap.h"
 #include "partition/decomposition/separated_sub_meshes.h"
 #include "samples/meshes/meshes.h"
-#include "solvers/conditions/ventcell.h"
+#include "solvers/conditions/adapted_robin.h"
 #include "tests/support/flows.h"
 #include "tests/support/heap.h"
 

@@ -1,7 +1,7 @@
 #include <doctest/doctest.h>
 
+#include "solvers/conditions/adapted_robin.h"
 #include "solvers/conditions/predicted_side.h"
-#include "solvers/conditions/ventcell.h"
 #include "tests/support/allocations.h"
 #include "tests/support/cut_meshes.h"
 

@@ -4,7 +4,6 @@
 
 #include "solvers/conditions/adapted_robin.h"
 #include "solvers/conditions/derivatives.h"
-#include "solvers/conditions/ventcell.h"
 #include "tests/support/conditions.h"
 #include "tests/support/cut_meshes.h"
 #include "tests/support/relative.h"

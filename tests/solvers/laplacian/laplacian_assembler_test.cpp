@@ -346,7 +346,7 @@ TEST_CASE("assemblers add, with a factor, and leave entries that are not wanted 
     const NamedMesh m = named("mixed", make_mixed_polygons(120));
     for (const Laplacian laplacian : all_laplacians) {
         const LaplacianMatrix matrix = laplacian_matrix(laplacian, faces_of(m.mesh, m.topology), m.mesh.vertices);
-        const FaceView faces = faces_of(m.mesh, m.topology);
+        const FacesOnBothSides faces = faces_of(m.mesh, m.topology);
         const auto assembler = make_assembler(laplacian, faces);
         std::vector<Index> slots;
         for (const MatrixEntry& entry : assembler->entries())
