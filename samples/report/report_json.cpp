@@ -117,29 +117,11 @@ std::string text_of_cell(const Json& value)
     return value.is_null() ? "" : value.dump();
 }
 
-}  // namespace
-
-std::string smooth_report_json(const RunRecord& run, const FlowOptions& options, const FlowReport& report)
+/// The flow and its amount.
+void add_flow(Json& json, const RunRecord& run, const FlowOptions& options, const FlowReport& report)
 {
     const MotionOptions& motion = options.motion;
     const StepFilter filter = filter_of(options);
-    Json json = begin_report(run);
-    json["vertices"] = report.mesh.vertices;
-    json["faces"] = report.mesh.faces;
-    json["mean_edge"] = json_number(run.scale.mean_edge);
-    json["diagonal"] = json_number(run.scale.diagonal);
-    json["subdomains"] = report.cut.n_sub_meshes();
-    json["subdomain_vertices"] = of_sub_meshes(report.cut, &SubMeshReport::vertices);
-    json["subdomain_faces"] = of_sub_meshes(report.cut, &SubMeshReport::faces);
-    json["subdomain_colours"] = of_sub_meshes(report.cut, &SubMeshReport::colour);
-    json["colours"] = report.cut.n_colours();
-    json["interface_vertices"] = report.cut.interface_vertices;
-    json["repaired_faces"] = report.cut.repaired_faces;
-    json["non_manifold_vertices"] = report.mesh.non_manifold_vertices;
-    json["junction_vertices"] = report.mesh.junction_vertices;
-    if (!motion.strength.empty())
-        json["region"] = true;
-    json["fixed_vertices"] = report.mesh.fixed_vertices;
     json["laplacian"] = name_of(options.laplacian);
     json["flow"] = option_name(options.flow);
     json["filter"] = option_name(filter.kind);
@@ -167,6 +149,30 @@ std::string smooth_report_json(const RunRecord& run, const FlowOptions& options,
     }
     if (!options.keep_edges && has_amount)
         json["approach"] = option_name(report.convergence.approach);
+}
+
+}  // namespace
+
+std::string smooth_report_json(const RunRecord& run, const FlowOptions& options, const FlowReport& report)
+{
+    Json json = begin_report(run);
+    json["vertices"] = report.mesh.vertices;
+    json["faces"] = report.mesh.faces;
+    json["mean_edge"] = json_number(run.scale.mean_edge);
+    json["diagonal"] = json_number(run.scale.diagonal);
+    json["subdomains"] = report.cut.n_sub_meshes();
+    json["subdomain_vertices"] = of_sub_meshes(report.cut, &SubMeshReport::vertices);
+    json["subdomain_faces"] = of_sub_meshes(report.cut, &SubMeshReport::faces);
+    json["subdomain_colours"] = of_sub_meshes(report.cut, &SubMeshReport::colour);
+    json["colours"] = report.cut.n_colours();
+    json["interface_vertices"] = report.cut.interface_vertices;
+    json["repaired_faces"] = report.cut.repaired_faces;
+    json["non_manifold_vertices"] = report.mesh.non_manifold_vertices;
+    json["junction_vertices"] = report.mesh.junction_vertices;
+    if (!options.motion.strength.empty())
+        json["region"] = true;
+    json["fixed_vertices"] = report.mesh.fixed_vertices;
+    add_flow(json, run, options, report);
     add_convergence(json, report.convergence);
     json["threads"] = report.resources.threads;
     json["p"] = of_sub_meshes(report.cut, &SubMeshReport::p);

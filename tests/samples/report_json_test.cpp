@@ -114,11 +114,24 @@ TEST_CASE("displacements are in mean edge lengths of the input")
     RunRecord run;
     run.scale.mean_edge = 2.0;
     const Json json = Json::parse(smooth_report_json(run, FlowOptions{}, report));
+    CHECK_FALSE(json.contains("region"));
     CHECK(json["steps"][0]["tangential_mean"] == 0.5);
     CHECK(json["steps"][0]["tangential_rms"] == 1.0);
     CHECK(json["steps"][0]["normal_max"] == 3.0);
     CHECK(json["displacement"]["normal_mean"] == 2.0);
     CHECK(json["displacement"]["drift_max"] == 3.5);
+}
+
+TEST_CASE("the report says how vertices were to move")
+{
+    FlowOptions options;
+    options.keep_edges = 30.0;
+    options.motion = {.attachment = 0.25, .attachment_weights = {1.0, 2.0}, .strength = {0.0, 1.0}};
+    const Json json = Json::parse(smooth_report_json(RunRecord{}, options, FlowReport{}));
+    CHECK(json["region"] == true);
+    CHECK(json["attachment"] == 0.25);
+    CHECK(json["attachment_weights"] == true);
+    CHECK(json["keep_edges"] == 30.0);
 }
 
 TEST_CASE("the report of compare has what was measured, and nothing else")
