@@ -187,7 +187,7 @@ Eigen::VectorXd HeatEquation::solve(const Eigen::VectorXd& data, double time_ste
     for (std::size_t v = 0; v < vertices_.size(); ++v)
         local(static_cast<Eigen::Index>(v), 0) = data[vertices_[v]];
     Points increments = Points::Zero(positions_.rows(), 3);
-    const NeumannSystem::Assembled equations = system_->assemble(positions_, increments, local, time_step, workspace_);
+    const NeumannSystem::Assembled equations = system_->assemble(positions_, increments, time_step, workspace_, &local);
     auto kept = std::ranges::find(factors_, time_step, &KeptFactor::time_step);
     if (kept == factors_.end())
         kept = factors_.insert(

@@ -5,8 +5,8 @@
 
 #include "engine/tasks/parallel_executor.h"
 #include "partition/decomposition/overlap.h"
+#include "solvers/conditions/adapted_robin.h"
 #include "solvers/conditions/robin_parameter.h"
-#include "solvers/conditions/ventcell.h"
 
 namespace seamflow {
 

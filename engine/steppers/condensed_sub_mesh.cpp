@@ -49,10 +49,8 @@ NeumannSystem::Assembled CondensedSubMesh::assemble(const CondensedStep& step, S
 {
     const auto own = std::span(vertices_.local_to_global).first(usize(vertices_.n_vertices));
     const Points& positions = gather_rows(own, step.before, workspace.positions);
-    if (step.data == nullptr)
-        return system_->assemble(positions, workspace.increments, step.time_step, workspace);
-    const Points& data = gather_rows(own, *step.data, workspace.data);
-    return system_->assemble(positions, workspace.increments, data, step.time_step, workspace);
+    const Points* const data = step.data != nullptr ? &gather_rows(own, *step.data, workspace.data) : nullptr;
+    return system_->assemble(positions, workspace.increments, step.time_step, workspace, data);
 }
 
 /// Factorises, and condenses with that factor.

@@ -92,7 +92,9 @@ void assemble_and_factorise(std::vector<SubMeshState>& states, Index s, const st
 
 void predict(SubMeshState& state, SolverWorkspace& workspace)
 {
-    state.system->predict(*state.factor, state.given(), state.predicted, workspace);
+    for (const Index v : state.sub_mesh->interface.vertices)
+        state.predicted.row(v) = state.given().row(v);
+    state.system->solve(*state.factor, state.given(), state.predicted, workspace);
 }
 
 void use_predictions(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& predictions,

@@ -30,24 +30,30 @@ bool is_in_proportion(std::span<const Index> fan, const IndexLists& faces, const
 
 }  // namespace
 
-AdaptedRobin::AdaptedRobin(const SubMesh& sub_mesh)
+AdaptedRobin::AdaptedRobin(const SubMesh& sub_mesh, double q, RightSide right_side)
     : sub_mesh_(&sub_mesh)
+    , q_(q)
+    , right_side_(right_side)
     , stencils_(make_derivative_stencils(sub_mesh))
     , conormals_(sub_mesh.interface.vertices.size())
+    , others_weights_(conormals_.size())
 {
 }
 
 void AdaptedRobin::begin_step(const Points& positions, const Points& other_side, double time_step, double p)
 {
     dt_p_ = time_step * p;
+    dt_q_ = time_step * q_;
     for (Index i = 0; i < sub_mesh_->interface.size(); ++i) {
         const auto own = own_conormal(*sub_mesh_, i, positions);
         const auto other = complement_conormal(*sub_mesh_, i, other_side);
         conormals_[i] = own && other ? std::optional(Conormals{*own, *other}) : std::nullopt;
+        if (dt_q_ != 0.0 && right_side_ == RightSide::OthersCopy)
+            others_weights_[i] = tangential_weights(*sub_mesh_, i, other_side);
     }
 }
 
-void AdaptedRobin::left_hand_side(Index i, const Points&, std::span<double> row) const
+void AdaptedRobin::left_hand_side(Index i, const Points& positions, std::span<double> row) const
 {
     if (conormals_[i]) {
         normal_derivative_row(*sub_mesh_, stencils_, i, conormals_[i]->own, row);
@@ -57,14 +63,19 @@ void AdaptedRobin::left_hand_side(Index i, const Points&, std::span<double> row)
         std::fill(row.begin(), row.end(), 0.0);
     }
     row[stencils_.centre[i]] += 1.0;
+    if (dt_q_ != 0.0)
+        add_tangential_derivative(stencils_, i, tangential_weights(*sub_mesh_, i, positions), dt_q_, row);
 }
 
 Point AdaptedRobin::right_hand_side(Index i, const Points& positions, const Points& other_side) const
 {
-    const Point v = positions.row(sub_mesh_->interface.vertices[i]);
-    if (!conormals_[i])
-        return v;
-    return v - dt_p_ * complement_normal_derivative(*sub_mesh_, i, conormals_[i]->other, other_side);
+    const Points& on_interface = right_side_ == RightSide::Own ? positions : other_side;
+    Point right = on_interface.row(sub_mesh_->interface.vertices[i]);
+    if (conormals_[i])
+        right -= dt_p_ * complement_normal_derivative(*sub_mesh_, i, conormals_[i]->other, other_side);
+    if (dt_q_ != 0.0 && right_side_ == RightSide::OthersCopy)
+        right += dt_q_ * tangential_derivative(*sub_mesh_, i, others_weights_[i], other_side);
+    return right;
 }
 
 bool AdaptedRobin::is_well_defined(Index i, const Points& positions) const
@@ -80,6 +91,16 @@ bool AdaptedRobin::is_well_defined(Index i, const Points& positions) const
     return own.direction.dot(other.direction) < most_aligned && tangent > shortest_tangent * edge &&
            is_in_proportion(interface.own_faces[i], sub_mesh_->face_vertices, own, edge) &&
            is_in_proportion(interface.complement_faces[i], interface.halo_faces, other, edge);
+}
+
+std::unique_ptr<TransmissionCondition> make_adapted_ventcell(const SubMesh& sub_mesh, double q)
+{
+    return std::make_unique<AdaptedRobin>(sub_mesh, q);
+}
+
+std::unique_ptr<TransmissionCondition> make_ventcell(const SubMesh& sub_mesh, double q)
+{
+    return std::make_unique<AdaptedRobin>(sub_mesh, q, RightSide::OthersCopy);
 }
 
 }  // namespace seamflow

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -8,16 +9,25 @@
 
 namespace seamflow {
 
-/// The adapted Robin condition of the paper (eq. 24 with q = 0):
+/// The positions on Γ for which a right-hand side is computed.
+enum class RightSide {
+    /// The sub-mesh's own.
+    Own,
+    /// The other side's copy, with its tangential derivative.
+    OthersCopy,
+};
+
+/// The adapted conditions of the paper (eq. 24), Robin's with q = 0:
 ///
-/// \f[ (I + dt\, p\, \partial_{n_A})\, V_A^{k+1} = (I - dt\, p\, \partial_{n_B})\, V_B , \f]
+/// \f[ (I + dt\, (p\, \partial_{n_A} + q\, \partial_t))\, V_A^{k+1} = (I - dt\, p\, \partial_{n_B})\, V_B , \f]
 ///
 /// with A the sub-mesh and B the complement fan, each with its own outward conormal, α and ‖N‖ from Vᵏ. In the paper
-/// V_B is V_B^k. Where one of the two conormals does not exist, p counts as 0 and the vertex keeps its place.
+/// V_B is V_B^k. Where one of the two conormals does not exist, p counts as 0 and the vertex keeps its place. And the
+/// classical ones (see make_ventcell).
 class AdaptedRobin final : public TransmissionCondition {
   public:
-    /// @param sub_mesh must outlive the condition.
-    explicit AdaptedRobin(const SubMesh& sub_mesh);
+    /// @param sub_mesh must outlive the condition. @param q not negative, without dimension.
+    explicit AdaptedRobin(const SubMesh& sub_mesh, double q = 0.0, RightSide right_side = RightSide::Own);
 
     [[nodiscard]] const IndexLists& columns() const override { return stencils_.columns; }
     void begin_step(const Points& positions, const Points& other_side, double time_step, double p) override;
@@ -39,10 +49,30 @@ class AdaptedRobin final : public TransmissionCondition {
     };
 
     const SubMesh* sub_mesh_;
+    double q_;
+    RightSide right_side_;
     DerivativeStencils stencils_;
     double dt_p_ = 0.0;
+    double dt_q_ = 0.0;
     /// Per vertex of Γ; empty if one of them does not exist.
     std::vector<std::optional<Conormals>> conormals_;
+    /// Per vertex of Γ, of the other side's copy.
+    std::vector<TangentialWeights> others_weights_;
 };
+
+/// The adapted Ventcell condition of the paper (eq. 24), with the tangential derivative along Γ, whose lengths are
+/// those of Vᵏ. Straightens Γ.
+/// @param sub_mesh must outlive the condition.
+/// @param q not negative, without dimension.
+std::unique_ptr<TransmissionCondition> make_adapted_ventcell(const SubMesh& sub_mesh, double q = 0.0);
+
+/// The classical Ventcell condition (paper, eqs. 20 and 21): (I + dt (p ∂n + q ∂t)) V_A^{k+1} = (I + dt (p ∂n +
+/// q ∂t)) V_B, with V_B the other side's own copy of Γ and what lies beyond. n is A's outward conormal; on the right it
+/// is taken as the opposite of B's, so that a flat mesh stays as it is. The tangential derivative is that along either
+/// side's own copy of Γ, whose lengths are those of Vᵏ. Otherwise as AdaptedRobin; with q = 0 the classical Robin
+/// condition.
+/// @param sub_mesh must outlive the condition.
+/// @param q not negative, without dimension.
+std::unique_ptr<TransmissionCondition> make_ventcell(const SubMesh& sub_mesh, double q = 0.0);
 
 }  // namespace seamflow

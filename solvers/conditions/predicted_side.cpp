@@ -22,17 +22,12 @@ enum class RowKind : std::uint8_t {
     Robin,
 };
 
-Reach reach_of(Laplacian laplacian)
-{
-    return traits_of(laplacian).reach;
-}
-
 class PredictedSide final : public TransmissionCondition {
   public:
     PredictedSide(const SubMesh& sub_mesh, const ScaledLaplacian& laplacian, const Points* stiffness_at)
         : sub_mesh_(&sub_mesh)
         , star_(sub_mesh,
-                reach_of(laplacian) == Reach::TwoRings ? ScaledLaplacian(Laplacian::AlexaWardetzky) : laplacian,
+                traits_of(laplacian).reach == Reach::TwoRings ? ScaledLaplacian(Laplacian::AlexaWardetzky) : laplacian,
                 stiffness_at)
         , robin_(sub_mesh)
         , kinds_(sub_mesh.interface.vertices.size(), RowKind::Robin)
@@ -40,8 +35,7 @@ class PredictedSide final : public TransmissionCondition {
     {
         for (Index i = 0; i < sub_mesh.interface.size(); ++i) {
             list_columns(i);
-            responds_[i] =
-                reach_of(laplacian) == Reach::Edges || (reach_of(laplacian) == Reach::Faces && has_only_triangles(i));
+            responds_[i] = responds_at(sub_mesh, laplacian, i);
         }
     }
 
@@ -100,16 +94,6 @@ class PredictedSide final : public TransmissionCondition {
         columns_.close();
     }
 
-    [[nodiscard]] bool has_only_triangles(Index i) const
-    {
-        const auto& interface = sub_mesh_->interface;
-        const auto all_triangles = [](std::span<const Index> fan, const IndexLists& faces) {
-            return std::all_of(fan.begin(), fan.end(), [&](Index f) { return faces[f].size() == 3; });
-        };
-        return all_triangles(interface.own_faces[i], sub_mesh_->face_vertices) &&
-               all_triangles(interface.complement_faces[i], interface.halo_faces);
-    }
-
     [[nodiscard]] RowKind choose_kind(Index i, const Points& positions) const
     {
         if (!responds_[i])
@@ -128,13 +112,8 @@ class PredictedSide final : public TransmissionCondition {
             if (columns[k] == vertex)
                 sum += star[k];
             else if (columns[k] >= sub_mesh_->n_vertices)
-                sum += star[k] * remainder(vertex, columns[k], positions);
+                sum += star[k] * remainder_between(positions, vertex, columns[k], time_step_);
         return sum;
-    }
-
-    [[nodiscard]] double remainder(Index vertex, Index beyond, const Points& positions) const
-    {
-        return remainder_between(positions, vertex, beyond, time_step_);
     }
 
     /// ρ of the vertices beyond Γ in all rows where the other side responds.
@@ -146,7 +125,7 @@ class PredictedSide final : public TransmissionCondition {
             for (std::size_t k = 0; kinds_[i] == RowKind::Responding && k < columns.size(); ++k)
                 if (columns[k] >= sub_mesh_->n_vertices)
                     responses_[usize(star_.columns().offsets[i]) + k] =
-                        remainder(sub_mesh_->interface.vertices[i], columns[k], positions);
+                        remainder_between(positions, sub_mesh_->interface.vertices[i], columns[k], time_step_);
         }
     }
 
@@ -180,6 +159,18 @@ class PredictedSide final : public TransmissionCondition {
 };
 
 }  // namespace
+
+bool responds_at(const SubMesh& sub_mesh, Laplacian laplacian, Index i)
+{
+    const auto& interface = sub_mesh.interface;
+    const auto are_triangles = [](std::span<const Index> fan, const IndexLists& faces) {
+        return std::ranges::all_of(fan, [&](Index f) { return faces[f].size() == 3; });
+    };
+    const Reach reach = traits_of(laplacian).reach;
+    return reach == Reach::Edges ||
+           (reach == Reach::Faces && are_triangles(interface.own_faces[i], sub_mesh.face_vertices) &&
+            are_triangles(interface.complement_faces[i], interface.halo_faces));
+}
 
 std::unique_ptr<TransmissionCondition> make_predicted_side(const SubMesh& sub_mesh, const ScaledLaplacian& laplacian,
                                                            const Points* stiffness_at)

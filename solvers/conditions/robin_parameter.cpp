@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <compare>
 #include <functional>
 #include <iterator>
 #include <limits>
@@ -25,30 +24,20 @@ struct EdgeLists {
 
 EdgeLists list_edges(const SubMesh& sub_mesh, const Points& positions)
 {
-    struct Edge {
-        Index start;
-        Index end;
-        auto operator<=>(const Edge&) const = default;
-    };
-    std::vector<Edge> edges;
-    for (Index f = 0; f < sub_mesh.face_vertices.size(); ++f) {
-        const auto corners = sub_mesh.face_vertices[f];
-        for (std::size_t k = 0; k < corners.size(); ++k) {
-            const Index next = corners[(k + 1) % corners.size()];
-            edges.push_back({corners[k], next});
-            edges.push_back({next, corners[k]});
-        }
-    }
-    std::sort(edges.begin(), edges.end());
     EdgeLists lists;
-    auto edge = edges.begin();
-    for (Index v = 0; v < sub_mesh.n_vertices; ++v) {
-        for (; edge != edges.end() && edge->start == v; ++edge) {
-            lists.neighbours.values.push_back(edge->end);
-            lists.lengths.push_back((positions.row(edge->end) - positions.row(v)).norm());
+    lists.neighbours = make_lists(sub_mesh.n_vertices, [&](auto&& add) {
+        for (Index f = 0; f < sub_mesh.face_vertices.size(); ++f) {
+            const auto corners = sub_mesh.face_vertices[f];
+            for (std::size_t k = 0; k < corners.size(); ++k) {
+                const Index next = corners[(k + 1) % corners.size()];
+                add(corners[k], next);
+                add(next, corners[k]);
+            }
         }
-        lists.neighbours.close();
-    }
+    });
+    for (Index v = 0; v < sub_mesh.n_vertices; ++v)
+        for (const Index w : lists.neighbours[v])
+            lists.lengths.push_back((positions.row(w) - positions.row(v)).norm());
     return lists;
 }
 

@@ -29,8 +29,9 @@ PolygonMesh faces_around_interface(const SubMesh& sub_mesh)
 StarLaplacian::StarLaplacian(const SubMesh& sub_mesh, const ScaledLaplacian& laplacian, const Points* stiffness_at)
     : faces_(faces_around_interface(sub_mesh))
     , topology_(make_topology(faces_))
-    , assembler_(make_assembler(
-          laplacian, {faces_.face_offsets, faces_.face_vertices, topology_.twin, faces_.n_vertices()}, stiffness_at))
+    , assembler_(make_assembler(laplacian,
+                                {{faces_.face_offsets, faces_.face_vertices}, {}, topology_.twin, faces_.n_vertices()},
+                                stiffness_at))
 {
     make_slots(sub_mesh.interface);
 }

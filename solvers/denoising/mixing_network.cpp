@@ -39,42 +39,30 @@ struct MultiplyKernel {
     }
 };
 
-/// Reads numbers one after the other.
-class Reader {
-  public:
-    explicit Reader(std::string_view bytes)
-        : bytes_(bytes)
-    {
-    }
-
-    template <class Number>
-    std::vector<Number> read(std::size_t n)
-    {
-        std::vector<Number> numbers(n);
-        std::memcpy(numbers.data(), bytes_.data(), n * sizeof(Number));
-        bytes_.remove_prefix(n * sizeof(Number));
-        return numbers;
-    }
-
-  private:
-    std::string_view bytes_;
-};
+/// Takes the next numbers from bytes.
+template <class Number>
+std::vector<Number> take(std::string_view& bytes, std::size_t n)
+{
+    std::vector<Number> numbers(n);
+    std::memcpy(numbers.data(), bytes.data(), n * sizeof(Number));
+    bytes.remove_prefix(n * sizeof(Number));
+    return numbers;
+}
 
 }  // namespace
 
 MixingNetwork::MixingNetwork(std::string_view bytes)
 {
-    Reader reader(bytes);
-    const int n_layers = reader.read<std::int32_t>(1)[0];
+    const int n_layers = take<std::int32_t>(bytes, 1)[0];
     for (int l = 0; l < n_layers; ++l) {
-        const std::vector<std::int32_t> sizes = reader.read<std::int32_t>(2);
+        const std::vector<std::int32_t> sizes = take<std::int32_t>(bytes, 2);
         Layer layer;
         layer.n_inputs = sizes[0];
         layer.n_outputs = (sizes[1] + outputs_at_once - 1) / outputs_at_once * outputs_at_once;
-        const std::vector<float> scales_of_inputs = reader.read<float>(usize(sizes[0]));
-        const std::vector<float> scales = reader.read<float>(usize(sizes[1]));
-        const std::vector<float> bias = reader.read<float>(usize(sizes[1]));
-        const std::vector<std::int8_t> weights = reader.read<std::int8_t>(usize(sizes[0]) * usize(sizes[1]));
+        const std::vector<float> scales_of_inputs = take<float>(bytes, usize(sizes[0]));
+        const std::vector<float> scales = take<float>(bytes, usize(sizes[1]));
+        const std::vector<float> bias = take<float>(bytes, usize(sizes[1]));
+        const std::vector<std::int8_t> weights = take<std::int8_t>(bytes, usize(sizes[0]) * usize(sizes[1]));
         layer.weights.assign(usize(layer.n_inputs) * usize(layer.n_outputs), 0.0F);
         layer.bias.assign(usize(layer.n_outputs), 0.0F);
         for (int j = 0; j < sizes[1]; ++j) {

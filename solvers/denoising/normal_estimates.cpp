@@ -54,37 +54,6 @@ class Writer {
     std::size_t count_ = 0;
 };
 
-/// Means over more and more rounds.
-class Means {
-  public:
-    /// @param scratch two arrays, which are replaced.
-    Means(const FaceAverages& averages, const AverageWeights& weights, std::array<FaceVectors, 2>& scratch,
-          const Executor& exec)
-        : averages_(averages)
-        , weights_(weights)
-        , scratch_(scratch)
-        , exec_(exec)
-    {
-    }
-
-    /// Rounds of means of some vectors.
-    /// @param on_round called with the number of each round and its result.
-    template <class OnRound>
-    void take(const FaceVectors& vectors, int rounds, OnRound&& on_round)
-    {
-        for (int round = 1; round <= rounds; ++round) {
-            averages_.average(weights_, round == 1 ? vectors : scratch_[(round + 1) % 2], scratch_[round % 2], exec_);
-            on_round(round, scratch_[round % 2]);
-        }
-    }
-
-  private:
-    const FaceAverages& averages_;
-    const AverageWeights& weights_;
-    std::array<FaceVectors, 2>& scratch_;
-    const Executor& exec_;
-};
-
 /// Adds a part of 1 - (1 - S)³ = 3 S - 3 S² + S³, if the round is one of S, S² or S³.
 /// @param rounds those of S.
 void add_low_pass(int round, int rounds, const FaceVectors& mean, FaceVectors& total, const Executor& exec)
@@ -118,6 +87,15 @@ void add_bilateral_means(const FaceAverages& averages, FaceVectors& vectors, flo
 }
 
 }  // namespace
+
+template <class OnRound>
+void NormalEstimator::take_means(const FaceVectors& vectors, int rounds, const Executor& exec, OnRound&& on_round)
+{
+    for (int round = 1; round <= rounds; ++round) {
+        averages_.average(weights_, round == 1 ? vectors : scratch_[(round + 1) % 2], scratch_[round % 2], exec);
+        on_round(round, scratch_[round % 2]);
+    }
+}
 
 NormalEstimator::NormalEstimator(const PolygonMesh& mesh, const Topology& topology, const Executor& exec)
     : averages_(mesh, topology, exec)
@@ -159,7 +137,7 @@ void NormalEstimator::first(NormalEstimates& found, const Executor& exec)
     FaceVectors once;
     FaceVectors twice;
     FaceVectors low_pass;
-    Means(averages_, weights_, scratch_, exec).take(noisy_, 8, [&](int round, const FaceVectors& mean) {
+    take_means(noisy_, 8, exec, [&](int round, const FaceVectors& mean) {
         if (round == 1 || round == 2 || round == 4 || round == 8)
             writer.copy(mean);
         if (round == 1)
@@ -188,11 +166,10 @@ void NormalEstimator::further(const FaceVectors& normals, NormalEstimates& found
     Writer writer(found);
     writer.copy(normals);
     writer.copy(noisy_);
-    Means means(averages_, weights_, scratch_, exec);
     for (const float sigma : {0.1F, 0.2F, 0.4F}) {
         averages_.weigh(normals, sigma, weights_, exec);
         FaceVectors low_pass;
-        means.take(noisy_, 9, [&](int round, const FaceVectors& mean) {
+        take_means(noisy_, 9, exec, [&](int round, const FaceVectors& mean) {
             if (round == 2 || round == 8)
                 writer.copy(mean);
             add_low_pass(round, 3, mean, low_pass, exec);
@@ -204,7 +181,7 @@ void NormalEstimator::further(const FaceVectors& normals, NormalEstimates& found
     averages_.weigh(normals, 0.03F, weights_, exec);
     averages_.average_far(weights_, noisy_, writer.next(), scratch_, exec);
     const auto copy_first_and_last = [&](int rounds) {
-        means.take(normals, rounds, [&](int round, const FaceVectors& mean) {
+        take_means(normals, rounds, exec, [&](int round, const FaceVectors& mean) {
             if (round == 1 || round == rounds)
                 writer.copy(mean);
         });

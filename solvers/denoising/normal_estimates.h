@@ -52,6 +52,11 @@ class NormalEstimator {
     NormalEstimator& operator=(const NormalEstimator&) = delete;
 
   private:
+    /// Means of some vectors over more and more rounds, by the current weights.
+    /// @param on_round called with the number of each round and its result.
+    template <class OnRound>
+    void take_means(const FaceVectors& vectors, int rounds, const Executor& exec, OnRound&& on_round);
+
     FaceAverages averages_;
     VertexAverages of_vertices_;
     PositionFilters filters_;

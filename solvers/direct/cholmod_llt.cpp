@@ -37,16 +37,10 @@ struct CholmodWorkspace::State {
     State& operator=(const State&) = delete;
 };
 
-CholmodWorkspace::CholmodWorkspace() = default;
-
-CholmodWorkspace::~CholmodWorkspace() = default;
-CholmodWorkspace::CholmodWorkspace(CholmodWorkspace&&) noexcept = default;
-CholmodWorkspace& CholmodWorkspace::operator=(CholmodWorkspace&&) noexcept = default;
-
 CholmodWorkspace::State& CholmodWorkspace::state()
 {
     if (!state_)
-        state_ = std::make_unique<State>();
+        state_ = {new State, [](State* state) { delete state; }};
     return *state_;
 }
 

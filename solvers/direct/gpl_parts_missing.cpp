@@ -10,12 +10,6 @@ std::string_view gpl_parts()
     return {};
 }
 
-struct CholmodWorkspace::State {};
-CholmodWorkspace::CholmodWorkspace() = default;
-CholmodWorkspace::~CholmodWorkspace() = default;
-CholmodWorkspace::CholmodWorkspace(CholmodWorkspace&&) noexcept = default;
-CholmodWorkspace& CholmodWorkspace::operator=(CholmodWorkspace&&) noexcept = default;
-
 std::unique_ptr<DirectSolver> make_cholmod_llt(SparsePattern, CholmodWorkspace&)
 {
     throw std::logic_error("this build has no CHOLMOD");

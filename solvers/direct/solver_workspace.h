@@ -36,18 +36,13 @@ struct LuWorkspace {
 /// Working memory of CHOLMOD's solvers: its own state, and its memory for solving.
 class CholmodWorkspace {
   public:
-    CholmodWorkspace();
-    ~CholmodWorkspace();
-    CholmodWorkspace(CholmodWorkspace&&) noexcept;
-    CholmodWorkspace& operator=(CholmodWorkspace&&) noexcept;
-
     /// Known only to the file that calls CHOLMOD.
     struct State;
     [[nodiscard]] State& state();
 
   private:
     /// Null until it is needed.
-    std::unique_ptr<State> state_;
+    std::unique_ptr<State, void (*)(State*)> state_{nullptr, nullptr};
 };
 
 /// Temporary memory of systems: one per thread. Arrays of three columns are as long as the last system needed, the

@@ -50,9 +50,9 @@ InterfaceResult InterfaceEquation::solve(std::span<const DenseFactor> complement
     sum_copies(right_hand_sides, right_hand_side_, exec);
     const Point unit = measure_right_hand_side();
     vectors_.begin(right_hand_side_, exec);
-    const auto multiply = [&](const Points& p, Points& product) { this->multiply(complements, p, product, exec); };
-    const auto precondition = [&](const Points& r, Points& z) { this->precondition(complements, r, z, exec); };
-    const auto measure = [&](const Points& at_x, Points& r) {
+    const MapPoints multiply = [&](const Points& p, Points& product) { this->multiply(complements, p, product, exec); };
+    const MapPoints precondition = [&](const Points& r, Points& z) { this->precondition(complements, r, z, exec); };
+    const MapPoints measure = [&](const Points& at_x, Points& r) {
         sum_copies(residuals((at_x.array().rowwise() * unit.array()).matrix()), r, exec);
         r.array().rowwise() /= unit.array();
     };
@@ -122,8 +122,7 @@ void InterfaceEquation::sum_copies(Points& copies, Points& sums, const Executor&
 
 /// Moves the coarse unknowns to where they must be: the preconditioner is symmetric only from there on. Then moves
 /// along the guess as far as this helps.
-template <class Multiply>
-void InterfaceEquation::start(const Multiply& multiply, const Points* guess, const Point& unit, Points& x,
+void InterfaceEquation::start(const MapPoints& multiply, const Points* guess, const Point& unit, Points& x,
                               const Executor& exec)
 {
     if (coarse_) {

@@ -74,8 +74,7 @@ class InterfaceEquation {
     [[nodiscard]] bool is_held(Index vertex) const { return !is_held_.empty() && is_held_[vertex] != 0; }
     void weigh_copies(std::span<const DenseFactor> complements, const Executor& exec);
     void sum_copies(Points& copies, Points& sums, const Executor& exec);
-    template <class Multiply>
-    void start(const Multiply& multiply, const Points* guess, const Point& unit, Points& x, const Executor& exec);
+    void start(const MapPoints& multiply, const Points* guess, const Point& unit, Points& x, const Executor& exec);
     Point measure_right_hand_side();
     [[nodiscard]] double estimate_distance(const Point& unit);
     void multiply(std::span<const DenseFactor> complements, const Points& direction, Points& product,

@@ -5,7 +5,7 @@
 
 namespace seamflow {
 
-/// Result of the iteration for shared unknowns: for the equation on Γ, or for that on traces.
+/// Result of the iteration for the equation on Γ, or for that of a whole mesh.
 struct InterfaceResult : IterationResult {
     /// Estimate of the largest distance to the solution, in units of length.
     double estimated_distance = 0.0;

@@ -5,7 +5,7 @@
 
 #include "solvers/interface/interface_copies.h"
 #include "solvers/interface/interface_peers.h"
-#include "solvers/krylov/sums.h"
+#include "solvers/krylov/conjugate_gradients.h"
 
 namespace seamflow {
 

@@ -2,19 +2,36 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <initializer_list>
 #include <utility>
 #include <vector>
 
+#include "partition/executor.h"
+#include "partition/polygon_mesh.h"
+#include "partition/vector_area.h"
 #include "solvers/krylov/stopping_criterion.h"
-#include "solvers/krylov/sums.h"
 
 namespace seamflow {
+
+/// Makes points, n by 3, of others.
+using MapPoints = std::function<void(const Points& from, Points& to)>;
+
+/// Two vectors for each of three columns.
+struct VectorPair {
+    const Points& a;
+    const Points& b;
+};
+
+/// How the inner products of pairs of vectors are computed, of each column of A with that of B; all of them at once.
+/// Always in the same order of additions.
+using InnerProducts = std::function<std::vector<Point>(std::initializer_list<VectorPair> pairs, const Executor& exec)>;
 
 /// The vectors of conjugate gradients, in Saad's notation, each n by 3: three right-hand sides at once, each with its
 /// own coefficients.
 struct ConjugateGradientVectors {
     /// @param how computes inner products.
-    explicit ConjugateGradientVectors(Index n, InnerProducts how = inner_products)
+    ConjugateGradientVectors(Index n, InnerProducts how)
         : r(n, 3)
         , p(n, 3)
         , q(n, 3)
@@ -69,8 +86,8 @@ inline double largest_ratio(const Point& norms, const Point& first)
 }
 
 /// Moves x along p to the least energy, and r with it.
-template <class Multiply>
-void advance(const Multiply& multiply, Points& x, ConjugateGradientVectors& v, const Executor& exec)
+/// @param multiply see PreconditionedEquations.
+inline void advance(const MapPoints& multiply, Points& x, ConjugateGradientVectors& v, const Executor& exec)
 {
     // q = A p
     multiply(v.p, v.q);
@@ -86,19 +103,14 @@ void advance(const Multiply& multiply, Points& x, ConjugateGradientVectors& v, c
 }
 
 /// The operators of the equations A X = B.
-template <class Multiply, class Precondition, class Measure>
 struct PreconditionedEquations {
     /// multiply(p, q) makes q = A p.
-    const Multiply& multiply;
+    MapPoints multiply;
     /// precondition(r, z) makes z = M⁻¹ r.
-    const Precondition& precondition;
+    MapPoints precondition;
     /// measure(x, r) makes r = B - A X exactly.
-    const Measure& measure;
+    MapPoints measure;
 };
-
-template <class Multiply, class Precondition, class Measure>
-PreconditionedEquations(const Multiply&, const Precondition&, const Measure&)
-    -> PreconditionedEquations<Multiply, Precondition, Measure>;
 
 /// Conjugate gradients for A X = B with a symmetric positive definite A, preconditioned (Saad, Iterative Methods for
 /// Sparse Linear Systems, 2003, algorithm 9.1), where products are rounded coarsely: occasionally the residual is
@@ -107,10 +119,8 @@ PreconditionedEquations(const Multiply&, const Precondition&, const Measure&)
 /// @param stop relative to the norms of B, for each column.
 /// @param x in: where to start. Out: the solution.
 /// @param v in: begun, and brought to x by `advance`, or not at all.
-template <class Multiply, class Precondition, class Measure>
-IterationResult conjugate_gradients(const PreconditionedEquations<Multiply, Precondition, Measure>& equations,
-                                    const IterationStop& stop, Points& x, ConjugateGradientVectors& v,
-                                    const Executor& exec)
+inline IterationResult conjugate_gradients(const PreconditionedEquations& equations, const IterationStop& stop,
+                                           Points& x, ConjugateGradientVectors& v, const Executor& exec)
 {
     // The most iterations and reduction of the residual between two measurements; the most that may be left of it with
     // enough progress.

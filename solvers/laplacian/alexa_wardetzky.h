@@ -21,78 +21,47 @@ struct AlexaWardetzky {
     /// |f| / p (paper, eq. 11).
     static double corner_mass(double size, std::size_t p) { return corner_area(size, p); }
 
-    /// The bisectors of a polygon, computed on demand.
-    struct ComputedBisectors {
-        std::span<const Index> corners;
-        const Points& positions;
-        Point operator()(std::size_t k) const { return corner_bisector(corners, k, positions); }
-    };
-
-    /// Those of a polygon whose rows are all needed, computed once.
-    struct StoredBisectors {
-        const Point* bisectors;
-        const Point& operator()(std::size_t k) const { return bisectors[k]; }
-    };
+    /// The bisectors of a polygon.
     using Scratch = std::vector<Point>;
 
     /// Contribution of one face: see kernels.h.
-    template <class Bisectors>
-    class Face {
+    class Face : public AreaPolygon {
       public:
         /// Row i of scale · B Bᵀ.
         struct Row {
             Point scaled;
-            Bisectors bisectors;
-            double operator()(std::size_t k) const { return scaled.dot(bisectors(k)); }
+            const Point* bisectors;
+            double operator()(std::size_t k) const { return scaled.dot(bisectors[k]); }
         };
 
-        Face(std::span<const Index> corners, const Points& positions, double face_area, Bisectors bisectors)
-            : corners_(corners)
-            , positions_(positions)
-            , area_(face_area)
+        Face(const AreaPolygon& polygon, const Point* bisectors)
+            : AreaPolygon(polygon)
             , bisectors_(bisectors)
         {
         }
 
-        [[nodiscard]] std::size_t size() const { return corners_.size(); }
-        [[nodiscard]] Index corner(std::size_t k) const { return corners_[k]; }
-        /// |f| / p (eq. 11).
-        [[nodiscard]] double mass(std::size_t) const { return corner_area(area_, size()); }
         /// |f|: W1 of eq. 15 divides by it.
-        [[nodiscard]] double divisor() const { return area_; }
-        [[nodiscard]] Row row(std::size_t i, double scale) const { return {scale * bisectors_(i), bisectors_}; }
+        [[nodiscard]] double divisor() const { return face_area(); }
+        [[nodiscard]] Row row(std::size_t i, double scale) const { return {scale * bisectors_[i], bisectors_}; }
         /// See kernels.h: S = 0, C = B / √|f|, D = -1.
         [[nodiscard]] static RingEntries ring(std::size_t) { return {}; }
         [[nodiscard]] static std::array<double, 3> auxiliary() { return {-1.0, -1.0, -1.0}; }
         [[nodiscard]] std::array<double, 3> coupling(std::size_t k) const
         {
-            const Point c = bisectors_(k) / std::sqrt(area_);
+            const Point c = bisectors_[k] / std::sqrt(face_area());
             return {c[0], c[1], c[2]};
-        }
-        [[nodiscard]] Point difference(std::size_t i, std::size_t k) const
-        {
-            return positions_.row(corners_[k]) - positions_.row(corners_[i]);
         }
 
       private:
-        std::span<const Index> corners_;
-        const Points& positions_;
-        double area_;
-        Bisectors bisectors_;
+        const Point* bisectors_;
     };
 
-    static Face<ComputedBisectors> polygon(std::span<const Index> corners, const Points& positions, double size)
-    {
-        return {corners, positions, size, {corners, positions}};
-    }
-
-    static Face<StoredBisectors> whole_polygon(std::span<const Index> corners, const Points& positions, double size,
-                                               Scratch& scratch)
+    static Face polygon(std::span<const Index> corners, const Points& positions, double size, Scratch& scratch)
     {
         scratch.resize(corners.size());
         for (std::size_t k = 0; k < corners.size(); ++k)
             scratch[k] = corner_bisector(corners, k, positions);
-        return {corners, positions, size, {scratch.data()}};
+        return {{corners, positions, size}, scratch.data()};
     }
 
     /// The same for a triangle: its bisectors are half the opposite edges, so that K has half the cotangents of the

@@ -1,7 +1,10 @@
 #include "solvers/laplacian/degenerate.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
+#include <span>
 #include <string>
 
 #include "partition/errors.h"
@@ -43,11 +46,6 @@ Index edge_without_length(const PolygonMesh& mesh, Index f, Matters&& matters)
                      "them, move one, or scale the mesh");
 }
 
-Index edge_that_moves_without_length(const PolygonMesh& mesh, const Topology& topology, Index f)
-{
-    return edge_without_length(mesh, f, [&](Index v) { return topology.moves(v); });
-}
-
 [[noreturn]] void refuse_face(Index f, const std::string& instead)
 {
     throw InputError("face " + std::to_string(f) +
@@ -55,28 +53,30 @@ Index edge_that_moves_without_length(const PolygonMesh& mesh, const Topology& to
                      instead);
 }
 
-bool may_move(const PolygonMesh& mesh, const Topology& topology, Index f)
+/// Appends the vertices that may move and whose rows divide by the length of an edge of face f, or by its area, where
+/// that is no valid divisor. The rows of Ptáčková-Velho also reach the faces across the edges of the vertex's own ones.
+void append_vertices_without_row(const PolygonMesh& mesh, const Topology& topology, Laplacian laplacian, Index f,
+                                 std::vector<Index>& vertices)
 {
-    const auto corners = mesh.face(f);
-    return std::any_of(corners.begin(), corners.end(), [&](Index v) { return topology.moves(v); });
-}
-
-/// Whether the row of a vertex that may move divides by the area of face f. Those of Ptáčková-Velho also reach the
-/// faces across the edges of the vertex's own faces.
-bool area_matters(const PolygonMesh& mesh, const Topology& topology, Laplacian laplacian, Index f)
-{
-    if (may_move(mesh, topology, f))
-        return true;
-    if (traits_of(laplacian).reach != Reach::TwoRings)
-        return false;
-    const auto twins = std::span<const Index>(topology.twin).subspan(mesh.face_offsets[f], mesh.face(f).size());
-    return std::any_of(twins.begin(), twins.end(),
-                       [&](Index twin) { return twin >= 0 && may_move(mesh, topology, topology.face_of[twin]); });
-}
-
-bool divides_by_lengths(Laplacian laplacian)
-{
-    return traits_of(laplacian).divisor == Divisor::EdgeLengths;
+    const LaplacianTraits& traits = traits_of(laplacian);
+    const std::span<const Index> face = mesh.face(f);
+    const auto append = [&](std::span<const Index> corners) {
+        std::ranges::copy_if(corners, std::back_inserter(vertices), [&](Index v) { return topology.moves(v); });
+    };
+    if (traits.divisor == Divisor::EdgeLengths)
+        for (std::size_t k = 0; k < face.size(); ++k) {
+            const std::array ends{face[k], face[k + 1 < face.size() ? k + 1 : 0]};
+            if (!has_length(mesh.vertices.row(ends[1]) - mesh.vertices.row(ends[0])))
+                append(ends);
+        }
+    if (traits.divisor != Divisor::FaceAreas || has_area(face, mesh.vertices))
+        return;
+    append(face);
+    if (traits.reach != Reach::TwoRings)
+        return;
+    for (Index h = mesh.face_offsets[f]; h < mesh.face_offsets[f + 1]; ++h)
+        if (const Index twin = topology.twin[h]; twin >= 0)
+            append(mesh.face(topology.face_of[twin]));
 }
 
 /// The faces whose edges or areas are invalid divisors in the row of a vertex that may move.
@@ -86,37 +86,10 @@ std::vector<Index> degenerate_faces(const PolygonMesh& mesh, const Topology& top
     if (traits_of(laplacian).divisor == Divisor::Nothing)
         return {};
     return select(exec, mesh.n_faces(), [&](Index f) {
-        return divides_by_lengths(laplacian)
-                   ? edge_that_moves_without_length(mesh, topology, f) >= 0
-                   : !has_area(mesh.face(f), mesh.vertices) && area_matters(mesh, topology, laplacian, f);
+        std::vector<Index> vertices;
+        append_vertices_without_row(mesh, topology, laplacian, f, vertices);
+        return !vertices.empty();
     });
-}
-
-/// Both ends of every edge of face f that has no valid length.
-void append_ends(const PolygonMesh& mesh, Index f, std::vector<Index>& vertices)
-{
-    const auto corners = mesh.face(f);
-    for (std::size_t k = 0; k < corners.size(); ++k) {
-        const Index start = corners[k];
-        const Index end = corners[(k + 1) % corners.size()];
-        if (!has_length(mesh.vertices.row(end) - mesh.vertices.row(start)))
-            vertices.insert(vertices.end(), {start, end});
-    }
-}
-
-/// The vertices whose rows divide by the area of face f.
-void append_vertices_around(const PolygonMesh& mesh, const Topology& topology, Laplacian laplacian, Index f,
-                            std::vector<Index>& vertices)
-{
-    const auto append = [&](Index face) {
-        vertices.insert(vertices.end(), mesh.face(face).begin(), mesh.face(face).end());
-    };
-    append(f);
-    if (traits_of(laplacian).reach != Reach::TwoRings)
-        return;
-    for (Index h = mesh.face_offsets[f]; h < mesh.face_offsets[f + 1]; ++h)
-        if (const Index twin = topology.twin[h]; twin >= 0)
-            append(topology.face_of[twin]);
 }
 
 }  // namespace
@@ -125,13 +98,8 @@ std::vector<Index> vertices_without_row(const PolygonMesh& mesh, const Topology&
                                         const Executor& exec)
 {
     std::vector<Index> vertices;
-    for (const Index f : degenerate_faces(mesh, topology, laplacian, exec)) {
-        if (divides_by_lengths(laplacian))
-            append_ends(mesh, f, vertices);
-        else
-            append_vertices_around(mesh, topology, laplacian, f, vertices);
-    }
-    std::erase_if(vertices, [&](Index v) { return !topology.moves(v); });
+    for (const Index f : degenerate_faces(mesh, topology, laplacian, exec))
+        append_vertices_without_row(mesh, topology, laplacian, f, vertices);
     sort_unique(vertices);
     return vertices;
 }
@@ -142,8 +110,9 @@ void require_sound_geometry(const PolygonMesh& mesh, const Topology& topology, L
     const auto bad = degenerate_faces(mesh, topology, laplacian, exec);
     if (bad.empty())
         return;
-    if (divides_by_lengths(laplacian))
-        refuse_edge(mesh, bad.front(), edge_that_moves_without_length(mesh, topology, bad.front()));
+    if (traits_of(laplacian).divisor == Divisor::EdgeLengths)
+        refuse_edge(mesh, bad.front(),
+                    edge_without_length(mesh, bad.front(), [&](Index v) { return topology.moves(v); }));
     refuse_face(bad.front(), "use the Laplacian fujiwara, which does not divide by areas");
 }
 

@@ -105,18 +105,13 @@ Lists<Index> edges_by_length(const IntrinsicTriangles& triangles)
     return sorted;
 }
 
-Index next_of(Index h)
-{
-    return h % 3 == 2 ? h - 2 : h + 1;
-}
-
 /// Makes the weight of one half-edge of an obtuse triangle, opposite to the obtuse angle, nearer to 0. With the weights
 /// w of this edge and x, y of the others, 4 (x y + w x + w y) = 1, K of the triangle is that of the slope along this
 /// edge, 1 / 4 (x + y), and of the bend across it: w = 1 / 4 (x + y) - b x y / (x + y) with b = 1.
 void soften(Index h, double weight, std::vector<double>& weights)
 {
-    double& x = weights[next_of(h)];
-    double& y = weights[next_of(next_of(h))];
+    double& x = weights[IntrinsicTriangles::next(h)];
+    double& y = weights[IntrinsicTriangles::previous(h)];
     const double bend = std::max(0.25 - weight * (x + y), 0.0) / (x * y);
     weights[h] = weight;
     x *= bend;

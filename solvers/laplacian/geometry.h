@@ -10,6 +10,13 @@
 
 namespace seamflow {
 
+/// Of length 1, or 0 if the vector is.
+inline Point unit_or_zero(const Point& vector)
+{
+    const double length = vector.norm();
+    return length > 0.0 ? Point(vector / length) : Point(Point::Zero());
+}
+
 /// |f|: length of the vector area, in length².
 inline double area(std::span<const Index> corners, const Points& positions)
 {
@@ -27,6 +34,34 @@ inline double corner_area(double face_area, std::size_t p)
 struct RingEntries {
     double here = 0.0;
     double to_next = 0.0;
+};
+
+/// A polygon whose corners have equal shares of its area.
+class AreaPolygon {
+  public:
+    /// The arrays must outlive this.
+    AreaPolygon(std::span<const Index> corners, const Points& positions, double face_area)
+        : corners_(corners)
+        , positions_(positions)
+        , area_(face_area)
+    {
+    }
+
+    [[nodiscard]] std::size_t size() const { return corners_.size(); }
+    [[nodiscard]] Index corner(std::size_t k) const { return corners_[k]; }
+    /// |f| / p, in length².
+    [[nodiscard]] double mass(std::size_t /*k*/) const { return corner_area(area_, size()); }
+    [[nodiscard]] Point difference(std::size_t i, std::size_t k) const
+    {
+        return positions_.row(corners_[k]) - positions_.row(corners_[i]);
+    }
+    /// |f|, in length².
+    [[nodiscard]] double face_area() const { return area_; }
+
+  private:
+    std::span<const Index> corners_;
+    const Points& positions_;
+    double area_;
 };
 
 /// Mean of a polygon's corners.

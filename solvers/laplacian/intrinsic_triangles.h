@@ -18,6 +18,9 @@ class IntrinsicTriangles {
     /// @param mesh triangles. @param topology of it.
     IntrinsicTriangles(const PolygonMesh& mesh, const Topology& topology);
 
+    /// The half-edges after h and before it in its triangle.
+    static Index next(Index h) { return h % 3 == 2 ? h - 2 : h + 1; }
+    static Index previous(Index h) { return next(next(h)); }
     [[nodiscard]] Index n_triangles() const { return static_cast<Index>(corners_.size()); }
     [[nodiscard]] const std::array<Index, 3>& corners(Index t) const { return corners_[t]; }
     /// In length².
@@ -37,8 +40,6 @@ class IntrinsicTriangles {
   private:
     using Vector = Eigen::RowVector2d;
 
-    static Index next(Index h) { return h % 3 == 2 ? h - 2 : h + 1; }
-    static Index previous(Index h) { return next(next(h)); }
     [[nodiscard]] const Vector& edge(Index h) const { return edges_[h]; }
     [[nodiscard]] bool is_far_from_delaunay(Index h) const;
     [[nodiscard]] bool are_joined(Index h, Index v) const;

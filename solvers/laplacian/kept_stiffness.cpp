@@ -31,6 +31,8 @@ class KeptStiffness final : public SymmetricLaplacian {
 
     void set_reference(const Points& positions) override
     {
+        if (is_given_)
+            return take_given(unweighted_.empty() ? std::move(entries_) : std::move(unweighted_));
         std::vector<Index> slots(pairs_.size());
         std::iota(slots.begin(), slots.end(), 0);
         std::vector<double> mass(diagonal_.size());
@@ -39,6 +41,32 @@ class KeptStiffness final : public SymmetricLaplacian {
         if (keeps_mass_)
             mass_ = std::move(mass);
         unweighted_.clear();
+    }
+
+    void give(const GivenStiffness& given, std::span<const Index> local_to_global) override
+    {
+        const auto share_of_mass = [&](Index local) {
+            const Index v = local_to_global[usize(local)];
+            Index n = 0;
+            for (Index i = given.neighbours.offsets[v]; i < given.neighbours.offsets[v + 1]; ++i)
+                n += given.n_faces[i];
+            return given.mass[v] / n;
+        };
+        is_given_ = true;
+        mass_.assign(diagonal_.size(), 0.0);
+        std::vector<double> shares(mass_.size(), -1.0);
+        std::vector<double> entries;
+        for (const auto& [first, second] : pairs_) {
+            const Index v = local_to_global[usize(first)];
+            const Index i = given.neighbours.offsets[v] + place_in(given.neighbours[v], local_to_global[usize(second)]);
+            entries.push_back(-given.weights[i] / given.n_faces[i]);
+            for (const Index local : {first, second}) {
+                if (shares[local] < 0.0)
+                    shares[local] = share_of_mass(local);
+                mass_[local] += shares[local];
+            }
+        }
+        take_given(std::move(entries));
     }
 
     void for_each_element(const std::function<void(std::size_t)>& action) const override
@@ -123,6 +151,17 @@ class KeptStiffness final : public SymmetricLaplacian {
   private:
     [[nodiscard]] bool is_auxiliary(Index v) const { return v >= n_vertices_; }
 
+    void take_given(std::vector<double> entries)
+    {
+        entries_ = std::move(entries);
+        unweighted_.clear();
+        std::ranges::fill(diagonal_, 0.0);
+        for (std::size_t i = 0; i < pairs_.size(); ++i) {
+            diagonal_[pairs_[i].first] -= entries_[i];
+            diagonal_[pairs_[i].second] -= entries_[i];
+        }
+    }
+
     /// Of any two vertices of the element that has the pairs [begin, end).
     [[nodiscard]] double largest_difference(std::size_t begin, std::size_t end,
                                             const SquaredDifference& squared_difference) const
@@ -146,6 +185,8 @@ class KeptStiffness final : public SymmetricLaplacian {
     std::vector<double> diagonal_;
     std::vector<double> mass_;
     bool keeps_mass_;
+    /// Whether all of them are of other origin.
+    bool is_given_ = false;
 };
 
 }  // namespace

@@ -24,9 +24,9 @@ concept EdgeKernel = requires
     typename Kernel::Edge;
 };
 
-/// A Laplacian M⁻¹ K that is a sum over faces, with K = N / d in each. It has functions `polygon(corners, positions,
-/// size)`, for one row, and `whole_polygon(corners, positions, size, scratch)`, for all; `size(corners, positions)` is
-/// a number that both need, and `Scratch` the memory of the latter, which must outlive the result. The results have:
+/// A Laplacian M⁻¹ K that is a sum over faces, with K = N / d in each. Its function `polygon(corners, positions,
+/// size, scratch)` needs a number, `size(corners, positions)`, and memory of the type `Scratch`, which must outlive the
+/// result. That has:
 /// - `size()`, `corner(k)`: the number of vertices, and the k-th of them;
 /// - `row(i, scale)(k)`: scale · N_ik; the rows of N sum to zero;
 /// - `divisor()`: d;
@@ -53,7 +53,8 @@ void measure_corner(std::span<const Index> corners, std::size_t k, const Points&
             const std::array turned{corners[k], corners[k == 2 ? 0 : k + 1], corners[k == 0 ? 2 : k - 1]};
             return action(typename Kernel::Triangle(turned, positions), std::size_t{0});
         }
-    action(Kernel::polygon(corners, positions, Kernel::size(corners, positions)), k);
+    thread_local typename Kernel::Scratch scratch;
+    action(Kernel::polygon(corners, positions, Kernel::size(corners, positions), scratch), k);
 }
 
 /// Calls action(face) with the data for all rows of a face.
@@ -64,7 +65,7 @@ void measure_face(std::span<const Index> corners, const Points& positions, typen
     if constexpr (requires { typename Kernel::Triangle; })
         if (corners.size() == 3)
             return action(typename Kernel::Triangle({corners[0], corners[1], corners[2]}, positions));
-    action(Kernel::whole_polygon(corners, positions, Kernel::size(corners, positions), scratch));
+    action(Kernel::polygon(corners, positions, Kernel::size(corners, positions), scratch));
 }
 
 /// All formulas.

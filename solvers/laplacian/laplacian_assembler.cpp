@@ -70,13 +70,13 @@ class DividedByMass final : public LaplacianAssembler {
 
 }  // namespace
 
-std::unique_ptr<LaplacianAssembler> make_assembler(const ScaledLaplacian& laplacian, const FaceView& faces,
+std::unique_ptr<LaplacianAssembler> make_assembler(const ScaledLaplacian& laplacian, const FacesOnBothSides& faces,
                                                    const Points* stiffness_at)
 {
     if (!is_symmetric(laplacian))
         return make_two_ring_assembler(faces);
-    auto symmetric = make_symmetric_laplacian(
-        laplacian, {{faces.offsets, faces.vertices}, {}, faces.twin, faces.n_vertices, Contributions::OwnFaces});
+    auto symmetric =
+        make_symmetric_laplacian(laplacian, {faces.own, {}, faces.twin, faces.n_vertices, Contributions::OwnFaces});
     if (stiffness_at != nullptr)
         symmetric = keep_stiffness(std::move(symmetric), faces.n_vertices, *stiffness_at);
     return std::make_unique<DividedByMass>(std::move(symmetric), faces.n_vertices);

@@ -221,7 +221,7 @@ class SymmetricFaces final : public SymmetricLaplacian {
                 for (Index f = 0; f < faces.size(); ++f)
                     if (has_auxiliary(faces, faces[f]))
                         add_with_auxiliary(
-                            Kernel::whole_polygon(faces[f], positions, Kernel::size(faces[f], positions), scratch_));
+                            Kernel::polygon(faces[f], positions, Kernel::size(faces[f], positions), scratch_));
                     else
                         measure_face<Kernel>(faces[f], positions, scratch_, add);
         });
@@ -240,8 +240,8 @@ class SymmetricFaces final : public SymmetricLaplacian {
     }
 
   private:
-    using LargeFace = decltype(Kernel::whole_polygon({}, std::declval<const Points&>(), 0.0,
-                                                     std::declval<typename Kernel::Scratch&>()));
+    using LargeFace =
+        decltype(Kernel::polygon({}, std::declval<const Points&>(), 0.0, std::declval<typename Kernel::Scratch&>()));
     static constexpr Index n_of_face =
         static_cast<Index>(std::tuple_size_v<decltype(std::declval<LargeFace>().auxiliary())>);
 

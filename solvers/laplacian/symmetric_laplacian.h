@@ -10,6 +10,7 @@
 #include "partition/index_lists.h"
 #include "solvers/laplacian/edge_lists.h"
 #include "solvers/laplacian/geometry.h"
+#include "solvers/laplacian/given_stiffness.h"
 #include "solvers/laplacian/laplacian.h"
 #include "solvers/laplacian/stiffness_product.h"
 
@@ -63,6 +64,11 @@ class SymmetricLaplacian {
 
     /// Takes what is kept of fixed positions from others, at least #V by 3 (see keep_stiffness).
     virtual void set_reference(const Points&) {}
+
+    /// Replaces what is kept by K and M of other origin, which depend on no positions. For sums over faces that keep K
+    /// and M, without auxiliary unknowns.
+    /// @param local_to_global all vertices in the whole mesh.
+    virtual void give(const GivenStiffness& /*given*/, std::span<const Index> /*local_to_global*/) {}
 
     /// Calls action(n) with the number of the next of `pairs` that belong to one face, or edge, for all of them.
     virtual void for_each_element(const std::function<void(std::size_t n)>& action) const = 0;

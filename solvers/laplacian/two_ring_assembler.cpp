@@ -10,23 +10,23 @@ namespace {
 
 class TwoRingAssembler final : public LaplacianAssembler {
   public:
-    explicit TwoRingAssembler(const FaceView& faces)
+    explicit TwoRingAssembler(const FacesOnBothSides& faces)
         : faces_(faces)
-        , face_areas_(faces.n_faces())
+        , face_areas_(faces.own.size())
         , vertex_areas_(faces.n_vertices)
-        , face_of_(faces.vertices.size())
+        , face_of_(faces.own.values.size())
     {
-        for (Index f = 0; f < faces_.n_faces(); ++f)
-            std::fill(face_of_.begin() + faces_.offsets[f], face_of_.begin() + faces_.offsets[f + 1], f);
-        for (Index f = 0; f < faces_.n_faces(); ++f)
+        for (Index f = 0; f < faces_.own.size(); ++f)
+            std::fill(face_of_.begin() + faces_.own.offsets[f], face_of_.begin() + faces_.own.offsets[f + 1], f);
+        for (Index f = 0; f < faces_.own.size(); ++f)
             list_stencil(f);
     }
 
     [[nodiscard]] std::vector<MatrixEntry> entries() const override
     {
         std::vector<MatrixEntry> entries;
-        for (Index f = 0; f < faces_.n_faces(); ++f)
-            for (const Index row : faces_.face(f))
+        for (Index f = 0; f < faces_.own.size(); ++f)
+            for (const Index row : faces_.own[f])
                 for (const Index column : stencil_[f])
                     entries.push_back({column, row});
         return entries;
@@ -37,9 +37,9 @@ class TwoRingAssembler final : public LaplacianAssembler {
         measure_areas(positions);
         const Index* slot = slots.data();
         const Index* place = place_.data();
-        for (Index f = 0; f < faces_.n_faces(); ++f) {
+        for (Index f = 0; f < faces_.own.size(); ++f) {
             place = measure_flux(f, positions, place);
-            const auto corners = faces_.face(f);
+            const auto corners = faces_.own[f];
             for (const Index v : corners) {
                 const double scale = factor / (vertex_areas_[v] * static_cast<double>(corners.size()));
                 for (const double coefficient : flux_)
@@ -60,23 +60,23 @@ class TwoRingAssembler final : public LaplacianAssembler {
     void list_stencil(Index f)
     {
         const std::size_t begin = stencil_.values.size();
-        for (Index h = faces_.offsets[f]; h < faces_.offsets[f + 1]; ++h)
-            for (const Index v : faces_.face(face_across(h)))
+        for (Index h = faces_.own.offsets[f]; h < faces_.own.offsets[f + 1]; ++h)
+            for (const Index v : faces_.own[face_across(h)])
                 stencil_.values.push_back(v);
         const auto first = stencil_.values.begin() + static_cast<std::ptrdiff_t>(begin);
         std::sort(first, stencil_.values.end());
         stencil_.values.erase(std::unique(first, stencil_.values.end()), stencil_.values.end());
         stencil_.close();
-        for (Index h = faces_.offsets[f]; h < faces_.offsets[f + 1]; ++h)
-            for (const Index v : faces_.face(face_across(h)))
+        for (Index h = faces_.own.offsets[f]; h < faces_.own.offsets[f + 1]; ++h)
+            for (const Index v : faces_.own[face_across(h)])
                 place_.push_back(place_in(stencil_[f], v));
     }
 
     void measure_areas(const Points& positions)
     {
         std::fill(vertex_areas_.begin(), vertex_areas_.end(), 0.0);
-        for (Index f = 0; f < faces_.n_faces(); ++f) {
-            const auto corners = faces_.face(f);
+        for (Index f = 0; f < faces_.own.size(); ++f) {
+            const auto corners = faces_.own[f];
             face_areas_[f] = area(corners, positions);
             for (const Index v : corners)
                 vertex_areas_[v] += corner_area(face_areas_[f], corners.size());
@@ -88,10 +88,10 @@ class TwoRingAssembler final : public LaplacianAssembler {
     const Index* measure_flux(Index f, const Points& positions, const Index* place)
     {
         flux_.assign(stencil_[f].size(), 0.0);
-        for (Index h = faces_.offsets[f]; h < faces_.offsets[f + 1]; ++h) {
+        for (Index h = faces_.own.offsets[f]; h < faces_.own.offsets[f + 1]; ++h) {
             const auto [halfedge, sign] = across(h);
             const Index f_across = face_of_[halfedge];
-            const auto corners = faces_.face(f_across);
+            const auto corners = faces_.own[f_across];
             const Point half_flux =
                 PtackovaVelho::half_flux(edge_vector(halfedge, f_across, positions), sign, face_areas_[f_across]);
             for (std::size_t k = 0; k < corners.size(); ++k)
@@ -102,11 +102,11 @@ class TwoRingAssembler final : public LaplacianAssembler {
 
     [[nodiscard]] Point edge_vector(Index h, Index f, const Points& positions) const
     {
-        const Index next = h + 1 == faces_.offsets[f + 1] ? faces_.offsets[f] : h + 1;
-        return positions.row(faces_.vertices[next]) - positions.row(faces_.vertices[h]);
+        const Index next = h + 1 == faces_.own.offsets[f + 1] ? faces_.own.offsets[f] : h + 1;
+        return positions.row(faces_.own.values[next]) - positions.row(faces_.own.values[h]);
     }
 
-    FaceView faces_;
+    FacesOnBothSides faces_;
     std::vector<double> face_areas_;
     std::vector<double> vertex_areas_;
     std::vector<Index> face_of_;
@@ -119,7 +119,7 @@ class TwoRingAssembler final : public LaplacianAssembler {
 
 }  // namespace
 
-std::unique_ptr<LaplacianAssembler> make_two_ring_assembler(const FaceView& faces)
+std::unique_ptr<LaplacianAssembler> make_two_ring_assembler(const FacesOnBothSides& faces)
 {
     return std::make_unique<TwoRingAssembler>(faces);
 }

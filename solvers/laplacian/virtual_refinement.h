@@ -161,44 +161,10 @@ struct VirtualRefinement {
         double to_virtual;
     };
 
-    /// Of a triangle, without a virtual vertex, which would cost slivers precision.
-    static Corner of_triangle(const VirtualVertex& x, std::size_t k)
-    {
-        const Point here = x.position(k);
-        const Point next = x.position(k == 2 ? 0 : k + 1);
-        const Point last = x.position(k == 0 ? 2 : k - 1);
-        const Point opposite_here = last - next;
-        const Point opposite_next = here - last;
-        const double scale = 0.5 / opposite_here.cross(opposite_next).norm();
-        return {0.0, scale * opposite_here.squaredNorm(), scale * opposite_here.dot(opposite_next), 0.0};
-    }
-
-    /// The corners of a polygon, computed on demand.
-    struct ComputedCorners {
-        VirtualVertex x;
-        std::size_t size;
-
-        [[nodiscard]] Corner operator()(std::size_t k) const
-        {
-            if (size == 3)
-                return of_triangle(x, k);
-            const FanTriangle before = fan_triangle(x, k == 0 ? size - 1 : k - 1, size);
-            const FanTriangle after = fan_triangle(x, k, size);
-            return {x.weight(k), before.next + after.here, after.here_to_next,
-                    before.virtual_to_next + after.virtual_to_here};
-        }
-    };
-
-    /// Those of a polygon whose rows are all needed, computed once.
-    struct StoredCorners {
-        const Corner* corners;
-        const Corner& operator()(std::size_t k) const { return corners[k]; }
-    };
     using Scratch = std::vector<Corner>;
 
     /// Contribution of one face: see kernels.h.
-    template <class Corners>
-    class Face {
+    class Face : public AreaPolygon {
       public:
         /// Row i of scale · K.
         struct Row {
@@ -207,11 +173,11 @@ struct VirtualRefinement {
             std::size_t size;
             double at_virtual;
             double scale;
-            const Corners& corners;
+            const Corner* corners;
 
             double operator()(std::size_t k) const
             {
-                const Corner other = corners(k);
+                const Corner& other = corners[k];
                 const double entry = own.weight * other.to_virtual + own.to_virtual * other.weight +
                                      at_virtual * own.weight * other.weight;
                 return scale * (entry + of_fan(k, other));
@@ -229,62 +195,41 @@ struct VirtualRefinement {
             }
         };
 
-        Face(std::span<const Index> corners, const Points& positions, double face_area, const Corners& of_fan)
-            : corners_(corners)
-            , positions_(positions)
-            , area_(face_area)
+        Face(const AreaPolygon& polygon, const Corner* of_fan)
+            : AreaPolygon(polygon)
             , of_fan_(of_fan)
         {
-            for (std::size_t k = 0; k < corners.size(); ++k)
-                at_virtual_ -= of_fan_(k).to_virtual;
+            for (std::size_t k = 0; k < size(); ++k)
+                at_virtual_ -= of_fan_[k].to_virtual;
         }
 
-        [[nodiscard]] std::size_t size() const { return corners_.size(); }
-        [[nodiscard]] Index corner(std::size_t k) const { return corners_[k]; }
-        [[nodiscard]] double mass(std::size_t) const { return corner_area(area_, size()); }
         [[nodiscard]] static constexpr double divisor() { return 1.0; }
-        [[nodiscard]] static const Point& divided(const Point& product) { return product; }
         [[nodiscard]] Row row(std::size_t i, double scale) const
         {
-            return {of_fan_(i), i, size(), at_virtual_, scale, of_fan_};
+            return {of_fan_[i], i, size(), at_virtual_, scale, of_fan_};
         }
         /// See kernels.h: with f the column of the virtual vertex in F and φ its diagonal entry, K = F + f wᵀ + w fᵀ +
         /// φ w wᵀ = F - f fᵀ / φ + (f + φ w) (f + φ w)ᵀ / φ.
-        [[nodiscard]] RingEntries ring(std::size_t k) const { return {of_fan_(k).diagonal, of_fan_(k).to_next}; }
+        [[nodiscard]] RingEntries ring(std::size_t k) const { return {of_fan_[k].diagonal, of_fan_[k].to_next}; }
         [[nodiscard]] std::array<double, 2> auxiliary() const { return {at_virtual_, -at_virtual_}; }
         [[nodiscard]] std::array<double, 2> coupling(std::size_t k) const
         {
-            const Corner corner = of_fan_(k);
+            const Corner& corner = of_fan_[k];
             return {corner.to_virtual, corner.to_virtual + at_virtual_ * corner.weight};
-        }
-        [[nodiscard]] Point difference(std::size_t i, std::size_t k) const
-        {
-            return positions_.row(corners_[k]) - positions_.row(corners_[i]);
         }
 
       private:
-        std::span<const Index> corners_;
-        const Points& positions_;
-        double area_;
-        Corners of_fan_;
+        const Corner* of_fan_;
         /// F of the virtual vertex and itself.
         double at_virtual_ = 0.0;
     };
 
-    static Face<ComputedCorners> polygon(std::span<const Index> corners, const Points& positions, double size)
-    {
-        return {corners, positions, size, {{corners, positions}, corners.size()}};
-    }
-
-    static Face<StoredCorners> whole_polygon(std::span<const Index> corners, const Points& positions, double size,
-                                             Scratch& scratch)
+    static Face polygon(std::span<const Index> corners, const Points& positions, double size, Scratch& scratch)
     {
         const std::size_t p = corners.size();
         const VirtualVertex x(corners, positions);
         scratch.assign(p, Corner{});
-        for (std::size_t k = 0; k < p && p == 3; ++k)
-            scratch[k] = of_triangle(x, k);
-        for (std::size_t k = 0; k < p && p > 3; ++k) {
+        for (std::size_t k = 0; k < p; ++k) {
             const FanTriangle triangle = fan_triangle(x, k, p);
             Corner& here = scratch[k];
             Corner& next = scratch[k + 1 == p ? 0 : k + 1];
@@ -295,7 +240,7 @@ struct VirtualRefinement {
             next.diagonal += triangle.next;
             next.to_virtual += triangle.virtual_to_next;
         }
-        return {corners, positions, size, {scratch.data()}};
+        return {{corners, positions, size}, scratch.data()};
     }
 };
 

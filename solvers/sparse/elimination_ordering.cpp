@@ -13,15 +13,11 @@ namespace seamflow {
 
 namespace {
 
+static_assert(AMD_OK == CAMD_OK);
+
 [[noreturn]] void fail_for_memory()
 {
     throw ComputationError("out of memory in the analysis of the system: use more sub-meshes");
-}
-
-void require_ok(int status, int ok)
-{
-    if (status < ok)
-        fail_for_memory();
 }
 
 /// The result of AMD for unknowns that are eliminated together: they are named by one of them, their principal.
@@ -104,25 +100,20 @@ EliminationOrdering order_elimination(SparsePattern neighbours)
     return {std::move(amd.order), std::move(tree)};
 }
 
-std::vector<Index> elimination_ordering(const SparsePattern& upper)
-{
-    std::vector<Index> order(upper.n());
-    if (!order.empty())
-        require_ok(amd_order(upper.n(), upper.column_offsets.data(), upper.rows.data(), order.data(), nullptr, nullptr),
-                   AMD_OK);
-    return order;
-}
-
 std::vector<Index> elimination_ordering(const SparsePattern& upper, const std::vector<bool>& is_last)
 {
-    // CAMD supports at most as many groups as there are unknowns: a single one cannot be in the second.
-    if (is_last.size() < 2 || std::ranges::find(is_last, true) == is_last.end())
-        return elimination_ordering(upper);
-    std::vector<Index> order(is_last.size());
+    std::vector<Index> order(upper.n());
+    if (order.empty())
+        return order;
+    const Index* const offsets = upper.column_offsets.data();
+    const Index* const rows = upper.rows.data();
     const std::vector<Index> groups(is_last.begin(), is_last.end());
-    require_ok(camd_order(upper.n(), upper.column_offsets.data(), upper.rows.data(), order.data(), nullptr, nullptr,
-                          groups.data()),
-               CAMD_OK);
+    // CAMD supports at most as many groups as there are unknowns: a single one cannot be in the second.
+    const bool has_groups = groups.size() > 1 && std::ranges::find(groups, 1) != groups.end();
+    const int status = has_groups ? camd_order(upper.n(), offsets, rows, order.data(), nullptr, nullptr, groups.data())
+                                  : amd_order(upper.n(), offsets, rows, order.data(), nullptr, nullptr);
+    if (status < AMD_OK)
+        fail_for_memory();
     return order;
 }
 

@@ -32,11 +32,8 @@ EliminationOrdering order_elimination(SparsePattern neighbours);
 /// An elimination ordering with little fill-in for symmetric matrices of this pattern (approximate minimum degree,
 /// postordered): entry i is the i-th unknown to be eliminated.
 /// @param upper the entries on and above the diagonal.
+/// @param is_last one per unknown: those that come last; empty: none does.
 /// @throws ComputationError if there is too little memory for it.
-std::vector<Index> elimination_ordering(const SparsePattern& upper);
-
-/// The same with some unknowns last.
-/// @param is_last one per unknown.
-std::vector<Index> elimination_ordering(const SparsePattern& upper, const std::vector<bool>& is_last);
+std::vector<Index> elimination_ordering(const SparsePattern& upper, const std::vector<bool>& is_last = {});
 
 }  // namespace seamflow

@@ -50,15 +50,6 @@ class BlockRowMatrix {
     };
     /// Most rows of a block.
     static constexpr Index most_rows = 1 << 16;
-    /// What an iteration reads and writes, in bytes per row: 6 rows of vectors in registers and 8 stored ones, 4
-    /// numbers, 3 places, and the entries.
-    /// @param row_length average number of off-diagonal entries.
-    static constexpr double bytes_of_iteration(double row_length)
-    {
-        return 6 * sizeof(Row) + 8 * sizeof(StoredRow) + 4 * sizeof(float) + 3 * sizeof(Index) +
-               (sizeof(float) + sizeof(std::uint16_t)) * row_length;
-    }
-
     /// The columns of each row of a block: ascending, without the diagonal; none for rows of the identity.
     using Pattern = std::function<IndexLists(Index block)>;
 

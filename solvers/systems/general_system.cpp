@@ -4,6 +4,7 @@
 #include <iterator>
 #include <utility>
 
+#include "solvers/direct/make_solver.h"
 #include "solvers/systems/checks.h"
 
 namespace seamflow {
@@ -21,10 +22,9 @@ GeneralSystem::GeneralSystem(SystemParts parts, std::unique_ptr<TransmissionCond
     const auto is_laplacian = [&](const MatrixEntry& entry) { return row_of_[entry.row] == Row::Laplacian; };
     const Points first =
         parts.terms.keeps_stiffness ? rows_of(*parts.terms.first, sub_mesh.local_to_global) : Points(0, 3);
-    auto assembler = make_assembler(
-        parts.laplacian, {sub_mesh.face_vertices.offsets, sub_mesh.face_vertices.values, twin_, sub_mesh.n_vertices},
-        parts.terms.keeps_stiffness ? &first : nullptr);
-    const std::vector<MatrixEntry> laplacian_entries = assembler->entries();
+    laplacian_ = make_assembler(parts.laplacian, {sub_mesh.face_vertices, {}, twin_, sub_mesh.n_vertices},
+                                parts.terms.keeps_stiffness ? &first : nullptr);
+    const std::vector<MatrixEntry> laplacian_entries = laplacian_->entries();
 
     std::vector<MatrixEntry> entries;
     entries.reserve(laplacian_entries.size());
@@ -35,16 +35,18 @@ GeneralSystem::GeneralSystem(SystemParts parts, std::unique_ptr<TransmissionCond
     for (Index i = 0; i < interface_columns.size(); ++i)
         for (const Index column : interface_columns[i])
             entries.push_back({column, sub_mesh.interface.vertices[i]});
-    SparsePattern pattern = make_pattern(sub_mesh.n_vertices, entries);
+    pattern_ = make_pattern(sub_mesh.n_vertices, entries);
 
-    std::vector<Index> slots;
-    slots.reserve(laplacian_entries.size());
+    slots_.reserve(laplacian_entries.size());
     for (const MatrixEntry& entry : laplacian_entries)
-        slots.push_back(is_laplacian(entry) ? pattern.slot(entry) : pattern.n_entries());
+        slots_.push_back(is_laplacian(entry) ? pattern_.slot(entry) : pattern_.n_entries());
+    for (Index v = 0; v < sub_mesh.n_vertices; ++v)
+        diagonal_slots_.push_back(pattern_.slot({v, v}));
     for (Index i = 0; i < interface_columns.size(); ++i)
         for (const Index column : interface_columns[i])
-            interface_slots_.push_back(pattern.slot({column, sub_mesh.interface.vertices[i]}));
-    matrix_.emplace(std::move(assembler), std::move(pattern), std::move(slots), 0, parts.factorisation);
+            interface_slots_.push_back(pattern_.slot({column, sub_mesh.interface.vertices[i]}));
+    values_.resize(pattern_.rows.size() + 1);
+    solver_ = make_general_solver(pattern_, parts.factorisation);
 }
 
 void GeneralSystem::make_rows()
@@ -64,21 +66,22 @@ SubMeshSystem::Assembled GeneralSystem::assemble(const Points& positions, const 
     pulls_ = screening_.exists();
     roles_.assign(roles.begin(), roles.end());
     // (I + dt Δ + dt w) Vᵏ⁺¹ = Vᵏ + dt w V⁰, except on Γ and where vertices are fixed
-    const Assembled equations{matrix_->fill(positions, time_step)};
-    if (!screening_.step_scales.empty())
-        matrix_->scale_rows(screening_.step_scales);
+    std::fill(values_.begin(), values_.end(), 0.0);
+    laplacian_->add(positions, time_step, slots_, values_);
+    for (std::size_t slot = 0; !screening_.step_scales.empty() && slot < pattern_.rows.size(); ++slot)
+        values_[slot] *= screening_.step_scales[usize(pattern_.rows[slot])];
     for (Index v = 0; v < sub_mesh_->n_vertices; ++v) {
         if (row_of_[v] != Row::Interface)
-            matrix_->diagonal(v) += 1.0;
+            diagonal(v) += 1.0;
         right_hand_side_.row(v) = positions.row(v);
         if (row_of_[v] == Row::Laplacian && screening_.exists()) {
-            matrix_->diagonal(v) += time_step * screening_.weight(v);
+            diagonal(v) += time_step * screening_.weight(v);
             right_hand_side_.row(v) += pull(v);
         }
     }
     condition_->begin_step(positions, other_side, time_step, p);
     assemble_interface(positions, other_side);
-    return equations;
+    return {std::span(values_).first(pattern_.rows.size())};
 }
 
 /// dt w V⁰: the contribution of the attachment to the right-hand side.
@@ -93,22 +96,25 @@ void GeneralSystem::assemble_interface(const Points& positions, const Points& ot
     for (Index i = 0; i < static_cast<Index>(vertices.size()); ++i) {
         const auto begin = usize(condition_->columns().offsets[i]);
         if (roles_[i] == InterfaceRole::Follows) {
-            matrix_->diagonal(vertices[i]) = 1.0;
+            diagonal(vertices[i]) = 1.0;
             continue;
         }
         row_.resize(condition_->columns()[i].size());
         condition_->left_hand_side(i, positions, row_);
         right_hand_side_.row(vertices[i]) = condition_->right_hand_side(i, positions, other_side) + pull(vertices[i]);
         for (std::size_t k = 0; k < row_.size(); ++k)
-            matrix_->at_slot(interface_slots_[begin + k]) = row_[k];
-        matrix_->diagonal(vertices[i]) += time_step_ * screening_.weight(vertices[i]);
+            values_[interface_slots_[begin + k]] = row_[k];
+        diagonal(vertices[i]) += time_step_ * screening_.weight(vertices[i]);
     }
 }
 
 SubMeshSystem::Factor GeneralSystem::factorise(const Assembled& equations, FactorMemory& memory,
                                                SolverWorkspace& workspace)
 {
-    return *matrix_->factorise(equations.matrix, memory, workspace);
+    require_finite_equations(equations.matrix);
+    Factor factor = require_factor(solver_->factorise(equations.matrix, memory, workspace));
+    n_nearly_singular_ += factor.is_nearly_singular() ? 1 : 0;
+    return factor;
 }
 
 void GeneralSystem::use_data(const Points& data)
@@ -127,24 +133,12 @@ void GeneralSystem::use_other_side(const Points& positions, const Points& other_
                 condition_->right_hand_side(i, positions, other_side) + pull(vertices[i]);
 }
 
-void GeneralSystem::predict(const Factor& factor, const Points& positions, Points& prediction,
-                            SolverWorkspace& workspace)
-{
-    solve_with(factor, positions, prediction, workspace);
-}
-
 void GeneralSystem::solve(const Factor& factor, const Points&, Points& solution, SolverWorkspace& workspace)
-{
-    solve_with(factor, solution, solution, workspace);
-}
-
-/// @param given #local by 3: Vᵏ⁺¹, or its substitute, where the sub-mesh follows; may be the solution itself.
-void GeneralSystem::solve_with(const Factor& factor, const Points& given, Points& solution, SolverWorkspace& workspace)
 {
     const auto& vertices = sub_mesh_->interface.vertices;
     for (std::size_t i = 0; i < vertices.size(); ++i)
         if (roles_[i] == InterfaceRole::Follows)
-            right_hand_side_.row(vertices[i]) = given.row(vertices[i]);
+            right_hand_side_.row(vertices[i]) = solution.row(vertices[i]);
     factor.solve(right_hand_side_, solution_, workspace);
     require_finite_result(solution_.allFinite());
     for (Index v = 0; v < sub_mesh_->n_vertices; ++v)

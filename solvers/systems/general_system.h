@@ -2,10 +2,9 @@
 
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <vector>
 
-#include "solvers/systems/lu_matrix.h"
+#include "solvers/laplacian/laplacian_assembler.h"
 #include "solvers/systems/screening.h"
 #include "solvers/systems/sub_mesh_system.h"
 
@@ -22,13 +21,11 @@ class GeneralSystem final : public SubMeshSystem {
 
     Assembled assemble(const Points& positions, const Points& other_side, double time_step, double p,
                        std::span<const InterfaceRole> roles, SolverWorkspace& workspace) override;
-    [[nodiscard]] std::size_t factor_bytes() const override { return matrix_->solver()->factor_bytes(); }
-    [[nodiscard]] Factorisation factorisation() const override { return matrix_->solver()->kind(); }
+    [[nodiscard]] std::size_t factor_bytes() const override { return solver_->factor_bytes(); }
+    [[nodiscard]] Factorisation factorisation() const override { return solver_->kind(); }
     Factor factorise(const Assembled& equations, FactorMemory& memory, SolverWorkspace& workspace) override;
-    [[nodiscard]] Index n_nearly_singular() const override { return matrix_->n_nearly_singular(); }
+    [[nodiscard]] Index n_nearly_singular() const override { return n_nearly_singular_; }
     void use_data(const Points& data) override;
-    void predict(const Factor& factor, const Points& positions, Points& prediction,
-                 SolverWorkspace& workspace) override;
     void use_other_side(const Points& positions, const Points& other_side) override;
     void solve(const Factor& factor, const Points& positions, Points& solution, SolverWorkspace& workspace) override;
 
@@ -37,18 +34,26 @@ class GeneralSystem final : public SubMeshSystem {
     enum class Row : std::uint8_t { Laplacian, Fixed, Interface };
 
     void make_rows();
+    [[nodiscard]] double& diagonal(Index v) { return values_[diagonal_slots_[v]]; }
     void assemble_interface(const Points& positions, const Points& other_side);
     [[nodiscard]] Point pull(Index v) const;
-    void solve_with(const Factor& factor, const Points& given, Points& solution, SolverWorkspace& workspace);
 
     const SubMesh* sub_mesh_;
     /// See SubMesh::twin.
     std::vector<Index> twin_;
     std::vector<Row> row_of_;
     std::unique_ptr<TransmissionCondition> condition_;
-    std::optional<LuMatrix> matrix_;
-    /// Per entry of the condition's columns.
+    std::unique_ptr<LaplacianAssembler> laplacian_;
+    SparsePattern pattern_;
+    /// Per entry of the Laplacian, an entry of the pattern, or the last value, which is unused; per vertex; per entry
+    /// of the condition's columns.
+    std::vector<Index> slots_;
+    std::vector<Index> diagonal_slots_;
     std::vector<Index> interface_slots_;
+    /// One per entry of the pattern, and an unused one.
+    std::vector<double> values_;
+    std::unique_ptr<DirectSolver> solver_;
+    Index n_nearly_singular_ = 0;
     std::vector<InterfaceRole> roles_;
     std::vector<double> row_;
     Screening screening_;

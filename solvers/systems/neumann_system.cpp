@@ -7,10 +7,8 @@
 #include <utility>
 
 #include "solvers/direct/columns.h"
-#include "solvers/laplacian/kept_stiffness.h"
 #include "solvers/sparse/elimination_ordering.h"
 #include "solvers/systems/checks.h"
-#include "solvers/systems/wide_steps.h"
 
 namespace seamflow {
 
@@ -25,18 +23,12 @@ NeumannSystem::NeumannSystem(const SubMesh& sub_mesh, IndexLists faces, const Sc
                              const FlowTerms& terms, const Executor& exec)
     : n_interface_(sub_mesh.interface.size())
     , faces_(std::move(faces))
-    , matrix_{make_symmetric_laplacian(laplacian,
-                                       {faces_, sub_mesh.interface.halo_faces, sub_mesh.twin,
-                                        sub_mesh.n_vertices + sub_mesh.n_halo, Contributions::OwnFaces},
-                                       most_corners_without_auxiliary),
-              sub_mesh.n_vertices + sub_mesh.n_halo}
+    , matrix_(make_symmetric_matrix(sub_mesh, laplacian,
+                                    {faces_, sub_mesh.interface.halo_faces, sub_mesh.twin,
+                                     sub_mesh.n_vertices + sub_mesh.n_halo, Contributions::OwnFaces},
+                                    terms))
     , solver_(number_unknowns(sub_mesh), n_interface_, {}, n_interface_ == 0 ? exec : Executor(), matrix_.pivots())
 {
-    const std::span<const Index> local_to_global = sub_mesh.local_to_global;
-    matrix_.screening = make_screening(terms, local_to_global.first(usize(sub_mesh.n_vertices)));
-    if (terms.keeps_stiffness)
-        matrix_.laplacian = keep_stiffness(std::move(matrix_.laplacian), sub_mesh.n_vertices + sub_mesh.n_halo,
-                                           rows_of(*terms.first, sub_mesh.local_to_global), terms.keeps_mass);
     if (!matrix_.laplacian->uses_faces())
         faces_ = {};
 }
@@ -45,33 +37,19 @@ NeumannSystem::NeumannSystem(const SubMesh& sub_mesh, IndexLists faces, const Sc
 /// @returns the pattern of the upper triangle.
 SparsePattern NeumannSystem::number_unknowns(const SubMesh& sub_mesh)
 {
-    std::vector<bool> on_interface(sub_mesh.n_vertices, false);
-    for (const Index v : sub_mesh.interface.vertices)
-        on_interface[v] = true;
-    std::vector<Index> unknown_of(usize(matrix_.n_vertices), -1);
-    for (Index v = 0; v < sub_mesh.n_vertices; ++v)
-        unknown_of[v] = sub_mesh.fixed[v] == 0 ? 0 : -1;
     const std::vector<VertexPair> pairs = matrix_.laplacian->pairs();
-    append_auxiliary_unknowns(pairs, matrix_.laplacian->n_auxiliary(), unknown_of);
-    matrix_.n_vertices = static_cast<Index>(unknown_of.size());
-    std::vector<Index> vertices;
-    std::vector<bool> is_last;
-    for (Index v = 0; v < matrix_.n_vertices; ++v)
-        if (unknown_of[v] == 0) {
-            unknown_of[v] = static_cast<Index>(vertices.size());
-            vertices.push_back(v);
-            is_last.push_back(v < sub_mesh.n_vertices && on_interface[v]);
-        }
-    const PairsOfUnknowns pairs_of = pairs_of_unknowns(pairs, unknown_of, static_cast<Index>(vertices.size()));
-    std::vector<Index> order(vertices.size());
+    const std::vector<Index> unknown_of = matrix_.number_unknowns(pairs, sub_mesh.fixed);
+    std::vector<bool> is_last(matrix_.vertex_of.size(), false);
+    for (const Index v : sub_mesh.interface.vertices)
+        is_last[unknown_of[v]] = true;
+    const PairsOfUnknowns pairs_of = pairs_of_unknowns(pairs, unknown_of, matrix_.n());
+    std::vector<Index> order(is_last.size());
     std::iota(order.begin(), order.end(), 0);
     order = elimination_ordering(upper_pattern(pairs_of, order).pattern, is_last);
     std::erase_if(order, [&](Index u) { return is_last[u]; });
     for (const Index v : sub_mesh.interface.vertices)
         order.push_back(unknown_of[v]);
-    matrix_.vertex_of.reserve(order.size());
-    for (const Index u : order)
-        matrix_.vertex_of.push_back(vertices[u]);
+    matrix_.reorder(order);
     if (matrix_.laplacian->n_auxiliary() > 0)
         std::ranges::copy_if(matrix_.vertex_of, std::back_inserter(unknown_vertices_),
                              [&](Index v) { return matrix_.is_vertex(v); });
@@ -83,61 +61,29 @@ SparsePattern NeumannSystem::number_unknowns(const SubMesh& sub_mesh)
 }
 
 NeumannSystem::Assembled NeumannSystem::assemble(const Points& positions, const Points& increments, double time_step,
-                                                 SolverWorkspace& workspace) const
+                                                 SolverWorkspace& workspace, const Points* data) const
 {
     Points& residual = workspace.residual;
     set_rows(residual, matrix_.n_vertices);
-    const StiffnessProduct product{increments, residual};
-    // r = -dt K (Vᵏ + X) - M X - dt M w (Vᵏ + X - V⁰)
+    const StiffnessProduct product{increments, residual, data != nullptr};
     const std::span<double> matrix = matrix_.fill(positions, time_step, 0, workspace, &product);
-    for (const Index v : unknowns())
-        residual.row(v) = -residual.row(v) - workspace.mass[v] * increments.row(v);
     const Screening& screening = matrix_.screening;
-    for (const Index v : screening.exists() ? std::span(unknowns()) : std::span<const Index>())
-        residual.row(v) -= workspace.mass[v] * time_step * screening.weight(v) *
-                           ((positions.row(v) - screening.first.row(v)) + increments.row(v));
+    for (const Index v : unknowns()) {
+        const double mass = workspace.mass[v];
+        if (data != nullptr) {
+            // r = M D - dt K X - M X - dt M w X
+            residual.row(v) =
+                -residual.row(v) - mass * ((1.0 + time_step * screening.weight(v)) * increments.row(v) - data->row(v));
+            continue;
+        }
+        // r = -dt K (Vᵏ + X) - M X - dt M w (Vᵏ + X - V⁰)
+        residual.row(v) = -residual.row(v) - mass * increments.row(v);
+        if (screening.exists())
+            residual.row(v) -= mass * time_step * screening.weight(v) *
+                               ((positions.row(v) - screening.first.row(v)) + increments.row(v));
+    }
     leave_out_held(matrix, increments, residual);
     return {matrix, residual, power_of_two_near(std::sqrt(time_step))};
-}
-
-NeumannSystem::Assembled NeumannSystem::assemble(const Points& positions, const Points& increments, const Points& data,
-                                                 double time_step, SolverWorkspace& workspace) const
-{
-    Points& residual = workspace.residual;
-    set_rows(residual, matrix_.n_vertices);
-    const StiffnessProduct product{increments, residual, true};
-    const std::span<double> matrix = matrix_.fill(positions, time_step, 0, workspace, &product);
-    for (const Index v : unknowns())
-        residual.row(v) =
-            -residual.row(v) -
-            workspace.mass[v] * ((1.0 + time_step * matrix_.screening.weight(v)) * increments.row(v) - data.row(v));
-    leave_out_held(matrix, increments, residual);
-    return {matrix, residual, power_of_two_near(std::sqrt(time_step))};
-}
-
-bool NeumannSystem::can_take_columns(const Factor& factor) const
-{
-    return n_interface_ == 0 && matrix_.laplacian->n_auxiliary() == 0 && !matrix_.screening.exists() &&
-           !factor.is_single();
-}
-
-void NeumannSystem::take_steps(const Factor& factor, double time_step, int n, std::span<const Index> rows,
-                               Eigen::Ref<Eigen::MatrixXd> fields, const Executor& exec) const
-{
-    const std::vector<VertexPair> pairs = matrix_.laplacian->pairs();
-    std::vector<Index> slots(pairs.size());
-    std::iota(slots.begin(), slots.end(), 0);
-    std::vector<double> entries(pairs.size(), 0.0);
-    std::vector<double> diagonal(usize(matrix_.n_vertices));
-    std::vector<double> mass(diagonal.size());
-    // What is kept does not depend on them.
-    const Points any = Points::Zero(matrix_.n_vertices, 3);
-    matrix_.laplacian->assemble(any, time_step, slots, entries, diagonal, mass);
-    std::vector<Index> unknown_of(diagonal.size(), -1);
-    for (Index u = 0; u < matrix_.n(); ++u)
-        unknown_of[matrix_.vertex_of[u]] = u;
-    WideSteps(unknown_of, matrix_.n(), is_held_, pairs, entries)
-        .take(std::get<LdlFactor<double>>(factor.numbers_), n, rows, fields, exec);
 }
 
 void NeumannSystem::hold(Index v, bool is_held)
@@ -145,11 +91,6 @@ void NeumannSystem::hold(Index v, bool is_held)
     is_held_.resize(usize(matrix_.n_vertices), 0);
     n_held_ += (is_held ? 1 : 0) - is_held_[v];
     is_held_[v] = is_held ? 1 : 0;
-}
-
-void NeumannSystem::give(const GivenStiffness& given, std::span<const Index> local_to_global)
-{
-    matrix_.laplacian = with_stiffness(std::move(matrix_.laplacian), given, local_to_global);
 }
 
 void NeumannSystem::set_reference(const Points& first)

@@ -71,13 +71,10 @@ class NeumannSystem {
     /// @param positions at least #own by 3: Vᵏ.
     /// @param increments #own by 3: X, so far.
     /// @param time_step dt, in length².
+    /// @param data #own by 3: D, if the step is to be applied to that, A X = M D, without the attachment to V⁰. The
+    ///        residual is M D - A X then.
     [[nodiscard]] Assembled assemble(const Points& positions, const Points& increments, double time_step,
-                                     SolverWorkspace& workspace) const;
-
-    /// The equations of the step applied to D, A X = M D, without the attachment to V⁰.
-    /// @param data #own by 3: D. The residual is M D - A X.
-    [[nodiscard]] Assembled assemble(const Points& positions, const Points& increments, const Points& data,
-                                     double time_step, SolverWorkspace& workspace) const;
+                                     SolverWorkspace& workspace, const Points* data = nullptr) const;
 
     /// @param precision Automatic: single precision.
     /// @param memory must outlive the factor, as must the system.
@@ -106,11 +103,11 @@ class NeumannSystem {
     /// in double precision.
     [[nodiscard]] bool can_take_columns(const Factor& factor) const;
 
-    /// Takes n steps of the heat equation with many columns of data, faster than column by column, in a flow that keeps
-    /// M and K. Only where that is possible. Held vertices keep their values.
+    /// Takes some steps of the heat equation with many columns of data, faster than column by column, in a flow that
+    /// keeps M and K. Only where that is possible. Held vertices keep their values.
     /// @param factor of the steps. @param rows per own vertex, its row of the fields.
     /// @throws ComputationError if a result is not finite.
-    void take_steps(const Factor& factor, double time_step, int n, std::span<const Index> rows,
+    void take_steps(const Factor& factor, double time_step, int n_steps, std::span<const Index> rows,
                     Eigen::Ref<Eigen::MatrixXd> fields, const Executor& exec) const;
 
     /// Holds an own vertex where it is from now on, or lets it move again: its correction is 0. All sub-meshes that
@@ -120,9 +117,12 @@ class NeumannSystem {
     /// Sets w of the attachment of an own vertex, in 1/length². Only with an attachment.
     void attach(Index v, double weight) { matrix_.screening.weights[v] = weight; }
 
-    /// Takes K and M of other origin from now on (see with_stiffness).
-    /// @param local_to_global all own vertices in the whole mesh.
-    void give(const GivenStiffness& given, std::span<const Index> local_to_global);
+    /// Takes K and M of other origin from now on (see SymmetricLaplacian::give).
+    /// @param local_to_global all vertices in the whole mesh.
+    void give(const GivenStiffness& given, std::span<const Index> local_to_global)
+    {
+        matrix_.laplacian->give(given, local_to_global);
+    }
 
     /// Weighs a kept K (see SymmetricLaplacian::weigh).
     void weigh(const SquaredDifference& squared_difference) { matrix_.laplacian->weigh(squared_difference); }

@@ -67,19 +67,12 @@ class SubMeshSystem {
     /// @param data #local by 3: D, which is 0 at fixed vertices.
     virtual void use_data(const Points& data) = 0;
 
-    /// Solves with Γ held at Vᵏ where the sub-mesh follows: as if nothing around it moved.
-    /// @param positions #local by 3: Vᵏ.
-    /// @param prediction #local by 3; receives the result at own vertices.
-    /// @throws ComputationError if the result is not finite.
-    virtual void predict(const Factor& factor, const Points& positions, Points& prediction,
-                         SolverWorkspace& workspace) = 0;
-
     /// Takes account of the other side where the sub-mesh leads.
     /// @param positions #local by 3: Vᵏ.
     /// @param other_side #local by 3: what is known of Vᵏ⁺¹ beyond Γ, on Γ and in the halo.
     virtual void use_other_side(const Points& positions, const Points& other_side) = 0;
 
-    /// Solves for Vᵏ⁺¹.
+    /// Solves for Vᵏ⁺¹. With Vᵏ where the sub-mesh follows this is a prediction, as if nothing around it moved.
     /// @param positions #local by 3: Vᵏ.
     /// @param solution #local by 3. In: Vᵏ⁺¹ at those vertices of Γ where the sub-mesh follows. Out: Vᵏ⁺¹ at all own
     ///        vertices; where it follows, and at fixed vertices, bitwise the given values.

@@ -1,11 +1,13 @@
 #include "solvers/systems/symmetric_matrix.h"
 
+#include <algorithm>
 #include <limits>
 #include <numeric>
 #include <string>
 #include <utility>
 
 #include "partition/errors.h"
+#include "solvers/laplacian/kept_stiffness.h"
 
 namespace seamflow {
 
@@ -37,15 +39,6 @@ PairsOfUnknowns pairs_of_unknowns(const std::vector<VertexPair>& pairs, const st
                                                    }
                                                }),
             pairs.size()};
-}
-
-void append_auxiliary_unknowns(const std::vector<VertexPair>& pairs, Index n_auxiliary, std::vector<Index>& unknown_of)
-{
-    const auto first = static_cast<Index>(unknown_of.size());
-    unknown_of.resize(usize(first + n_auxiliary), -1);
-    for (const auto& [v, w] : n_auxiliary > 0 ? std::span(pairs) : std::span<const VertexPair>())
-        if (w >= first && unknown_of[v] >= 0)
-            unknown_of[w] = 0;
 }
 
 SparsePattern neighbours_of(const PairsOfUnknowns& pairs)
@@ -102,6 +95,45 @@ UpperPattern upper_pattern(const PairsOfUnknowns& pairs, const std::vector<Index
         rows[offsets[u + 1]++] = u;
     offsets.pop_back();
     return upper;
+}
+
+std::vector<Index> SymmetricMatrix::number_unknowns(const std::vector<VertexPair>& pairs,
+                                                    std::span<const std::uint8_t> is_known)
+{
+    const Index first = n_vertices;
+    n_vertices += laplacian->n_auxiliary();
+    std::vector<Index> unknown_of(usize(n_vertices), -1);
+    for (std::size_t v = 0; v < is_known.size(); ++v)
+        unknown_of[v] = is_known[v] == 0 ? 0 : -1;
+    for (const auto& [v, w] : first < n_vertices ? std::span(pairs) : std::span<const VertexPair>())
+        if (w >= first && unknown_of[v] >= 0)
+            unknown_of[w] = 0;
+    for (Index v = 0; v < n_vertices; ++v)
+        if (unknown_of[v] == 0) {
+            unknown_of[v] = n();
+            vertex_of.push_back(v);
+        }
+    return unknown_of;
+}
+
+void SymmetricMatrix::reorder(std::span<const Index> order)
+{
+    std::vector<Index> reordered(vertex_of.size());
+    std::ranges::transform(order, reordered.begin(), [&](Index u) { return vertex_of[u]; });
+    vertex_of = std::move(reordered);
+}
+
+SymmetricMatrix make_symmetric_matrix(const SubMesh& sub_mesh, const ScaledLaplacian& laplacian,
+                                      const FacesOnBothSides& faces, const FlowTerms& terms)
+{
+    SymmetricMatrix matrix{make_symmetric_laplacian(laplacian, faces, most_corners_without_auxiliary),
+                           faces.n_vertices};
+    const std::span<const Index> local_to_global = sub_mesh.local_to_global;
+    matrix.screening = make_screening(terms, local_to_global.first(usize(sub_mesh.n_vertices)));
+    if (terms.keeps_stiffness)
+        matrix.laplacian = keep_stiffness(std::move(matrix.laplacian), faces.n_vertices,
+                                          rows_of(*terms.first, local_to_global), terms.keeps_mass);
+    return matrix;
 }
 
 std::span<double> SymmetricMatrix::fill(const Points& positions, double time_step, std::size_t n_further,

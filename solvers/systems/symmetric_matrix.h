@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
 
+#include "partition/decomposition/sub_mesh.h"
 #include "partition/index_lists.h"
 #include "solvers/direct/ldl_solver.h"
 #include "solvers/direct/solver_workspace.h"
@@ -35,10 +37,6 @@ PairsOfUnknowns pairs_of_unknowns(const std::vector<VertexPair>& pairs, const st
 /// All entries off the diagonal of the symmetric matrix, each once; rows in any order.
 SparsePattern neighbours_of(const PairsOfUnknowns& pairs);
 
-/// Makes those auxiliary unknowns (see SymmetricLaplacian) unknowns that are coupled with one.
-/// @param unknown_of per vertex, 0 or more, or -1; gets 0 or -1 for each auxiliary unknown.
-void append_auxiliary_unknowns(const std::vector<VertexPair>& pairs, Index n_auxiliary, std::vector<Index>& unknown_of);
-
 /// The upper triangle of the symmetric matrix with its diagonal, and the places of pairs of vertices in it.
 struct UpperPattern {
     SparsePattern pattern;
@@ -64,6 +62,14 @@ struct SymmetricMatrix {
     std::vector<Index> slots{};
     Screening screening{};
 
+    /// Makes vertices unknowns, in their order, and behind them those auxiliary unknowns (see SymmetricLaplacian) that
+    /// are coupled with one.
+    /// @param pairs of the Laplacian. @param is_known per own vertex.
+    /// @returns per vertex and auxiliary unknown: its number, or -1.
+    std::vector<Index> number_unknowns(const std::vector<VertexPair>& pairs, std::span<const std::uint8_t> is_known);
+    /// Renumbers the unknowns.
+    void reorder(std::span<const Index> order);
+
     [[nodiscard]] Index n() const { return static_cast<Index>(vertex_of.size()); }
     [[nodiscard]] Index n_entries() const { return column_offsets.back(); }
 
@@ -87,5 +93,10 @@ struct SymmetricMatrix {
     std::span<double> fill(const Points& positions, double time_step, std::size_t n_further, SolverWorkspace& workspace,
                            const StiffnessProduct* product = nullptr) const;
 };
+
+/// Without unknowns yet.
+/// @param faces of the sub-mesh.
+SymmetricMatrix make_symmetric_matrix(const SubMesh& sub_mesh, const ScaledLaplacian& laplacian,
+                                      const FacesOnBothSides& faces, const FlowTerms& terms);
 
 }  // namespace seamflow

@@ -1,12 +1,12 @@
 #include "solvers/systems/symmetric_system.h"
 
 #include <algorithm>
+#include <tuple>
 #include <utility>
 
 #include "solvers/conditions/remainder.h"
 #include "solvers/direct/columns.h"
 #include "solvers/direct/make_solver.h"
-#include "solvers/laplacian/kept_stiffness.h"
 #include "solvers/sparse/elimination_ordering.h"
 #include "solvers/systems/checks.h"
 
@@ -14,21 +14,16 @@ namespace seamflow {
 
 SymmetricSystem::SymmetricSystem(const SystemParts& parts, SymmetricRows rows, SolverWorkspace& workspace)
     : sub_mesh_(&parts.sub_mesh)
-    , matrix_{make_symmetric_laplacian(parts.laplacian,
-                                       {sub_mesh_->face_vertices, sub_mesh_->interface.halo_faces, parts.twin,
-                                        sub_mesh_->n_vertices + sub_mesh_->n_halo},
-                                       most_corners_without_auxiliary),
-              sub_mesh_->n_vertices + sub_mesh_->n_halo}
+    , matrix_(make_symmetric_matrix(*sub_mesh_, parts.laplacian,
+                                    {sub_mesh_->face_vertices, sub_mesh_->interface.halo_faces, parts.twin,
+                                     sub_mesh_->n_vertices + sub_mesh_->n_halo},
+                                    parts.terms))
 {
-    const std::span<const Index> local_to_global = sub_mesh_->local_to_global;
-    matrix_.screening = make_screening(parts.terms, local_to_global.first(usize(sub_mesh_->n_vertices)));
-    if (parts.terms.keeps_stiffness)
-        matrix_.laplacian =
-            keep_stiffness(std::move(matrix_.laplacian), sub_mesh_->n_vertices + sub_mesh_->n_halo,
-                           rows_of(*parts.terms.first, sub_mesh_->local_to_global), parts.terms.keeps_mass);
-    std::vector<Index> unknown_of;
+    std::vector<std::uint8_t> is_known = sub_mesh_->fixed;
+    for (const Index v : rows == SymmetricRows::Dirichlet ? sub_mesh_->interface.vertices : std::vector<Index>())
+        is_known[v] = 1;
     const std::vector<VertexPair> pairs = matrix_.laplacian->pairs();
-    number_unknowns(rows, pairs, unknown_of);
+    std::vector<Index> unknown_of = matrix_.number_unknowns(pairs, is_known);
     EliminationTree tree;
     SparsePattern upper = list_entries(pairs, unknown_of, tree);
     matrix_.column_offsets = upper.column_offsets;
@@ -39,77 +34,42 @@ SymmetricSystem::SymmetricSystem(const SystemParts& parts, SymmetricRows rows, S
         make_symmetric_solver(std::move(upper), parts.factorisation, workspace, tree, parts.exec, matrix_.pivots());
 }
 
-/// In the order of the vertices.
-/// @param unknown_of receives one entry per own vertex, vertex of the halo and auxiliary unknown, -1 where it is not an
-///        unknown.
-void SymmetricSystem::number_unknowns(SymmetricRows rows, const std::vector<VertexPair>& pairs,
-                                      std::vector<Index>& unknown_of)
-{
-    unknown_of.assign(usize(matrix_.n_vertices), -1);
-    for (Index v = 0; v < sub_mesh_->n_vertices; ++v)
-        if (sub_mesh_->fixed[v] == 0)
-            unknown_of[v] = 0;
-    if (rows == SymmetricRows::Dirichlet)
-        for (const Index v : sub_mesh_->interface.vertices)
-            unknown_of[v] = -1;
-    append_auxiliary_unknowns(pairs, matrix_.laplacian->n_auxiliary(), unknown_of);
-    matrix_.n_vertices = static_cast<Index>(unknown_of.size());
-    for (Index v = 0; v < matrix_.n_vertices; ++v)
-        if (unknown_of[v] == 0) {
-            unknown_of[v] = static_cast<Index>(matrix_.vertex_of.size());
-            matrix_.vertex_of.push_back(v);
-        }
-}
-
 /// Renumbers the unknowns in the elimination ordering.
 SparsePattern SymmetricSystem::list_entries(const std::vector<VertexPair>& pairs, std::vector<Index>& unknown_of,
                                             EliminationTree& tree)
 {
-    const auto n = static_cast<Index>(matrix_.vertex_of.size());
-    const PairsOfUnknowns pairs_of = pairs_of_unknowns(pairs, unknown_of, n);
+    const PairsOfUnknowns pairs_of = pairs_of_unknowns(pairs, unknown_of, matrix_.n());
     EliminationOrdering elimination = order_elimination(neighbours_of(pairs_of));
     tree = std::move(elimination.tree);
-    const std::vector<Index>& order = elimination.order;
-    std::vector<Index> vertex_of(n);
-    std::transform(order.begin(), order.end(), vertex_of.begin(), [&](Index u) { return matrix_.vertex_of[u]; });
-    matrix_.vertex_of = std::move(vertex_of);
-    for (Index u = 0; u < n; ++u)
+    matrix_.reorder(elimination.order);
+    for (Index u = 0; u < matrix_.n(); ++u)
         unknown_of[matrix_.vertex_of[u]] = u;
-    UpperPattern upper = upper_pattern(pairs_of, order);
+    UpperPattern upper = upper_pattern(pairs_of, elimination.order);
     matrix_.slots = std::move(upper.slots);
     return std::move(upper.pattern);
 }
 
-/// Couplings that are not in the matrix; those beyond Γ by the vertices of Γ.
+/// Couplings that are not in the matrix: first those at own vertices, then those beyond Γ by the vertices of Γ.
 void SymmetricSystem::list_couplings(const std::vector<VertexPair>& pairs, const std::vector<Index>& unknown_of)
 {
     const auto is_unknown = [&](Index v) { return unknown_of[v] >= 0; };
     const auto unknown_first = [&](VertexPair pair) {
         return is_unknown(pair.first) ? pair : VertexPair{pair.second, pair.first};
     };
-    std::vector<std::size_t> at_fixed;
-    std::vector<std::pair<Index, std::size_t>> at_beyond;
+    std::vector<std::tuple<bool, Index, std::size_t>> couplings;
     for (std::size_t i = 0; i < pairs.size(); ++i) {
-        if (matrix_.slots[i] >= 0)
-            continue;
         const auto [a, b] = unknown_first(pairs[i]);
-        if (!is_unknown(a))
+        if (matrix_.slots[i] >= 0 || !is_unknown(a))
             continue;
-        if (b < sub_mesh_->n_vertices)
-            at_fixed.push_back(i);
-        else
-            at_beyond.emplace_back(a, i);
+        const bool is_beyond = b >= sub_mesh_->n_vertices;
+        couplings.emplace_back(is_beyond, is_beyond ? a : 0, i);
     }
+    std::ranges::sort(couplings);
     Index slot = matrix_.n_entries();
-    for (const std::size_t i : at_fixed) {
+    for (const auto& [is_beyond, of_vertex, i] : couplings) {
         const auto [a, b] = unknown_first(pairs[i]);
         matrix_.slots[i] = slot++;
-        fixed_.push_back({unknown_of[a], b, 0.0});
-    }
-    std::sort(at_beyond.begin(), at_beyond.end());
-    for (const auto& [a, i] : at_beyond) {
-        matrix_.slots[i] = slot++;
-        beyond_.push_back({unknown_of[a], unknown_first(pairs[i]).second, 0.0});
+        (is_beyond ? beyond_ : fixed_).push_back({unknown_of[a], b, 0.0});
     }
     std::replace(matrix_.slots.begin(), matrix_.slots.end(), Index{-1}, slot);
 }
@@ -229,14 +189,6 @@ void SymmetricSystem::use_data(const Points& data)
 {
     pulls_ = false;
     use_other_side(data, data);
-}
-
-void SymmetricSystem::predict(const Factor& factor, const Points& positions, Points& prediction,
-                              SolverWorkspace& workspace)
-{
-    for (const Index v : sub_mesh_->interface.vertices)
-        prediction.row(v) = positions.row(v);
-    solve(factor, positions, prediction, workspace);
 }
 
 void SymmetricSystem::solve(const Factor& factor, const Points& positions, Points& solution, SolverWorkspace& workspace)

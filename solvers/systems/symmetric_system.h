@@ -34,8 +34,6 @@ class SymmetricSystem final : public SubMeshSystem {
     [[nodiscard]] Factorisation factorisation() const override { return solver_->kind(); }
     Factor factorise(const Assembled& equations, FactorMemory& memory, SolverWorkspace& workspace) override;
     void use_data(const Points& data) override;
-    void predict(const Factor& factor, const Points& positions, Points& prediction,
-                 SolverWorkspace& workspace) override;
     void use_other_side(const Points& positions, const Points& other_side) override;
     /// @param solution in: known values on Γ; out: all values.
     void solve(const Factor& factor, const Points& positions, Points& solution, SolverWorkspace& workspace) override;
@@ -68,7 +66,6 @@ class SymmetricSystem final : public SubMeshSystem {
         Point beyond = Point::Zero();
     };
 
-    void number_unknowns(SymmetricRows rows, const std::vector<VertexPair>& pairs, std::vector<Index>& unknown_of);
     SparsePattern list_entries(const std::vector<VertexPair>& pairs, std::vector<Index>& unknown_of,
                                EliminationTree& tree);
     void list_couplings(const std::vector<VertexPair>& pairs, const std::vector<Index>& unknown_of);

@@ -86,58 +86,28 @@ IndexLists make_blocks(const PolygonMesh& mesh, const Topology& topology, bool h
     return divide_into_boxes(mesh.vertices, n, exec);
 }
 
-std::vector<Index> make_row_of(const IndexLists& blocks, Index n_vertices, const Executor& exec)
+/// The columns of the row of v, ascending and without v itself.
+/// @param along_edges whether edges join all vertices that share faces, or count alone.
+void list_columns(const PolygonMesh& mesh, const Topology& topology, const std::vector<Index>& row_of, bool along_edges,
+                  Index v, std::vector<Index>& columns)
 {
-    auto row_of = large_vector<Index>(usize(n_vertices), -1);
-    for_each(exec, static_cast<Index>(blocks.values.size()), [&](Index i) { row_of[blocks.values[i]] = i; });
-    return row_of;
-}
-
-/// Finds the columns of the rows of a matrix.
-class RowPattern {
-  public:
-    RowPattern(const PolygonMesh& mesh, const Topology& topology, const std::vector<Index>& row_of, Reach reach)
-        : mesh_(&mesh)
-        , topology_(&topology)
-        , row_of_(&row_of)
-        , along_edges_(reach == Reach::Edges || mesh.n_corners() == 3 * mesh.n_faces())
-    {
-    }
-
-    /// The columns of the row of v, ascending and without v itself, until the next call.
-    const std::vector<Index>& list(Index v)
-    {
-        columns_.clear();
-        for (const Index corner : topology_->corners_at(v)) {
-            if (along_edges_) {
-                add(topology_->next(*mesh_, corner));
-                if (!next_are_all(v))
-                    add(topology_->previous(*mesh_, corner));
-                continue;
-            }
-            for (const Index w : mesh_->face(topology_->face_of[corner]))
-                columns_.push_back((*row_of_)[w]);
+    columns.clear();
+    // Whether the vertices after v in its faces are all that share edges with it, each met once.
+    const bool next_are_all = topology.oriented && topology.kind[v] == VertexKind::Interior;
+    const auto add = [&](Index corner) { columns.push_back(row_of[mesh.face_vertices[corner]]); };
+    for (const Index corner : topology.corners_at(v)) {
+        if (!along_edges) {
+            for (const Index w : mesh.face(topology.face_of[corner]))
+                columns.push_back(row_of[w]);
+            continue;
         }
-        sort_unique(columns_);
-        std::erase(columns_, (*row_of_)[v]);
-        return columns_;
+        add(topology.next(mesh, corner));
+        if (!next_are_all)
+            add(topology.previous(mesh, corner));
     }
-
-  private:
-    /// Whether the vertices after v in its faces are all that share edges with it, each met once.
-    [[nodiscard]] bool next_are_all(Index v) const
-    {
-        return along_edges_ && topology_->oriented && topology_->kind[v] == VertexKind::Interior;
-    }
-
-    void add(Index corner) { columns_.push_back((*row_of_)[mesh_->face_vertices[corner]]); }
-
-    const PolygonMesh* mesh_;
-    const Topology* topology_;
-    const std::vector<Index>* row_of_;
-    bool along_edges_;
-    std::vector<Index> columns_;
-};
+    sort_unique(columns);
+    std::erase(columns, row_of[v]);
+}
 
 }  // namespace
 
@@ -146,7 +116,9 @@ WholeMeshRows make_whole_mesh_rows(const PolygonMesh& mesh, const Topology& topo
     WholeMeshRows rows;
     rows.without_row = vertices_without_rows(topology, exec);
     rows.vertices = make_blocks(mesh, topology, rows.without_row.empty(), exec);
-    rows.row_of = make_row_of(rows.vertices, mesh.n_vertices(), exec);
+    rows.row_of = large_vector<Index>(usize(mesh.n_vertices()), -1);
+    const std::vector<Index>& vertices = rows.vertices.values;
+    for_each(exec, static_cast<Index>(vertices.size()), [&](Index i) { rows.row_of[vertices[i]] = i; });
     return rows;
 }
 
@@ -154,13 +126,14 @@ BlockRowMatrix make_matrix(const PolygonMesh& mesh, const Topology& topology, co
                            const Executor& exec)
 {
     const IndexLists& vertices = rows.vertices;
+    const bool along_edges = reach == Reach::Edges || mesh.n_corners() == 3 * mesh.n_faces();
     std::vector<Index> begin{0};
     for (Index block = 0; block < vertices.size(); ++block)
         while (begin.back() < vertices.offsets[block + 1])
             begin.push_back(std::min(begin.back() + BlockRowMatrix::most_rows, vertices.offsets[block + 1]));
     return {begin,
             [&](Index block) {
-                RowPattern pattern(mesh, topology, rows.row_of, reach);
+                std::vector<Index> row;
                 IndexLists columns;
                 const auto n_rows = usize(begin[block + 1] - begin[block]);
                 columns.offsets.reserve(n_rows + 1);
@@ -168,7 +141,7 @@ BlockRowMatrix make_matrix(const PolygonMesh& mesh, const Topology& topology, co
                 columns.values.reserve(n_rows * mesh.face_vertices.size() / usize(std::max(mesh.n_vertices(), 1)));
                 for (Index i = begin[block]; i < begin[block + 1]; ++i) {
                     if (topology.moves(vertices.values[i])) {
-                        const std::vector<Index>& row = pattern.list(vertices.values[i]);
+                        list_columns(mesh, topology, rows.row_of, along_edges, vertices.values[i], row);
                         columns.values.insert(columns.values.end(), row.begin(), row.end());
                     }
                     columns.close();

@@ -100,6 +100,7 @@ WholeMeshSystem::WholeMeshSystem(const PolygonMesh& mesh, const Topology& topolo
     , rows_(make_whole_mesh_rows(mesh, topology, exec))
     , matrix_(make_matrix(mesh, topology, rows_, traits_of(laplacian).reach, exec))
     , moves_(rows_.vertices.values.size())
+    , screening_(make_screening(terms, rows_.vertices.values))
     , masses_(is_applied_again ? moves_.size() : 0)
     , keeps_matrix_(terms.keeps_mass)
 {
@@ -107,21 +108,8 @@ WholeMeshSystem::WholeMeshSystem(const PolygonMesh& mesh, const Topology& topolo
     if (keeps_matrix_) {
         kept_ = *terms.first;
         kept_of_rows_.resize(matrix_.n_rows(), 3);
-        for_each(exec, matrix_.n_rows(), [&](Index i) { kept_of_rows_.row(i) = kept_.row(rows_.vertices.values[i]); });
+        list_by_rows(kept_, kept_of_rows_, exec);
     }
-    if (!terms.step_scales.empty()) {
-        step_scales_.resize(moves_.size());
-        for_each(exec, matrix_.n_rows(),
-                 [&](Index i) { step_scales_[i] = terms.step_scale(rows_.vertices.values[i]); });
-    }
-    if (!terms.attaches())
-        return;
-    screenings_.resize(moves_.size());
-    first_.resize(matrix_.n_rows(), 3);
-    for_each(exec, matrix_.n_rows(), [&](Index i) {
-        screenings_[i] = terms.weight(rows_.vertices.values[i]) * step_scale(i);
-        first_.row(i) = terms.first->row(rows_.vertices.values[i]);
-    });
 }
 
 /// The matrix, and the residual of Vᵏ⁺¹ = Vᵏ.
@@ -161,12 +149,12 @@ WholeMeshSystem::Sizes WholeMeshSystem::assemble(const Points& of_rows, const Ex
                 residual -= share;
                 size.head<3>() += share.array().abs().transpose();
             });
-            const double mass = whole_mass / step_scale(i);
+            const double mass = whole_mass / screening_.step_scale(i);
             if (!masses_.empty())
                 masses_[i] = units_.mass * mass;
             diagonal += units_.mass * mass * (1.0 + screening(i));
             if (screening(i) > 0.0) {
-                const Point pull = units_.mass * mass * screening(i) * (first_.row(i) - here);
+                const Point pull = units_.mass * mass * screening(i) * (screening_.first.row(i) - here);
                 residual += pull;
                 size.head<3>() += pull.array().abs().transpose();
             }
@@ -209,7 +197,7 @@ double WholeMeshSystem::measure(const Points& of_rows, const Points& data, bool 
                               });
                               if (screening(i) > 0.0)
                                   residual += masses_[i] * screening(i) *
-                                              ((is_pulled ? Point(first_.row(i)) : Point::Zero()) - there);
+                                              ((is_pulled ? Point(screening_.first.row(i)) : Point::Zero()) - there);
                               residual *= units_.length;
                               matrix_.set_residual(i, to_row(residual));
                               return Sum::Constant(residual.squaredNorm() / matrix_.diagonal(i));
@@ -275,7 +263,7 @@ WholeMeshSystem::Result WholeMeshSystem::step_with_kept_matrix(const Points& bef
         has_matrix_ = true;
     }
     data_.resize(matrix_.n_rows(), 3);
-    for_each(exec, matrix_.n_rows(), [&](Index i) { data_.row(i) = before.row(rows_.vertices.values[i]); });
+    list_by_rows(before, data_, exec);
     after_ = data_;
     const double squared = measure(kept_of_rows_, data_, true, exec);
     if (squared == 0.0) {
@@ -292,7 +280,7 @@ WholeMeshSystem::Result WholeMeshSystem::step(const Points& before, double time_
     if (keeps_matrix_)
         return step_with_kept_matrix(before, stop, after, exec);
     before_ = &before;
-    list_before(after, exec);
+    list_by_rows(before, after, exec);
     if (guess != nullptr || stop.tolerance <= most_reduction_at_once)
         keep_exact();
     const Sizes sizes = assemble(after, exec);
@@ -305,10 +293,10 @@ WholeMeshSystem::Result WholeMeshSystem::step(const Points& before, double time_
     return solve({sizes.residual.sum(), after, after, &before, false, guess}, stop, after, exec);
 }
 
-/// Saves memory: a result has room for V, by rows, until it is known itself.
-void WholeMeshSystem::list_before(Points& result, const Executor& exec) const
+/// @param by_rows at least #rows by 3. A result has room for V until it is known itself, which saves memory.
+void WholeMeshSystem::list_by_rows(const Points& by_vertices, Points& by_rows, const Executor& exec) const
 {
-    for_each(exec, matrix_.n_rows(), [&](Index i) { result.row(i) = before_->row(rows_.vertices.values[i]); });
+    for_each(exec, matrix_.n_rows(), [&](Index i) { by_rows.row(i) = by_vertices.row(rows_.vertices.values[i]); });
 }
 
 WholeMeshSystem::Result WholeMeshSystem::apply(const Points& data, const IterationStop& stop, Points& result,
@@ -329,7 +317,7 @@ WholeMeshSystem::Result WholeMeshSystem::apply(const Points& data, const Iterati
         for_each(exec, static_cast<Index>(result.rows()), [&](Index v) { result.row(v).setZero(); });
         return {};
     }
-    list_before(result, exec);
+    list_by_rows(*before_, result, exec);
     after_.resize(matrix_.n_rows(), 3);
     for_each(exec, matrix_.n_rows(), [&](Index i) {
         if (moves_[i] == 0)
@@ -361,8 +349,7 @@ WholeMeshSystem::Result WholeMeshSystem::solve(const Beginning& beginning, const
     };
     if (beginning.guess != nullptr) {
         after_.resize(matrix_.n_rows(), 3);
-        for_each(exec, matrix_.n_rows(),
-                 [&](Index i) { after_.row(i) = beginning.guess->row(rows_.vertices.values[i]); });
+        list_by_rows(*beginning.guess, after_, exec);
         renew();
         is_in_rows = left < 1.0;
         if (is_in_rows) {

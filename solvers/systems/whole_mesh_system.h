@@ -13,16 +13,17 @@
 #include "solvers/laplacian/given_stiffness.h"
 #include "solvers/laplacian/laplacian.h"
 #include "solvers/systems/block_row_matrix.h"
+#include "solvers/systems/screening.h"
 #include "solvers/systems/whole_mesh_rows.h"
 
 namespace seamflow {
 
 /// The backward Euler step of a whole mesh, (M + dt K)(Vᵏ⁺¹ - Vᵏ) = -dt K Vᵏ, by conjugate gradients: no sub-meshes, no
 /// factorisation. The matrix and the vectors of an iteration are in single precision; the residual is recomputed in
-/// double precision, with entries that are then kept beside the matrix, so that rounding limits no tolerance. Three columns are iterated at once. Sums
-/// are taken in a fixed order: the bits do not depend on how loops are run. For symmetric Laplacians. An attachment to
-/// V⁰ adds dt M w to the diagonal and dt M w (V⁰ - Vᵏ) to the right-hand side. If terms keep M, all steps have the
-/// matrix of V⁰.
+/// double precision, with entries that are then kept beside the matrix, so that rounding limits no tolerance. Three
+/// columns are iterated at once. Sums are taken in a fixed order: the bits do not depend on how loops are run. For
+/// symmetric Laplacians. An attachment to V⁰ adds dt M w to the diagonal and dt M w (V⁰ - Vᵏ) to the right-hand side.
+/// If terms keep M, all steps have the matrix of V⁰.
 class WholeMeshSystem {
   public:
     /// @param mesh, topology must outlive the system. Vertices that do not move have no row.
@@ -96,16 +97,15 @@ class WholeMeshSystem {
         const Points* guess = nullptr;
     };
 
-    void list_before(Points& result, const Executor& exec) const;
+    void list_by_rows(const Points& by_vertices, Points& by_rows, const Executor& exec) const;
     void take_units(double time_step);
     Sizes assemble(const Points& of_rows, const Executor& exec);
     void keep_exact();
     double measure(const Points& of_rows, const Points& data, bool is_pulled, const Executor& exec);
     Result step_with_kept_matrix(const Points& before, const IterationStop& stop, Points& after, const Executor& exec);
     Result solve(const Beginning& beginning, const IterationStop& stop, Points& after, const Executor& exec);
-    [[nodiscard]] double step_scale(Index i) const { return step_scales_.empty() ? 1.0 : step_scales_[i]; }
     /// dt w s of a row.
-    [[nodiscard]] double screening(Index i) const { return screenings_.empty() ? 0.0 : time_step_ * screenings_[i]; }
+    [[nodiscard]] double screening(Index i) const { return time_step_ * screening_.weight(i); }
     PassStart start_pass(double squared, const Executor& exec);
     [[nodiscard]] double farthest_move(const Executor& exec) const;
     static double distance_after(const BlockRowMatrix::Result& pass);
@@ -125,10 +125,8 @@ class WholeMeshSystem {
     /// By rows: whether they move, and where they are after the step so far if the residual is renewed.
     std::vector<std::uint8_t> moves_;
     Points after_ = Points(0, 3);
-    /// By rows: the step scale s, by which M is divided; empty: 1. With an attachment, w s, and V⁰.
-    std::vector<double> step_scales_;
-    std::vector<double> screenings_;
-    Points first_ = Points(0, 3);
+    /// By rows.
+    Screening screening_;
     /// For `apply` and to renew residuals: by rows, M in the unit of the matrix.
     std::vector<double> masses_;
     /// For `apply` and with a kept matrix: by rows, D, which is then Vᵏ.

@@ -1,12 +1,12 @@
-#include "solvers/systems/wide_steps.h"
-
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numeric>
 
 #include "partition/large_arrays.h"
 #include "solvers/direct/simd.h"
 #include "solvers/systems/checks.h"
+#include "solvers/systems/neumann_system.h"
 
 namespace seamflow {
 
@@ -33,33 +33,63 @@ struct ResidualKernel {
     }
 };
 
-}  // namespace
+/// An entry in the row of an unknown: the place of the other vertex, and dt K.
+struct RowEntry {
+    Index place;
+    double value;
+};
 
-WideSteps::WideSteps(std::span<const Index> unknown_of, Index n, std::span<const std::uint8_t> is_held,
-                     std::span<const VertexPair> pairs, std::span<const double> entries)
-    : n_(n)
-    , vertex_at_(unknown_of.size())
+/// Per unknown, its row of dt K without the diagonal; none of held ones.
+/// @param place_of per vertex: those of the n unknowns come first.
+/// @param pairs, entries the off-diagonal entries of dt K, each standing for two, maybe repeated.
+Lists<RowEntry> list_rows(std::span<const Index> place_of, Index n, std::span<const std::uint8_t> is_held,
+                          std::span<const VertexPair> pairs, std::span<const double> entries)
 {
-    std::vector<Index> place_of(unknown_of.begin(), unknown_of.end());
-    for (Index v = 0, next = n; v < static_cast<Index>(place_of.size()); ++v) {
-        if (place_of[v] < 0)
-            place_of[v] = next++;
-        vertex_at_[place_of[v]] = v;
-    }
-    entries_ = make_lists<Entry>(n, [&](auto&& add) {
+    return make_lists<RowEntry>(n, [&](auto&& add) {
         for (std::size_t i = 0; i < pairs.size(); ++i)
             for (const auto& [v, other] : {pairs[i], VertexPair{pairs[i].second, pairs[i].first}})
-                if (unknown_of[v] >= 0 && (is_held.empty() || is_held[v] == 0))
-                    add(unknown_of[v], Entry{place_of[other], entries[i]});
+                if (place_of[v] < n && (is_held.empty() || is_held[v] == 0))
+                    add(place_of[v], RowEntry{place_of[other], entries[i]});
     });
 }
 
-void WideSteps::take(const LdlFactor<double>& factor, int n_steps, std::span<const Index> rows,
-                     Eigen::Ref<Eigen::MatrixXd> fields, const Executor& exec) const
+}  // namespace
+
+bool NeumannSystem::can_take_columns(const Factor& factor) const
 {
+    return n_interface_ == 0 && matrix_.laplacian->n_auxiliary() == 0 && !matrix_.screening.exists() &&
+           !factor.is_single();
+}
+
+/// (M + dt K)(Xᵏ⁺¹ - Xᵏ) = -dt K Xᵏ: several columns at a time, so that the factor is read from memory once for all of
+/// them, and each thread with columns of its own.
+void NeumannSystem::take_steps(const Factor& factor, double time_step, int n_steps, std::span<const Index> rows,
+                               Eigen::Ref<Eigen::MatrixXd> fields, const Executor& exec) const
+{
+    const std::vector<VertexPair> pairs = matrix_.laplacian->pairs();
+    std::vector<Index> slots(pairs.size());
+    std::iota(slots.begin(), slots.end(), 0);
+    std::vector<double> entries(pairs.size(), 0.0);
+    std::vector<double> diagonal(usize(matrix_.n_vertices));
+    std::vector<double> mass(diagonal.size());
+    // What is kept does not depend on them.
+    const Points any = Points::Zero(matrix_.n_vertices, 3);
+    matrix_.laplacian->assemble(any, time_step, slots, entries, diagonal, mass);
+    // The unknowns in their order, then the other vertices.
+    std::vector<Index> vertex_at = matrix_.vertex_of;
+    std::vector<Index> place_of(diagonal.size(), -1);
+    for (Index u = 0; u < matrix_.n(); ++u)
+        place_of[vertex_at[u]] = u;
+    for (Index v = 0; v < matrix_.n_vertices; ++v)
+        if (place_of[v] < 0) {
+            place_of[v] = static_cast<Index>(vertex_at.size());
+            vertex_at.push_back(v);
+        }
+    const Lists<RowEntry> rows_of_unknowns = list_rows(place_of, matrix_.n(), is_held_, pairs, entries);
+    const auto& numbers = std::get<LdlFactor<double>>(factor.numbers_);
     const auto n_columns = static_cast<Index>(fields.cols());
-    const auto n_places = static_cast<Index>(vertex_at_.size());
-    const std::size_t n_changes = usize(n_) * usize(wide_ldl_row);
+    const auto n_places = static_cast<Index>(vertex_at.size());
+    const std::size_t n_changes = usize(matrix_.n()) * usize(wide_ldl_row);
     const Index n_portions = (n_columns + wide_ldl_row - 1) / wide_ldl_row;
     std::vector<std::uint8_t> is_finite(usize(n_portions));
     exec(n_portions, [&](Index begin, Index end) {
@@ -71,18 +101,18 @@ void WideSteps::take(const LdlFactor<double>& factor, int n_steps, std::span<con
             for (Index i = 0; i < n_places; ++i)
                 for (Index c = 0; c < wide_ldl_row; ++c)
                     x[usize(i) * usize(wide_ldl_row) + usize(c)] =
-                        c < width ? fields(rows[vertex_at_[i]], first + c) : 0.0;
+                        c < width ? fields(rows[vertex_at[i]], first + c) : 0.0;
             for (int step = 0; step < n_steps; ++step) {
-                for (Index u = 0; u < n_; ++u)
-                    with_simd_width(register_width(), ResidualKernel(), entries_[u], x.get(), u, changes.get());
-                factor.solve_wide(changes.get());
+                for (Index u = 0; u < matrix_.n(); ++u)
+                    with_simd_width(register_width(), ResidualKernel(), rows_of_unknowns[u], x.get(), u, changes.get());
+                numbers.solve_wide(changes.get());
                 std::transform(x.get(), x.get() + n_changes, changes.get(), x.get(), std::plus<>());
             }
             is_finite[portion] =
                 std::all_of(x.get(), x.get() + n_changes, [](double value) { return std::isfinite(value); }) ? 1 : 0;
-            for (Index i = 0; i < n_; ++i)
+            for (Index i = 0; i < matrix_.n(); ++i)
                 for (Index c = 0; c < width; ++c)
-                    fields(rows[vertex_at_[i]], first + c) = x[usize(i) * usize(wide_ldl_row) + usize(c)];
+                    fields(rows[vertex_at[i]], first + c) = x[usize(i) * usize(wide_ldl_row) + usize(c)];
         }
     });
     require_finite_result(std::ranges::find(is_finite, 0) == is_finite.end());

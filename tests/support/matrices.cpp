@@ -9,12 +9,12 @@
 
 namespace seamflow::test {
 
-FaceView faces_of(const PolygonMesh& mesh, const Topology& topology)
+FacesOnBothSides faces_of(const PolygonMesh& mesh, const Topology& topology)
 {
-    return {mesh.face_offsets, mesh.face_vertices, topology.twin, mesh.n_vertices()};
+    return {{mesh.face_offsets, mesh.face_vertices}, {}, topology.twin, mesh.n_vertices()};
 }
 
-LaplacianMatrix laplacian_matrix(Laplacian laplacian, const FaceView& faces, const Points& positions)
+LaplacianMatrix laplacian_matrix(Laplacian laplacian, const FacesOnBothSides& faces, const Points& positions)
 {
     const auto assembler = make_assembler(laplacian, faces);
     const auto entries = assembler->entries();

@@ -12,7 +12,7 @@
 namespace seamflow::test {
 
 /// The faces of a whole mesh, which must outlive the view.
-FaceView faces_of(const PolygonMesh& mesh, const Topology& topology);
+FacesOnBothSides faces_of(const PolygonMesh& mesh, const Topology& topology);
 
 /// A Laplacian as a matrix.
 struct LaplacianMatrix {
@@ -23,7 +23,7 @@ struct LaplacianMatrix {
 
 /// The Laplacian of all vertices, boundary vertices included (there with the paper's half-edge weights; a flow that
 /// holds the boundary fixed never uses these rows). Rows sum to zero.
-LaplacianMatrix laplacian_matrix(Laplacian laplacian, const FaceView& faces, const Points& positions);
+LaplacianMatrix laplacian_matrix(Laplacian laplacian, const FacesOnBothSides& faces, const Points& positions);
 
 /// A mesh with its topology.
 NamedMesh named(const std::string& name, PolygonMesh mesh);

@@ -15,8 +15,8 @@
 #include "engine/tasks/workers.h"
 #include "partition/errors.h"
 #include "partition/index_lists.h"
+#include "partition/parallel_lists.h"
 #include "partition/topology.h"
-#include "solvers/krylov/sums.h"
 #include "solvers/laplacian/kernels.h"
 
 namespace seamflow {
@@ -72,25 +72,12 @@ Equations analyse(const Flow& flow)
 {
     const Index n = flow.mesh.n_vertices();
     Equations equations;
-    equations.offsets.assign(usize(n) + 1, 0);
-    for (const bool is_counted : {false, true}) {
-        for_each_block(run_in_parallel, n, [&](Index, Index begin, Index end) {
-            std::vector<Index> neighbours;
-            for (Index v = begin; v < end; ++v) {
-                if (!flow.topology.moves(v))
-                    continue;
-                list_neighbours(flow, v, neighbours);
-                if (is_counted)
-                    std::copy(neighbours.begin(), neighbours.end(), equations.columns.begin() + equations.offsets[v]);
-                else
-                    equations.offsets[v + 1] = static_cast<Index>(neighbours.size());
-            }
-        });
-        if (is_counted)
-            break;
-        std::partial_sum(equations.offsets.begin(), equations.offsets.end(), equations.offsets.begin());
-        equations.columns.resize(equations.offsets.back());
-    }
+    const auto list = [&](Index v, std::vector<Index>& neighbours) {
+        neighbours.clear();
+        if (flow.topology.moves(v))
+            list_neighbours(flow, v, neighbours);
+    };
+    make_lists_in_parallel(run_in_parallel, n, list, equations.offsets, equations.columns);
     equations.values.resize(equations.columns.size());
     equations.scale.assign(n, 0.0);
     equations.residual.assign(n, Row::Zero());
@@ -147,8 +134,9 @@ void assemble(const Flow& flow, const Points& before, const Point& centroid, Equ
 {
     const Index n = flow.mesh.n_vertices();
     const double dt = flow.time_step;
-    Eigen::Array<double, 8, 1> both = sum_of<Eigen::Array<double, 8, 1>>(run_in_parallel, n, [&](Index v) {
-        Eigen::Array<double, 8, 1> sums = Eigen::Array<double, 8, 1>::Zero();
+    const Eigen::Array<double, 8, 1> zero = Eigen::Array<double, 8, 1>::Zero();
+    const auto squares_of = [&](Index v) {
+        Eigen::Array<double, 8, 1> sums = zero;
         if (!flow.topology.moves(v))
             return sums;
         const Index begin = equations.offsets[v];
@@ -169,7 +157,8 @@ void assemble(const Flow& flow, const Points& before, const Point& centroid, Equ
         equations.residual[v] = to_row(scale * residual);
         sums << squares(scale * residual), squares(scale * (mass * (before.row(v) - centroid) + known));
         return sums;
-    });
+    };
+    const Eigen::Array<double, 8, 1> both = sum(run_in_parallel, n, squares_of, zero);
     equations.squared_residual = both.head<4>();
     equations.squared_right_hand_side = both.tail<4>();
     for_each(run_in_parallel, n, [&](Index v) {
@@ -182,7 +171,7 @@ void assemble(const Flow& flow, const Points& before, const Point& centroid, Equ
 void renew_residual(const Flow& flow, const Points& before, const Points& after, Equations& equations)
 {
     const double dt = flow.time_step;
-    equations.squared_residual = sum_of<Sums>(run_in_parallel, flow.mesh.n_vertices(), [&](Index v) -> Sums {
+    const auto squares_of = [&](Index v) -> Sums {
         if (!flow.topology.moves(v))
             return Sums::Zero();
         const Index* const columns = equations.columns.data() + equations.offsets[v];
@@ -193,7 +182,8 @@ void renew_residual(const Flow& flow, const Points& before, const Points& after,
         residual = equations.scale[v] * (residual - mass * (after.row(v) - before.row(v)));
         equations.residual[v] = to_row(residual);
         return squares(residual);
-    });
+    };
+    equations.squared_residual = sum(run_in_parallel, flow.mesh.n_vertices(), squares_of, Sums(Sums::Zero()));
 }
 
 /// The vectors of conjugate gradients, each thread on its own range of the rows.

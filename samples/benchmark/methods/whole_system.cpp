@@ -12,9 +12,9 @@ namespace seamflow {
 
 namespace {
 
-FaceView faces_of(const PolygonMesh& mesh, const Topology& topology)
+FacesOnBothSides faces_of(const PolygonMesh& mesh, const Topology& topology)
 {
-    return {mesh.face_offsets, mesh.face_vertices, topology.twin, mesh.n_vertices()};
+    return {{mesh.face_offsets, mesh.face_vertices}, {}, topology.twin, mesh.n_vertices()};
 }
 
 /// The same as make_pattern, but sorted line by line: faster for a whole mesh.

@@ -31,7 +31,13 @@ struct DefiniteSystem {
         const auto multiply = [&](const Points& p, Points& q) { q = (matrix * p).cast<float>().cast<double>(); };
         const auto precondition = [&](const Points& r, Points& z) { z = matrix.diagonal().asDiagonal().inverse() * r; };
         const auto measure = [&](const Points& at_x, Points& r) { r = right - matrix * at_x; };
-        ConjugateGradientVectors vectors(static_cast<Index>(right.rows()));
+        ConjugateGradientVectors vectors(static_cast<Index>(right.rows()),
+                                         [](std::initializer_list<VectorPair> pairs, const Executor&) {
+                                             std::vector<Point> products;
+                                             for (const auto& [a, b] : pairs)
+                                                 products.emplace_back(a.cwiseProduct(b).colwise().sum());
+                                             return products;
+                                         });
         x.setZero(right.rows(), 3);
         vectors.begin(right, run_serially);
         return conjugate_gradients(PreconditionedEquations{multiply, precondition, measure}, stop, x, vectors,

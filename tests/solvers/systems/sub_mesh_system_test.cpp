@@ -5,10 +5,10 @@
 
 #include "partition/errors.h"
 #include "samples/meshes/random_numbers.h"
+#include "solvers/conditions/adapted_robin.h"
 #include "solvers/conditions/dirichlet.h"
 #include "solvers/conditions/predicted_side.h"
 #include "solvers/conditions/remainder.h"
-#include "solvers/conditions/ventcell.h"
 #include "solvers/systems/general_system.h"
 #include "solvers/systems/sub_mesh_system.h"
 #include "tests/support/conditions.h"
@@ -26,9 +26,9 @@ namespace {
 constexpr double system_time_step = 0.01;
 constexpr double system_p = 3.0;
 
-FaceView faces_of_sub_mesh(const SubMesh& sub_mesh)
+FacesOnBothSides faces_of_sub_mesh(const SubMesh& sub_mesh)
 {
-    return {sub_mesh.face_vertices.offsets, sub_mesh.face_vertices.values, sub_mesh.twin, sub_mesh.n_vertices};
+    return {sub_mesh.face_vertices, {}, sub_mesh.twin, sub_mesh.n_vertices};
 }
 
 /// I + dt Δ written out, with identity rows where a vertex is fixed.
@@ -217,7 +217,7 @@ TEST_CASE("predicted by a symmetric system or by a general one, the result is th
                             system.assemble(positions, positions, system_time_step, system_p, roles, workspace);
                         const auto factor = system.factorise(equations, heap(), workspace);
                         Points prediction = positions;
-                        system.predict(factor, positions, prediction, workspace);
+                        system.solve(factor, positions, prediction, workspace);
                         system.use_other_side(positions, other_side);
                         Points solution = other_side;
                         system.solve(factor, positions, solution, workspace);
