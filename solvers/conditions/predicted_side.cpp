@@ -35,8 +35,7 @@ class PredictedSide final : public TransmissionCondition {
     {
         for (Index i = 0; i < sub_mesh.interface.size(); ++i) {
             list_columns(i);
-            const Reach reach = traits_of(laplacian).reach;
-            responds_[i] = reach == Reach::Edges || (reach == Reach::Faces && has_only_triangles(i));
+            responds_[i] = responds_at(sub_mesh, laplacian, i);
         }
     }
 
@@ -93,16 +92,6 @@ class PredictedSide final : public TransmissionCondition {
         sort_unique(columns);
         columns_.values.insert(columns_.values.end(), columns.begin(), columns.end());
         columns_.close();
-    }
-
-    [[nodiscard]] bool has_only_triangles(Index i) const
-    {
-        const auto& interface = sub_mesh_->interface;
-        const auto all_triangles = [](std::span<const Index> fan, const IndexLists& faces) {
-            return std::all_of(fan.begin(), fan.end(), [&](Index f) { return faces[f].size() == 3; });
-        };
-        return all_triangles(interface.own_faces[i], sub_mesh_->face_vertices) &&
-               all_triangles(interface.complement_faces[i], interface.halo_faces);
     }
 
     [[nodiscard]] RowKind choose_kind(Index i, const Points& positions) const
@@ -170,6 +159,18 @@ class PredictedSide final : public TransmissionCondition {
 };
 
 }  // namespace
+
+bool responds_at(const SubMesh& sub_mesh, Laplacian laplacian, Index i)
+{
+    const auto& interface = sub_mesh.interface;
+    const auto are_triangles = [](std::span<const Index> fan, const IndexLists& faces) {
+        return std::ranges::all_of(fan, [&](Index f) { return faces[f].size() == 3; });
+    };
+    const Reach reach = traits_of(laplacian).reach;
+    return reach == Reach::Edges ||
+           (reach == Reach::Faces && are_triangles(interface.own_faces[i], sub_mesh.face_vertices) &&
+            are_triangles(interface.complement_faces[i], interface.halo_faces));
+}
 
 std::unique_ptr<TransmissionCondition> make_predicted_side(const SubMesh& sub_mesh, const ScaledLaplacian& laplacian,
                                                            const Points* stiffness_at)

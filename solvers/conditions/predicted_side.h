@@ -8,6 +8,11 @@
 
 namespace seamflow {
 
+/// Whether the row at the i-th vertex of Γ is that of the undecomposed step with the other side responding (see
+/// make_predicted_side): where the Laplacian reaches along edges alone, and Δ_A and Δ_B where all faces at the vertex
+/// are triangles.
+bool responds_at(const SubMesh& sub_mesh, Laplacian laplacian, Index i);
+
 /// Robin conditions with a prediction of the other side: positions Ŵ of its vertices for Γ held at Vᵏ. The movement of
 /// Γ then acts on the other side as a disturbance that dies away over √dt.
 ///

@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 
 #include "partition/vector_area.h"
+#include "solvers/laplacian/geometry.h"
 
 namespace seamflow {
 
@@ -23,12 +24,6 @@ constexpr double momentum = 0.5;
 /// As for surfaces (see NoisyPlaces): the median of motions, in edge lengths, and the correlation of neighbours.
 constexpr double least_rim_median = 0.009;
 constexpr double most_rim_correlation = 0.28;
-
-Point unit_or_zero(const Point& vector)
-{
-    const double length = vector.norm();
-    return length > 0.0 ? Point(vector / length) : Point(Point::Zero());
-}
 
 }  // namespace
 

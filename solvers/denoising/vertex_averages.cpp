@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <numeric>
 #include <vector>
 
 #include "partition/decomposition/local_mesh.h"
-#include "partition/large_arrays.h"
+#include "partition/parallel_lists.h"
 
 namespace seamflow {
 
@@ -14,23 +13,9 @@ VertexAverages::VertexAverages(const PolygonMesh& mesh, const Topology& topology
     : mesh_(&mesh)
     , topology_(&topology)
 {
-    std::vector<Index>& offsets = neighbours_.offsets;
-    offsets.assign(usize(mesh.n_vertices()) + 1, 0);
-    const auto for_each_list = [&](auto&& use) {
-        exec(mesh.n_vertices(), [&](Index begin, Index end) {
-            std::vector<Index> list;
-            for (Index v = begin; v < end; ++v) {
-                edge_neighbours(mesh, topology, v, list);
-                use(v, list);
-            }
-        });
-    };
-    for_each_list([&](Index v, const std::vector<Index>& list) { offsets[v + 1] = static_cast<Index>(list.size()); });
-    std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
-    neighbours_.values.resize(usize(offsets.back()));
-    for_each_list([&](Index v, const std::vector<Index>& list) {
-        std::ranges::copy(list, neighbours_.values.begin() + offsets[v]);
-    });
+    make_lists_in_parallel(
+        exec, mesh.n_vertices(), [&](Index v, std::vector<Index>& list) { edge_neighbours(mesh, topology, v, list); },
+        neighbours_.offsets, neighbours_.values);
 }
 
 void VertexAverages::spread(Rows& near, Rows& around, int rounds, int further_rounds, const Executor& exec) const

@@ -130,16 +130,16 @@ void LdlSolver::list_updates(const std::vector<Index>& supernode_of)
 void LdlSolver::list_targets()
 {
     const std::vector<Index>& place_above = schedule_.place_above;
-    targets_ = make_lists<Target>(static_cast<Index>(schedule_.above.size()), [&](auto&& add) {
+    targets_ = make_lists<Update>(static_cast<Index>(schedule_.above.size()), [&](auto&& add) {
         for (const Index later : schedule_.above)
             for (const Update& update : updates_[later])
-                if (place_above[update.earlier] >= 0)
-                    add(place_above[update.earlier], Target{later, update.place, update.n_columns});
+                if (place_above[update.supernode] >= 0)
+                    add(place_above[update.supernode], Update{later, update.place, update.n_columns});
     });
     updates_ = make_lists<Update>(pattern_.n_supernodes(), [&, all = std::move(updates_)](auto&& add) {
         for (Index later = 0; later < pattern_.n_supernodes(); ++later)
             for (const Update& update : all[later])
-                if (place_above[update.earlier] < 0)
+                if (place_above[update.supernode] < 0)
                     add(later, update);
     });
 }
@@ -245,11 +245,11 @@ template <class Number>
 void LdlSolver::subtract_from_targets(Index above, Number* factor) const
 {
     const LdlPanel<Number> earlier = panel(factor, schedule_.above[above]);
-    const std::span<const Target> targets = targets_[above];
+    const std::span<const Update> targets = targets_[above];
     exec_(static_cast<Index>(targets.size()), [&](Index begin, Index end) {
         std::vector<Index> target_rows;
-        for (const Target& target : targets.subspan(usize(begin), usize(end - begin))) {
-            const LdlPanel<Number> later = panel(factor, target.later);
+        for (const Update& target : targets.subspan(usize(begin), usize(end - begin))) {
+            const LdlPanel<Number> later = panel(factor, target.supernode);
             find_target_rows(earlier.rows.subspan(usize(target.place)), later.rows, target_rows);
             subtract_update(earlier, target.place, target.n_columns, target_rows.data(), later);
         }
@@ -263,7 +263,7 @@ void LdlSolver::subtract_updates(const LdlPanel<Number>& later, Index supernode,
     for (std::size_t i = 0; i < later.rows.size(); ++i)
         workspace.row_of[later.rows[i]] = static_cast<Index>(i);
     for (const Update& update : updates_[supernode]) {
-        const LdlPanel<Number> earlier = panel(factor, update.earlier);
+        const LdlPanel<Number> earlier = panel(factor, update.supernode);
         const auto rows = earlier.rows.subspan(update.place);
         for (std::size_t i = 0; i < rows.size(); ++i)
             workspace.target_rows[i] = workspace.row_of[rows[i]];

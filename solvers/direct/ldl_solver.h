@@ -89,7 +89,8 @@ class LdlSolver {
 
     /// An update of columns of a later supernode by an earlier one.
     struct Update {
-        Index earlier;
+        /// One of the two; which one, depends on the list.
+        Index supernode;
         /// The first of the earlier supernode's rows that belong to these columns; their number.
         Index place;
         Index n_columns;
@@ -102,13 +103,6 @@ class LdlSolver {
     {
         return usize(n_factor_numbers()) + (has_rows_ ? usize(ldl_row) * usize(n()) : 0);
     }
-    /// An update of a later supernode, seen from the earlier one.
-    struct Target {
-        Index later;
-        Index place;
-        Index n_columns;
-    };
-
     void list_updates(const std::vector<Index>& supernode_of);
     void list_targets();
     void find_places(const SparsePattern& upper, const std::vector<Index>& supernode_of);
@@ -136,13 +130,13 @@ class LdlSolver {
     SymbolicFactor pattern_;
     /// Per supernode, where it begins in the factor, and where the last one ends.
     std::vector<Index> panels_{0};
-    /// Per supernode; where there is a schedule, by supernodes that are in groups.
+    /// Per supernode, by earlier ones; where there is a schedule, by those that are in groups.
     Lists<Update> updates_;
     Executor exec_;
     Pivots pivots_;
     EliminationSchedule schedule_;
-    /// Per supernode above the groups: what it updates, all above them.
-    Lists<Target> targets_;
+    /// Per supernode above the groups: of later ones, all above them.
+    Lists<Update> targets_;
 };
 
 /// L D Lᵀ of one matrix, in units of scale(), without the block of the last unknowns.

@@ -95,12 +95,6 @@ void for_each_face(std::span<const Index> fan, const IndexLists& faces, Index v,
     }
 }
 
-Point unit(const Point& vector)
-{
-    const double norm = vector.norm();
-    return norm > 0.0 ? Point(vector / norm) : Point::Zero();
-}
-
 /// How far a disturbance spreads in a step, squared: dt D, D = ΣK d² / 4M. It is dt for a Laplacian that is exact on
 /// quadratic functions; it is clamped, lest obtuse triangles make it meaningless.
 double spread(const Draft& draft, double time_step)
@@ -152,7 +146,7 @@ ErrorRow error_row(const SubMesh& sub_mesh, const ScaledLaplacian& laplacian, In
     const Index v = interface.vertices[i];
     std::fill(couplings.begin(), couplings.end(), 0.0);
     Draft draft{before, after, step.stiffness_at, v, sub_mesh.corrected.neighbours[i], couplings, {}};
-    draft.along = unit(before.row(interface.after[i]) - before.row(interface.before[i]));
+    draft.along = unit_or_zero(before.row(interface.after[i]) - before.row(interface.before[i]));
     std::size_t n_faces = 0;
     with_kernel(laplacian, [&]<class Given>(Given given) {
         using Kernel = WithinOneRing<Given>;
@@ -172,7 +166,7 @@ ErrorRow error_row(const SubMesh& sub_mesh, const ScaledLaplacian& laplacian, In
         else
             add_edges(given, step.time_step, draft);
     });
-    draft.row.normal = unit(draft.row.normal);
+    draft.row.normal = unit_or_zero(draft.row.normal);
     draft.row.residual += draft.row.mass * (after.row(v) - before.row(v));
     close_row(kinds, spread(draft, step.time_step), draft);
     return draft.row;

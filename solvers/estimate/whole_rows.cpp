@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <utility>
+
+#include "solvers/laplacian/ptackova_velho.h"
 
 namespace seamflow {
 
@@ -10,20 +11,17 @@ WholeRows::WholeRows(const Decomposition& decomposition, const PolygonMesh& mesh
                      InterfacePeers& peers)
     : copies_(decomposition)
     , shared_(shared_copies(copies_, peers))
-    , rows_([&] {
-        Parts parts = list_parts(decomposition, mesh, topology, peers);
-        return PtackovaRows(mesh, topology, std::move(parts.vertices), std::move(parts.faces));
-    }())
 {
-    of_rows_.setZero(std::ssize(copy_of_row_) + std::ssize(n_sharing_), 3);
+    list_rows(decomposition, mesh, topology, peers);
+    list_faces(mesh, topology);
+    of_rows_.setZero(std::ssize(vertices_), 3);
     of_copies_.setZero(copies_.n_copies(), 3);
 }
 
 /// Sub-mesh by sub-mesh: vertices beside Γ have all their faces in one.
-WholeRows::Parts WholeRows::list_parts(const Decomposition& decomposition, const PolygonMesh& mesh,
-                                       const Topology& topology, const InterfacePeers& peers)
+void WholeRows::list_rows(const Decomposition& decomposition, const PolygonMesh& mesh, const Topology& topology,
+                          const InterfacePeers& peers)
 {
-    Parts parts;
     std::vector<Index> all_beside;
     std::vector<Index> number(usize(mesh.n_vertices()), -1);
     std::vector<Index> beside;
@@ -39,13 +37,13 @@ WholeRows::Parts WholeRows::list_parts(const Decomposition& decomposition, const
         for (Index i = 0; i < interface.size(); ++i) {
             beside.clear();
             for (const Index f : interface.own_faces[i]) {
-                parts.faces.values.push_back(sub_mesh.faces[f]);
+                faces_at_.values.push_back(sub_mesh.faces[f]);
                 for (const Index v : sub_mesh.face_vertices[f])
                     if (is_beside[v] != 0)
                         beside.push_back(sub_mesh.local_to_global[v]);
             }
-            parts.faces.close();
-            parts.vertices.push_back(sub_mesh.local_to_global[interface.vertices[i]]);
+            faces_at_.close();
+            vertices_.push_back(sub_mesh.local_to_global[interface.vertices[i]]);
             copy_of_row_.push_back(copies_.first[s] + i);
             sort_unique(beside);
             for (const Index v : beside) {
@@ -62,17 +60,64 @@ WholeRows::Parts WholeRows::list_parts(const Decomposition& decomposition, const
     }
     for (const Index v : all_beside) {
         for (const Index corner : topology.corners_at(v))
-            parts.faces.values.push_back(topology.face_of[corner]);
-        parts.faces.close();
-        parts.vertices.push_back(v);
+            faces_at_.values.push_back(topology.face_of[corner]);
+        faces_at_.close();
+        vertices_.push_back(v);
     }
-    return parts;
+}
+
+void WholeRows::list_faces(const PolygonMesh& mesh, const Topology& topology)
+{
+    number_.assign(usize(mesh.n_faces()), -1);
+    const auto add = [&](Index f) {
+        if (number_[f] >= 0)
+            return;
+        number_[f] = static_cast<Index>(faces_.size());
+        faces_.push_back({f, Eigen::Matrix3d::Zero(), 0.0, Point::Zero()});
+    };
+    for (Index& f : faces_at_.values) {
+        add(f);
+        f = number_[f];
+    }
+    n_inner_ = static_cast<Index>(faces_.size());
+    for (Index i = 0; i < n_inner_; ++i) {
+        const Index f = faces_[i].index;
+        for (Index h = mesh.face_offsets[f]; h < mesh.face_offsets[f + 1]; ++h)
+            if (const Index twin = topology.twin[h]; twin >= 0)
+                add(topology.face_of[twin]);
+    }
+}
+
+void WholeRows::evaluate(const PolygonMesh& mesh, const Topology& topology, const Points& before, const Points& after,
+                         double time_step, const Executor& exec)
+{
+    for_each(exec, static_cast<Index>(faces_.size()), [&](Index i) {
+        Face& face = faces_[i];
+        face.area = area(mesh.face(face.index), before);
+        face.flux = PtackovaVelho::flux_map(mesh.face(face.index), before, after, face.area);
+    });
+    const auto flux_map_of = [&](Index f) -> const Eigen::Matrix3d& { return faces_[number_[f]].flux; };
+    for_each(exec, n_inner_, [&](Index i) {
+        Face& face = faces_[i];
+        face.share = PtackovaVelho::corner_share(mesh, topology, before, face.index, flux_map_of);
+    });
+    for_each(exec, static_cast<Index>(vertices_.size()), [&](Index i) {
+        const Index v = vertices_[i];
+        Point laplacian = Point::Zero();
+        double vertex_area = 0.0;
+        for (const Index number : faces_at_[i]) {
+            const Face& face = faces_[number];
+            laplacian += face.share;
+            vertex_area += corner_area(face.area, mesh.face(face.index).size());
+        }
+        of_rows_.row(i) = vertex_area * (after.row(v) - before.row(v)) + time_step * laplacian;
+    });
 }
 
 void WholeRows::measure(const PolygonMesh& mesh, const Topology& topology, const Points& before, const Points& after,
                         double time_step, const Executor& exec)
 {
-    rows_.evaluate(mesh, topology, before, after, time_step, exec, of_rows_);
+    evaluate(mesh, topology, before, after, time_step, exec);
     const auto n = static_cast<Index>(copy_of_row_.size());
     for_each(exec, n, [&](Index row) {
         Point sum = of_rows_.row(row);

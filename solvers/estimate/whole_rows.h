@@ -6,7 +6,6 @@
 #include "partition/executor.h"
 #include "partition/index_lists.h"
 #include "partition/topology.h"
-#include "solvers/estimate/ptackova_rows.h"
 #include "solvers/interface/interface_copies.h"
 #include "solvers/interface/interface_peers.h"
 #include "solvers/interface/shared_rows.h"
@@ -14,7 +13,8 @@
 
 namespace seamflow {
 
-/// The residuals of the rows at Γ of a decomposed step with Δ_P, which reach too far for one sub-mesh to know. The
+/// The residuals of the rows at Γ of a decomposed step with Δ_P, each multiplied by the area M_v of its vertex,
+/// M_v (Vᵏ⁺¹ - Vᵏ + dt Δ_P(Vᵏ) Vᵏ⁺¹): without a matrix. They reach two rings, too far for one sub-mesh to know. The
 /// residuals at vertices beside Γ, which a sub-mesh has from its own faces alone, are distributed to the vertices of Γ
 /// with which they share a face. Every sub-mesh adds up its faces' shares of the rows; a vertex of Γ has the sum of
 /// these over its copies.
@@ -24,8 +24,9 @@ class WholeRows {
     WholeRows(const Decomposition& decomposition, const PolygonMesh& mesh, const Topology& topology,
               InterfacePeers& peers);
 
-    /// All peers call this together.
+    /// All peers call this together. Allocates nothing for one peer.
     /// @param before, after #V by 3: Vᵏ, and Vᵏ⁺¹ as solved; at own faces and those that share an edge with one.
+    /// @param time_step dt, in length².
     void measure(const PolygonMesh& mesh, const Topology& topology, const Points& before, const Points& after,
                  double time_step, const Executor& exec);
 
@@ -33,14 +34,21 @@ class WholeRows {
     [[nodiscard]] Point residual(Index s, Index i) const;
 
   private:
-    /// Rows, and the own faces around their vertices.
-    struct Parts {
-        std::vector<Index> vertices;
-        IndexLists faces;
+    /// A face of the mesh, and its data.
+    struct Face {
+        Index index;
+        /// See PtackovaVelho::flux_map: b and |f| at Vᵏ, x = Vᵏ⁺¹.
+        Eigen::Matrix3d flux;
+        double area;
+        /// Share of each of its corners in ΔV, times M_v.
+        Point share;
     };
 
-    Parts list_parts(const Decomposition& decomposition, const PolygonMesh& mesh, const Topology& topology,
-                     const InterfacePeers& peers);
+    void list_rows(const Decomposition& decomposition, const PolygonMesh& mesh, const Topology& topology,
+                   const InterfacePeers& peers);
+    void list_faces(const PolygonMesh& mesh, const Topology& topology);
+    void evaluate(const PolygonMesh& mesh, const Topology& topology, const Points& before, const Points& after,
+                  double time_step, const Executor& exec);
 
     InterfaceCopies copies_;
     SharedRows shared_;
@@ -49,7 +57,14 @@ class WholeRows {
     std::vector<Index> copy_of_row_;
     IndexLists beside_;
     std::vector<Index> n_sharing_;
-    PtackovaRows rows_;
+    /// Per row: its vertex, and own faces around it, as numbers in the list below.
+    std::vector<Index> vertices_;
+    IndexLists faces_at_;
+    /// Those of the rows, then those that share an edge with one of them.
+    std::vector<Face> faces_;
+    Index n_inner_ = 0;
+    /// #F: the number of a face in that list, or -1.
+    std::vector<Index> number_;
     Points of_rows_;
     /// #copies by 3.
     Points of_copies_;

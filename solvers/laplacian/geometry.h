@@ -10,6 +10,13 @@
 
 namespace seamflow {
 
+/// Of length 1, or 0 if the vector is.
+inline Point unit_or_zero(const Point& vector)
+{
+    const double length = vector.norm();
+    return length > 0.0 ? Point(vector / length) : Point(Point::Zero());
+}
+
 /// |f|: length of the vector area, in length².
 inline double area(std::span<const Index> corners, const Points& positions)
 {

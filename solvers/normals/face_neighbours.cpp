@@ -1,6 +1,7 @@
 #include "solvers/normals/face_neighbours.h"
 
-#include <algorithm>
+#include "partition/index_lists.h"
+#include "partition/parallel_lists.h"
 
 namespace seamflow {
 
@@ -18,8 +19,7 @@ void list_neighbours(const PolygonMesh& mesh, const Topology& topology, Index f,
         if (topology.twin[h] >= 0)
             list.push_back(topology.face_of[topology.twin[h]]);
     }
-    std::sort(list.begin(), list.end());
-    list.erase(std::unique(list.begin(), list.end()), list.end());
+    sort_unique(list);
     std::erase(list, f);
 }
 
@@ -28,25 +28,9 @@ void list_neighbours(const PolygonMesh& mesh, const Topology& topology, Index f,
 FaceNeighbours make_face_neighbours(const PolygonMesh& mesh, const Topology& topology, const Executor& exec)
 {
     FaceNeighbours neighbours;
-    neighbours.offsets.assign(usize(mesh.n_faces()) + 1, 0);
-    exec(mesh.n_faces(), [&](Index begin, Index end) {
-        std::vector<Index> list;
-        for (Index f = begin; f < end; ++f) {
-            list_neighbours(mesh, topology, f, list);
-            neighbours.offsets[f + 1] = list.size();
-        }
-    });
-    for (Index f = 0; f < mesh.n_faces(); ++f)
-        neighbours.offsets[f + 1] += neighbours.offsets[f];
-    neighbours.faces.resize(neighbours.offsets.back());
-    exec(mesh.n_faces(), [&](Index begin, Index end) {
-        std::vector<Index> list;
-        for (Index f = begin; f < end; ++f) {
-            list_neighbours(mesh, topology, f, list);
-            std::copy(list.begin(), list.end(),
-                      neighbours.faces.begin() + static_cast<std::ptrdiff_t>(neighbours.offsets[f]));
-        }
-    });
+    make_lists_in_parallel(
+        exec, mesh.n_faces(), [&](Index f, std::vector<Index>& list) { list_neighbours(mesh, topology, f, list); },
+        neighbours.offsets, neighbours.faces);
     return neighbours;
 }
 

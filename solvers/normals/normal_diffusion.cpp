@@ -46,15 +46,6 @@ double sum_of_products(const Points& a, const Points& b, const Executor& exec)
     return sum(exec, static_cast<Index>(a.rows()), [&](Index i) { return a.row(i).dot(b.row(i)); });
 }
 
-void normalise_row(Points& normals, Index f)
-{
-    const double length = normals.row(f).norm();
-    if (length > 0.0)
-        normals.row(f) /= length;
-    else
-        normals.row(f).setZero();
-}
-
 /// Of those below a limit; 0 if there are none.
 double median_below(double limit, std::vector<double> values)
 {
@@ -113,8 +104,7 @@ Points NormalDiffusion::smoothed(const Points& positions, double time_step, doub
     Points normals(n, 3);
     for_each(exec, n, [&](Index f) {
         normals.row(f) = areas_[f] > 0.0 ? Point(vector_area(mesh_->face(f), positions)) : Point(Point::Zero());
-        normals.row(f) *= signs_.empty() ? 1.0 : signs_[f];
-        normalise_row(normals, f);
+        normals.row(f) = unit_or_zero((signs_.empty() ? 1.0 : signs_[f]) * normals.row(f));
     });
     noise_ = measure_noise(positions, normals, edge_chord, exec);
     const double longest = std::min(sigmas_at_edges * std::max(sigma_by_noise * noise_, least_sigma), edge_chord);
@@ -124,7 +114,7 @@ Points NormalDiffusion::smoothed(const Points& positions, double time_step, doub
             find_patches(normals, exec);
         find_weights(normals, longest, exec);
         diffuse(normals, exec);
-        for_each(exec, n, [&](Index f) { normalise_row(normals, f); });
+        for_each(exec, n, [&](Index f) { normals.row(f) = unit_or_zero(normals.row(f)); });
     }
     return normals;
 }
@@ -239,8 +229,7 @@ void NormalDiffusion::find_guides(const Points& normals, const Executor& exec)
             const double chord = (normals.row(f) - normals.row(g)).norm() / width;
             total += areas_[g] * std::exp(-0.5 * chord * chord) * normals.row(g);
         }
-        guides_.row(f) = total;
-        normalise_row(guides_, f);
+        guides_.row(f) = unit_or_zero(total);
     });
 }
 
@@ -257,8 +246,7 @@ void NormalDiffusion::find_patches(const Points& normals, const Executor& exec)
             weight += areas_[g];
         }
         disagreement_[f] = weight > 0.0 ? 1.0 - total.norm() / weight : 1.0;
-        means_.row(f) = total;
-        normalise_row(means_, f);
+        means_.row(f) = unit_or_zero(total);
     });
     for_each(exec, n, [&](Index f) {
         Index patch = f;

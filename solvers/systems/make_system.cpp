@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <utility>
 
 #include "solvers/conditions/dirichlet.h"
@@ -10,21 +9,13 @@ namespace seamflow {
 
 namespace {
 
-bool are_triangles(const IndexLists& fans, const IndexLists& faces)
-{
-    return std::all_of(fans.values.begin(), fans.values.end(), [&](Index f) { return faces[f].size() == 3; });
-}
-
-/// Whether the rows on Γ are those of a symmetric matrix: see predicted_side.h.
+/// Whether the rows on Γ are those of a symmetric matrix.
 bool has_symmetric_rows(const SubMesh& sub_mesh, Laplacian laplacian)
 {
-    const auto& interface = sub_mesh.interface;
-    const LaplacianTraits& traits = traits_of(laplacian);
-    if (!traits.is_symmetric)
-        return false;
-    return traits.reach == Reach::Edges ||
-           (traits.reach == Reach::Faces && are_triangles(interface.own_faces, sub_mesh.face_vertices) &&
-            are_triangles(interface.complement_faces, interface.halo_faces));
+    Index i = 0;
+    while (i < sub_mesh.interface.size() && responds_at(sub_mesh, laplacian, i))
+        ++i;
+    return is_symmetric(laplacian) && i == sub_mesh.interface.size();
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "solvers/systems/symmetric_system.h"
 
 #include <algorithm>
+#include <tuple>
 #include <utility>
 
 #include "solvers/conditions/remainder.h"
@@ -48,36 +49,27 @@ SparsePattern SymmetricSystem::list_entries(const std::vector<VertexPair>& pairs
     return std::move(upper.pattern);
 }
 
-/// Couplings that are not in the matrix; those beyond Γ by the vertices of Γ.
+/// Couplings that are not in the matrix: first those at own vertices, then those beyond Γ by the vertices of Γ.
 void SymmetricSystem::list_couplings(const std::vector<VertexPair>& pairs, const std::vector<Index>& unknown_of)
 {
     const auto is_unknown = [&](Index v) { return unknown_of[v] >= 0; };
     const auto unknown_first = [&](VertexPair pair) {
         return is_unknown(pair.first) ? pair : VertexPair{pair.second, pair.first};
     };
-    std::vector<std::size_t> at_fixed;
-    std::vector<std::pair<Index, std::size_t>> at_beyond;
+    std::vector<std::tuple<bool, Index, std::size_t>> couplings;
     for (std::size_t i = 0; i < pairs.size(); ++i) {
-        if (matrix_.slots[i] >= 0)
-            continue;
         const auto [a, b] = unknown_first(pairs[i]);
-        if (!is_unknown(a))
+        if (matrix_.slots[i] >= 0 || !is_unknown(a))
             continue;
-        if (b < sub_mesh_->n_vertices)
-            at_fixed.push_back(i);
-        else
-            at_beyond.emplace_back(a, i);
+        const bool is_beyond = b >= sub_mesh_->n_vertices;
+        couplings.emplace_back(is_beyond, is_beyond ? a : 0, i);
     }
+    std::ranges::sort(couplings);
     Index slot = matrix_.n_entries();
-    for (const std::size_t i : at_fixed) {
+    for (const auto& [is_beyond, of_vertex, i] : couplings) {
         const auto [a, b] = unknown_first(pairs[i]);
         matrix_.slots[i] = slot++;
-        fixed_.push_back({unknown_of[a], b, 0.0});
-    }
-    std::sort(at_beyond.begin(), at_beyond.end());
-    for (const auto& [a, i] : at_beyond) {
-        matrix_.slots[i] = slot++;
-        beyond_.push_back({unknown_of[a], unknown_first(pairs[i]).second, 0.0});
+        (is_beyond ? beyond_ : fixed_).push_back({unknown_of[a], b, 0.0});
     }
     std::replace(matrix_.slots.begin(), matrix_.slots.end(), Index{-1}, slot);
 }

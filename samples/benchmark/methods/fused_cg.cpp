@@ -15,6 +15,7 @@
 #include "engine/tasks/workers.h"
 #include "partition/errors.h"
 #include "partition/index_lists.h"
+#include "partition/parallel_lists.h"
 #include "partition/topology.h"
 #include "solvers/laplacian/kernels.h"
 
@@ -71,25 +72,12 @@ Equations analyse(const Flow& flow)
 {
     const Index n = flow.mesh.n_vertices();
     Equations equations;
-    equations.offsets.assign(usize(n) + 1, 0);
-    for (const bool is_counted : {false, true}) {
-        for_each_block(run_in_parallel, n, [&](Index, Index begin, Index end) {
-            std::vector<Index> neighbours;
-            for (Index v = begin; v < end; ++v) {
-                if (!flow.topology.moves(v))
-                    continue;
-                list_neighbours(flow, v, neighbours);
-                if (is_counted)
-                    std::copy(neighbours.begin(), neighbours.end(), equations.columns.begin() + equations.offsets[v]);
-                else
-                    equations.offsets[v + 1] = static_cast<Index>(neighbours.size());
-            }
-        });
-        if (is_counted)
-            break;
-        std::partial_sum(equations.offsets.begin(), equations.offsets.end(), equations.offsets.begin());
-        equations.columns.resize(equations.offsets.back());
-    }
+    const auto list = [&](Index v, std::vector<Index>& neighbours) {
+        neighbours.clear();
+        if (flow.topology.moves(v))
+            list_neighbours(flow, v, neighbours);
+    };
+    make_lists_in_parallel(run_in_parallel, n, list, equations.offsets, equations.columns);
     equations.values.resize(equations.columns.size());
     equations.scale.assign(n, 0.0);
     equations.residual.assign(n, Row::Zero());
