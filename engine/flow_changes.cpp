@@ -50,7 +50,7 @@ void FlowRun::hold(std::span<const Index> vertices, bool is_held)
     stepper_->hold(flowing, is_held);
     for (const Index v : flowing)
         topology.fixed[v] = is_held_[v] = is_held ? 1 : 0;
-    constraints_->vanishing.look_again(find_small_components(mesh_.mesh(), topology, options().motion.strength));
+    constraints_->vanishing.look_again();
     was_changed_ = true;
 }
 

@@ -396,6 +396,8 @@ void FlowRun::complete(FlowReport& report) const
     if (stepper_->separated() != nullptr)
         report.separated = *stepper_->separated();
     stepper_->report_to(report);
+    remark_on_factorisation(options().resources.factorisation, report);
+    remark_on_near_singularity(report);
     if (resume_ != nullptr)
         report.seconds.add_tasks(resume_->seconds);
     mesh_.complete(report);

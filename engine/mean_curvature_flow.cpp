@@ -32,15 +32,6 @@ double fraction_of_setup(const FlowOptions& options, const FlowState* resume)
     return as_steps / (as_steps + to_do);
 }
 
-/// @throws OptionError if the state is beyond the last step that is wanted.
-void require_ahead(const FlowOptions& options, const FlowState& state)
-{
-    if (state.n_steps() > options.steps)
-        throw OptionError(fmt::format("steps is {}, but the state to resume from is already after step {}: ask for at "
-                                      "least as many, or start over",
-                                      options.steps, state.n_steps()));
-}
-
 }  // namespace
 
 /// What a flow works with, on its threads.
@@ -94,14 +85,6 @@ class Flow::Session {
             progress_.finish();
     }
 
-    /// @throws InputError.
-    void require_rows(Eigen::Index n) const
-    {
-        if (n != flowing_->mesh().n_vertices())
-            throw InputError(fmt::format("the fields have {} rows, but the mesh has {} vertices: give one for each", n,
-                                         flowing_->mesh().n_vertices()));
-    }
-
     void complete(FlowReport& report)
     {
         workers_.execute([&] { run_->complete(report); });
@@ -148,8 +131,10 @@ Flow::Flow(PolygonMesh& mesh, const FlowOptions& options, StepObserver on_step, 
     own.time_step = time_step_of(options, mesh);
     own.radius.reset();
     own.uniform_edge = uniform_edge_of(options, mesh);
-    if (control_.resume != nullptr)
-        require_ahead(own, *control_.resume);
+    if (control_.resume != nullptr && control_.resume->n_steps() > options.steps)
+        throw OptionError(fmt::format("steps is {}, but the state to resume from is already after step {}: ask for at "
+                                      "least as many, or start over",
+                                      options.steps, control_.resume->n_steps()));
     session_ = std::make_unique<Session>(mesh, std::move(own), control_, static_cast<bool>(on_step_), report_);
 }
 
@@ -185,7 +170,9 @@ void Flow::require_fields(const Eigen::Ref<const Eigen::MatrixXd>& fields) const
 {
     if (!is_linear_)
         throw OptionError("only linear flows are applied to fields: their matrix stays the same");
-    session_->require_rows(fields.rows());
+    if (fields.rows() != report_.mesh.vertices)
+        throw InputError(fmt::format("the fields have {} rows, but the mesh has {} vertices: give one for each",
+                                     fields.rows(), report_.mesh.vertices));
     for (Eigen::Index c = 0; c < fields.cols(); ++c)
         for (Eigen::Index v = 0; v < fields.rows(); ++v)
             if (!std::isfinite(fields(v, c)))

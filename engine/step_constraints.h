@@ -20,7 +20,7 @@ struct StepConstraints {
         : is_scaled(options.motion.rescale != Rescale::None && options.flow == FlowEquation::Conformalized)
         , is_scaled_apart(options.motion.rescale != Rescale::None && !is_scaled)
         , rescaling(mesh, topology, options.motion.rescale)
-        , vanishing(options, mesh.vertices, find_small_components(mesh, topology, options.motion.strength))
+        , vanishing(mesh, topology, options)
         , mesh_(&mesh)
     {
         if (options.motion.direction.kind != MotionDirection::Kind::Any)

@@ -64,6 +64,14 @@ class DisjointSets {
         }
     }
 
+    /// For each number the lowest of its set.
+    std::vector<Index> all_lowest(const Executor& exec)
+    {
+        auto lowest = large_vector<Index>(usize(n_));
+        for_each(exec, n_, [&](Index i) { lowest[i] = find(i); });
+        return lowest;
+    }
+
     /// For each number the place of its set, the sets being in the order of their lowest numbers, and how many there
     /// are.
     std::pair<std::vector<Index>, Index> numbered(const Executor& exec)

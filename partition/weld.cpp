@@ -4,53 +4,18 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <numeric>
 #include <span>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "partition/disjoint_sets.h"
 #include "partition/index_lists.h"
 #include "partition/point_numbers.h"
 
 namespace seamflow {
 
 namespace {
-
-/// Groups of joined elements, each represented by its lowest.
-class Lots {
-  public:
-    explicit Lots(Index n)
-        : above_(usize(n))
-    {
-        std::iota(above_.begin(), above_.end(), 0);
-    }
-
-    Index lowest(Index i)
-    {
-        while (above_[i] != i)
-            i = above_[i] = above_[above_[i]];
-        return i;
-    }
-
-    void join(Index i, Index j)
-    {
-        const auto [low, high] = std::minmax({lowest(i), lowest(j)});
-        above_[high] = low;
-    }
-
-    /// The lowest of the group of each element.
-    std::vector<Index> all_lowest()
-    {
-        for (std::size_t i = 0; i < above_.size(); ++i)
-            above_[i] = above_[above_[i]];
-        return std::move(above_);
-    }
-
-  private:
-    /// Never greater than the index, so that one pass in ascending order flattens all.
-    std::vector<Index> above_;
-};
 
 /// Calls `visit` for half of the cells around one: for each pair of neighbours, from one of both.
 template <class Visit>
@@ -78,12 +43,12 @@ std::vector<Index> join_near(const std::vector<PointNumbers::Place>& points, dou
                 add(cell_of[i], static_cast<Index>(i));
         });
     }();
-    Lots lots(static_cast<Index>(points.size()));
+    DisjointSets sets(static_cast<Index>(points.size()), run_serially);
     const auto join_if_near = [&](Index i, Index j) {
         const PointNumbers::Place& p = points[i];
         const PointNumbers::Place& q = points[j];
         if (std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]) <= distance)
-            lots.join(i, j);
+            sets.join(i, j);
     };
     for (Index c = 0; c < in_cell.size(); ++c) {
         const auto here = in_cell[c];
@@ -101,7 +66,7 @@ std::vector<Index> join_near(const std::vector<PointNumbers::Place>& points, dou
                     join_if_near(i, j);
         });
     }
-    return lots.all_lowest();
+    return sets.all_lowest(run_serially);
 }
 
 /// The edges that have one face.
@@ -236,20 +201,14 @@ class Welding {
     std::optional<Weld> take();
 
   private:
-    template <class Visit>
-    void for_each_joint(Visit&& visit) const
-    {
-        for (const auto& [h, other] : pairs_) {
-            visit(rims_.start(h), rims_.end(other));
-            visit(rims_.end(h), rims_.start(other));
-        }
-    }
-
     void join()
     {
-        Lots lots(mesh_.n_vertices());
-        for_each_joint([&](Index v, Index w) { lots.join(v, w); });
-        first_ = lots.all_lowest();
+        DisjointSets sets(mesh_.n_vertices(), exec_);
+        for (const auto& [h, other] : pairs_) {
+            sets.join(rims_.start(h), rims_.end(other));
+            sets.join(rims_.end(h), rims_.start(other));
+        }
+        first_ = sets.all_lowest(exec_);
         welded_.face_offsets = mesh_.face_offsets;
         welded_.face_vertices.resize(mesh_.face_vertices.size());
         for_each(exec_, mesh_.n_corners(), [&](Index h) { welded_.face_vertices[h] = first_[mesh_.face_vertices[h]]; });

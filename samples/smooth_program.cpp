@@ -1,3 +1,13 @@
+// Smooths a mesh: reads it, cuts it into sub-meshes, runs the flow and writes the result.
+//
+// What runs in each step, for every sub-mesh at once (one task graph, no barrier in between):
+//
+//     assemble and factorise ──► solve ──► correct the interface
+//                                  ▲         ▲
+//        solve of the adjacent ────┘         └─ solve of all sub-meshes around
+//        sub-meshes of lower colour
+//        that it takes values from
+
 #include "samples/smooth_program.h"
 
 #include <algorithm>
@@ -14,6 +24,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <malloc.h>
 
 #include "engine/mean_curvature_flow.h"
 #include "engine/ranks/rank_group.h"
@@ -31,14 +42,12 @@
 #include "samples/files/output_files.h"
 #include "samples/page/page_html.h"
 #include "samples/page/read_file_colours.h"
-#include "samples/process/freed_memory.h"
 #include "samples/process/interruption.h"
 #include "samples/report/report_json.h"
 #include "samples/report/report_text.h"
 #include "samples/report/schedule_files.h"
 #include "samples/runs/field_run.h"
 #include "samples/runs/long_run.h"
-#include "samples/runs/run_output.h"
 #include "samples/runs/smoothing_run.h"
 #include "samples/tiles/tiled_run.h"
 
@@ -121,15 +130,15 @@ void write_reports(const SmoothCommand& command, const RunRecord& run, FlowRepor
     if (page && !page->remark().empty())
         report.remarks.push_back(page->remark());
     if (!command.report.empty())
-        write_text(command.report, smooth_report_json(run, report));
+        write_text(command.report, smooth_report_json(run, command.options, report));
     if (!command.csv.empty())
-        write_text(command.csv, steps_csv(smooth_report_json(run, report)));
+        write_text(command.csv, steps_csv(smooth_report_json(run, command.options, report)));
     if (!command.trace.empty())
         write_schedule_trace(command.trace, report);
     if (!command.task_graph.empty())
         write_task_graph(command.task_graph, report);
     if (page) {
-        page->finish(report, smooth_report_json(run, report));
+        page->finish(report, smooth_report_json(run, command.options, report));
         write_text(command.html, page_html(command.input.filename().string(), {&*page, 1}));
     }
 }
@@ -197,7 +206,8 @@ ExitStatus run(SmoothCommand& command, RunRecord& run, RankGroup* ranks)
     }
     long_run.end();
     run.checkpoint_seconds = long_run.checkpoint_seconds();
-    return_freed_memory();
+    // The C library keeps memory that was freed between other memory.
+    malloc_trim(0);
     report.remarks.insert(report.remarks.begin(), run.remarks.begin(), run.remarks.end());
     // Without steps, the choices do not matter.
     if (command.options.steps == 0)
@@ -221,7 +231,7 @@ ExitStatus run(SmoothCommand& command, RunRecord& run, RankGroup* ranks)
     run.seconds = whole.seconds();
     write_reports(command, run, report, page);
     if (command.verbose)
-        print_details(out, run, report);
+        print_details(out, run, command.options, report);
     if (ranks != nullptr)
         print_ranks(out, run, ranks->size());
     print_result(out, run, report);

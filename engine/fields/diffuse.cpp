@@ -11,18 +11,17 @@
 #include <fmt/format.h>
 
 #include "engine/fields/field_columns.h"
-#include "engine/fields/thin_faces.h"
 #include "engine/fields/white_noise.h"
 #include "engine/flow.h"
 #include "engine/options/option_table.h"
 #include "engine/setup/smoothed_radius.h"
 #include "engine/tasks/parallel_executor.h"
 #include "engine/tasks/workers.h"
-#include "partition/connected_components.h"
 #include "partition/io/input_position.h"
 #include "partition/large_arrays.h"
 #include "partition/metrics/bounding_box.h"
 #include "partition/metrics/vertex_distance.h"
+#include "partition/surface_components.h"
 #include "partition/weld.h"
 #include "partition/with_faces.h"
 #include "solvers/laplacian/degenerate.h"
@@ -48,7 +47,8 @@ PolygonMesh surface_of(const PolygonMesh& mesh, const FieldGroup& group, Laplaci
 {
     std::vector<Index> left;
     PolygonMesh surface = with_faces(mesh, [&](Index f) {
-        const bool is_kept = has_data(mesh, f, group, laplacian);
+        const bool is_kept = std::ranges::all_of(mesh.face(f), [&](Index v) { return group.lacks[v] == 0; }) &&
+                             !is_unusable(mesh, f, laplacian);
         if (is_kept && f < std::ssize(labels))
             left.push_back(labels[f]);
         return is_kept;
@@ -62,10 +62,9 @@ class SeamsOfFields {
   public:
     SeamsOfFields(const PolygonMesh& mesh, const MotionOptions& motion)
         : mesh_(mesh)
-        , topology_(make_topology(mesh))
     {
         if (motion.weld)
-            weld_ = weld(mesh, topology_, *motion.weld);
+            weld_ = weld(mesh, make_topology(mesh), *motion.weld);
     }
 
     void complete(FieldGroup& group, Eigen::MatrixXd& fields) const
@@ -92,27 +91,24 @@ class SeamsOfFields {
     /// Whether a vertex is connected with one that has data, by faces.
     [[nodiscard]] std::vector<std::uint8_t> reached_from_data(const FieldGroup& group) const
     {
-        const PolygonMesh& mesh = weld_ ? weld_->mesh : mesh_;
-        const Topology& topology = weld_ ? weld_->topology : topology_;
+        const SurfaceComponents components = surface_components(weld_ ? weld_->mesh : mesh_, run_in_parallel);
+        const auto component_of = [&](Index v) { return components.of_vertex[weld_ ? weld_->first[v] : v]; };
+        std::vector<std::uint8_t> has_data(usize(components.count()), 0);
         std::vector<std::uint8_t> reached(group.lacks.size(), 0);
-        std::vector<Index> nodes;
-        const auto first = [&](Index v) { return weld_ ? weld_->first[v] : v; };
-        for (Index v = 0; v < mesh.n_vertices(); ++v)
-            if (group.lacks[v] == 0 && std::exchange(reached[first(v)], std::uint8_t{1}) == 0)
-                append_reachable(first(v), nodes, [&](Index node, auto&& reach) {
-                    for (const Index corner : topology.corners_at(node))
-                        for (const Index w : mesh.face(topology.face_of[usize(corner)]))
-                            if (std::exchange(reached[w], std::uint8_t{1}) == 0)
-                                reach(w);
-                });
-        for (Index v = 0; v < mesh.n_vertices(); ++v)
-            reached[v] = reached[first(v)];
+        for (Index v = 0; v < mesh_.n_vertices(); ++v)
+            if (group.lacks[v] == 0) {
+                reached[v] = 1;
+                if (component_of(v) >= 0)
+                    has_data[component_of(v)] = 1;
+            }
+        for (Index v = 0; v < mesh_.n_vertices(); ++v)
+            if (component_of(v) >= 0)
+                reached[v] = has_data[component_of(v)];
         return reached;
     }
 
   private:
     const PolygonMesh& mesh_;
-    Topology topology_;
     std::optional<Weld> weld_;
 };
 
@@ -241,7 +237,7 @@ void add_filling(const FlowReport& of_fill, FlowReport& of_group, std::vector<st
             remarks.push_back("Filling: " + remark);
 }
 
-/// Says how many vertices of a column are without data at the end.
+/// Says by how much the width that was asked for was missed.
 void remark_on_width(double wanted, std::optional<double> reached, const PolygonMesh& surface, int steps,
                      std::vector<std::string>& remarks)
 {
@@ -257,6 +253,7 @@ void remark_on_width(double wanted, std::optional<double> reached, const Polygon
                                   reason));
 }
 
+/// Says how many vertices of a column are without data at the end.
 void remark_on_unfilled(const Eigen::VectorXd& filled, std::vector<std::string>& remarks)
 {
     if (const auto n = filled.array().isNaN().count(); n > 0)

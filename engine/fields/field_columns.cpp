@@ -8,13 +8,13 @@
 
 #include <fmt/format.h>
 
-#include "engine/fields/thin_faces.h"
 #include "partition/errors.h"
 #include "partition/io/input_position.h"
+#include "solvers/laplacian/geometry.h"
 
 namespace seamflow {
 
-void require_fields_of(Index n_vertices, const Eigen::MatrixXd& fields, std::span<const std::int64_t> numbers)
+void require_fields_of(Index n_vertices, const Eigen::MatrixXd& fields)
 {
     if (fields.rows() != n_vertices)
         throw InputError(fmt::format("the fields have {} rows, but the mesh has {} vertices: give one for each",
@@ -24,7 +24,7 @@ void require_fields_of(Index n_vertices, const Eigen::MatrixXd& fields, std::spa
             if (std::isinf(fields(v, c)))
                 throw InputError(fmt::format("column {} of the fields is infinite at vertex {} (both numbered from 0): "
                                              "give a finite number, or NaN where there are no data",
-                                             c, numbers.empty() ? v : numbers[static_cast<std::size_t>(v)]));
+                                             c, v));
 }
 
 std::vector<FieldGroup> group_columns(const Eigen::MatrixXd& fields)
@@ -42,15 +42,21 @@ std::vector<FieldGroup> group_columns(const Eigen::MatrixXd& fields)
     return groups;
 }
 
+bool is_thin(std::span<const Index> face, const Points& positions)
+{
+    constexpr double thinnest = 1e-10;
+    double squares = 0.0;
+    Index before = face.back();
+    for (const Index v : face) {
+        squares += (positions.row(v) - positions.row(before)).squaredNorm();
+        before = v;
+    }
+    return !(area(face, positions) > thinnest * squares);
+}
+
 bool is_unusable(const PolygonMesh& mesh, Index f, Laplacian laplacian)
 {
     return traits_of(laplacian).divisor == Divisor::FaceAreas && is_thin(mesh.face(f), mesh.vertices);
-}
-
-bool has_data(const PolygonMesh& mesh, Index f, const FieldGroup& group, Laplacian laplacian)
-{
-    return std::ranges::all_of(mesh.face(f), [&](Index v) { return group.lacks[v] == 0; }) &&
-           !is_unusable(mesh, f, laplacian);
 }
 
 std::vector<ValueRange> ranges_of(const Eigen::MatrixXd& fields, const FieldGroup& group, const Executor& exec)

@@ -28,15 +28,16 @@ struct FieldGroup {
 /// @param fields #V by n; NaN is no data.
 std::vector<FieldGroup> group_columns(const Eigen::MatrixXd& fields);
 
-/// @param numbers of the vertices in messages; empty: from 0.
 /// @throws InputError for another number of rows, or infinite values.
-void require_fields_of(Index n_vertices, const Eigen::MatrixXd& fields, std::span<const std::int64_t> numbers = {});
+void require_fields_of(Index n_vertices, const Eigen::MatrixXd& fields);
+
+/// Whether a face has next to no area for the length of its edges: the entries of its K would be so large that their
+/// rounding errors outweigh M in steps as long as those of distances and of what is extended. Faces without area (see
+/// has_area) are thin.
+bool is_thin(std::span<const Index> face, const Points& positions);
 
 /// Whether K of a face cannot be used: it has no area.
 bool is_unusable(const PolygonMesh& mesh, Index f, Laplacian laplacian);
-
-/// Whether a face is one of the surface of a group: all its vertices have data, and it can be used.
-bool has_data(const PolygonMesh& mesh, Index f, const FieldGroup& group, Laplacian laplacian);
 
 /// Of the values of a column; the least exceeds the most if there are none.
 struct ValueRange {

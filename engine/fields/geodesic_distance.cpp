@@ -9,14 +9,15 @@
 #include <fmt/format.h>
 
 #include "engine/fields/distance_bounds.h"
+#include "engine/fields/field_columns.h"
 #include "engine/fields/heat_method.h"
-#include "engine/fields/thin_faces.h"
 #include "engine/setup/flowing_mesh.h"
 #include "engine/tasks/parallel_executor.h"
 #include "engine/tasks/progress.h"
 #include "engine/tasks/workers.h"
 #include "partition/errors.h"
 #include "partition/index_lists.h"
+#include "partition/surface_components.h"
 #include "partition/topology.h"
 #include "partition/with_faces.h"
 #include "solvers/direct/ldl_solver.h"
@@ -123,8 +124,8 @@ class Geodesics::Surface {
         if (flowing_.leave_out_repeated_faces(topology_))
             topology_ = make_topology(flowing_.mesh(), run_in_parallel);
         sound_ = with_faces(surface(), [&](Index f) { return !is_thin(surface().face(f), surface().vertices); });
-        topology_of_sound_ = make_topology(sound_, run_in_parallel);
-        part_of_.resize(usize(surface().n_vertices()), nullptr);
+        components_ = surface_components(sound_, run_in_parallel);
+        parts_.resize(usize(components_.count()));
     }
 
     [[nodiscard]] Index n_vertices() const { return given_.n_vertices(); }
@@ -153,25 +154,18 @@ class Geodesics::Surface {
   private:
     [[nodiscard]] const PolygonMesh& surface() const { return flowing_.mesh(); }
 
-    HeatMethod& part_around(Index source, const Progress& progress)
-    {
-        if (part_of_[source] == nullptr) {
-            parts_.push_back(std::make_unique<HeatMethod>(sound_, topology_of_sound_, source, progress.exec()));
-            for (const Index v : parts_.back()->vertices())
-                part_of_[v] = parts_.back().get();
-        }
-        return *part_of_[source];
-    }
-
     /// In each part of the surface that has sources.
     void measure_by_heat(std::span<const Index> sources, const Progress& progress, Eigen::VectorXd& distance)
     {
-        std::vector<HeatMethod*> parts;
+        std::vector<Index> with_sources;
         for (const Index source : sources)
-            if (!topology_of_sound_.corners_at(source).empty())
-                parts.push_back(&part_around(source, progress));
-        sort_unique(parts);
-        for (HeatMethod* const part : parts)
+            if (const Index c = components_.of_vertex[source]; c >= 0)
+                with_sources.push_back(c);
+        sort_unique(with_sources);
+        for (const Index c : with_sources) {
+            std::unique_ptr<HeatMethod>& part = parts_[c];
+            if (!part)
+                part = std::make_unique<HeatMethod>(sound_, components_.faces[c], progress.exec());
             try {
                 const Eigen::VectorXd of_part = part->distance(sources, progress);
                 for (std::size_t i = 0; i < part->vertices().size(); ++i)
@@ -179,6 +173,7 @@ class Geodesics::Surface {
             } catch (const ComputationError&) {
                 refuse_uneven(surface());
             }
+        }
     }
 
     double unit_;
@@ -187,10 +182,9 @@ class Geodesics::Surface {
     Topology topology_;
     /// Without faces that have no area.
     PolygonMesh sound_;
-    Topology topology_of_sound_;
+    SurfaceComponents components_;
+    /// Of each component, once it is asked for.
     std::vector<std::unique_ptr<HeatMethod>> parts_;
-    /// #V: the part of each vertex, where there is one already.
-    std::vector<HeatMethod*> part_of_;
 };
 
 Geodesics::Geodesics(const PolygonMesh& mesh, const ResourceOptions& resources)

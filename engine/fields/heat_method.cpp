@@ -12,7 +12,6 @@
 
 #include "engine/fields/distance_bounds.h"
 #include "engine/tasks/parallel_executor.h"
-#include "partition/connected_components.h"
 #include "partition/decomposition/decomposition.h"
 #include "partition/index_lists.h"
 #include "partition/metrics/vertex_distance.h"
@@ -34,37 +33,24 @@ constexpr double edges_of_diffusion = 1.0;
 /// After this time, in squared diagonals, K alone decides.
 constexpr double squared_diagonals_to_rest_of_distance = 1e4;
 
-/// The surface that edges and faces connect with a vertex.
-PolygonMesh component_around(const PolygonMesh& surface, const Topology& topology, Index v,
-                             std::vector<Index>& vertices)
+/// Some faces of a surface, with their vertices alone, the first of which is the origin.
+PolygonMesh part_of(const PolygonMesh& surface, std::span<const Index> faces, std::vector<Index>& vertices)
 {
-    std::vector<std::uint8_t> is_reached(usize(surface.n_vertices()), 0);
-    is_reached[v] = 1;
-    vertices.clear();
-    append_reachable(v, vertices, [&](Index node, auto&& reach) {
-        for (const Index corner : topology.corners_at(node))
-            for (const Index w : surface.face(topology.face_of[usize(corner)]))
-                if (std::exchange(is_reached[w], std::uint8_t{1}) == 0)
-                    reach(w);
-    });
-    std::ranges::sort(vertices);
-    std::vector<Index> faces;
-    for (const Index w : vertices)
-        for (const Index corner : topology.corners_at(w))
-            faces.push_back(topology.face_of[usize(corner)]);
-    sort_unique(faces);
-    PolygonMesh component;
+    for (const Index f : faces)
+        vertices.insert(vertices.end(), surface.face(f).begin(), surface.face(f).end());
+    sort_unique(vertices);
+    PolygonMesh part;
     std::vector<Index> corners;
     for (const Index f : faces) {
         corners.clear();
-        for (const Index w : surface.face(f))
-            corners.push_back(place_in(vertices, w));
-        component.add_face(corners);
+        for (const Index v : surface.face(f))
+            corners.push_back(place_in(vertices, v));
+        part.add_face(corners);
     }
-    component.vertices = rows_of(surface.vertices, vertices);
-    const Point corner = component.vertices.row(0);
-    component.vertices.rowwise() -= corner;
-    return component;
+    part.vertices = rows_of(surface.vertices, vertices);
+    const Point corner = part.vertices.row(0);
+    part.vertices.rowwise() -= corner;
+    return part;
 }
 
 /// The direction, of length 1, in which a linear function on a triangle decreases; 0 where there is none, or the
@@ -216,8 +202,8 @@ Eigen::VectorXd HeatEquation::solve(const Eigen::VectorXd& data, double time_ste
     return result;
 }
 
-HeatMethod::HeatMethod(const PolygonMesh& surface, const Topology& topology, Index v, const Executor& exec)
-    : mesh_(component_around(surface, topology, v, vertices_))
+HeatMethod::HeatMethod(const PolygonMesh& surface, std::span<const Index> faces, const Executor& exec)
+    : mesh_(part_of(surface, faces, vertices_))
     , topology_(make_topology(mesh_, exec))
     , edge_(mean_edge_length(mesh_))
     , diagonal_((mesh_.vertices.colwise().maxCoeff() - mesh_.vertices.colwise().minCoeff()).norm())

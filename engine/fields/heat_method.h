@@ -43,9 +43,8 @@ class HeatEquation {
 /// The heat method of Crane, Weischedel and Wardetzky (2013) on the part of a surface that faces connect.
 class HeatMethod {
   public:
-    /// @param surface near whose median edge 1 is the unit of length. @param topology of it.
-    /// @param v a vertex of the part, with faces.
-    HeatMethod(const PolygonMesh& surface, const Topology& topology, Index v, const Executor& exec);
+    /// @param surface near whose median edge 1 is the unit of length. @param faces those of the part, ascending.
+    HeatMethod(const PolygonMesh& surface, std::span<const Index> faces, const Executor& exec);
     HeatMethod(const HeatMethod&) = delete;
     HeatMethod& operator=(const HeatMethod&) = delete;
 

@@ -25,7 +25,7 @@ struct PhaseSeconds {
     double factorise = 0.0;
     double solve = 0.0;
     double correct = 0.0;
-    /// The equation on Γ, or of Δ_P on traces, with AccuracyOptions::tolerance: wall-clock time.
+    /// The equation on Γ, with AccuracyOptions::tolerance: wall-clock time.
     double interface = 0.0;
     /// All steps.
     double step = 0.0;
@@ -110,6 +110,9 @@ struct SubMeshReport {
     Index colour = 0;
     /// Robin parameter, in 1/length; 0 without interface, and with conditions that have none.
     double p = 0.0;
+    /// What factorised it; Automatic: nothing did. And how often its equations were nearly singular.
+    Factorisation factorisation = Factorisation::Automatic;
+    Index n_nearly_singular = 0;
 };
 
 /// How the mesh was cut.

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "engine/tasks/parallel_executor.h"
+#include "partition/metrics/bounding_box.h"
 
 namespace seamflow {
 
@@ -46,12 +47,7 @@ Point origin_offset(const PolygonMesh& mesh)
 {
     if (!may_lie_far(mesh) || !has_sound_corners(mesh) || !mesh.vertices.allFinite())
         return Point::Zero();
-    return origin_offset(box_of_faces(mesh, run_in_parallel));
-}
-
-Point origin_offset(const BoundingBox& box)
-{
-    const auto& [low, high] = box;
+    const auto& [low, high] = box_of_faces(mesh, run_in_parallel);
     const double extent = (high - low).maxCoeff();
     if (!std::isnormal(extent))
         return Point::Zero();

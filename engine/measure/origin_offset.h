@@ -1,6 +1,5 @@
 #pragma once
 
-#include "partition/metrics/bounding_box.h"
 #include "partition/polygon_mesh.h"
 #include "partition/vector_area.h"
 
@@ -11,8 +10,5 @@ namespace seamflow {
 /// exact. Vertices without faces are ignored. It is zero if the surface is not far away, if there is none, if a
 /// position is not finite, or if a face names a vertex that does not exist.
 Point origin_offset(const PolygonMesh& mesh);
-
-/// The same from the box around all vertices that have faces, which are finite.
-Point origin_offset(const BoundingBox& box);
 
 }  // namespace seamflow

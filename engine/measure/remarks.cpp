@@ -1,8 +1,8 @@
 #include "engine/measure/remarks.h"
 
 #include <algorithm>
-#include <numeric>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -50,16 +50,6 @@ std::string remark_on_unmoving_mesh(Boundary boundary)
     return boundary == Boundary::Free ? why : why + " A free boundary would flow.";
 }
 
-std::string remark_on_still_faces(std::int64_t n_left)
-{
-    return fmt::format("Only the {} faces around the region flow, and are measured.", n_left);
-}
-
-std::string remark_on_empty_region()
-{
-    return "The region is empty: no vertex has a strength above 0, and nothing moves.";
-}
-
 void remark_on_drift(const FlowOptions& options, FlowReport& report)
 {
     if (report.steps.empty() || report.steps.back().estimated_v_max.value_or(0.0) <= 1.0)
@@ -72,32 +62,40 @@ void remark_on_drift(const FlowOptions& options, FlowReport& report)
                                                  "the undecomposed step itself."));
 }
 
-void remark_on_near_singularity(std::span<const Index> n_nearly_singular, FlowReport& report)
+void remark_on_near_singularity(FlowReport& report)
 {
-    const auto first = std::ranges::find_if(n_nearly_singular, [](Index n) { return n > 0; });
-    if (first == n_nearly_singular.end())
+    const std::vector<SubMeshReport>& all = report.cut.sub_meshes;
+    const auto first = std::ranges::find_if(all, [](const SubMeshReport& one) { return one.n_nearly_singular > 0; });
+    if (first == all.end())
         return;
-    const Index total = std::accumulate(first, n_nearly_singular.end(), Index{0});
+    Index total = 0;
+    for (const SubMeshReport& one : all)
+        total += one.n_nearly_singular;
     report.remarks.push_back(fmt::format("The equations of sub-meshes were nearly singular {} {}, first among them "
                                          "sub-mesh {}: the result may be wrong there; use a smaller time step, or "
                                          "another Laplacian.",
-                                         total, total == 1 ? "time" : "times", first - n_nearly_singular.begin()));
+                                         total, total == 1 ? "time" : "times", first - all.begin()));
 }
 
-void remark_on_factorisation(Factorisation asked, std::span<const Factorisation> used, FlowReport& report)
+void remark_on_factorisation(Factorisation asked, FlowReport& report)
 {
-    const auto is_other = [&](Factorisation kind) { return kind != asked; };
-    const auto n = std::ranges::count_if(used, is_other);
-    if (asked == Factorisation::Automatic || n == 0)
+    std::vector<Factorisation> others;
+    Index n_factorised = 0;
+    for (const SubMeshReport& one : report.cut.sub_meshes) {
+        n_factorised += one.factorisation != Factorisation::Automatic ? 1 : 0;
+        if (one.factorisation != Factorisation::Automatic && one.factorisation != asked)
+            others.push_back(one.factorisation);
+    }
+    if (asked == Factorisation::Automatic || others.empty())
         return;
-    const bool is_eigen = *std::ranges::find_if(used, is_other) == Factorisation::Eigen;
-    report.remarks.push_back(
-        fmt::format("{} of {} sub-meshes were factorised by {}, {}.", n, used.size(), is_eigen ? "Eigen" : "UMFPACK",
-                    asked == Factorisation::Cholmod ? "not by CHOLMOD, because their equations are not symmetric"
-                                                    : "because pivots from the diagonal were too small"));
+    const bool is_eigen = others.front() == Factorisation::Eigen;
+    report.remarks.push_back(fmt::format(
+        "{} of {} sub-meshes were factorised by {}, {}.", others.size(), n_factorised, is_eigen ? "Eigen" : "UMFPACK",
+        asked == Factorisation::Cholmod ? "not by CHOLMOD, because their equations are not symmetric"
+                                        : "because pivots from the diagonal were too small"));
 }
 
-void remark_on_missed_tolerance(int iterations, const std::string& remedy, FlowReport& report)
+void remark_on_missed_tolerance(int iterations, FlowReport& report)
 {
     const int n_short = report.convergence.steps_short_of_tolerance;
     const int n_stagnated = report.convergence.steps_stagnated;
@@ -107,7 +105,7 @@ void remark_on_missed_tolerance(int iterations, const std::string& remedy, FlowR
                                      n_short == 1 ? "step" : "steps", iterations);
     if (n_stagnated > 0)
         remark += fmt::format("; in {} of them more would not have helped", n_stagnated);
-    report.remarks.push_back(remark + (remedy.empty() ? "" : ": " + remedy) + ".");
+    report.remarks.push_back(remark + ".");
 }
 
 void remark_on_collapse(double extent_before, double extent_after, FlowReport& report)

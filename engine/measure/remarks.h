@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <string>
 #include <string_view>
 
@@ -29,27 +28,18 @@ std::string remark_on_undefined_vertices(std::int64_t n, std::int64_t first, Lap
 /// On a mesh none of whose vertices can move.
 std::string remark_on_unmoving_mesh(Boundary boundary);
 
-/// On the faces that flow where those are left out that lie away from a region.
-std::string remark_on_still_faces(std::int64_t n_left);
-
-/// On a region without vertices (see MotionOptions::strength).
-std::string remark_on_empty_region();
-
 /// Adds what the estimate after the last step means for the user, if it means anything.
 void remark_on_drift(const FlowOptions& options, FlowReport& report);
 
 /// Adds a remark where equations were nearly singular.
-/// @param n_nearly_singular per sub-mesh, the number of such factorisations.
-void remark_on_near_singularity(std::span<const Index> n_nearly_singular, FlowReport& report);
+void remark_on_near_singularity(FlowReport& report);
 
 /// Adds a remark if sub-meshes could not use the factorisation that was asked for.
-/// @param used for every sub-mesh that has one (see DirectSolver::kind).
-void remark_on_factorisation(Factorisation asked, std::span<const Factorisation> used, FlowReport& report);
+void remark_on_factorisation(Factorisation asked, FlowReport& report);
 
 /// Adds a remark where steps have missed the tolerance, as the report says.
 /// @param iterations the most that a step may have.
-/// @param remedy what to do about it, after a colon; empty: nothing.
-void remark_on_missed_tolerance(int iterations, const std::string& remedy, FlowReport& report);
+void remark_on_missed_tolerance(int iterations, FlowReport& report);
 
 /// Adds a remark if the flow has shrunk the surface to almost nothing, which is hardly what was wanted.
 /// @param extent_before, extent_after the diagonals of the boxes around the faces.

@@ -203,9 +203,7 @@ struct InterfaceOptions {
 struct AccuracyOptions {
     /// Steps converge to the undecomposed step, in place of sweeps with InterfaceOptions: to this residual relative to
     /// that of the positions before the step. For symmetric Laplacians it is the residual on Γ, or of all rows with
-    /// Approach::ConjugateGradients. For Δ_P it is the distance between the positions that overlapping sub-meshes take
-    /// from each other and those that they compute. Where the equations of Δ_P are indefinite (it then grows spikes,
-    /// undecomposed as well), there are many iterations, fewer with fewer sub-meshes. Empty: `approach` decides.
+    /// Approach::ConjugateGradients. Those of Δ_P factorise the whole mesh, exactly. Empty: `approach` decides.
     std::optional<double> tolerance = {};
     /// The solver.
     Approach approach = Approach::Automatic;
@@ -269,7 +267,7 @@ struct MotionOptions {
     /// Distance, in units of length, within which boundary vertices count as coincident where two boundary edges can
     /// become one (see weld). Such vertices move as one, but stay separate in the mesh, so that the surface continues
     /// across seams of its texture. Moving copies come to one place; fixed ones stay where they are. 0: coordinates
-    /// have to be equal. nullopt disables welding; distributed flows ignore it.
+    /// have to be equal. nullopt disables welding.
     std::optional<double> weld = 0.0;
     /// Boundary conditions.
     Boundary boundary = Boundary::Fixed;
@@ -308,7 +306,7 @@ struct MotionOptions {
     /// flow itself is not changed. Vertices beyond it are put back to that distance, and their neighbours follow
     /// smoothly. nullopt: no bound.
     std::optional<double> within = {};
-    /// Limits of each result, like `within`. Not in distributed flows.
+    /// Limits of each result, like `within`.
     ComponentLimits limits = {};
 };
 
@@ -324,11 +322,11 @@ struct ResourceOptions {
     int tune_for = 2;
     /// Largest number of bytes of all factorisations at once, at least 1. nullopt: sweeps keep as few factorisations as
     /// keep all threads busy, converged steps keep all. With a limit, converged steps of symmetric Laplacians recompute
-    /// the other factorisations when they are needed, and factors of undecided precision count as double precision; Δ_P
-    /// needs all of them. Factors of UMFPACK count by its own estimate. If the limit is too small for a step, a flow
-    /// whose approach is automatic takes conjugate gradients, which factorise nothing, where its other options allow
-    /// it; any other throws a MemoryLimitError with the necessary number. Otherwise the result does not depend on the
-    /// limit. It does not apply to `reference`.
+    /// the other factorisations when they are needed, and factors of undecided precision count as double precision.
+    /// Factors of UMFPACK count by its own estimate. If the limit is too small for a step, a flow whose approach is
+    /// automatic takes conjugate gradients, which factorise nothing, where its other options allow it; any other throws
+    /// a MemoryLimitError with the necessary number. Otherwise the result does not depend on the limit. It does not
+    /// apply to `reference`.
     std::optional<std::size_t> memory_limit = {};
     /// The direct solver of sub-meshes. It changes the result by rounding only. Converged steps of symmetric Laplacians
     /// always use the library's own, which provides their Schur complements.

@@ -190,20 +190,7 @@ Bytes Communicator::take(int from)
     return bytes;
 }
 
-std::vector<Bytes> Communicator::exchange(std::vector<Bytes> to_each)
-{
-    for (int r = 0; r < size(); ++r)
-        if (r != rank())
-            give(r, std::move(to_each[r]));
-    std::vector<Bytes> from_each(size());
-    from_each[rank()] = std::move(to_each[rank()]);
-    for (int r = 0; r < size(); ++r)
-        if (r != rank())
-            from_each[r] = take(r);
-    return from_each;
-}
-
-std::vector<Bytes> Communicator::exchange_with(std::span<const int> others, std::vector<Bytes> to_each)
+std::vector<Bytes> Communicator::exchange(std::span<const int> others, std::vector<Bytes> to_each)
 {
     for (std::size_t i = 0; i < others.size(); ++i)
         give(others[i], std::move(to_each[i]));

@@ -98,14 +98,9 @@ class Communicator {
         return all;
     }
 
-    /// Sends bytes to each rank, and receives those for this one.
-    /// @param to_each #ranks. @returns #ranks, in their order.
-    std::vector<Bytes> exchange(std::vector<Bytes> to_each);
-
-    /// The same among some of the ranks.
-    /// @param others which others, ascending; each of them names this rank. @param to_each corresponds. @returns the
-    /// same.
-    std::vector<Bytes> exchange_with(std::span<const int> others, std::vector<Bytes> to_each);
+    /// Sends bytes to some other ranks, and receives those for this one.
+    /// @param others ascending; each of them names this rank. @param to_each corresponds. @returns the same.
+    std::vector<Bytes> exchange(std::span<const int> others, std::vector<Bytes> to_each);
 
     /// Sends something that no collective function waits for. Any thread may do so, at any time.
     /// @param to another rank.

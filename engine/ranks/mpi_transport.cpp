@@ -93,7 +93,7 @@ class MpiTransport final : public Transport {
         do {
             const std::size_t size = std::min(largest_piece_, shared->size() - begin);
             const bool is_last = begin + size == shared->size();
-            Outgoing& outgoing = outgoing_.emplace_back(shared, MPI_REQUEST_NULL);
+            Outgoing& outgoing = outgoing_.emplace_back(Outgoing{shared, MPI_REQUEST_NULL});
             ::MPI_Isend(shared->data() + begin, static_cast<int>(size), MPI_BYTE, to,
                         is_last ? tag : tag + more_follows, world_, &outgoing.request);
             begin += size;
@@ -118,11 +118,6 @@ class MpiTransport final : public Transport {
 
     /// Bytes that MPI reads until the request is complete.
     struct Outgoing {
-        Outgoing(std::shared_ptr<const Bytes> of_message, MPI_Request of_piece)
-            : bytes(std::move(of_message))
-            , request(of_piece)
-        {
-        }
         std::shared_ptr<const Bytes> bytes;
         MPI_Request request;
     };

@@ -37,7 +37,7 @@ class Packer {
     void put_rows(const Points& points, std::span<const Index> rows)
     {
         put(3 * rows.size());
-        reserve_further(3 * rows.size() * sizeof(double));
+        bytes_.reserve(bytes_.size() + 3 * rows.size() * sizeof(double));
         for (const Index row : rows)
             put_row(points.row(row).data());
     }
@@ -52,8 +52,6 @@ class Packer {
     void reserve(std::size_t n_bytes) { bytes_.reserve(n_bytes); }
 
   private:
-    void reserve_further(std::size_t n_bytes) { bytes_.reserve(bytes_.size() + n_bytes); }
-
     void put_bytes(const void* values, std::size_t size)
     {
         const auto* const begin = static_cast<const std::byte*>(values);
@@ -139,18 +137,12 @@ class Unpacker {
 
 /// Bytes of one list of values.
 template <class Value>
-Bytes packed(std::span<const Value> values)
-{
-    Packer packer;
-    packer.reserve(sizeof(std::size_t) + values.size_bytes());
-    packer.put_all(values);
-    return packer.take();
-}
-
-template <class Value>
 Bytes packed(const std::vector<Value>& values)
 {
-    return packed(std::span<const Value>(values));
+    Packer packer;
+    packer.reserve(sizeof(std::size_t) + values.size() * sizeof(Value));
+    packer.put_all(std::span<const Value>(values));
+    return packer.take();
 }
 
 /// The list of values that packed() was given.

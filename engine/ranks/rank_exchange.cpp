@@ -25,11 +25,6 @@ struct Header {
     MessageKind kind;
 };
 
-Header header_of(const Message& message)
-{
-    return Unpacker(message.bytes).get<Header>();
-}
-
 }  // namespace
 
 RankExchange::RankExchange(Communicator& comm, const DealtMesh& dealt)
@@ -97,15 +92,19 @@ void RankExchange::connect(const Decomposition& decomposition, std::span<const S
         }
         packer.put_all(std::span<const std::uint8_t>(own_interest_[s].predicts));
     }
+    std::vector<int> others;
     std::vector<Bytes> bytes;
-    for (Packer& packer : per_rank)
-        bytes.push_back(packer.take());
-    const std::vector<Bytes> from_each = comm_->exchange(std::move(bytes));
     for (int rank = 0; rank < comm_->size(); ++rank)
-        for (Unpacker unpacker(from_each[rank]); !unpacker.is_at_end();) {
+        if (rank != comm_->rank()) {
+            others.push_back(rank);
+            bytes.push_back(per_rank[rank].take());
+        }
+    const std::vector<Bytes> from_each = comm_->exchange(others, std::move(bytes));
+    for (std::size_t i = 0; i < others.size(); ++i)
+        for (Unpacker unpacker(from_each[i]); !unpacker.is_at_end();) {
             const Index s = known_index(unpacker.get<Index>());
             Interest& interest = listeners_[s].emplace_back();
-            interest.rank = rank;
+            interest.rank = others[i];
             for (auto& rows : interest.rows)
                 for (const Index number : unpacker.get_all<Index>())
                     rows.push_back(
@@ -119,7 +118,7 @@ bool RankExchange::awaits(MessageKind kind, std::size_t sweep, Index s) const
     return own_interest_[s].includes(kind, sweep);
 }
 
-void RankExchange::set_event(MessageKind kind, std::size_t sweep, Index s, StepGraph::Node event)
+void RankExchange::set_event(MessageKind kind, std::size_t sweep, Index s, TaskGraph::Node event)
 {
     pending_[sweep].push_back({kind, s, event, false});
 }
@@ -150,9 +149,9 @@ void RankExchange::send(MessageKind kind, std::size_t sweep, Index s, const Poin
 }
 
 /// Keeps a message for a later run; else starts the task that waits for it.
-void RankExchange::deliver(Message message, StepGraph& graph, std::vector<PendingMessage>& pending)
+void RankExchange::deliver(Message message, TaskGraph& graph, std::vector<PendingMessage>& pending)
 {
-    const Header header = header_of(message);
+    const auto header = Unpacker(message.bytes).get<Header>();
     if (header.run > run_) {
         early_.push_back(std::move(message));
         return;
@@ -169,7 +168,7 @@ void RankExchange::deliver(Message message, StepGraph& graph, std::vector<Pendin
 }
 
 /// If the run fails, here or at another rank, waiting tasks are started, too: they are then skipped.
-void RankExchange::receive_all(StepGraph& graph, std::vector<PendingMessage>& pending)
+void RankExchange::receive_all(TaskGraph& graph, std::vector<PendingMessage>& pending)
 {
     try {
         for (Message& message : std::exchange(early_, {}))
@@ -186,7 +185,7 @@ void RankExchange::receive_all(StepGraph& graph, std::vector<PendingMessage>& pe
             retry([&] { graph.signal(arrival.event); });
 }
 
-void RankExchange::run(StepGraph& graph, std::size_t sweep, const std::function<void()>& begin,
+void RankExchange::run(TaskGraph& graph, std::size_t sweep, const std::function<void()>& begin,
                        const std::function<void()>& join)
 {
     ++run_;

@@ -10,7 +10,7 @@
 #include "engine/ranks/dealt_mesh.h"
 #include "engine/setup/sweep_plan.h"
 #include "engine/steppers/foreign_sub_meshes.h"
-#include "engine/tasks/step_graph.h"
+#include "engine/tasks/task_graph.h"
 #include "partition/decomposition/decomposition.h"
 
 namespace seamflow {
@@ -26,10 +26,10 @@ class RankExchange final : public ForeignSubMeshes {
     void connect(const Decomposition& decomposition, std::span<const SweepPlan> sweeps,
                  std::span<const std::vector<Index>> further) override;
     [[nodiscard]] bool awaits(MessageKind kind, std::size_t sweep, Index s) const override;
-    void set_event(MessageKind kind, std::size_t sweep, Index s, StepGraph::Node event) override;
+    void set_event(MessageKind kind, std::size_t sweep, Index s, TaskGraph::Node event) override;
     void receive(MessageKind kind, Index s, Points& rows) override;
     void send(MessageKind kind, std::size_t sweep, Index s, const Points& rows) override;
-    void run(StepGraph& graph, std::size_t sweep, const std::function<void()>& begin,
+    void run(TaskGraph& graph, std::size_t sweep, const std::function<void()>& begin,
              const std::function<void()>& join) override;
 
   private:
@@ -54,14 +54,14 @@ class RankExchange final : public ForeignSubMeshes {
     struct PendingMessage {
         MessageKind kind;
         Index sub_mesh;
-        StepGraph::Node event;
+        TaskGraph::Node event;
         bool has_come;
     };
 
     void find_own_interest(const Decomposition& decomposition, std::span<const SweepPlan> sweeps,
                            std::span<const std::vector<Index>> further);
-    void receive_all(StepGraph& graph, std::vector<PendingMessage>& pending);
-    void deliver(Message message, StepGraph& graph, std::vector<PendingMessage>& pending);
+    void receive_all(TaskGraph& graph, std::vector<PendingMessage>& pending);
+    void deliver(Message message, TaskGraph& graph, std::vector<PendingMessage>& pending);
     [[nodiscard]] Index known_index(Index number) const;
 
     Communicator* comm_;

@@ -26,7 +26,7 @@ enum class RankTask : std::uint8_t {
     Save,
     /// Rows of all vertices, numbers, and arrays: Stepper::restore.
     Restore,
-    /// Answer: a RankShare, and lists of what each sub-mesh has of its own.
+    /// Answer: a RankShare, and a SubMeshReport of each sub-mesh.
     Describe,
     /// Forget the flow.
     Drop,

@@ -8,7 +8,6 @@
 #include "engine/steppers/schur_stepper.h"
 #include "engine/steppers/sweep_order.h"
 #include "engine/tasks/parallel_executor.h"
-#include "engine/tasks/run_for_sub_mesh.h"
 #include "partition/decomposition/part_of_mesh.h"
 #include "partition/decomposition/reverse_cuthill_mckee.h"
 #include "partition/index_lists.h"
@@ -55,14 +54,6 @@ std::vector<double> gather_curvatures(Communicator& comm, const DealtMesh& dealt
     return of_all;
 }
 
-std::vector<SubMeshName> names_of(const DealtMesh& dealt, const Decomposition& decomposition)
-{
-    std::vector<SubMeshName> names;
-    for (std::size_t s = 0; s < dealt.known.size(); ++s)
-        names.push_back({dealt.known[s], decomposition.sub_meshes[s].n_vertices, dealt.first_faces[s]});
-    return names;
-}
-
 /// Windows that are large enough forward and backward, whatever crosses Γ: as if every sub-mesh needed the results of
 /// all around it. Ranks that each have their part of both orders, and windows of at least this size, do not wait for
 /// each other in a circle: a solution waits for factorisations at lower places than those that wait for it.
@@ -97,20 +88,21 @@ RankPart::RankPart(Communicator& comm, DealtMesh dealt, Progress& progress)
         is_own.push_back(dealt_.holders[number] == comm.rank() ? 1 : 0);
     Decomposition decomposition = decompose_part(dealt_.mesh, dealt_.topology, dealt_.labels, is_own, run_in_parallel);
     n_interface_vertices_ = decomposition.n_interface_vertices;
-    if (dealt_.options.accuracy.tolerance) {
-        std::vector<SubMeshName> names = names_of(dealt_, decomposition);
-        PeerSubMeshes own{std::move(decomposition), std::make_unique<RankPeers>(comm, dealt_.holders, dealt_.known),
-                          std::move(names)};
+    std::vector<SubMeshName> names;
+    for (std::size_t s = 0; s < dealt_.known.size(); ++s)
+        names.push_back({dealt_.known[s], decomposition.sub_meshes[s].n_vertices, dealt_.first_faces[s]});
+    PeerSubMeshes own{std::move(decomposition), std::make_unique<RankPeers>(comm, dealt_.holders, dealt_.known),
+                      std::move(names)};
+    if (dealt_.options.accuracy.tolerance)
         stepper_ = std::make_unique<SchurStepper>(dealt_.mesh, std::move(own), dealt_.options, progress);
-    } else {
-        take_sweeps(std::move(decomposition), progress);
-    }
+    else
+        take_sweeps(std::move(own), progress);
     std::vector<Index> around;
     for (const Index v : stepper_->saved_vertices()) {
         labels_around(dealt_.topology, dealt_.labels, v, around);
         saved_.push_back({dealt_.known[around.front()], dealt_.vertex_numbers[v]});
     }
-    if (sweeps_ != nullptr)
+    if (!dealt_.options.accuracy.tolerance)
         return;
     // Converged steps keep what they need of them.
     dealt_.mesh = {};
@@ -118,17 +110,12 @@ RankPart::RankPart(Communicator& comm, DealtMesh dealt, Progress& progress)
     dealt_.labels = std::vector<Index>();
 }
 
-void RankPart::take_sweeps(Decomposition decomposition, Progress& progress)
+void RankPart::take_sweeps(PeerSubMeshes sub_meshes, Progress& progress)
 {
-    RankSubMeshes own;
     exchange_.emplace(comm_, dealt_);
-    own.names = names_of(dealt_, decomposition);
-    own.n_of_all_ranks = dealt_.holders.size();
-    own.foreign = &*exchange_;
-    own.topology = &dealt_.topology;
-    own.peers = std::make_unique<RankPeers>(comm_, dealt_.holders, dealt_.known);
-    const auto adjacency = gather_adjacency(comm_, dealt_, decomposition);
-    const auto curvatures = gather_curvatures(comm_, dealt_, decomposition);
+    SweepSubMeshes own{.own = std::move(sub_meshes), .foreign = &*exchange_};
+    const auto adjacency = gather_adjacency(comm_, dealt_, own.own.decomposition);
+    const auto curvatures = gather_curvatures(comm_, dealt_, own.own.decomposition);
     const std::vector<Index> stage_of_all = assign_stages(adjacency, dealt_.options.interface.colouring, curvatures);
     for (const Index number : dealt_.known)
         own.stage.push_back(stage_of_all[number]);
@@ -142,15 +129,7 @@ void RankPart::take_sweeps(Decomposition decomposition, Progress& progress)
     };
     for (const FactorWindow& window : sufficient_windows(adjacency, stage_of_all))
         own.windows.push_back({own_of(window.order), own_of(window.freed), window.size});
-    own.decomposition = std::move(decomposition);
-    auto sweeps = std::make_unique<SweepStepper>(dealt_.mesh, std::move(own), dealt_.options, progress);
-    sweeps_ = sweeps.get();
-    stepper_ = std::move(sweeps);
-}
-
-std::vector<SavedRow> RankPart::saved_rows() const
-{
-    return saved_;
+    stepper_ = std::make_unique<SweepStepper>(dealt_.mesh, dealt_.topology, std::move(own), dealt_.options, progress);
 }
 
 /// Counts what it sends.
@@ -222,11 +201,7 @@ Bytes RankPart::act(RankTask task, Unpacker& message)
 void RankPart::report_to(Packer& answer) const
 {
     FlowReport report;
-    SweptSubMeshes swept;
-    if (sweeps_ != nullptr)
-        swept = sweeps_->describe_sub_meshes(report);
-    else
-        stepper_->report_to(report);
+    stepper_->report_to(report);
     const auto n_known = static_cast<std::int64_t>(dealt_.vertex_numbers.size());
     const auto n_sent = static_cast<std::int64_t>(sent_vertices_.size());
     RankShare share{.record = {.vertices = n_sent,
@@ -241,8 +216,6 @@ void RankPart::report_to(Packer& answer) const
     share.resources.threads = n_threads_;
     answer.put(share);
     answer.put_all(std::span<const SubMeshReport>(report.cut.sub_meshes));
-    answer.put_all(std::span<const Index>(swept.n_nearly_singular));
-    answer.put_all(std::span<const Factorisation>(swept.factorisations));
 }
 
 }  // namespace seamflow

@@ -28,11 +28,11 @@ class RankPart {
     [[nodiscard]] const Stepper& stepper() const { return *stepper_; }
 
     /// One for each row of the arrays that the stepper saves.
-    [[nodiscard]] std::vector<SavedRow> saved_rows() const;
+    [[nodiscard]] const std::vector<SavedRow>& saved_rows() const { return saved_; }
 
   private:
     void step();
-    void take_sweeps(Decomposition decomposition, Progress& progress);
+    void take_sweeps(PeerSubMeshes sub_meshes, Progress& progress);
     void report_to(Packer& answer) const;
 
     Communicator& comm_;
@@ -47,8 +47,6 @@ class RankPart {
     std::vector<SavedRow> saved_;
     std::optional<RankExchange> exchange_;
     std::unique_ptr<Stepper> stepper_;
-    /// The stepper, if it takes sweeps.
-    const SweepStepper* sweeps_ = nullptr;
     /// #V by 3: Vᵏ, during a step.
     Points before_ = Points(0, 3);
 };

@@ -26,7 +26,7 @@ InterfacePeers::Numbers RankPeers::exchange(std::span<const Index> others, const
     for (const std::vector<double>& numbers : to_each)
         bytes.push_back(packed(numbers));
     Numbers from_each;
-    for (const Bytes& received : comm_->exchange_with(others, std::move(bytes)))
+    for (const Bytes& received : comm_->exchange(others, std::move(bytes)))
         from_each.push_back(unpacked<double>(received));
     return from_each;
 }

@@ -5,34 +5,10 @@
 #include <span>
 #include <utility>
 
-#include "engine/measure/remarks.h"
 #include "engine/tasks/parallel_executor.h"
 #include "partition/index_lists.h"
 
 namespace seamflow {
-
-namespace {
-
-/// What each rank and each of its sub-meshes has to report.
-struct PartDescription {
-    RankShare share;
-    std::vector<SubMeshReport> sub_meshes;
-    std::vector<Index> n_nearly_singular;
-    std::vector<Factorisation> factorisations;
-};
-
-PartDescription part_description(const Bytes& answer)
-{
-    Unpacker unpacker(answer);
-    PartDescription part;
-    part.share = unpacker.get<RankShare>();
-    part.sub_meshes = unpacker.get_all<SubMeshReport>();
-    part.n_nearly_singular = unpacker.get_all<Index>();
-    part.factorisations = unpacker.get_all<Factorisation>();
-    return part;
-}
-
-}  // namespace
 
 bool can_share(const RankGroup& ranks, const Cut& cut, const FlowOptions& options)
 {
@@ -48,7 +24,6 @@ RankStepper::RankStepper(RankGroup& ranks, const PolygonMesh& mesh, const Topolo
                          const FlowOptions& options, std::vector<double> curvature, Progress& progress)
     : ranks_(&ranks)
     , flow_(ranks.add_flow())
-    , factorisation_(options.resources.factorisation)
     , n_sub_meshes_(cut.n_parts)
     , sub_meshes_(static_cast<std::size_t>(ranks.size()))
     , positions_(mesh.vertices)
@@ -252,46 +227,33 @@ void RankStepper::report_to(FlowReport& report) const
     FlowReport of_own;
     own_->stepper().report_to(of_own);
     std::vector<SubMeshReport> sub_meshes(usize(n_sub_meshes_));
-    std::vector<Index> n_nearly_singular(sub_meshes.size());
-    std::vector<Factorisation> factorisations(sub_meshes.size());
-    bool are_sweeps = false;
     report.resources = {};
     double interface = 0.0;
     const std::vector<Bytes> answers = ask(RankTask::Describe);
     for (std::size_t rank = 0; rank < answers.size(); ++rank) {
-        const PartDescription part = part_description(answers[rank]);
-        const ResourceReport& resources = part.share.resources;
-        report.ranks.push_back(part.share.record);
+        Unpacker answer(answers[rank]);
+        const auto share = answer.get<RankShare>();
+        const ResourceReport& resources = share.resources;
+        report.ranks.push_back(share.record);
         report.resources.threads += resources.threads;
         report.resources.live_factors += resources.live_factors;
         report.resources.factor_memory_bytes += resources.factor_memory_bytes;
         report.resources.single_factors += resources.single_factors;
-        report.cut.interface_vertices += part.share.n_interface_vertices;
+        report.cut.interface_vertices += share.n_interface_vertices;
         // They wait for each other there.
-        PhaseSeconds seconds = part.share.seconds;
+        PhaseSeconds seconds = share.seconds;
         interface = std::max(interface, std::exchange(seconds.interface, 0.0));
         report.seconds.add_tasks(seconds);
-        are_sweeps |= !part.factorisations.empty();
-        for (std::size_t i = 0; i < part.sub_meshes.size(); ++i) {
-            const Index s = sub_meshes_[rank][i];
-            sub_meshes[s] = part.sub_meshes[i];
-            if (!part.factorisations.empty()) {
-                n_nearly_singular[s] = part.n_nearly_singular[i];
-                factorisations[s] = part.factorisations[i];
-            }
-        }
+        const auto of_rank = answer.get_all<SubMeshReport>();
+        for (std::size_t i = 0; i < of_rank.size(); ++i)
+            sub_meshes[sub_meshes_[rank][i]] = of_rank[i];
     }
     report.seconds.interface += interface;
     report.cut.sub_meshes.insert(report.cut.sub_meshes.end(), sub_meshes.begin(), sub_meshes.end());
     report.convergence.steps_short_of_tolerance = of_own.convergence.steps_short_of_tolerance;
     report.convergence.steps_stagnated = of_own.convergence.steps_stagnated;
-    if (are_sweeps) {
-        remark_on_factorisation(factorisation_, factorisations, report);
-        remark_on_near_singularity(n_nearly_singular, report);
-    } else {
-        // They are about steps as a whole.
-        report.remarks.insert(report.remarks.end(), of_own.remarks.begin(), of_own.remarks.end());
-    }
+    // They are about steps as a whole.
+    report.remarks.insert(report.remarks.end(), of_own.remarks.begin(), of_own.remarks.end());
 }
 
 }  // namespace seamflow

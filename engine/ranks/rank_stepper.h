@@ -58,7 +58,6 @@ class RankStepper final : public Stepper {
 
     RankGroup* ranks_;
     int flow_;
-    Factorisation factorisation_;
     Index n_sub_meshes_;
     /// Those of rank 0 in what ranks share; null: all of the flow.
     std::unique_ptr<Workers> threads_;

@@ -117,11 +117,6 @@ bool has_dense_rows(const PolygonMesh& mesh, Laplacian laplacian)
     return traits_of(laplacian).reach == Reach::Faces && n_entries > most_entries_by_corners * mesh.n_corners();
 }
 
-bool has_polygons(const PolygonMesh& mesh)
-{
-    return mesh.n_corners() != 3 * mesh.n_faces();
-}
-
 }  // namespace
 
 ToleranceChoice choose_tolerance(const PolygonMesh& mesh, const MeshSize& size, const FlowOptions& options,
@@ -157,7 +152,7 @@ ToleranceChoice choose_tolerance(const PolygonMesh& mesh, const MeshSize& size, 
     if (options.cut.subdomains > 0 &&
         width_in_diffusion_lengths(size.area, options.cut.subdomains, options.time_step) < needs_of_sweeps.width)
         return {loose_tolerance, "in sub-meshes as narrow as these, single sweeps would drift"};
-    if (traits_of(options.laplacian).reach == Reach::Faces && has_polygons(mesh))
+    if (traits_of(options.laplacian).reach == Reach::Faces && mesh.n_corners() != 3 * mesh.n_faces())
         return {loose_tolerance, "on polygons it costs no more than single sweeps"};
     return {};
 }

@@ -41,12 +41,7 @@ void hold_still(Topology& topology, const PolygonMesh& mesh, const std::vector<d
         if (is_still(strength[v]))
             topology.fixed[v] = 1;
     if (std::ranges::all_of(strength, is_still))
-        remarks.push_back(remark_on_empty_region());
-}
-
-std::size_t count_moving(const Topology& topology)
-{
-    return static_cast<std::size_t>(std::count(topology.fixed.begin(), topology.fixed.end(), 0));
+        remarks.emplace_back("The region is empty: no vertex has a strength above 0, and nothing moves.");
 }
 
 }  // namespace
@@ -72,7 +67,7 @@ void constrain(Topology& topology, const PolygonMesh& mesh, const FlowOptions& o
     const std::vector<Index> undefined =
         is_sound ? std::vector<Index>() : vertices_without_row(mesh, topology, options.laplacian, exec);
     // Where nothing can move, the reason is more useful than the unchanged mesh.
-    if (!is_sound && undefined.size() == count_moving(topology))
+    if (!is_sound && std::ssize(undefined) == std::ranges::count(topology.fixed, 0))
         require_sound_geometry(mesh, topology, options.laplacian, exec);
     if (!undefined.empty())
         remarks.push_back(remark_on_undefined_vertices(static_cast<std::int64_t>(undefined.size()), undefined.front(),

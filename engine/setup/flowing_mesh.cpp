@@ -15,16 +15,6 @@
 
 namespace seamflow {
 
-namespace {
-
-/// Zeros of different sign differ.
-bool have_same_bits(const Point& a, const Point& b)
-{
-    return std::memcmp(a.data(), b.data(), 3 * sizeof(double)) == 0;
-}
-
-}  // namespace
-
 FlowingMesh::FlowingMesh(PolygonMesh& given)
     : given_(&given)
     , offset_(origin_offset(given))
@@ -58,7 +48,8 @@ void FlowingMesh::weld_seams(Topology& topology, MotionOptions& motion, const Ex
     for (Index v = 0; v < given_->n_vertices(); ++v) {
         if (first_[v] != v)
             copies_.push_back(v);
-        if (!have_same_bits(own.row(v), joined.row(first_[v])))
+        // Zeros of different sign differ.
+        if (std::memcmp(own.row(v).data(), joined.row(first_[v]).data(), sizeof(Point)) != 0)
             apart_.push_back({v, own.row(v), joined.row(first_[v])});
     }
     double furthest = 0.0;

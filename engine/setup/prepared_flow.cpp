@@ -74,7 +74,8 @@ void examine(PreparedFlow& prepared, FlowingMesh& mesh, Progress& progress)
         strength.clear();
     if (flows_alone(options) && strength.size() == usize(mesh.mesh().n_vertices()) &&
         mesh.leave_out_still_faces(strength, traits_of(options.laplacian).reach))
-        prepared.choices.push_back(remark_on_still_faces(mesh.mesh().n_faces()));
+        prepared.choices.push_back(
+            fmt::format("Only the {} faces around the region flow, and are measured.", mesh.mesh().n_faces()));
     const auto look = [&] {
         // Part of the topology is made by one thread.
         run_both([&] { topology = make_topology(mesh.mesh(), progress.exec()); },

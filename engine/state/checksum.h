@@ -18,13 +18,6 @@ class Checksum {
 
     void add(std::span<const std::byte> bytes);
 
-    /// The bytes of an array of numbers.
-    template <class Number>
-    void add_numbers(std::span<const Number> numbers)
-    {
-        add(std::as_bytes(numbers));
-    }
-
     [[nodiscard]] std::uint64_t value() const;
 
   private:

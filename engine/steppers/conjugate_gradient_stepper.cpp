@@ -25,7 +25,7 @@ void ConjugateGradientStepper::report_to(FlowReport& report) const
 {
     if (mesh_->n_faces() > 0)
         report.cut.sub_meshes = {{mesh_->n_faces(), mesh_->n_vertices()}};
-    describe_steps({}, report);
+    describe_steps(report);
 }
 
 }  // namespace seamflow

@@ -23,10 +23,9 @@ ConvergedStepper::ConvergedStepper(const PolygonMesh& mesh, Index n_sub_meshes, 
     : time_step_(options.time_step)
     , filter_(filter_of(options))
     , seconds_(usize(n_sub_meshes) + 1)
-    , graph_([this](const ScheduledTask& task) { task.kind == TaskKind::SolveInterface ? solve() : perform(task); },
-             options.report.record_schedule, progress)
+    , graph_(&progress, options.report.record_schedule)
     , root_(graph_.add_root())
-    , equation_solved_(graph_.add_task({TaskKind::SolveInterface, -1}))
+    , equation_solved_(graph_.add_task([this] { solve(); }, {TaskKind::SolveInterface, -1}))
     , stop_{options.accuracy.tolerance.value_or(tolerance_without_interface), options.accuracy.converge_iterations}
     , loops_(parts_of_equation, progress)
 {
@@ -125,6 +124,12 @@ void ConvergedStepper::restore(const StepMemory& memory)
     reader.require_end();
 }
 
+void ConvergedStepper::add_seconds(PhaseSeconds& seconds) const
+{
+    for (const PhaseSeconds& of_tasks : seconds_)
+        seconds.add_tasks(of_tasks);
+}
+
 void ConvergedStepper::report_to(StepReport& report) const
 {
     report.iterations = reached_.last.iterations;
@@ -132,12 +137,12 @@ void ConvergedStepper::report_to(StepReport& report) const
     report.estimated_v_max = reached_.distance;
 }
 
-void ConvergedStepper::describe_steps(const std::string& advice, FlowReport& report) const
+void ConvergedStepper::describe_steps(FlowReport& report) const
 {
     add_seconds(report.seconds);
     report.convergence.steps_short_of_tolerance = reached_.n_short_of_tolerance;
     report.convergence.steps_stagnated = reached_.n_stagnated;
-    remark_on_missed_tolerance(stop_.iterations, advice, report);
+    remark_on_missed_tolerance(stop_.iterations, report);
     report.schedule = graph_.schedule();
 }
 

@@ -1,13 +1,12 @@
 #pragma once
 
 #include <span>
-#include <string>
 #include <vector>
 
 #include "engine/options/flow_options.h"
 #include "engine/steppers/stepper.h"
 #include "engine/tasks/progress.h"
-#include "engine/tasks/step_graph.h"
+#include "engine/tasks/task_graph.h"
 #include "engine/tasks/workspaces.h"
 #include "solvers/filters/step_filter.h"
 #include "solvers/interface/interface_result.h"
@@ -25,7 +24,7 @@ class ConvergedStepper : public Stepper {
     void set_vertices(std::span<const Index> vertices, const Points& to) final { move_rows(vertices, to, positions_); }
     void save(StepMemory& memory) const override;
     void restore(const StepMemory& memory) final;
-    void add_seconds(PhaseSeconds& seconds) const final { add_up(seconds_, seconds); }
+    void add_seconds(PhaseSeconds& seconds) const final;
     void report_to(StepReport& report) const final;
 
   protected:
@@ -35,9 +34,6 @@ class ConvergedStepper : public Stepper {
     ConvergedStepper(const PolygonMesh& mesh, Index n_sub_meshes, const FlowOptions& options, double parts_of_equation,
                      Progress& progress);
 
-    /// Does a task of a sub-mesh.
-    virtual void perform(const ScheduledTask&) {}
-
     /// Solves the equation.
     virtual InterfaceResult solve_equation(const IterationStop& stop, const Executor& exec) = 0;
 
@@ -45,8 +41,7 @@ class ConvergedStepper : public Stepper {
     virtual void restore_further(StepMemoryReader&) {}
 
     /// Fills in what all such steps report.
-    /// @param advice what to do where steps missed the tolerance for lack of iterations; may be empty.
-    void describe_steps(const std::string& advice, FlowReport& report) const;
+    void describe_steps(FlowReport& report) const;
 
     Workspaces workspaces_;
     double time_step_;
@@ -59,9 +54,9 @@ class ConvergedStepper : public Stepper {
     Points positions_;
     /// Per sub-mesh, and of the equation.
     std::vector<PhaseSeconds> seconds_;
-    StepGraph graph_;
-    StepGraph::Node root_;
-    StepGraph::Node equation_solved_;
+    TaskGraph graph_;
+    TaskGraph::Node root_;
+    TaskGraph::Node equation_solved_;
 
   private:
     /// How a step has missed its tolerance.

@@ -5,7 +5,6 @@
 
 #include "engine/setup/sub_mesh_options.h"
 #include "engine/tasks/parallel_executor.h"
-#include "engine/tasks/stopwatch.h"
 #include "partition/index_lists.h"
 #include "solvers/direct/columns.h"
 
@@ -117,18 +116,13 @@ const Points& ErrorEstimate::stiffness_at(const SubMeshState& state, Points& fir
 {
     if (first_.rows() == 0)
         return state.position;
-    const std::vector<Index>& global = state.sub_mesh->local_to_global;
-    set_rows(first, state.position.rows());
-    for (std::size_t v = 0; v < global.size(); ++v)
-        first.row(static_cast<Eigen::Index>(v)) = first_.row(global[v]);
-    return first;
+    return gather_rows(state.sub_mesh->local_to_global, first_, first);
 }
 
 void ErrorEstimate::measure(std::vector<SubMeshState>& states, Index s, SolverWorkspace& workspace)
 {
     receive_solution(states, s, decomposition_->halo[s]);
-    SubMeshState& state = states[s];
-    Stopwatch watch;
+    const SubMeshState& state = states[s];
     const Points& after = joined(states, s, workspace.other_side);
     equation_.assemble(s, state.position, after, stiffness_at(state, workspace.positions), time_step_);
     for (Index i = equation_.first(s); !attached_.empty() && i < equation_.first(s + 1); ++i)
@@ -137,7 +131,6 @@ void ErrorEstimate::measure(std::vector<SubMeshState>& states, Index s, SolverWo
         for (Index v = 0; v < state.sub_mesh->n_vertices; ++v)
             if (state.sub_mesh->owned[v] != 0)
                 solved_.row(state.sub_mesh->local_to_global[v]) = after.row(v);
-    state.seconds.correct += watch.lap();
 }
 
 void ErrorEstimate::note_correction(const std::vector<SubMeshState>& states, Index s)

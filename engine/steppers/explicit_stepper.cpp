@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cassert>
 #include <limits>
-#include <sstream>
-#include <string>
 #include <vector>
+
+#include <fmt/format.h>
 
 #include "engine/tasks/parallel_executor.h"
 #include "partition/errors.h"
@@ -19,14 +19,6 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// dt beyond this fraction of the squared shortest edge is unstable on regular grids.
 constexpr double safe_part = 0.25;
-
-std::string text_of(double value)
-{
-    std::ostringstream text;
-    text.precision(17);
-    text << value;
-    return text.str();
-}
 
 /// The squared length of the shortest edge at a vertex, ignoring edges without length.
 double shortest_edge_squared(const PolygonMesh& mesh, const Topology& topology, const Points& positions, Index v)
@@ -78,9 +70,10 @@ void ExplicitStepper::require_stable(const Points& positions)
         return;
     first_limit_ = limit;
     if (time_step_ > limit)
-        throw OptionError("time_step is " + text_of(time_step_) + ", but must be at most " + text_of(limit) +
-                          " (length²), the square of the shortest edge, for explicit Euler steps to be stable: use a "
-                          "smaller one, or backward Euler steps");
+        throw OptionError(fmt::format("time_step is {:.17g}, but must be at most {:.17g} (length²), the square of the "
+                                      "shortest edge, for explicit Euler steps to be stable: use a smaller one, or "
+                                      "backward Euler steps",
+                                      time_step_, limit));
 }
 
 void ExplicitStepper::step(const Points& before)

@@ -6,7 +6,7 @@
 #include <span>
 
 #include "engine/setup/sweep_plan.h"
-#include "engine/tasks/step_graph.h"
+#include "engine/tasks/task_graph.h"
 #include "partition/decomposition/decomposition.h"
 #include "partition/index.h"
 #include "partition/polygon_mesh.h"
@@ -59,7 +59,7 @@ class ForeignSubMeshes {
     [[nodiscard]] virtual bool awaits(MessageKind kind, std::size_t sweep, Index s) const = 0;
 
     /// Sets the event that waits for the arrival.
-    virtual void set_event(MessageKind kind, std::size_t sweep, Index s, StepGraph::Node event) = 0;
+    virtual void set_event(MessageKind kind, std::size_t sweep, Index s, TaskGraph::Node event) = 0;
 
     /// Copies what has arrived; called by the event.
     /// @param rows #local by 3, of the foreign sub-mesh.
@@ -70,7 +70,7 @@ class ForeignSubMeshes {
 
     /// Runs one sweep.
     /// @param begin called first, when messages of this run may be sent.
-    virtual void run(StepGraph& graph, std::size_t sweep, const std::function<void()>& begin,
+    virtual void run(TaskGraph& graph, std::size_t sweep, const std::function<void()>& begin,
                      const std::function<void()>& join) = 0;
 };
 

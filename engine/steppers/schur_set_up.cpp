@@ -38,14 +38,6 @@ Balancing balancing_for(const Decomposition& decomposition, const PolygonMesh& m
                : Balancing::None;
 }
 
-/// The sub-meshes of a single peer.
-PeerSubMeshes alone(Decomposition decomposition)
-{
-    auto peers = std::make_unique<OnePeer>(static_cast<Index>(decomposition.sub_meshes.size()));
-    std::vector<SubMeshName> names = names_of(decomposition);
-    return {std::move(decomposition), std::move(peers), std::move(names)};
-}
-
 }  // namespace
 
 SchurStepper::SchurStepper(const PolygonMesh& mesh, const Topology& topology, const Cut& cut,
@@ -129,13 +121,15 @@ void SchurStepper::choose_factors(const FlowOptions& options)
 
 void SchurStepper::make_graph()
 {
-    std::vector<StepGraph::Node> passing_condensed;
-    std::vector<StepGraph::Node> passing_substituted;
+    std::vector<TaskGraph::Node> passing_condensed;
+    std::vector<TaskGraph::Node> passing_substituted;
     for (Index s = 0; s < static_cast<Index>(sub_meshes_.size()); ++s) {
         if (!is_own(s))
             continue;
-        const auto condensed = graph_.add_task({TaskKind::Condense, s});
-        const auto substituted = graph_.add_task({TaskKind::BackSubstitute, s});
+        const auto condensed =
+            graph_.add_task([this, s] { run_for_sub_mesh(names_[s], [&] { condense(s); }); }, {TaskKind::Condense, s});
+        const auto substituted = graph_.add_task(
+            [this, s] { run_for_sub_mesh(names_[s], [&] { back_substitute(s); }); }, {TaskKind::BackSubstitute, s});
         graph_.add_dependency(root_, condensed);
         graph_.add_dependency(condensed, equation_solved_);
         graph_.add_dependency(equation_solved_, substituted);
@@ -149,7 +143,7 @@ void SchurStepper::make_graph()
 }
 
 /// Each waits until an earlier one has given back the place of its factor.
-void SchurStepper::take_turns(const std::vector<StepGraph::Node>& tasks)
+void SchurStepper::take_turns(const std::vector<TaskGraph::Node>& tasks)
 {
     for (std::size_t i = usize(factors_.plan.n_places); i < tasks.size(); ++i)
         graph_.add_dependency(tasks[i - usize(factors_.plan.n_places)], tasks[i]);

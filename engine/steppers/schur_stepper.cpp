@@ -39,13 +39,6 @@ void SchurStepper::for_each_sub_mesh(const Executor& exec, Action&& action)
     });
 }
 
-void SchurStepper::perform(const ScheduledTask& task)
-{
-    run_for_sub_mesh(names_[task.sub_mesh], [&] {
-        task.kind == TaskKind::Condense ? condense(task.sub_mesh) : back_substitute(task.sub_mesh);
-    });
-}
-
 CondensedStep SchurStepper::shared_step()
 {
     return {.before = *before_,
@@ -316,13 +309,15 @@ void SchurStepper::report_to(FlowReport& report) const
     for (const auto& one : sub_meshes_) {
         if (!one)
             continue;
-        describe_sub_mesh(one->vertices(), 0, 0.0, report);
+        report.cut.sub_meshes.push_back({.faces = static_cast<Index>(one->vertices().faces.size()),
+                                         .vertices = one->vertices().n_vertices,
+                                         .factorisation = Factorisation::Own});
         report.resources.single_factors += one->is_single() ? 1 : 0;
         if (one->is_kept())
             report.resources.factor_memory_bytes +=
                 one->is_single() ? one->system().factor_bytes<float>() : one->system().factor_bytes<double>();
     }
-    describe_steps({}, report);
+    describe_steps(report);
 }
 
 }  // namespace seamflow

@@ -21,15 +21,6 @@
 
 namespace seamflow {
 
-/// The sub-meshes of one of several peers.
-struct PeerSubMeshes {
-    /// Its own sub-meshes in full, and the known part of those around them (see decompose_part).
-    Decomposition decomposition;
-    std::unique_ptr<InterfacePeers> peers;
-    /// #sub-meshes.
-    std::vector<SubMeshName> names;
-};
-
 /// Takes the undecomposed backward Euler step itself, sub-mesh by sub-mesh, for symmetric Laplacians: every sub-mesh
 /// condenses its equations to Γ, the equation of the Schur complement is solved there, and back substitution then gives
 /// the interiors. One task graph, run once per step:
@@ -97,14 +88,13 @@ class SchurStepper final : public ConvergedStepper {
         Points reached;
     };
 
-    void perform(const ScheduledTask& task) override;
     [[nodiscard]] bool is_own(Index s) const { return peers_->is_own(s); }
     [[nodiscard]] bool is_kept(Index s) const { return factors_.plan.whole[s] != 0; }
     void make_sub_meshes(Decomposition& decomposition, const PolygonMesh& mesh, const FlowOptions& options,
                          Progress& progress);
     void choose_factors(const FlowOptions& options);
     void make_graph();
-    void take_turns(const std::vector<StepGraph::Node>& tasks);
+    void take_turns(const std::vector<TaskGraph::Node>& tasks);
     template <class Action>
     void for_each_sub_mesh(const Executor& exec, Action&& action);
     CondensedStep shared_step();

@@ -9,15 +9,4 @@ void move_rows(std::span<const Index> vertices, const Points& to, Points& positi
             positions.row(vertices[i]) = to.row(static_cast<Index>(i));
 }
 
-void add_up(std::span<const PhaseSeconds> tasks, PhaseSeconds& sum)
-{
-    for (const PhaseSeconds& task : tasks) {
-        sum.assemble += task.assemble;
-        sum.factorise += task.factorise;
-        sum.solve += task.solve;
-        sum.correct += task.correct;
-        sum.interface += task.interface;
-    }
-}
-
 }  // namespace seamflow

@@ -113,16 +113,4 @@ class Stepper {
 /// Stepper::set_vertices for positions that have no copies.
 void move_rows(std::span<const Index> vertices, const Points& to, Points& positions);
 
-/// Adds the seconds of tasks to `sum`.
-void add_up(std::span<const PhaseSeconds> tasks, PhaseSeconds& sum);
-
-/// Adds one sub-mesh to the report.
-/// @param sub_mesh a SubMesh, or anything with `faces` and `n_vertices`.
-/// @param p Robin parameter, in 1/length.
-template <class Part>
-void describe_sub_mesh(const Part& sub_mesh, Index colour, double p, FlowReport& report)
-{
-    report.cut.sub_meshes.push_back({static_cast<Index>(sub_mesh.faces.size()), sub_mesh.n_vertices, colour, p});
-}
-
 }  // namespace seamflow

@@ -45,26 +45,6 @@ void receive_other_side(const std::vector<SubMeshState>& states, const std::vect
         other_side.row(interface.vertices[i]) /= static_cast<double>(interface.sharing[i].size() - 1);
 }
 
-void fill_and_factorise(SubMeshState& state, const Points& other_side, std::span<const InterfaceRole> roles,
-                        double time_step, const Resources& resources, Stopwatch& watch)
-{
-    const auto equations =
-        state.system->assemble(state.position, other_side, time_step, state.p, roles, resources.workspace);
-    state.seconds.assemble += watch.lap();
-    // If a step has failed, a factor is left.
-    state.factor.reset();
-    state.factor = state.system->factorise(equations, resources.memory, resources.workspace);
-    state.seconds.factorise += watch.lap();
-}
-
-/// Solves for Vᵏ⁺¹; `solved` holds what is known of it.
-void solve_and_free(SubMeshState& state, SolverWorkspace& workspace)
-{
-    state.system->solve(*state.factor, state.given(), state.solved, workspace);
-    if (state.solution == SubMeshState::Solution::Only)
-        state.factor.reset();
-}
-
 }  // namespace
 
 SubMeshState::SubMeshState(const SubMesh& mesh, std::unique_ptr<SubMeshSystem> equations, const Points& positions,
@@ -91,102 +71,78 @@ Point mean_of_copies(const std::vector<SubMeshState>& states, const SubMeshInter
 }
 
 void assemble_and_factorise(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& halo,
-                            std::span<const InterfaceRole> roles, double time_step, const Resources& resources)
+                            const SweepPlan& plan, double time_step, FactorMemory& memory, SolverWorkspace& workspace)
 {
     SubMeshState& state = states[s];
     Stopwatch watch;
     receive(states, halo, &SubMeshState::position, state.position);
-    fill_and_factorise(state, state.position, roles, time_step, resources, watch);
+    const bool is_mutual = !plan.copies[s].empty();
+    Points& other_side = workspace.other_side;
+    if (is_mutual)
+        receive_other_side(
+            states, halo, plan.copies[s], [](Index) { return &SubMeshState::position; }, state, other_side);
+    const auto equations = state.system->assemble(state.position, is_mutual ? other_side : state.position, time_step,
+                                                  state.p, plan.roles[s], workspace);
+    state.seconds.assemble += watch.lap();
+    // If a step has failed, a factor is left.
+    state.factor.reset();
+    state.factor = state.system->factorise(equations, memory, workspace);
+    state.seconds.factorise += watch.lap();
 }
 
-void assemble_and_factorise_mutual(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& halo,
-                                   const SweepPlan& plan, double time_step, const Resources& resources)
+void predict(SubMeshState& state, SolverWorkspace& workspace)
 {
-    SubMeshState& state = states[s];
-    Stopwatch watch;
-    receive(states, halo, &SubMeshState::position, state.position);
-    Points& other_side = resources.workspace.other_side;
-    receive_other_side(
-        states, halo, plan.copies[s], [](Index) { return &SubMeshState::position; }, state, other_side);
-    fill_and_factorise(state, other_side, plan.roles[s], time_step, resources, watch);
-}
-
-void predict(std::vector<SubMeshState>& states, Index s, SolverWorkspace& workspace)
-{
-    SubMeshState& state = states[s];
-    Stopwatch watch;
     for (const Index v : state.sub_mesh->interface.vertices)
         state.predicted.row(v) = state.given().row(v);
     state.system->solve(*state.factor, state.given(), state.predicted, workspace);
-    state.seconds.solve += watch.lap();
 }
 
 void use_predictions(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& predictions,
                      SolverWorkspace& workspace)
 {
     SubMeshState& state = states[s];
-    Stopwatch watch;
     copy(state.given(), workspace.other_side);
     receive(states, predictions, &SubMeshState::predicted, workspace.other_side);
     state.system->use_other_side(state.given(), workspace.other_side);
-    state.seconds.solve += watch.lap();
 }
 
-void solve(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& traces, SolverWorkspace& workspace)
+void solve(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& halo, const SweepPlan& plan,
+           SolverWorkspace& workspace)
 {
     SubMeshState& state = states[s];
-    Stopwatch watch;
-    for (const Index v : state.sub_mesh->interface.vertices)
-        state.solved.row(v) = state.given().row(v);
-    receive(states, traces, &SubMeshState::solved, state.solved);
-    solve_and_free(state, workspace);
-    state.seconds.solve += watch.lap();
-}
-
-void solve_mutual(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& halo, const SweepPlan& plan,
-                  SolverWorkspace& workspace)
-{
-    SubMeshState& state = states[s];
-    Stopwatch watch;
-    const auto latest = [&](Index t) {
-        return plan.stage[t] < plan.stage[s] ? &SubMeshState::solved : &SubMeshState::position;
-    };
-    receive_other_side(states, halo, plan.copies[s], latest, state, workspace.other_side);
-    state.system->use_other_side(state.position, workspace.other_side);
-    solve_and_free(state, workspace);
-    state.seconds.solve += watch.lap();
+    if (plan.copies[s].empty()) {
+        for (const Index v : state.sub_mesh->interface.vertices)
+            state.solved.row(v) = state.given().row(v);
+        receive(states, plan.traces[s], &SubMeshState::solved, state.solved);
+    } else {
+        const auto latest = [&](Index t) {
+            return plan.stage[t] < plan.stage[s] ? &SubMeshState::solved : &SubMeshState::position;
+        };
+        receive_other_side(states, halo, plan.copies[s], latest, state, workspace.other_side);
+        state.system->use_other_side(state.position, workspace.other_side);
+    }
+    // `solved` holds what is known of Vᵏ⁺¹.
+    state.system->solve(*state.factor, state.given(), state.solved, workspace);
+    if (state.solution == SubMeshState::Solution::Only)
+        state.factor.reset();
 }
 
 void receive_solution(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& halo)
 {
-    SubMeshState& state = states[s];
-    Stopwatch watch;
-    receive(states, halo, &SubMeshState::solved, state.solved);
-    state.seconds.correct += watch.lap();
+    receive(states, halo, &SubMeshState::solved, states[s].solved);
 }
 
-void begin_with_data(SubMeshState& state)
+void accept(SubMeshState& state)
 {
-    Stopwatch watch;
-    state.system->use_data(state.data);
-    state.seconds.solve += watch.lap();
-}
-
-void accept(std::vector<SubMeshState>& states, Index s)
-{
-    SubMeshState& state = states[s];
-    Stopwatch watch;
     state.position.topRows(state.sub_mesh->n_vertices) = state.solved.topRows(state.sub_mesh->n_vertices);
-    state.seconds.correct += watch.lap();
 }
 
 void accept_corrected(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& halo)
 {
-    accept(states, s);
     SubMeshState& state = states[s];
-    Stopwatch watch;
+    accept(state);
     if (state.solution == SubMeshState::Solution::Only)
-        receive(states, halo, &SubMeshState::solved, state.solved);
+        receive_solution(states, s, halo);
     const Points& result = state.solved;
     const auto& corrected = state.sub_mesh->corrected;
     for (Index i = 0; i < static_cast<Index>(corrected.vertices.size()); ++i) {
@@ -195,7 +151,6 @@ void accept_corrected(std::vector<SubMeshState>& states, Index s, const std::vec
             sum += result.row(neighbour);
         state.position.row(corrected.vertices[i]) = sum / static_cast<double>(corrected.neighbours[i].size());
     }
-    state.seconds.correct += watch.lap();
 }
 
 }  // namespace seamflow

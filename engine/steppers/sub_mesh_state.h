@@ -47,45 +47,31 @@ struct SubMeshState {
 Point mean_of_copies(const std::vector<SubMeshState>& states, const SubMeshInterface& interface, Index i,
                      Points SubMeshState::*array);
 
-/// What a task works with.
-struct Resources {
-    /// Must outlive the states.
-    FactorMemory& memory;
-    SolverWorkspace& workspace;
-};
-
-/// Fetches Vᵏ for the halo, fills the equations and factorises them.
+/// Fetches Vᵏ for the halo, and in a mutual sweep the copies that the others have of Γ, fills the equations and
+/// factorises them. Adds its seconds, which those of the others are not.
+/// @param memory must outlive the states.
 void assemble_and_factorise(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& halo,
-                            std::span<const InterfaceRole> roles, double time_step, const Resources& resources);
-
-/// The same in a mutual sweep: also fetches the copies that the others have of Γ.
-void assemble_and_factorise_mutual(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& halo,
-                                   const SweepPlan& plan, double time_step, const Resources& resources);
+                            const SweepPlan& plan, double time_step, FactorMemory& memory, SolverWorkspace& workspace);
 
 /// Solves with Γ held at Vᵏ.
-void predict(std::vector<SubMeshState>& states, Index s, SolverWorkspace& workspace);
+void predict(SubMeshState& state, SolverWorkspace& workspace);
 
 /// Fetches what the sub-meshes beyond Γ predict, where this one leads.
 void use_predictions(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& predictions,
                      SolverWorkspace& workspace);
 
-/// Fetches Vᵏ⁺¹ where the sub-mesh follows another on its interface, keeps Vᵏ where it follows none, and solves. The
-/// factor is freed if the step has one solution.
-void solve(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& traces, SolverWorkspace& workspace);
-
-/// Solves in a mutual sweep: fetches the others' copies of Γ and the halo, Vᵏ⁺¹ from the sub-meshes of an earlier stage
-/// and Vᵏ from those of a later stage, and solves. Where a vertex has several other copies, their mean is taken.
-void solve_mutual(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& halo, const SweepPlan& plan,
-                  SolverWorkspace& workspace);
+/// Fetches Vᵏ⁺¹ where the sub-mesh follows another on its interface, keeps Vᵏ where it follows none, and solves. In a
+/// mutual sweep it fetches the others' copies of Γ and the halo: Vᵏ⁺¹ from the sub-meshes of an earlier stage, and Vᵏ
+/// from those of a later stage; where a vertex has several other copies, their mean is taken. The factor is freed if
+/// the step has one solution.
+void solve(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& halo, const SweepPlan& plan,
+           SolverWorkspace& workspace);
 
 /// Fetches Vᵏ⁺¹, as solved, for the halo.
 void receive_solution(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& halo);
 
-/// Begins with `data`, using the factor of the first solution.
-void begin_with_data(SubMeshState& state);
-
 /// Accepts Vᵏ⁺¹ as it was solved.
-void accept(std::vector<SubMeshState>& states, Index s);
+void accept(SubMeshState& state);
 
 /// Fetches Vᵏ⁺¹ for the halo, unless it already has all solutions, and accepts Vᵏ⁺¹, with vertices of Γ moved to the
 /// centroids of their edge neighbours (paper, eq. 28). Every sub-mesh at a vertex finds the same bits.

@@ -7,7 +7,7 @@ namespace seamflow {
 
 namespace {
 
-using Node = StepGraph::Node;
+using Node = TaskGraph::Node;
 
 /// Whether a sub-mesh takes over values that another has solved.
 [[maybe_unused]] bool follows(const SweepPlan& plan, Index s, Index leader)
@@ -18,9 +18,10 @@ using Node = StepGraph::Node;
 /// Adds the tasks of one kind after the other, each with its dependencies.
 class SweepBuilder {
   public:
-    SweepBuilder(StepGraph& graph, std::size_t sweep, const SweepPlan& plan,
+    SweepBuilder(TaskGraph& graph, const PerformTask& perform, std::size_t sweep, const SweepPlan& plan,
                  const std::vector<std::vector<Index>>& adjacency, ForeignSubMeshes* foreign)
         : graph_(graph)
+        , perform_(perform)
         , sweep_(sweep)
         , plan_(plan)
         , adjacency_(adjacency)
@@ -44,12 +45,17 @@ class SweepBuilder {
   private:
     [[nodiscard]] bool is_foreign(Index s) const { return foreign_ != nullptr && foreign_->is_foreign(s); }
 
+    Node add_task(TaskKind kind, Index s)
+    {
+        return graph_.add_task([perform = perform_, kind, s] { perform(kind, s); }, {kind, s});
+    }
+
     /// The arrival of what a foreign sub-mesh finds in a task; -1 if nothing waits for it.
     Node add_arrival(TaskKind kind, Index s)
     {
         if (!foreign_->awaits(message_of(kind), sweep_, s))
             return -1;
-        const Node event = graph_.add_event({kind, s});
+        const Node event = graph_.add_event([perform = perform_, kind, s] { perform(kind, s); }, {kind, s});
         graph_.add_dependency(root_, event);
         foreign_->set_event(message_of(kind), sweep_, s, event);
         return event;
@@ -65,8 +71,8 @@ class SweepBuilder {
                 solved_.push_back(add_arrival(TaskKind::Solve, s));
                 continue;
             }
-            factorised_.push_back(graph_.add_task({TaskKind::AssembleAndFactorise, s}));
-            solved_.push_back(graph_.add_task({TaskKind::Solve, s}));
+            factorised_.push_back(add_task(TaskKind::AssembleAndFactorise, s));
+            solved_.push_back(add_task(TaskKind::Solve, s));
             graph_.add_dependency(root_, factorised_.back());
             graph_.add_dependency(factorised_.back(), solved_.back());
         }
@@ -110,14 +116,14 @@ class SweepBuilder {
                 predicted[s] = add_arrival(TaskKind::Predict, s);
             if (is_foreign(s) || plan_.traces[s].empty())
                 continue;
-            predicted[s] = graph_.add_task({TaskKind::Predict, s});
+            predicted[s] = add_task(TaskKind::Predict, s);
             graph_.add_dependency(factorised_[s], predicted[s]);
             graph_.add_dependency(predicted[s], solved_[s]);
         }
         for (Index s = 0; s < n_sub_meshes(); ++s) {
             if (plan_.predictions[s].empty())
                 continue;
-            const Node used = graph_.add_task({TaskKind::UsePredictions, s});
+            const Node used = add_task(TaskKind::UsePredictions, s);
             graph_.add_dependency(factorised_[s], used);
             graph_.add_dependency(used, solved_[s]);
             if (predicted[s] >= 0)
@@ -138,7 +144,7 @@ class SweepBuilder {
         for (Index s = 0; s < n_sub_meshes(); ++s) {
             if (is_foreign(s))
                 continue;
-            const Node accepted = graph_.add_task({TaskKind::Accept, s});
+            const Node accepted = add_task(TaskKind::Accept, s);
             graph_.add_dependency(solved_[s], accepted);
             for (const Index neighbour : adjacency_[s])
                 if (solved_[neighbour] >= 0)
@@ -146,7 +152,8 @@ class SweepBuilder {
         }
     }
 
-    StepGraph& graph_;
+    TaskGraph& graph_;
+    const PerformTask& perform_;
     std::size_t sweep_;
     const SweepPlan& plan_;
     const std::vector<std::vector<Index>>& adjacency_;
@@ -158,11 +165,11 @@ class SweepBuilder {
 
 }  // namespace
 
-void add_sweep(StepGraph& graph, std::size_t sweep, const SweepPlan& plan,
+void add_sweep(TaskGraph& graph, const PerformTask& perform, std::size_t sweep, const SweepPlan& plan,
                const std::vector<std::vector<Index>>& adjacency, const FactorWindow& window, bool predicts,
                ForeignSubMeshes* foreign)
 {
-    SweepBuilder(graph, sweep, plan, adjacency, foreign).build(window, predicts);
+    SweepBuilder(graph, perform, sweep, plan, adjacency, foreign).build(window, predicts);
 }
 
 }  // namespace seamflow

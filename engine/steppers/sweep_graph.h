@@ -1,14 +1,18 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 #include "engine/setup/sweep_plan.h"
 #include "engine/steppers/foreign_sub_meshes.h"
 #include "engine/steppers/sweep_order.h"
-#include "engine/tasks/step_graph.h"
+#include "engine/tasks/task_graph.h"
 
 namespace seamflow {
+
+/// Does what a task is named after, for a sub-mesh.
+using PerformTask = std::function<void(TaskKind kind, Index s)>;
 
 /// Adds one sweep over all sub-meshes to a graph, with a root of its own. Without predictions it has three tasks for
 /// each sub-mesh:
@@ -31,7 +35,7 @@ namespace seamflow {
 /// @param adjacency per sub-mesh: those with which it shares vertices.
 /// @param predicts whether sub-meshes predict.
 /// @param foreign null if the sweep has all sub-meshes of the mesh.
-void add_sweep(StepGraph& graph, std::size_t sweep, const SweepPlan& plan,
+void add_sweep(TaskGraph& graph, const PerformTask& perform, std::size_t sweep, const SweepPlan& plan,
                const std::vector<std::vector<Index>>& adjacency, const FactorWindow& window, bool predicts,
                ForeignSubMeshes* foreign);
 

@@ -62,14 +62,6 @@ std::vector<Index> by_stage(const SweepPlan& plan)
 
 }  // namespace
 
-std::vector<Index> assign_stages(const Decomposition& decomposition, Colouring colouring,
-                                 const std::vector<double>& curvature)
-{
-    if (colouring == Colouring::Label)
-        return ascending(decomposition.sub_meshes.size());
-    return assign_stages(decomposition.adjacency, colouring, total_curvatures(decomposition, curvature));
-}
-
 std::vector<double> total_curvatures(const Decomposition& decomposition, const std::vector<double>& curvature)
 {
     std::vector<double> totals(decomposition.sub_meshes.size());

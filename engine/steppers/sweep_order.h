@@ -8,18 +8,14 @@
 
 namespace seamflow {
 
-/// Stage of each sub-mesh in a forward sweep, from 0; sub-meshes of one stage have one colour. With Colouring::Greedy
-/// the colour classes are ordered by decreasing Σ‖ΔV‖ over those vertices of their sub-meshes that are neither on the
-/// boundary nor on Γ: the paper's authors let the side with the larger total curvature start.
-/// @param curvature #V: ‖ΔV⁰‖; empty: as if it were 0.
-std::vector<Index> assign_stages(const Decomposition& decomposition, Colouring colouring,
-                                 const std::vector<double>& curvature);
-
-/// Σ‖ΔV‖ of each sub-mesh, as above; #sub-meshes.
+/// Σ‖ΔV‖ of each sub-mesh over those of its vertices that are neither on the boundary nor on Γ.
+/// @param curvature #V: ‖ΔV⁰‖; empty: as if it were 0. @returns #sub-meshes.
 std::vector<double> total_curvatures(const Decomposition& decomposition, const std::vector<double>& curvature);
 
-/// The same stages from these properties of sub-meshes.
-/// @param adjacency #sub-meshes: with which others they share a vertex of Γ. @param totals #sub-meshes: their Σ‖ΔV‖.
+/// Stage of each sub-mesh in a forward sweep, from 0; sub-meshes of one stage have one colour. With Colouring::Greedy
+/// the colour classes are ordered by decreasing total curvature: the paper's authors let the side where it is larger
+/// start.
+/// @param adjacency #sub-meshes: with which others they share a vertex of Γ. @param totals see total_curvatures.
 std::vector<Index> assign_stages(const std::vector<std::vector<Index>>& adjacency, Colouring colouring,
                                  const std::vector<double>& totals);
 

@@ -17,16 +17,6 @@ namespace seamflow {
 
 namespace {
 
-/// Copies in parallel: the first access to new memory is slow.
-Points copied(const Points& positions)
-{
-    Points copy(positions.rows(), 3);
-    run_in_parallel(static_cast<Index>(positions.rows()), [&](Index begin, Index end) {
-        copy.middleRows(begin, end - begin) = positions.middleRows(begin, end - begin);
-    });
-    return copy;
-}
-
 /// The sub-meshes of a cut, grown into each other for a sweep in ascending order of `rank`.
 Decomposition overlap_sub_meshes(const PolygonMesh& mesh, const Topology& topology, const Cut& cut,
                                  std::span<const Index> stage, int layers)
@@ -40,83 +30,65 @@ Decomposition overlap_sub_meshes(const PolygonMesh& mesh, const Topology& topolo
     return connect_overlapping(std::move(sub_meshes), topology, overlap);
 }
 
+/// All sub-meshes of a cut.
+SweepSubMeshes all_of(const PolygonMesh& mesh, const Topology& topology, const Cut& cut, const FlowOptions& options,
+                      std::vector<double> curvature, Progress& progress)
+{
+    SweepSubMeshes all{.own = alone(decompose(mesh, topology, cut.labels, cut.n_parts, progress.exec()))};
+    Decomposition& decomposition = all.own.decomposition;
+    all.stage = assign_stages(decomposition.adjacency, options.interface.colouring,
+                              total_curvatures(decomposition, std::exchange(curvature, {})));
+    if (options.interface.conditions == Conditions::Schwarz)
+        decomposition = overlap_sub_meshes(mesh, topology, cut, all.stage, options.interface.overlap);
+    progress.require_going_on();
+    return all;
+}
+
 }  // namespace
 
 SweepStepper::SweepStepper(const PolygonMesh& mesh, const Topology& topology, const Cut& cut,
                            const FlowOptions& options, std::vector<double> curvature, Progress& progress)
-    : decomposition_(decompose(mesh, topology, cut.labels, cut.n_parts, progress.exec()))
-    , names_(names_of(decomposition_))
-    , graph_([this](const ScheduledTask& task) { perform(task); }, options.report.record_schedule, progress)
-    , positions_(copied(mesh.vertices))
+    : SweepStepper(mesh, topology, all_of(mesh, topology, cut, options, std::move(curvature), progress), options,
+                   progress)
+{
+}
+
+SweepStepper::SweepStepper(const PolygonMesh& mesh, const Topology& topology, SweepSubMeshes sub_meshes,
+                           const FlowOptions& options, Progress& progress)
+    : decomposition_(std::move(sub_meshes.own.decomposition))
+    , names_(std::move(sub_meshes.own.names))
+    , foreign_(sub_meshes.foreign)
+    , windows_(std::move(sub_meshes.windows))
+    , peers_(std::move(sub_meshes.own.peers))
+    , graph_(&progress, options.report.record_schedule)
     , time_step_(options.time_step)
-    , is_classical_(is_classical(options.interface.conditions))
     , filter_(filter_of(options))
     , corrects_(corrects(options))
-    , factorisation_(options.resources.factorisation)
 {
-    const auto stage = assign_stages(decomposition_, options.interface.colouring, curvature);
-    curvature = std::vector<double>();
-    if (options.interface.conditions == Conditions::Schwarz)
-        decomposition_ = overlap_sub_meshes(mesh, topology, cut, stage, options.interface.overlap);
-    progress.require_going_on();
-    if (is_classical_)
+    copy(run_in_parallel, mesh.vertices, positions_);
+    if (is_classical(options.interface.conditions))
         copies_.emplace(mesh, decomposition_, options.report.keep_gaps);
     make_states(mesh, options, progress);
     run_both(
         [&] {
-            if (options.interface.conditions == Conditions::Schwarz)
-                return;
-            peers_ = std::make_unique<OnePeer>(static_cast<Index>(states_.size()));
-            error_.emplace(decomposition_, mesh, topology, options, *peers_);
+            if (options.interface.conditions != Conditions::Schwarz)
+                error_.emplace(decomposition_, mesh, topology, options, *peers_);
         },
-        [&] { make_plans(stage, states_.size(), options); });
-    order_factors();
-    choose_factor_window(options);
-    add_sweeps(options);
-}
-
-SweepStepper::SweepStepper(const PolygonMesh& mesh, RankSubMeshes sub_meshes, const FlowOptions& options,
-                           Progress& progress)
-    : decomposition_(std::move(sub_meshes.decomposition))
-    , names_(std::move(sub_meshes.names))
-    , foreign_(sub_meshes.foreign)
-    , graph_([this](const ScheduledTask& task) { perform(task); }, options.report.record_schedule, progress)
-    , positions_(copied(mesh.vertices))
-    , time_step_(options.time_step)
-    , is_classical_(is_classical(options.interface.conditions))
-    , filter_(filter_of(options))
-    , corrects_(corrects(options))
-    , factorisation_(options.resources.factorisation)
-{
-    make_states(mesh, options, progress);
-    make_plans(sub_meshes.stage, sub_meshes.n_of_all_ranks, options);
-    windows_ = std::move(sub_meshes.windows);
-    choose_factor_window(options);
-    peers_ = std::move(sub_meshes.peers);
-    error_.emplace(decomposition_, mesh, *sub_meshes.topology, options, *peers_);
-    foreign_->connect(decomposition_, plans_, error_->foreign_rows());
-    add_sweeps(options);
-}
-
-/// @param n_sub_meshes in the whole mesh.
-void SweepStepper::make_plans(const std::vector<Index>& stage, std::size_t n_sub_meshes, const FlowOptions& options)
-{
-    plans_.push_back(make_plan(decomposition_, options, stage));
-    if (alternates(options, n_sub_meshes))
-        plans_.push_back(make_plan(decomposition_, options, reversed(stage)));
-}
-
-void SweepStepper::add_sweeps(const FlowOptions& options)
-{
-    for (std::size_t sweep = 0; sweep < plans_.size(); ++sweep)
-        add_sweep(graph_, sweep, plans_[sweep], decomposition_.adjacency, windows_[sweep], predicts(options), foreign_);
-}
-
-void SweepStepper::order_factors()
-{
+        [&] {
+            plans_.push_back(make_plan(decomposition_, options, sub_meshes.stage));
+            if (alternates(options, usize(peers_->n_places())))
+                plans_.push_back(make_plan(decomposition_, options, reversed(sub_meshes.stage)));
+        });
     const std::vector<Index> order = reverse_cuthill_mckee(decomposition_.adjacency);
-    for (const SweepPlan& plan : plans_)
-        windows_.push_back(least_window(plan, order_by_need(plan, order)));
+    for (std::size_t sweep = windows_.size(); sweep < plans_.size(); ++sweep)
+        windows_.push_back(least_window(plans_[sweep], order_by_need(plans_[sweep], order)));
+    choose_factor_window(options);
+    if (foreign_ != nullptr)
+        foreign_->connect(decomposition_, plans_, error_->foreign_rows());
+    const PerformTask perform = [this](TaskKind kind, Index s) { this->perform(kind, s); };
+    for (std::size_t sweep = 0; sweep < plans_.size(); ++sweep)
+        add_sweep(graph_, perform, sweep, plans_[sweep], decomposition_.adjacency, windows_[sweep], predicts(options),
+                  foreign_);
 }
 
 /// Each thread has enough work within the window, as far as the limit allows. The windows are as small as they can be

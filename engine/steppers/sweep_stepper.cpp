@@ -2,22 +2,21 @@
 
 #include <utility>
 
-#include "engine/measure/remarks.h"
 #include "engine/tasks/parallel_executor.h"
+#include "engine/tasks/stopwatch.h"
 
 namespace seamflow {
 
 /// Does what a task is named after. Other ranks get what they wait for as soon as it is found; where they find it, it
 /// arrives.
-void SweepStepper::perform(const ScheduledTask& task)
+void SweepStepper::perform(TaskKind kind, Index s)
 {
-    const Index s = task.sub_mesh;
-    const MessageKind kind = message_of(task.kind);
+    const MessageKind message = message_of(kind);
     if (!is_own(s))
-        return foreign_->receive(kind, s, rows_of(kind, s));
-    run_for_sub_mesh(names_[s], [&] { perform_own(task.kind, s); });
-    if (foreign_ != nullptr && (task.kind == TaskKind::Predict || task.kind == TaskKind::Solve))
-        foreign_->send(kind, sweep_, s, rows_of(kind, s));
+        return foreign_->receive(message, s, rows_of(message, s));
+    run_for_sub_mesh(names_[s], [&] { perform_own(kind, s); });
+    if (foreign_ != nullptr && (kind == TaskKind::Predict || kind == TaskKind::Solve))
+        foreign_->send(message, sweep_, s, rows_of(message, s));
 }
 
 /// The rows of A are those of I + dt Δ, and on Γ the transmission condition where the sub-mesh leads, the identity
@@ -25,35 +24,32 @@ void SweepStepper::perform(const ScheduledTask& task)
 void SweepStepper::perform_own(TaskKind kind, Index s)
 {
     SolverWorkspace& workspace = workspaces_.local();
+    SubMeshState& state = states_[s];
+    Stopwatch watch;
     switch (kind) {
     case TaskKind::AssembleAndFactorise:
         // A(Vᵏ) = L U
-        return make_factor(s, workspace);
+        if (state.solution != SubMeshState::Solution::OfData)
+            return assemble_and_factorise(states_, s, decomposition_.halo[s], plan(), time_step_, *factors_, workspace);
+        state.system->use_data(state.data);
+        break;
     case TaskKind::Predict:
         // A x = Vᵏ, with x = Vᵏ on Γ
-        return predict(states_, s, workspace);
+        predict(state, workspace);
+        break;
     case TaskKind::UsePredictions:
         // b: Vᵏ, and on Γ the condition with x beyond it
-        return use_predictions(states_, s, plan().predictions[s], workspace);
+        use_predictions(states_, s, plan().predictions[s], workspace);
+        break;
     case TaskKind::Solve:
         // A Vᵏ⁺¹ = b, with Vᵏ⁺¹ of the sub-meshes that lead it on Γ
-        return is_classical_ ? solve_mutual(states_, s, decomposition_.halo[s], plan(), workspace)
-                             : solve(states_, s, plan().traces[s], workspace);
+        solve(states_, s, decomposition_.halo[s], plan(), workspace);
+        break;
     default:
         // Γ at the centroids of its neighbours, where it is corrected
-        return finish(s, workspace);
+        finish(s, workspace);
     }
-}
-
-void SweepStepper::make_factor(Index s, SolverWorkspace& workspace)
-{
-    const Resources resources{*factors_, workspace};
-    if (states_[s].solution == SubMeshState::Solution::OfData)
-        begin_with_data(states_[s]);
-    else if (is_classical_)
-        assemble_and_factorise_mutual(states_, s, decomposition_.halo[s], plan(), time_step_, resources);
-    else
-        assemble_and_factorise(states_, s, decomposition_.halo[s], plan().roles[s], time_step_, resources);
+    (kind == TaskKind::Accept ? state.seconds.correct : state.seconds.solve) += watch.lap();
 }
 
 void SweepStepper::finish(Index s, SolverWorkspace& workspace)
@@ -95,7 +91,7 @@ void SweepStepper::run_sweep(std::size_t sweep, const std::function<void()>& joi
 
 void SweepStepper::accept_solution(Index s)
 {
-    corrects_ ? accept_corrected(states_, s, decomposition_.halo[s]) : accept(states_, s);
+    corrects_ ? accept_corrected(states_, s, decomposition_.halo[s]) : accept(states_[s]);
     if (error_)
         error_->note_correction(states_, s);
 }
@@ -103,7 +99,7 @@ void SweepStepper::accept_solution(Index s)
 /// The same graph is run once for each solution.
 void SweepStepper::step(const Points& before)
 {
-    const std::size_t root = static_cast<std::size_t>(steps_done_) % graph_.n_roots();
+    const std::size_t root = static_cast<std::size_t>(steps_done_) % plans_.size();
     const auto end = [&] {
         ++steps_done_;
         join();
@@ -141,9 +137,11 @@ void SweepStepper::take_filtered(std::size_t root, const std::function<void()>& 
         },
         run_in_parallel);
     for_each_own([&](Index s, SubMeshState& state) {
+        Stopwatch watch;
         state.solved = state.position - rest[s];
         state.factor.reset();
         accept_solution(s);
+        state.seconds.correct += watch.lap();
     });
     end();
 }
@@ -241,7 +239,7 @@ void SweepStepper::restore(const StepMemory& memory)
 void SweepStepper::add_seconds(PhaseSeconds& seconds) const
 {
     for (const SubMeshState& state : states_)
-        add_up(std::span(&state.seconds, 1), seconds);
+        seconds.add_tasks(state.seconds);
 }
 
 void SweepStepper::report_to(StepReport& report) const
@@ -254,28 +252,20 @@ void SweepStepper::report_to(StepReport& report) const
 
 void SweepStepper::report_to(FlowReport& report) const
 {
-    const SweptSubMeshes swept = describe_sub_meshes(report);
-    remark_on_factorisation(factorisation_, swept.factorisations, report);
-    remark_on_near_singularity(swept.n_nearly_singular, report);
-}
-
-SweptSubMeshes SweepStepper::describe_sub_meshes(FlowReport& report) const
-{
     const std::vector<Index>& stage = plans_.front().stage;
     report.cut.interface_vertices = decomposition_.n_interface_vertices;
     report.resources.live_factors = windows_.front().size;
     report.resources.factor_memory_bytes = factors_->bytes();
-    SweptSubMeshes swept;
-    for (std::size_t s = 0; s < states_.size(); ++s) {
-        if (!states_[s].system)
-            continue;
-        describe_sub_mesh(*states_[s].sub_mesh, stage[s], states_[s].p, report);
-        swept.n_nearly_singular.push_back(states_[s].system->n_nearly_singular());
-        swept.factorisations.push_back(states_[s].system->factorisation());
-    }
+    for (std::size_t s = 0; s < states_.size(); ++s)
+        if (const SubMeshState& state = states_[s]; state.system)
+            report.cut.sub_meshes.push_back({.faces = static_cast<Index>(state.sub_mesh->faces.size()),
+                                             .vertices = state.sub_mesh->n_vertices,
+                                             .colour = stage[s],
+                                             .p = state.p,
+                                             .factorisation = state.system->factorisation(),
+                                             .n_nearly_singular = state.system->n_nearly_singular()});
     add_seconds(report.seconds);
     report.schedule = graph_.schedule();
-    return swept;
 }
 
 }  // namespace seamflow

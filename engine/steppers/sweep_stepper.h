@@ -18,7 +18,7 @@
 #include "engine/steppers/sweep_graph.h"
 #include "engine/tasks/progress.h"
 #include "engine/tasks/run_for_sub_mesh.h"
-#include "engine/tasks/step_graph.h"
+#include "engine/tasks/task_graph.h"
 #include "engine/tasks/workspaces.h"
 #include "partition/cut/cut.h"
 #include "partition/topology.h"
@@ -26,30 +26,16 @@
 
 namespace seamflow {
 
-/// The sub-meshes of a rank, and their places in a sweep over those of all ranks.
-struct RankSubMeshes {
-    /// Those of this rank, and the known part of those around them (see decompose_part).
-    Decomposition decomposition;
-    /// #sub-meshes.
-    std::vector<SubMeshName> names;
-    /// How many all ranks have together.
-    std::size_t n_of_all_ranks = 0;
+/// Sub-meshes, of a whole mesh or of one of several ranks, and their places in a sweep over all.
+struct SweepSubMeshes {
+    PeerSubMeshes own;
     /// #sub-meshes: the sweep's order.
-    std::vector<Index> stage;
-    /// For a sweep forward and one backward: those of this rank, in orders common to all ranks, and the smallest size
-    /// with which the sweep cannot deadlock.
-    std::vector<FactorWindow> windows;
-    /// Both must outlive the stepper.
+    std::vector<Index> stage = {};
+    /// Of ranks, for a sweep forward and one backward: those of this rank, in orders common to all ranks, and the
+    /// smallest size with which the sweep cannot deadlock. Empty: they follow from the plans.
+    std::vector<FactorWindow> windows = {};
+    /// Null where all sub-meshes are here; must outlive the stepper.
     ForeignSubMeshes* foreign = nullptr;
-    const Topology* topology = nullptr;
-    /// The ranks as peers that estimate the error together.
-    std::unique_ptr<InterfacePeers> peers;
-};
-
-/// What the factorisations of each sub-mesh were.
-struct SweptSubMeshes {
-    std::vector<Index> n_nearly_singular;
-    std::vector<Factorisation> factorisations;
 };
 
 /// Takes a step in one sweep over the colours of the sub-meshes (see add_sweep), with InterfaceOptions::conditions on
@@ -64,10 +50,11 @@ class SweepStepper final : public Stepper {
     SweepStepper(const PolygonMesh& mesh, const Topology& topology, const Cut& cut, const FlowOptions& options,
                  std::vector<double> curvature, Progress& progress);
 
-    /// The same for the sub-meshes of one rank.
-    /// @param mesh the part of the mesh that the rank knows. @param options not the classical conditions, nor
-    /// Schwarz's.
-    SweepStepper(const PolygonMesh& mesh, RankSubMeshes sub_meshes, const FlowOptions& options, Progress& progress);
+    /// The same for sub-meshes that are cut out, maybe those of one rank.
+    /// @param mesh, topology the part of the mesh that the rank knows. @param options of ranks not the classical
+    /// conditions, nor Schwarz's.
+    SweepStepper(const PolygonMesh& mesh, const Topology& topology, SweepSubMeshes sub_meshes,
+                 const FlowOptions& options, Progress& progress);
 
     void step(const Points& before) override;
     [[nodiscard]] const Points& positions() const override { return positions_; }
@@ -81,21 +68,14 @@ class SweepStepper final : public Stepper {
     void report_to(StepReport& report) const override;
     void report_to(FlowReport& report) const override;
 
-    /// The same without remarks, which are about the sub-meshes of all ranks.
-    SweptSubMeshes describe_sub_meshes(FlowReport& report) const;
-
   private:
     void make_states(const PolygonMesh& mesh, const FlowOptions& options, Progress& progress);
-    [[nodiscard]] bool is_own(Index s) const { return foreign_ == nullptr || !foreign_->is_foreign(s); }
-    void make_plans(const std::vector<Index>& stage, std::size_t n_sub_meshes, const FlowOptions& options);
-    void add_sweeps(const FlowOptions& options);
-    void order_factors();
+    [[nodiscard]] bool is_own(Index s) const { return peers_->is_own(s); }
     void choose_factor_window(const FlowOptions& options);
     [[nodiscard]] const SweepPlan& plan() const { return plans_[sweep_]; }
     void run_sweep(std::size_t sweep, const std::function<void()>& join = {});
-    void perform(const ScheduledTask& task);
+    void perform(TaskKind kind, Index s);
     void perform_own(TaskKind kind, Index s);
-    void make_factor(Index s, SolverWorkspace& workspace);
     void finish(Index s, SolverWorkspace& workspace);
     Points& rows_of(MessageKind kind, Index s);
     void accept_solution(Index s);
@@ -120,20 +100,18 @@ class SweepStepper final : public Stepper {
     std::vector<FactorWindow> windows_;
     /// With the classical conditions.
     std::optional<InterfaceGaps> copies_;
-    /// Not for overlapping sub-meshes: peers, and their estimate.
     std::unique_ptr<InterfacePeers> peers_;
+    /// Not for overlapping sub-meshes.
     std::optional<ErrorEstimate> error_;
     /// A root for each plan.
-    StepGraph graph_;
+    TaskGraph graph_;
     Points positions_;
     int steps_done_ = 0;
     /// The plan of the sweep that runs.
     std::size_t sweep_ = 0;
     double time_step_;
-    bool is_classical_;
     StepFilter filter_;
     bool corrects_;
-    Factorisation factorisation_;
 };
 
 }  // namespace seamflow

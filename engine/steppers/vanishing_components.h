@@ -1,6 +1,6 @@
 #pragma once
 
-#include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -13,24 +13,6 @@
 
 namespace seamflow {
 
-/// Small components of a mesh, connected by shared vertices, that nothing holds.
-struct SmallComponents {
-    /// Per component, its rows in the table of their vertices: ascending by vertex.
-    IndexLists rows;
-    /// Per row, the vertex.
-    std::vector<Index> vertices;
-    /// Makes the table of vertex data, given as #V by 3: #rows by 3.
-    std::function<Points(const Points& of_vertices)> table;
-};
-
-/// Finds those whose bounding boxes have diagonals of less than `extent`.
-using FindSmallComponents = std::function<SmallComponents(const Points& positions, double extent)>;
-
-/// Makes such a function.
-/// @param mesh, topology, strength must outlive it; the last is MotionOptions::strength.
-FindSmallComponents find_small_components(const PolygonMesh& mesh, const Topology& topology,
-                                          std::span<const double> strength = {});
-
 /// Takes steps of surfaces whose components differ much in size. A backward Euler step shrinks a component that is
 /// small compared to √dt to about a point: its centroid, which stays. But next to dt K its masses are then lost to
 /// rounding, and its place with them. Such a component is scaled up about its centroid before the step, and the result
@@ -38,14 +20,15 @@ FindSmallComponents find_small_components(const PolygonMesh& mesh, const Topolog
 /// which go with the square of lengths. A component that its coordinates no longer resolve is a point, and stays.
 class VanishingComponents {
   public:
-    /// @param first #V by 3: what an attachment attaches to.
-    VanishingComponents(const FlowOptions& options, const Points& first, FindSmallComponents find);
+    /// @param mesh as it is before the first step: an attachment attaches to that. It, the topology and the options
+    /// must outlive this.
+    VanishingComponents(const PolygonMesh& mesh, const Topology& topology, const FlowOptions& options);
 
     /// One step. @throws as Stepper::step.
     void step(Stepper& stepper, const Points& before);
 
     /// Of changes between steps: which vertices are held, weights of the attachment, and first positions.
-    void look_again(FindSmallComponents find) { find_ = std::move(find); }
+    void look_again() { free_.reset(); }
     void attach(std::span<const Index> vertices, std::span<const double> weights);
     void set_reference_vertices(std::span<const Index> vertices, const Points& to);
 
@@ -62,17 +45,23 @@ class VanishingComponents {
         /// Factor for the shape that the step leaves there.
         double rest = 0.0;
     };
-    [[nodiscard]] Pose pose(std::span<const Index> rows, const Points& first, Points& table) const;
-    void bring_back(std::span<const Index> rows, const Pose& pose, const Points& before, const Points& first,
-                    const Points& weights, Points& table) const;
+    [[nodiscard]] IndexLists free_components() const;
+    [[nodiscard]] IndexLists find_small(const Points& positions, double extent);
+    [[nodiscard]] Pose pose(std::span<const Index> vertices, Points& positions) const;
+    [[nodiscard]] double weight(Index v) const;
+    void bring_back(std::span<const Index> vertices, const Pose& pose, const Points& before, Points& positions) const;
 
-    FlowOptions options_;
+    const PolygonMesh& mesh_;
+    const Topology& topology_;
+    const FlowOptions& options_;
     bool is_attached_ = false;
     /// Whether steps have a K that depends on lengths of the first surface, not on present ones.
     bool has_kept_lengths_ = false;
-    /// Empty where neither holds.
-    Points first_;
-    FindSmallComponents find_;
+    /// The first positions, empty where neither holds; and the weights of an attachment that has one for each vertex.
+    Points first_ = Points(0, 3);
+    std::vector<double> weights_;
+    /// See free_components, once that is asked for.
+    std::optional<IndexLists> free_;
     /// Below it components are small; 0: no step needs this.
     double extent_ = 0.0;
     /// How many there were at most.

@@ -25,17 +25,10 @@ std::string_view name_of(TaskKind kind)
     return "";
 }
 
-TaskPriority priority_of(TaskKind kind)
+bool has_priority(TaskKind kind)
 {
-    switch (kind) {
-    case TaskKind::Predict:
-    case TaskKind::UsePredictions:
-    case TaskKind::Solve:
-    case TaskKind::Accept:
-        return TaskPriority::High;
-    default:
-        return TaskPriority::Normal;
-    }
+    return kind == TaskKind::Predict || kind == TaskKind::UsePredictions || kind == TaskKind::Solve ||
+           kind == TaskKind::Accept;
 }
 
 }  // namespace seamflow

@@ -22,11 +22,8 @@ enum class TaskKind {
 /// In words: "assemble and factorise", "solve" and so on.
 std::string_view name_of(TaskKind kind);
 
-/// Which of the tasks that are ready starts first.
-enum class TaskPriority { Normal, High };
-
-/// In a sweep what frees a factor comes before what makes one.
-TaskPriority priority_of(TaskKind kind);
+/// Whether such tasks start before others that are ready: in a sweep what frees a factor comes before what makes one.
+bool has_priority(TaskKind kind);
 
 /// A task of the graph. It runs at most once in a step.
 struct ScheduledTask {

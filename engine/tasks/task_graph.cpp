@@ -12,6 +12,7 @@
 #include <oneapi/tbb/task_arena.h>
 
 #include "engine/tasks/progress.h"
+#include "engine/tasks/stopwatch.h"
 #include "partition/errors.h"
 #include "solvers/platform/thread_sanitizer.h"
 
@@ -57,10 +58,14 @@ class TaskGraph::Nodes {
     /// so it is given only a pointer to this.
     struct Task {
         Node node = -1;
+        Index number = 0;
         std::function<void()> body;
     };
 
     ~Nodes() { graph.wait_for_all(); }
+
+    /// Runs the body of a task, and notes when, unless it throws.
+    void run(const Task& task);
 
     /// Runs a task, or skips it. Exceptions stay inside: a flow graph from which one has escaped starts its next run
     /// with wrong counts.
@@ -76,7 +81,29 @@ class TaskGraph::Nodes {
         });
     }
 
+    void begin_record()
+    {
+        running.assign(schedule->tasks.size(), {});
+        if (schedule->steps.empty())
+            clock = Stopwatch();
+        schedule->steps.push_back({.start = clock.seconds()});
+    }
+
+    void end_record()
+    {
+        schedule->steps.back().end = clock.seconds();
+        for (const TaskRecord& record : running)
+            if (record.step > 0)
+                schedule->records.push_back(record);
+    }
+
     std::deque<Task> tasks;
+    /// Number of the task at each node; -1 at roots.
+    std::vector<Index> task_of_node;
+    std::optional<Schedule> schedule;
+    Stopwatch clock;
+    /// #tasks, for the step that runs; step 0: has not run.
+    std::vector<TaskRecord> running;
     /// The arena in which all is constructed: signals come from threads outside it.
     oneapi::tbb::task_arena arena{oneapi::tbb::task_arena::attach()};
     flow::graph graph;
@@ -95,8 +122,21 @@ class TaskGraph::Nodes {
     bool is_running = false;
     /// The events signalled before the run.
     std::vector<Node> early;
-    Node latest_root = -1;
+    std::vector<Node> roots;
 };
+
+void TaskGraph::Nodes::run(const Task& task)
+{
+    if (!schedule)
+        return task.body();
+    const double start = clock.seconds();
+    task.body();
+    running[task.number] = {.step = static_cast<int>(schedule->steps.size()),
+                            .task = task.number,
+                            .thread = oneapi::tbb::this_task_arena::current_thread_index(),
+                            .start = start,
+                            .end = clock.seconds()};
+}
 
 void TaskGraph::Nodes::perform(const Task& task)
 {
@@ -107,7 +147,7 @@ void TaskGraph::Nodes::perform(const Task& task)
         return;
     }
     try {
-        task.body();
+        run(task);
         if (progress != nullptr)
             progress->count();
     } catch (...) {
@@ -129,10 +169,12 @@ struct TaskGraph::OrderedTask {
     const Nodes::Task* task;
 };
 
-TaskGraph::TaskGraph(Progress* progress)
+TaskGraph::TaskGraph(Progress* progress, bool is_recorded)
     : nodes_(std::make_unique<Nodes>())
 {
     nodes_->progress = progress;
+    if (is_recorded)
+        nodes_->schedule.emplace();
 }
 
 TaskGraph::~TaskGraph() = default;
@@ -140,28 +182,34 @@ TaskGraph::~TaskGraph() = default;
 TaskGraph::Node TaskGraph::add_root()
 {
     nodes_->nodes.emplace_back(nodes_->graph, [](const flow::continue_msg& message) { return message; });
-    return nodes_->latest_root = static_cast<Node>(nodes_->nodes.size()) - 1;
+    nodes_->task_of_node.push_back(-1);
+    nodes_->roots.push_back(static_cast<Node>(nodes_->nodes.size()) - 1);
+    return nodes_->roots.back();
 }
 
-TaskGraph::Node TaskGraph::add(std::function<void()> body, TaskPriority priority, int n_signals)
+TaskGraph::Node TaskGraph::add(std::function<void()> body, const ScheduledTask& task, int n_signals)
 {
     const auto node = static_cast<Node>(nodes_->nodes.size());
-    nodes_->tasks.push_back({node, std::move(body)});
+    const auto number = static_cast<Index>(nodes_->tasks.size());
+    nodes_->tasks.push_back({node, number, std::move(body)});
+    nodes_->task_of_node.push_back(number);
+    if (nodes_->schedule)
+        nodes_->schedule->tasks.push_back(task);
     nodes_->nodes.emplace_back(nodes_->graph, n_signals, OrderedTask{nodes_.get(), &nodes_->tasks.back()},
-                               priority == TaskPriority::High ? flow::node_priority_t{1} : flow::no_priority);
-    ++nodes_->n_tasks[nodes_->latest_root];
+                               has_priority(task.kind) ? flow::node_priority_t{1} : flow::no_priority);
+    ++nodes_->n_tasks[nodes_->roots.back()];
     return node;
 }
 
-TaskGraph::Node TaskGraph::add_task(std::function<void()> body, TaskPriority priority)
+TaskGraph::Node TaskGraph::add_task(std::function<void()> body, const ScheduledTask& task)
 {
-    return add(std::move(body), priority, 0);
+    return add(std::move(body), task, 0);
 }
 
-TaskGraph::Node TaskGraph::add_event(std::function<void()> body, TaskPriority priority)
+TaskGraph::Node TaskGraph::add_event(std::function<void()> body, const ScheduledTask& task)
 {
-    const Node node = add(std::move(body), priority, 1);
-    ++nodes_->n_events[nodes_->latest_root];
+    const Node node = add(std::move(body), task, 1);
+    ++nodes_->n_events[nodes_->roots.back()];
     return node;
 }
 
@@ -189,9 +237,27 @@ void TaskGraph::add_dependency(Node before, Node after)
 {
     flow::make_edge(nodes_->nodes[before], nodes_->nodes[after]);
     nodes_->order.add_dependency(usize(before), usize(after));
+    if (nodes_->schedule && nodes_->task_of_node[before] >= 0)
+        nodes_->schedule->dependencies.push_back({nodes_->task_of_node[before], nodes_->task_of_node[after]});
 }
 
-void TaskGraph::run(Node root, double further_parts)
+void TaskGraph::run(std::size_t root, double further_parts, const std::function<void()>& join)
+{
+    if (nodes_->schedule)
+        nodes_->begin_record();
+    run_tasks(nodes_->roots[root], further_parts);
+    if (join)
+        join();
+    if (nodes_->schedule)
+        nodes_->end_record();
+}
+
+const std::optional<Schedule>& TaskGraph::schedule() const
+{
+    return nodes_->schedule;
+}
+
+void TaskGraph::run_tasks(Node root, double further_parts)
 {
     if (nodes_->progress != nullptr)
         nodes_->progress->expect(nodes_->n_tasks[root] + further_parts);

@@ -3,6 +3,7 @@
 #include <exception>
 #include <functional>
 #include <memory>
+#include <optional>
 
 #include "engine/tasks/schedule.h"
 #include "partition/index.h"
@@ -17,13 +18,16 @@ class Progress;
 /// Tasks may throw: tasks that have not started by then are skipped, and `run` rethrows what the lowest-numbered of the
 /// failed tasks has thrown (with several failures, which ones happened depends on timing). Tasks are skipped likewise
 /// when the flow is to stop. The graph can be run again.
+///
+/// On request it records what ran when; that allocates only between runs.
 class TaskGraph {
   public:
     /// Number of a task or of a root.
     using Node = Index;
 
     /// @param progress counts the tasks and says whether to stop; must outlive the graph. nullptr: none.
-    explicit TaskGraph(Progress* progress = nullptr);
+    /// @param is_recorded whether there is a schedule.
+    explicit TaskGraph(Progress* progress = nullptr, bool is_recorded = false);
     ~TaskGraph();
     TaskGraph(const TaskGraph&) = delete;
     TaskGraph& operator=(const TaskGraph&) = delete;
@@ -32,10 +36,11 @@ class TaskGraph {
     Node add_root();
 
     /// A task that starts as soon as all tasks and the root before it are done.
-    Node add_task(std::function<void()> body, TaskPriority priority);
+    /// @param task what it is in the schedule; its kind has a priority. It may run at the same time as others.
+    Node add_task(std::function<void()> body, const ScheduledTask& task);
 
     /// A task that in every run also waits for something from outside: until `signal` is called for it.
-    Node add_event(std::function<void()> body, TaskPriority priority);
+    Node add_event(std::function<void()> body, const ScheduledTask& task);
 
     /// Signals that what the event waits for has come: call once in each run for each event behind its root, before or
     /// during the run, from any thread. Does not wait for the task.
@@ -50,13 +55,18 @@ class TaskGraph {
     /// Makes `after` wait for `before`.
     void add_dependency(Node before, Node after);
 
-    /// Runs all tasks behind a root and waits for them.
+    /// Takes a step: runs all tasks behind a root and waits for them, then calls `join` in this thread.
+    /// @param root its number, from 0.
     /// @param further_parts that tasks count themselves (see Progress).
     /// @throws whatever a task has thrown; Cancelled if tasks were skipped because the flow is to stop.
-    void run(Node root, double further_parts = 0.0);
+    void run(std::size_t root = 0, double further_parts = 0.0, const std::function<void()>& join = {});
+
+    /// What ran when; empty where nothing is recorded.
+    [[nodiscard]] const std::optional<Schedule>& schedule() const;
 
   private:
-    Node add(std::function<void()> body, TaskPriority priority, int n_signals);
+    Node add(std::function<void()> body, const ScheduledTask& task, int n_signals);
+    void run_tasks(Node root, double further_parts);
 
     class Nodes;
     struct OrderedTask;

@@ -35,9 +35,6 @@ PolygonMesh read_gltf(const std::filesystem::path& path, std::string_view conten
 /// @throws OutputError naming the face or vertex, and the remedy.
 void require_fits_gltf(const std::filesystem::path& path, const PolygonMesh& mesh);
 
-/// The last of these checks.
-void require_floats_for_gltf(const std::filesystem::path& path, const Points& vertices);
-
 /// Writes a file of one primitive: positions (float) and triangles.
 /// @param format Glb, or Gltf with the buffer in the file itself.
 /// @throws OutputError

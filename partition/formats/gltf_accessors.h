@@ -10,6 +10,7 @@
 
 #include "partition/formats/gltf_content.h"
 #include "partition/io/byte_order.h"
+#include "partition/vector_area.h"
 
 namespace seamflow {
 
@@ -48,6 +49,17 @@ inline std::uint32_t gltf_index(const char* bytes, std::uint64_t component)
     default:
         return from_bytes<std::uint32_t>(bytes, std::endian::little);
     }
+}
+
+/// Element i of a span of three floats each.
+/// @param bytes of the buffer.
+inline Point float_vector(std::string_view bytes, const GltfSpan& span, std::size_t i)
+{
+    const char* const begin = bytes.data() + span.offset + i * span.stride;
+    const auto number = [&](std::size_t k) {
+        return from_bytes<float>(begin + k * sizeof(float), std::endian::little);
+    };
+    return {number(0), number(1), number(2)};
 }
 
 /// Checks the type of indices.

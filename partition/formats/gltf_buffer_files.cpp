@@ -1,6 +1,9 @@
 #include "partition/formats/gltf_buffer_files.h"
 
+#include <set>
+#include <string>
 #include <system_error>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -33,27 +36,25 @@ std::set<std::string> names_of_buffers(const std::filesystem::path& path)
 
 }  // namespace
 
-GltfBufferFiles::GltfBufferFiles(const std::filesystem::path& output, const std::filesystem::path& input)
-    : folder_(file_behind(output).parent_path())
-    , stem_(before_extension(file_behind(output).filename()).string())
-    , replaced_(names_of_buffers(output))
+std::vector<std::filesystem::path> places_of_gltf_buffers(const std::filesystem::path& output,
+                                                          const std::filesystem::path& input, std::size_t n)
 {
+    const std::filesystem::path file = file_behind(output);
     std::error_code ignored;
+    // Those that the file which is replaced names, and nobody else.
+    std::set<std::string> replaced = names_of_buffers(output);
     for (const std::string& of_input : names_of_buffers(input))
-        std::erase_if(replaced_, [&](const std::string& name) {
-            return std::filesystem::equivalent(folder_ / name, input.parent_path() / of_input, ignored);
+        std::erase_if(replaced, [&](const std::string& name) {
+            return std::filesystem::equivalent(file.parent_path() / name, input.parent_path() / of_input, ignored);
         });
-}
-
-std::string GltfBufferFiles::next_name()
-{
-    std::error_code ignored;
-    while (true) {
-        ++n_;
-        std::string name = n_ == 1 ? stem_ + ".bin" : fmt::format("{}-{}.bin", stem_, n_);
-        if (replaced_.contains(name) || !std::filesystem::exists(folder_ / name, ignored))
-            return name;
+    std::vector<std::filesystem::path> places;
+    for (int number = 1; places.size() < n; ++number) {
+        std::filesystem::path place = before_extension(file);
+        place += number == 1 ? ".bin" : fmt::format("-{}.bin", number);
+        if (replaced.contains(place.filename().string()) || !std::filesystem::exists(place, ignored))
+            places.push_back(std::move(place));
     }
+    return places;
 }
 
 }  // namespace seamflow

@@ -1,10 +1,13 @@
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "partition/executor.h"
 #include "partition/formats/gltf_accessors.h"
 #include "partition/formats/gltf_content.h"
 #include "partition/index.h"
@@ -19,6 +22,20 @@ struct GltfVectors {
     /// The number of its first element among those of all.
     Index first = 0;
 };
+
+/// Runs body(list, i, number) for the n elements of some lists.
+template <class Body>
+void for_each_vector(const std::vector<GltfVectors>& lists, Index n, const Executor& exec, Body&& body)
+{
+    for_each_block(exec, n, [&](Index, Index begin, Index end) {
+        auto list = std::ranges::upper_bound(lists, begin, {}, &GltfVectors::first) - 1;
+        for (Index number = begin; number < end; ++number) {
+            while (usize(number - list->first) >= list->span.count)
+                ++list;
+            body(*list, usize(number - list->first), number);
+        }
+    });
+}
 
 /// Triangles of a file.
 struct GltfPrimitive {

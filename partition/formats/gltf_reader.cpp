@@ -18,9 +18,10 @@ namespace {
 /// A place in a list of a file.
 class GltfPosition final : public InputPosition {
   public:
-    explicit GltfPosition(const std::filesystem::path& path)
+    GltfPosition(const std::filesystem::path& path, FaultLog* faults)
         : path_(path)
     {
+        note_faults_in(faults);
     }
 
     /// @param list, element must live until the next call.
@@ -42,27 +43,6 @@ class GltfPosition final : public InputPosition {
     std::string_view element_;
     std::int64_t i_ = 0;
 };
-
-/// Reads the positions of vertices begin to end - 1.
-void read_gltf_positions(const GltfContent& content, const GltfGeometry& geometry, Index begin, Index end,
-                         GltfPosition& position, Points& vertices)
-{
-    auto list = std::ranges::upper_bound(geometry.positions, begin, {}, &GltfVectors::first) - 1;
-    for (Index v = begin; v < end; ++v) {
-        while (usize(v - list->first) >= list->span.count)
-            ++list;
-        const std::size_t i = usize(v - list->first);
-        const char* const bytes = content.buffer(list->span.buffer).data() + list->span.offset + i * list->span.stride;
-        for (Index k = 0; k < 3; ++k) {
-            const auto x = from_bytes<float>(bytes + usize(k) * sizeof(float), std::endian::little);
-            vertices(v, k) = double{x};
-            if (!std::isfinite(x)) {
-                position.enter(list->name, "vertex", static_cast<std::int64_t>(i));
-                position.fault("a coordinate is not a finite number; correct it or export the mesh again");
-            }
-        }
-    }
-}
 
 /// The corners of the triangles of a primitive.
 class GltfCorners {
@@ -127,33 +107,27 @@ void read_gltf_faces(const GltfContent& content, const GltfGeometry& geometry, s
     }
 }
 
-PolygonMesh read_gltf_in_one_go(const GltfContent& content, const GltfGeometry& geometry, FaultLog* faults)
+/// @param per_slice number of faces that are read at a time. @param faults see read_gltf.
+/// @throws InputError if there is any fault; naming it if all are read at a time.
+PolygonMesh read_gltf_slices(const GltfContent& content, const GltfGeometry& geometry, std::int64_t per_slice,
+                             const Executor& exec, FaultLog* faults)
 {
     PolygonMesh mesh;
     mesh.vertices = uninitialised_points(geometry.n_vertices);
-    GltfPosition position(content.path());
-    position.note_faults_in(faults);
-    read_gltf_positions(content, geometry, 0, geometry.n_vertices, position, mesh.vertices);
-    MeshBuilder builder(position, 0, {mesh.vertices, geometry.n_vertices, mesh});
-    read_gltf_faces(content, geometry, 0, geometry.n_faces, position, builder);
-    return mesh;
-}
-
-/// @throws InputError if there is any fault, not necessarily naming it.
-PolygonMesh read_gltf_slices(const GltfContent& content, const GltfGeometry& geometry, const Slicing& slicing)
-{
-    PolygonMesh mesh;
-    mesh.vertices = uninitialised_points(geometry.n_vertices);
-    for_each_block(slicing.exec, geometry.n_vertices, [&](Index, Index begin, Index end) {
-        GltfPosition position(content.path());
-        read_gltf_positions(content, geometry, begin, end, position, mesh.vertices);
-    });
-    constexpr std::size_t bytes_per_face = 12;
-    const std::int64_t per_slice = elements_per_slice(slicing, bytes_per_face);
-    append_faces(mesh, static_cast<Index>((geometry.n_faces + per_slice - 1) / per_slice), slicing.exec,
+    for_each_vector(
+        geometry.positions, geometry.n_vertices, exec, [&](const GltfVectors& list, std::size_t i, Index v) {
+            const Point point = float_vector(content.buffer(list.span.buffer), list.span, i);
+            mesh.vertices.row(v) = point;
+            GltfPosition position(content.path(), faults);
+            position.enter(list.name, "vertex", static_cast<std::int64_t>(i));
+            for (const double x : point)
+                if (!std::isfinite(x))
+                    position.fault("a coordinate is not a finite number; correct it or export the mesh again");
+        });
+    append_faces(mesh, static_cast<Index>((geometry.n_faces + per_slice - 1) / per_slice), exec,
                  [&](Index i, PolygonMesh& faces) {
                      const std::int64_t begin = i * per_slice;
-                     GltfPosition position(content.path());
+                     GltfPosition position(content.path(), faults);
                      MeshBuilder builder(position, 0, {mesh.vertices, geometry.n_vertices, faces});
                      read_gltf_faces(content, geometry, begin, std::min(begin + per_slice, geometry.n_faces), position,
                                      builder);
@@ -168,10 +142,14 @@ PolygonMesh read_gltf(const std::filesystem::path& path, std::string_view file, 
 {
     GltfContent content(path, file);
     const GltfGeometry geometry = geometry_of(content);
-    const auto in_one_go = [&] { return read_gltf_in_one_go(content, geometry, faults); };
-    return file.size() <= slicing.bytes
-               ? in_one_go()
-               : read_in_slices_if_faultless([&] { return read_gltf_slices(content, geometry, slicing); }, in_one_go);
+    const auto in_one_go = [&] {
+        return read_gltf_slices(content, geometry, geometry.n_faces + 1, run_serially, faults);
+    };
+    const auto in_slices = [&] {
+        constexpr std::size_t bytes_per_face = 12;
+        return read_gltf_slices(content, geometry, elements_per_slice(slicing, bytes_per_face), slicing.exec, nullptr);
+    };
+    return file.size() <= slicing.bytes ? in_one_go() : read_in_slices_if_faultless(in_slices, in_one_go);
 }
 
 }  // namespace seamflow

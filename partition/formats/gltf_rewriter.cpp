@@ -25,15 +25,6 @@ namespace seamflow {
 
 namespace {
 
-Point float_vector(std::string_view bytes, const GltfSpan& span, std::size_t i)
-{
-    Point vector;
-    for (Index k = 0; k < 3; ++k)
-        vector[k] = double{from_bytes<float>(bytes.data() + span.offset + i * span.stride + usize(k) * sizeof(float),
-                                             std::endian::little)};
-    return vector;
-}
-
 /// Replaces those components that differ.
 /// @returns whether any had to be rounded.
 bool set_float_vector(std::string& bytes, const GltfSpan& span, std::size_t i, const Point& before, const Point& after)
@@ -49,20 +40,6 @@ bool set_float_vector(std::string& bytes, const GltfSpan& span, std::size_t i, c
                                                                                usize(k) * sizeof(float)));
     }
     return rounded;
-}
-
-/// Runs body(list, i, number) for all elements of some lists.
-template <class Body>
-void for_each_vector(const std::vector<GltfVectors>& lists, Index n, const Executor& exec, Body&& body)
-{
-    for_each_block(exec, n, [&](Index, Index begin, Index end) {
-        auto list = std::ranges::upper_bound(lists, begin, {}, &GltfVectors::first) - 1;
-        for (Index number = begin; number < end; ++number) {
-            while (usize(number - list->first) >= list->span.count)
-                ++list;
-            body(*list, usize(number - list->first), number);
-        }
-    });
 }
 
 /// The buffers of a file with another surface.
@@ -243,9 +220,10 @@ void edit_sparse_accessors(JsonEdits& edits, const GltfContent& content, const G
 std::vector<std::string> write_buffers(JsonEdits& edits, OutputFile& file, const GltfContent& content,
                                        const NewBuffers& now)
 {
-    std::optional<GltfBufferFiles> files;
+    std::vector<std::filesystem::path> places;
     std::string names;
     const GltfValue buffers = content.root()["buffers"];
+    std::size_t n = 0;
     for (std::size_t i = 0; i < buffers.size(); ++i) {
         const GltfValue uri = buffers.at(i)["uri"];
         if (!uri.is_there())
@@ -260,10 +238,10 @@ std::vector<std::string> write_buffers(JsonEdits& edits, OutputFile& file, const
             edits.emplace_back(uri.source(), json_of_text(gltf_data(head, bytes)));
             continue;
         }
-        if (!files)
-            files.emplace(file.path(), content.path());
-        const std::string name = files->next_name();
-        file.beside(files->place_of(name)).text(bytes);
+        if (places.empty())
+            places = places_of_gltf_buffers(file.path(), content.path(), buffers.size());
+        const std::string name = places[n].filename().string();
+        file.beside(places[n++]).text(bytes);
         edits.emplace_back(uri.source(), json_of_text(gltf_uri_of(name)));
         names += (names.empty() ? "" : ", ") + name;
     }
@@ -349,7 +327,7 @@ std::vector<std::string> rewrite_gltf(OutputFile& file, const std::filesystem::p
 {
     GltfContent gltf(path, content);
     const GltfGeometry geometry = geometry_of(gltf);
-    require_floats_for_gltf(file.path(), mesh.vertices);
+    require_floats(file.path(), mesh.vertices, slicing.exec, "glTF");
     NewBuffers now = with_surface(gltf, geometry, mesh, slicing.exec, seam_distance);
     JsonEdits edits;
     edit_bounds(edits, gltf, geometry, now, slicing.exec);

@@ -53,6 +53,12 @@ std::string gltf_data(std::string_view head, std::string_view bytes)
     std::string text(head);
     text.reserve(head.size() + 1 + (bytes.size() + 2) / 3 * 4);
     text += ',';
+    append_base64(bytes, text);
+    return text;
+}
+
+void append_base64(std::string_view bytes, std::string& text)
+{
     for (std::size_t i = 0; i < bytes.size(); i += 3) {
         std::uint32_t bits = 0;
         for (std::size_t k = 0; k < 3; ++k)
@@ -60,7 +66,6 @@ std::string gltf_data(std::string_view head, std::string_view bytes)
         for (std::size_t k = 0; k < 4; ++k)
             text += i + k <= bytes.size() ? base64_digits[bits >> (18 - 6 * k) & 63] : '=';
     }
-    return text;
 }
 
 std::string gltf_uri_of(std::string_view name)

@@ -14,6 +14,9 @@ bool is_gltf_data(std::string_view uri);
 /// @param head what is before the comma.
 std::string gltf_data(std::string_view head, std::string_view bytes);
 
+/// Appends bytes in base64 (RFC 4648).
+void append_base64(std::string_view bytes, std::string& text);
+
 /// The bytes that base64 stands for; nothing if a character is no digit of it.
 std::optional<std::string> bytes_of_gltf_base64(std::string_view text);
 

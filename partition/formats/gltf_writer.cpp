@@ -9,17 +9,12 @@
 #include "partition/errors.h"
 #include "partition/formats/gltf.h"
 #include "partition/formats/gltf_content.h"
+#include "partition/formats/splicing.h"
 #include "partition/vector_area.h"
 
 namespace seamflow {
 
 namespace {
-
-[[noreturn]] void refuse_for_gltf(const std::filesystem::path& path, const std::string& reason)
-{
-    throw OutputError(fmt::format("{}: cannot be written: {}; write {}, which can hold this mesh", path.string(),
-                                  reason, extensions_of(FormatGroup::Polygons)));
-}
 
 /// The least or largest coordinates, as they are written.
 std::string bound_of(const Point& bound)
@@ -34,28 +29,20 @@ std::string bound_of(const Point& bound)
 
 }  // namespace
 
-void require_floats_for_gltf(const std::filesystem::path& path, const Points& vertices)
-{
-    for (Index v = 0; v < vertices.rows(); ++v)
-        if (vertices.row(v).cwiseAbs().maxCoeff() > double{std::numeric_limits<float>::max()})
-            refuse_for_gltf(path, fmt::format("vertex {} (numbered from 0) has a coordinate too large for the single "
-                                              "precision of glTF",
-                                              v));
-}
-
 void require_fits_gltf(const std::filesystem::path& path, const PolygonMesh& mesh)
 {
+    const auto refuse = [&](const char* reason) {
+        throw OutputError(
+            fmt::format("{}: cannot be written: {}; {}", path.string(), reason, write_polygons_instead()));
+    };
     if (mesh.n_faces() == 0)
-        refuse_for_gltf(path, "the mesh has no faces, but glTF holds vertices of triangles");
-    for (Index f = 0; f < mesh.n_faces(); ++f)
-        if (mesh.face(f).size() != 3)
-            refuse_for_gltf(path, fmt::format("face {} (numbered from 0) has {} sides, but glTF holds triangles only",
-                                              f, mesh.face(f).size()));
-    require_floats_for_gltf(path, mesh.vertices);
+        refuse("the mesh has no faces, but glTF holds vertices of triangles");
+    require_triangles(path, mesh, "glTF");
+    require_floats(path, mesh.vertices, run_serially, "glTF");
     // A file counts its bytes in 32 bits; the text takes less than a kilobyte.
     constexpr std::uint64_t most_bytes = std::numeric_limits<std::uint32_t>::max() - 1024;
     if (12 * (static_cast<std::uint64_t>(mesh.n_vertices()) + static_cast<std::uint64_t>(mesh.n_faces())) > most_bytes)
-        refuse_for_gltf(path, "the mesh takes more than the 4 GiB of a binary glTF file");
+        refuse("the mesh takes more than the 4 GiB of a binary glTF file");
 }
 
 void write_gltf(OutputFile& file, const PolygonMesh& mesh, FileFormat format, const Slicing& slicing)

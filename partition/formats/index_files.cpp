@@ -22,15 +22,21 @@ namespace seamflow {
 
 namespace {
 
-/// The wording of messages about the integers in a text file.
-struct IndexWords {
-    /// "a label".
+/// The wording of messages about the numbers in a text file.
+struct NumberWords {
+    /// "a label", "labels": what the numbers are.
     const char* name;
-    /// What to do if there is something else.
-    const char* remedy;
+    const char* names;
+    /// "face", "faces": what has one.
+    const char* element;
+    const char* elements;
     /// What to do about a negative number.
     const char* negative;
 };
+
+constexpr NumberWords label_words{"a label", "labels", "face", "faces", "number the parts from 0"};
+constexpr NumberWords weight_words{"a weight", "weights", "vertex", "vertices", ""};
+constexpr NumberWords vertex_words{"the number of a vertex", "", "selected vertex", "", "vertices are numbered from 0"};
 
 /// The line without its comment and without blanks at either end.
 std::string_view trimmed(std::string_view line)
@@ -59,14 +65,16 @@ bool is_weight(double value)
     return value >= 0.0 && std::isfinite(value);
 }
 
-Index parse_index(std::string_view text, const std::filesystem::path& path, std::size_t line, const IndexWords& words)
+Index parse_index(std::string_view text, const std::filesystem::path& path, std::size_t line, const NumberWords& words)
 {
     Index value = -1;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error == std::errc::result_out_of_range)
         refuse_line(path, line, text, "is too large or too small: use numbers from 0 to 2147483647");
     if (error != std::errc() || end != text.data() + text.size())
-        refuse_line(path, line, text, fmt::format("is not {}: {}", words.name, words.remedy));
+        refuse_line(path, line, text,
+                    fmt::format("is not {}: write one whole number for each {}, each on a line of its own", words.name,
+                                words.element));
     if (value < 0)
         refuse_line(path, line, text, fmt::format("is negative: {}", words.negative));
     return value;
@@ -104,16 +112,33 @@ std::size_t read_lines(const std::filesystem::path& path, Take&& take)
     return line;
 }
 
+/// Reads a text file with one number per line for each of n elements.
+/// @param parse called with a line that is not blank, and its number.
+template <class Parse>
+auto read_each(const std::filesystem::path& path, Index n, const NumberWords& words, Parse&& parse)
+{
+    std::vector<decltype(parse(std::string_view(), std::size_t{}))> numbers;
+    const std::size_t n_lines = read_lines(path, [&](std::string_view text, std::size_t line) {
+        const auto number = parse(text, line);
+        if (numbers.size() == usize(n))
+            throw InputError(fmt::format("{}more {} than the mesh has {} ({}): remove the surplus, or use the {} with "
+                                         "the mesh they belong to",
+                                         place_of_line(path, line), words.names, words.elements, n, words.names));
+        numbers.push_back(number);
+    });
+    if (numbers.size() != usize(n))
+        throw InputError(fmt::format("{}the file ends after {} of {} {}: give one for each {}, or use the {} with the "
+                                     "mesh they belong to",
+                                     place_of_line(path, std::max<std::size_t>(n_lines, 1)), numbers.size(), n,
+                                     words.names, words.element, words.names));
+    return numbers;
+}
+
 std::vector<Index> from_lines(const std::filesystem::path& path, Index n_vertices)
 {
-    constexpr IndexWords words{
-        .name = "the number of a vertex",
-        .remedy = "write one whole number for each selected vertex, each on a line of its own",
-        .negative = "vertices are numbered from 0",
-    };
     std::vector<Index> vertices;
     read_lines(path, [&](std::string_view text, std::size_t line) {
-        const Index v = parse_index(text, path, line, words);
+        const Index v = parse_index(text, path, line, vertex_words);
         if (v >= n_vertices)
             throw InputError(fmt::format("{}there is no vertex {}: the mesh has {}, numbered from 0; use the file with "
                                          "the mesh it belongs to",
@@ -172,25 +197,9 @@ std::vector<Index> from_ply(const std::filesystem::path& path, Index n_vertices,
 
 std::vector<Index> read_labels(const std::filesystem::path& path, Index n_faces)
 {
-    constexpr IndexWords words{
-        .name = "a label",
-        .remedy = "write one whole number for each face, each on a line of its own",
-        .negative = "number the parts from 0",
-    };
-    std::vector<Index> labels;
-    const std::size_t n_lines = read_lines(path, [&](std::string_view text, std::size_t line) {
-        const Index label = parse_index(text, path, line, words);
-        if (labels.size() == static_cast<std::size_t>(n_faces))
-            throw InputError(fmt::format("{}more labels than the mesh has faces ({}): remove the surplus, or use the "
-                                         "labels with the mesh they belong to",
-                                         place_of_line(path, line), n_faces));
-        labels.push_back(label);
+    return read_each(path, n_faces, label_words, [&](std::string_view text, std::size_t line) {
+        return parse_index(text, path, line, label_words);
     });
-    if (labels.size() != static_cast<std::size_t>(n_faces))
-        throw InputError(fmt::format("{}the file ends after {} of {} labels: give one for each face, or use the labels "
-                                     "with the mesh they belong to",
-                                     place_of_line(path, std::max<std::size_t>(n_lines, 1)), labels.size(), n_faces));
-    return labels;
 }
 
 std::vector<Index> read_vertex_set(const std::filesystem::path& path, Index n_vertices, std::string_view property)
@@ -200,30 +209,17 @@ std::vector<Index> read_vertex_set(const std::filesystem::path& path, Index n_ve
 
 std::vector<double> read_vertex_weights(const std::filesystem::path& path, Index n_vertices, std::string_view property)
 {
+    if (format_of(path) != FileFormat::Ply)
+        return read_each(path, n_vertices, weight_words,
+                         [&](std::string_view text, std::size_t line) { return parse_weight(text, path, line); });
     std::vector<double> weights;
     weights.reserve(usize(n_vertices));
-    if (format_of(path) == FileFormat::Ply) {
-        read_ply_property(path, n_vertices, property, [&](Index, double value, auto& source) {
-            if (!is_weight(value))
-                source.position().fail(in_quotes(property) +
-                                       " is not a weight; write a number of at least 0 for each vertex");
-            weights.push_back(value);
-        });
-        return weights;
-    }
-    const std::size_t n_lines = read_lines(path, [&](std::string_view text, std::size_t line) {
-        if (weights.size() == usize(n_vertices))
-            throw InputError(
-                fmt::format("{}more weights than the mesh has vertices ({}): remove the surplus, or use the "
-                            "weights with the mesh they belong to",
-                            place_of_line(path, line), n_vertices));
-        weights.push_back(parse_weight(text, path, line));
+    read_ply_property(path, n_vertices, property, [&](Index, double value, auto& source) {
+        if (!is_weight(value))
+            source.position().fail(in_quotes(property) +
+                                   " is not a weight; write a number of at least 0 for each vertex");
+        weights.push_back(value);
     });
-    if (weights.size() != usize(n_vertices))
-        throw InputError(fmt::format("{}the file ends after {} of {} weights: give one for each vertex, or use the "
-                                     "weights with the mesh they belong to",
-                                     place_of_line(path, std::max<std::size_t>(n_lines, 1)), weights.size(),
-                                     n_vertices));
     return weights;
 }
 

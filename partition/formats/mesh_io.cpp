@@ -294,12 +294,21 @@ void require_readable(const std::filesystem::path& path, const PolygonMesh& mesh
     }
 }
 
-void require_one_per_face(const std::filesystem::path& path, std::size_t count, const std::string& what,
-                          const PolygonMesh& mesh)
+/// @param element of which there are n.
+void require_one_for_each(const std::filesystem::path& path, std::size_t count, const std::string& what, Index n,
+                          const char* element, const char* elements)
 {
-    if (count != usize(mesh.n_faces()))
-        throw OutputError(fmt::format("{}: cannot be written: there are {} {} for {} faces; give one for each face",
-                                      path.string(), count, what, mesh.n_faces()));
+    if (count != usize(n))
+        throw OutputError(fmt::format("{}: cannot be written: there are {} {} for {} {}; give one for each {}",
+                                      path.string(), count, what, n, elements, element));
+}
+
+void write_with_extras(const std::filesystem::path& path, const PolygonMesh& mesh, const PlyExtras& extras,
+                       const Executor& exec)
+{
+    OutputFile file(path);
+    write_ply(file, mesh, Encoding::BinaryLittleEndian, {exec}, extras);
+    file.commit();
 }
 
 }  // namespace
@@ -388,10 +397,8 @@ void write_labelled_ply(const std::filesystem::path& path, const PolygonMesh& me
                         const Executor& exec)
 {
     require_readable(path, mesh, exec);
-    require_one_per_face(path, labels.size(), "labels", mesh);
-    OutputFile file(path);
-    write_ply(file, mesh, Encoding::BinaryLittleEndian, {exec}, {.face_labels = labels});
-    file.commit();
+    require_one_for_each(path, labels.size(), "labels", mesh.n_faces(), "face", "faces");
+    write_with_extras(path, mesh, {.face_labels = labels}, exec);
 }
 
 void write_numbered_ply(const std::filesystem::path& path, const PolygonMesh& mesh,
@@ -399,10 +406,9 @@ void write_numbered_ply(const std::filesystem::path& path, const PolygonMesh& me
 {
     require_readable(path, mesh, exec);
     for (const FaceNumbers& list : numbers)
-        require_one_per_face(path, list.values.size(), "values of '" + list.name + "'", mesh);
-    OutputFile file(path);
-    write_ply(file, mesh, Encoding::BinaryLittleEndian, {exec}, {.face_numbers = numbers});
-    file.commit();
+        require_one_for_each(path, list.values.size(), "values of '" + list.name + "'", mesh.n_faces(), "face",
+                             "faces");
+    write_with_extras(path, mesh, {.face_numbers = numbers}, exec);
 }
 
 void write_valued_ply(const std::filesystem::path& path, const PolygonMesh& mesh, std::span<const Colour> colours,
@@ -410,17 +416,15 @@ void write_valued_ply(const std::filesystem::path& path, const PolygonMesh& mesh
 {
     require_readable(path, mesh, exec);
     const auto require_each = [&](std::size_t count, const std::string& what) {
-        if (count != usize(mesh.n_vertices()))
-            throw OutputError(
-                fmt::format("{}: cannot be written: there are {} {} for {} vertices; give one for each vertex",
-                            path.string(), count, what, mesh.n_vertices()));
+        require_one_for_each(path, count, what, mesh.n_vertices(), "vertex", "vertices");
     };
     require_each(colours.size(), "colours");
-    for (const VertexValues& list : values)
+    std::vector<NamedColumn> columns;
+    for (const VertexValues& list : values) {
         require_each(list.values.size(), "values of '" + list.name + "'");
-    OutputFile file(path);
-    write_ply(file, mesh, Encoding::BinaryLittleEndian, {exec}, {.vertex_colours = colours, .vertex_values = values});
-    file.commit();
+        columns.push_back({list.name, list.values});
+    }
+    write_with_extras(path, mesh, {.vertex_colours = colours, .vertex_values = columns}, exec);
 }
 
 }  // namespace seamflow

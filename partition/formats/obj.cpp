@@ -19,35 +19,23 @@ namespace seamflow {
 
 namespace {
 
-/// A vertex that a face named before the file defined it.
-struct ForwardReference {
-    std::int64_t vertex;
-    std::size_t line;
-};
-
-/// Reads a whole file, or a slice of one. Besides vertices and faces, all is passed over.
+/// Reads a slice of a file. Besides vertices and faces, all is passed over.
 class ObjReader {
   public:
-    /// @param builder_arguments those of MeshBuilder behind the first number.
-    template <class... Arguments>
-    explicit ObjReader(const TextScanner& scanner, FaultLog* faults, Arguments&&... builder_arguments)
+    /// @param n_vertices of the whole file.
+    ObjReader(const TextScanner& scanner, Index n_vertices, const MeshSlice& slice, FaultLog* faults)
         : scanner_(scanner)
-        , builder_(scanner_, 1, builder_arguments...)
+        , n_vertices_(n_vertices)
+        , builder_(scanner_, 1, slice)
     {
         scanner_.note_faults_in(faults);
     }
 
     /// Reads all lines.
-    void read(const ObjCounts& before = {}) { scan_obj(scanner_, *this, before); }
-
-    /// @param n number of vertices in the whole file.
-    /// @throws InputError if a face names one that it does not have.
-    void require_no_open_reference(Index n) const;
-
-    PolygonMesh finish()
+    void read(const ObjCounts& before)
     {
-        require_no_open_reference(builder_.n_vertices());
-        return builder_.finish();
+        scan_obj(scanner_, *this, before);
+        require_vertices(scanner_, n_vertices_);
     }
 
     /// See scan_obj.
@@ -65,10 +53,11 @@ class ObjReader {
     void require_attributes(std::string_view attributes);
 
     TextScanner scanner_;
+    Index n_vertices_;
     MeshBuilder builder_;
     std::vector<Index> corners_;
-    /// Ascending in both vertex and line, so that the first unresolved one is the first in the file.
-    std::vector<ForwardReference> forward_references_;
+    /// The highest number of a vertex so far that the file does not have.
+    std::int64_t highest_missing_ = 0;
 };
 
 void ObjReader::colour(Index /*v*/, TextScanner& scanner, std::size_t /*n_behind*/)
@@ -110,8 +99,13 @@ Index ObjReader::read_corner(std::int64_t n)
     }
     if (number < 0)
         return static_cast<Index>(number + n);
-    if (number > n && (forward_references_.empty() || number - 1 > forward_references_.back().vertex))
-        forward_references_.push_back({number - 1, scanner_.line()});
+    if (number > n_vertices_) {
+        if (number > std::exchange(highest_missing_, std::max(highest_missing_, number)))
+            scanner_.fault(fmt::format("names vertex {}, but the file has only {}; correct the face or export the mesh "
+                                       "again",
+                                       number, counted(usize(n_vertices_), "vertex", "vertices")));
+        return -1;
+    }
     return static_cast<Index>(number - 1);
 }
 
@@ -127,30 +121,17 @@ void ObjReader::require_attributes(std::string_view attributes)
     }
 }
 
-void ObjReader::require_no_open_reference(Index n) const
-{
-    for (const auto& [vertex, line] : forward_references_)
-        if (vertex >= n)
-            scanner_.fault_at(scanner_.position_of(line),
-                              fmt::format("names vertex {}, but the file has only {}; correct the face or export the "
-                                          "mesh again",
-                                          vertex + 1, counted(usize(n), "vertex", "vertices")));
-}
-
-/// @throws InputError if there is any fault, not necessarily naming the line.
-PolygonMesh read_slices(const TextScanner& whole, std::span<const std::string_view> slices, const Executor& exec)
+/// @param faults see read_obj. @throws InputError naming the line if there is one slice.
+PolygonMesh read_slices(const TextScanner& whole, std::span<const std::string_view> slices, const Executor& exec,
+                        FaultLog* faults)
 {
     const std::vector<ObjCounts> counts = count_obj(whole, slices, exec);
     const auto n_vertices = static_cast<Index>(counts.back().n_vertices);
-    if (n_vertices == 0)
-        throw InputError("no vertices");
     PolygonMesh mesh;
     mesh.vertices = uninitialised_points(n_vertices);
     append_faces(mesh, static_cast<Index>(slices.size()), exec, [&](Index i, PolygonMesh& faces) {
         const auto first = static_cast<Index>(counts[i].n_vertices);
-        ObjReader reader(TextScanner(whole, slices[i]), nullptr, MeshSlice{mesh.vertices, first, faces});
-        reader.read(counts[i]);
-        reader.require_no_open_reference(n_vertices);
+        ObjReader(TextScanner(whole, slices[i]), n_vertices, {mesh.vertices, first, faces}, faults).read(counts[i]);
     });
     return mesh;
 }
@@ -207,9 +188,12 @@ std::vector<ObjCounts> count_obj(const TextScanner& whole, std::span<const std::
         counts[i + 1] = scan_obj(TextScanner(whole, slices[i]), counter);
     });
     for (std::size_t i = 0; i < slices.size(); ++i) {
-        counts[i + 1].n_vertices = sum_of_counts(counts[i].n_vertices, counts[i + 1].n_vertices);
-        counts[i + 1].n_normals = sum_of_counts(counts[i].n_normals, counts[i + 1].n_normals);
+        counts[i + 1].n_vertices += counts[i].n_vertices;
+        counts[i + 1].n_normals += counts[i].n_normals;
     }
+    constexpr std::int64_t most = std::numeric_limits<Index>::max();
+    if (std::max(counts.back().n_vertices, counts.back().n_normals) > most)
+        whole.fail(fmt::format("more than {} vertices or normals; divide the mesh into several files", most));
     return counts;
 }
 
@@ -217,14 +201,10 @@ PolygonMesh read_obj(const std::filesystem::path& path, std::string_view text, c
 {
     const TextScanner whole(path, text, obj_syntax);
     const std::vector<std::string_view> slices = whole.slices(slicing.bytes);
-    const auto in_one_go = [&] {
-        ObjReader reader(whole, faults);
-        reader.read();
-        return reader.finish();
-    };
+    const auto in_one_go = [&] { return read_slices(whole, std::array{whole.rest()}, run_serially, faults); };
     if (slices.size() < 2)
         return in_one_go();
-    return read_in_slices_if_faultless([&] { return read_slices(whole, slices, slicing.exec); }, in_one_go);
+    return read_in_slices_if_faultless([&] { return read_slices(whole, slices, slicing.exec, nullptr); }, in_one_go);
 }
 
 void write_obj(OutputFile& file, const PolygonMesh& mesh, const Slicing& slicing)

@@ -52,14 +52,12 @@ void scan_off(TextScanner& scanner, const OffHeader& header, std::int64_t begin,
         }
 }
 
-/// Reads a whole file, or a slice of one.
+/// Reads a slice of a file.
 class OffReader {
   public:
-    /// @param slice that of the builder, if it is not for a whole file.
-    template <class... Slice>
-    OffReader(const TextScanner& scanner, const OffHeader& header, FaultLog* faults, Slice&&... slice)
+    OffReader(const TextScanner& scanner, const OffHeader& header, const MeshSlice& slice, FaultLog* faults)
         : scanner_(scanner)
-        , builder_(scanner_, 0, slice...)
+        , builder_(scanner_, 0, slice)
         , header_(header)
     {
         scanner_.note_faults_in(faults);
@@ -68,8 +66,8 @@ class OffReader {
     /// Reads vertices and faces, which are counted together.
     void read(std::int64_t begin, std::int64_t end) { scan_off(scanner_, header_, begin, end, *this); }
 
-    /// Reads all of them, and nothing may follow.
-    PolygonMesh read_whole();
+    /// Nothing may follow.
+    void require_end();
 
     /// See scan_off.
     void position(Index /*v*/, TextScanner& scanner) { builder_.add_vertex(scanner.coordinates()); }
@@ -82,15 +80,13 @@ class OffReader {
     std::vector<Index> corners_;
 };
 
-PolygonMesh OffReader::read_whole()
+void OffReader::require_end()
 {
-    builder_.reserve(static_cast<std::uint64_t>(header_.n_vertices), static_cast<std::uint64_t>(header_.n_faces));
-    read(0, header_.n_lines());
     if (scanner_.next_line())
         scanner_.fail(fmt::format("the file continues after the {} vertices and {} faces that its header announces; "
                                   "correct the counts in the header",
                                   header_.n_vertices, header_.n_faces));
-    return builder_.finish();
+    require_vertices(scanner_, header_.n_vertices);
 }
 
 void OffReader::face(TextScanner& scanner)
@@ -104,23 +100,31 @@ void OffReader::face(TextScanner& scanner)
 }
 
 /// @param slices after the header.
-/// @throws InputError if there is any fault, not necessarily naming it.
+/// @param lines_before see count_lines.
+/// @throws InputError if there is any fault; naming it if there is one slice.
 PolygonMesh read_slices(const TextScanner& after_header, const OffHeader& header,
-                        std::span<const std::string_view> slices, const Executor& exec)
+                        std::span<const std::string_view> slices, std::span<const std::int64_t> lines_before,
+                        const Executor& exec, FaultLog* faults)
 {
-    const std::vector<std::int64_t> lines_before = count_lines(after_header, slices, exec);
-    if (header.n_vertices == 0 || lines_before.back() != header.n_lines())
-        throw InputError("the file ends too early, or goes on");
     PolygonMesh mesh;
     mesh.vertices = uninitialised_points(sum_of_counts(0, header.n_vertices));
     mesh.face_offsets.reserve(static_cast<std::size_t>(header.n_faces) + 1);
     append_faces(mesh, static_cast<Index>(slices.size()), exec, [&](Index i, PolygonMesh& faces) {
         const auto first_vertex = static_cast<Index>(std::min(lines_before[i], header.n_vertices));
-        OffReader reader(TextScanner(after_header, slices[i]), header, nullptr,
-                         MeshSlice{mesh.vertices, first_vertex, faces});
+        OffReader reader(slices.size() > 1 ? TextScanner(after_header, slices[i]) : after_header, header,
+                         {mesh.vertices, first_vertex, faces}, faults);
         reader.read(lines_before[i], lines_before[i + 1]);
+        if (slices.size() == 1)
+            reader.require_end();
     });
     return mesh;
+}
+
+/// @param faults see read_off.
+PolygonMesh read_in_one_go(const TextScanner& after_header, const OffHeader& header, FaultLog* faults)
+{
+    return read_slices(after_header, header, std::array{after_header.rest()},
+                       std::array{std::int64_t{0}, header.n_lines()}, run_serially, faults);
 }
 
 /// @param n_components see fields_of_colours.
@@ -169,10 +173,16 @@ PolygonMesh read_by_lines(const std::filesystem::path& path, std::string_view te
 {
     TextScanner scanner(path, text);
     const OffHeader header = read_off_header(scanner);
-    const auto in_one_go = [&] { return OffReader(scanner, header, faults).read_whole(); };
-    if (text.size() <= slicing.bytes)
+    const auto in_one_go = [&] { return read_in_one_go(scanner, header, faults); };
+    const std::vector<std::string_view> slices = scanner.slices(slicing.bytes);
+    if (slices.size() < 2)
         return in_one_go();
-    const auto in_slices = [&] { return read_slices(scanner, header, scanner.slices(slicing.bytes), slicing.exec); };
+    const auto in_slices = [&] {
+        const std::vector<std::int64_t> lines_before = count_lines(scanner, slices, slicing.exec);
+        if (header.n_vertices == 0 || lines_before.back() != header.n_lines())
+            throw InputError("the file ends too early, or goes on");
+        return read_slices(scanner, header, slices, lines_before, slicing.exec, nullptr);
+    };
     return read_in_slices_if_faultless(in_slices, in_one_go);
 }
 
@@ -201,7 +211,7 @@ std::optional<PolygonMesh> read_across_lines(const std::filesystem::path& path, 
     scanner.cross_lines();
     try {
         const OffHeader header = read_off_header(scanner);
-        return header.has_colours() ? std::nullopt : std::optional(OffReader(scanner, header, nullptr).read_whole());
+        return header.has_colours() ? std::nullopt : std::optional(read_in_one_go(scanner, header, nullptr));
     } catch (const InputError&) {
         return std::nullopt;
     }
@@ -213,22 +223,16 @@ PolygonMesh read_off(const std::filesystem::path& path, std::string_view text, c
 {
     if (const auto data = start_of_binary_off(text))
         return read_binary_off(path, text, *data, slicing, faults);
-    FaultLog own = faults != nullptr ? *faults : FaultLog();
+    const FaultLog before = faults != nullptr ? *faults : FaultLog();
     try {
-        PolygonMesh mesh = read_by_lines(path, text, slicing, faults != nullptr ? &own : nullptr);
-        if (faults == nullptr || own.count == faults->count)
-            return mesh;
-        // What has faults line by line may have none across lines.
-        if (std::optional<PolygonMesh> across = read_across_lines(path, text, slicing))
-            return *std::move(across);
-        *faults = std::move(own);
-        return mesh;
+        return read_by_lines(path, text, slicing, faults);
     } catch (const InputError&) {
-        if (std::optional<PolygonMesh> mesh = read_across_lines(path, text, slicing))
-            return *std::move(mesh);
+        std::optional<PolygonMesh> across = read_across_lines(path, text, slicing);
+        if (!across)
+            throw;
         if (faults != nullptr)
-            *faults = std::move(own);
-        throw;
+            *faults = before;
+        return *std::move(across);
     }
 }
 

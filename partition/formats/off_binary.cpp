@@ -1,17 +1,15 @@
 #include <bit>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include <fmt/format.h>
-
 #include "partition/errors.h"
 #include "partition/formats/off.h"
 #include "partition/formats/ply_data.h"
 #include "partition/formats/ply_source.h"
+#include "partition/formats/splicing.h"
 #include "partition/io/byte_scanner.h"
 
 namespace seamflow {
@@ -79,20 +77,6 @@ std::optional<PlyHeader> layout_of(std::string_view file, std::size_t offset)
     return std::nullopt;
 }
 
-/// Checks that floats can hold the vertices.
-/// @throws OutputError
-void require_fits_floats(const std::filesystem::path& path, const Points& vertices, const Executor& exec)
-{
-    const auto too_large = select(exec, static_cast<Index>(vertices.rows()), [&](Index v) {
-        return vertices.row(v).cwiseAbs().maxCoeff() > double{std::numeric_limits<float>::max()};
-    });
-    if (!too_large.empty())
-        throw OutputError(
-            fmt::format("{}: cannot be written: vertex {} (numbered from 0) has a coordinate too large for the single "
-                        "precision of binary OFF; write another format",
-                        path.string(), too_large.front()));
-}
-
 }  // namespace
 
 PolygonMesh read_binary_off(const std::filesystem::path& path, std::string_view file, std::size_t offset,
@@ -112,7 +96,7 @@ bool rewrite_binary_off(OutputFile& output, std::string_view file, std::size_t o
 {
     const auto layout = layout_of(file, offset);
     const std::endian order = order_of(layout ? layout->encoding : Encoding::BinaryBigEndian);
-    require_fits_floats(output.path(), mesh.vertices, slicing.exec);
+    require_floats(output.path(), mesh.vertices, slicing.exec, "binary OFF", "write another format");
     constexpr std::size_t vertex_bytes = 3 * word_size;
     const std::size_t first = offset + counts_bytes;
     output.text(file.substr(0, first));

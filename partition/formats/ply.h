@@ -26,6 +26,13 @@ namespace seamflow {
 MeshFile read_ply(const std::filesystem::path& path, std::string_view file, const Slicing& slicing,
                   FaultLog* faults = nullptr);
 
+/// A named number for each vertex, owned elsewhere.
+struct NamedColumn {
+    std::string_view name;
+    /// #V.
+    std::span<const double> values;
+};
+
 /// Content of a PLY file besides the mesh; omitted if empty.
 struct PlyExtras {
     /// #F; each face has the properties red, green, blue (uchar) and label (int) too.
@@ -34,10 +41,8 @@ struct PlyExtras {
     std::span<const FaceNumbers> face_numbers = {};
     /// #V; each vertex has the properties red, green, blue (uchar) too.
     std::span<const Colour> vertex_colours = {};
-    /// #V each; each vertex has a property (double) for each of them.
-    std::span<const VertexValues> vertex_values = {};
-    /// Each vertex has a property (double) for each of them; null: there are none.
-    const FileFields* vertex_fields = nullptr;
+    /// Each vertex has a property (double) for each of them.
+    std::span<const NamedColumn> vertex_values = {};
 };
 
 /// Writes PLY: coordinates as double, faces as `list uchar int`, or `list int int` if one has more than 255 sides.

@@ -68,12 +68,8 @@ void read_magic(TextScanner& scanner)
 Encoding read_encoding(TextScanner& scanner)
 {
     const auto name = scanner.token();
-    if (name == "ascii")
-        return Encoding::Ascii;
-    if (name == "binary_little_endian")
-        return Encoding::BinaryLittleEndian;
-    if (name == "binary_big_endian")
-        return Encoding::BinaryBigEndian;
+    if (const auto* const found = std::ranges::find(ply_encodings, name); found != ply_encodings.end())
+        return static_cast<Encoding>(found - ply_encodings.begin());
     scanner.fail("expected the format ascii, binary_little_endian or binary_big_endian, but found " + in_quotes(name) +
                  "; correct the header");
 }
@@ -133,26 +129,17 @@ void require_room(const TextScanner& scanner, const PlyHeader& header)
     }
 }
 
-std::string properties_of(const PlyElement& element, const auto& is_read)
+/// The names of those that are passed over.
+std::string properties_of(const PlyElement& element, const std::vector<Index>& columns)
 {
     std::string names;
-    for (const PlyProperty& property : element.properties) {
-        if (is_read(property.name))
+    for (std::size_t p = 0; p < columns.size(); ++p) {
+        if (columns[p] >= 0)
             continue;
         names += names.empty() ? "" : " ";
-        names += printable(property.name);
+        names += printable(element.properties[p].name);
     }
     return names;
-}
-
-bool is_coordinate(std::string_view name)
-{
-    return name == "x" || name == "y" || name == "z";
-}
-
-bool is_list_of_corners(std::string_view name)
-{
-    return name == "vertex_indices" || name == "vertex_index";
 }
 
 }  // namespace
@@ -176,6 +163,20 @@ const PlyProperty* PlyElement::property(std::string_view wanted) const
 {
     const auto found = std::ranges::find(properties, wanted, &PlyProperty::name);
     return found != properties.end() ? &*found : nullptr;
+}
+
+std::vector<Index> coordinates_in(const PlyElement& vertices)
+{
+    return columns_of(vertices, [](const PlyProperty& property) {
+        return property.name == "x" ? 0 : property.name == "y" ? 1 : property.name == "z" ? 2 : -1;
+    });
+}
+
+std::vector<Index> corners_in(const PlyElement& faces)
+{
+    return columns_of(faces, [](const PlyProperty& property) {
+        return property.name == "vertex_indices" || property.name == "vertex_index" ? 0 : -1;
+    });
 }
 
 void require_number(const TextScanner& scanner, const PlyElement& vertices, std::string_view name)
@@ -232,8 +233,7 @@ std::vector<std::string> extras_of_ply(const std::filesystem::path& path, std::s
             add_once(extras, "the element " + printable(element.name));
             continue;
         }
-        const std::string names =
-            of_vertices ? properties_of(element, is_coordinate) : properties_of(element, is_list_of_corners);
+        const std::string names = properties_of(element, of_vertices ? coordinates_in(element) : corners_in(element));
         if (!names.empty())
             add_once(extras, (of_vertices ? "properties of vertices (" : "properties of faces (") + names + ")");
     }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -15,6 +16,9 @@
 namespace seamflow {
 
 inline constexpr TextSyntax ply_syntax = {.comment = '\0', .first_line_end_decides = true};
+
+/// One for each Encoding, in its order.
+inline constexpr std::array<std::string_view, 3> ply_encodings = {"ascii", "binary_little_endian", "binary_big_endian"};
 
 /// The types of numbers in a PLY file: char, uchar, short, ushort, int, uint, float and double, or int8 to float64, and
 /// 64-bit whole numbers, which some programs add.
@@ -82,6 +86,22 @@ struct PlyElement {
     /// The property of the wanted name, or null.
     [[nodiscard]] const PlyProperty* property(std::string_view wanted) const;
 };
+
+/// For each property of an element, in order, what `column` makes of it: where its number goes, or -1 if it is passed
+/// over.
+std::vector<Index> columns_of(const PlyElement& element, const auto& column)
+{
+    std::vector<Index> columns;
+    for (const PlyProperty& property : element.properties)
+        columns.push_back(column(property));
+    return columns;
+}
+
+/// The columns of coordinates: 0 to 2 for x, y and z.
+std::vector<Index> coordinates_in(const PlyElement& vertices);
+
+/// The columns of corners: 0 for the list of them.
+std::vector<Index> corners_in(const PlyElement& faces);
 
 struct PlyHeader {
     Encoding encoding = Encoding::Ascii;

@@ -10,19 +10,6 @@
 /// Which numbers the types of a PLY file can hold.
 namespace seamflow {
 
-/// Whether that type can represent the numbers, floats after rounding.
-bool can_hold(PlyType type, const auto& numbers)
-{
-    return with_type(type, [&numbers](auto zero) {
-        using Limits = std::numeric_limits<decltype(zero)>;
-        return std::all_of(numbers.begin(), numbers.end(), [](double number) {
-            const bool in_range =
-                number >= static_cast<double>(Limits::lowest()) && number <= static_cast<double>(Limits::max());
-            return in_range && (!Limits::is_integer || std::trunc(number) == number);
-        });
-    });
-}
-
 /// The number that a property of that type stores for a field: whole numbers are rounded to the nearest, and those
 /// beyond the range of their type become its ends.
 template <class Number>

@@ -53,20 +53,6 @@ void read_plain_faces(const std::vector<PlySlot>& slots, std::string_view bytes,
 
 }  // namespace
 
-std::vector<Index> coordinates_in(const PlyElement& vertices)
-{
-    return columns_of(vertices, [](const PlyProperty& property) {
-        return property.name == "x" ? 0 : property.name == "y" ? 1 : property.name == "z" ? 2 : -1;
-    });
-}
-
-std::vector<Index> corners_in(const PlyElement& faces)
-{
-    return columns_of(faces, [](const PlyProperty& property) {
-        return property.name == "vertex_indices" || property.name == "vertex_index" ? 0 : -1;
-    });
-}
-
 bool read_plain_slice(const PlyHeader& header, const PlySlice& slice, const MeshSlice& place)
 {
     bool is_plain = false;

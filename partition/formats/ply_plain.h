@@ -5,12 +5,6 @@
 
 namespace seamflow {
 
-/// The columns (see columns_of) of coordinates: 0 to 2 for x, y and z.
-std::vector<Index> coordinates_in(const PlyElement& vertices);
-
-/// The columns of corners: 0 for the list of them.
-std::vector<Index> corners_in(const PlyElement& faces);
-
 /// Reads a slice of a binary file whose elements are all of one kind, if they are vertices without lists or faces
 /// without further lists: 1.7 times as fast as PlySource does.
 /// @returns whether they are.

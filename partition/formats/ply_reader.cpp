@@ -140,43 +140,6 @@ void read_slice(PlySource& source, MeshBuilder& builder, const PlyHeader& header
                            });
 }
 
-std::uint64_t n_faces(const PlyHeader& header)
-{
-    const PlyElement* const faces = header.element("face");
-    return faces != nullptr ? faces->count : 0;
-}
-
-PolygonMesh read_in_one_go(const PlyData& data, const PlySlice& whole, FaultLog* faults)
-{
-    PlySource source = data.source(whole);
-    source.note_faults_in(faults);
-    MeshBuilder builder(source.position());
-    builder.reserve(data.header.element("vertex")->count, n_faces(data.header));
-    read_slice(source, builder, data.header, whole);
-    source.finish();
-    return builder.finish();
-}
-
-/// Reads a file that may have faults. Where it has not one line per element, and cannot be read across lines either, it
-/// is read as if it had, for the messages.
-PolygonMesh read_in_one_go(const PlyData& data, FaultLog* faults)
-{
-    PlySlice whole = data.whole();
-    if (std::exchange(whole.crosses_lines, false)) {
-        PlySlice across = whole;
-        across.crosses_lines = true;
-        FaultLog own = faults != nullptr ? *faults : FaultLog();
-        try {
-            PolygonMesh mesh = read_in_one_go(data, across, faults != nullptr ? &own : nullptr);
-            if (faults != nullptr)
-                *faults = std::move(own);
-            return mesh;
-        } catch (const InputError&) {
-        }
-    }
-    return read_in_one_go(data, whole, faults);
-}
-
 /// How many of the first `end` elements of a file are vertices.
 std::uint64_t vertices_before(std::uint64_t end, const PlyHeader& header)
 {
@@ -188,28 +151,62 @@ std::uint64_t vertices_before(std::uint64_t end, const PlyHeader& header)
     return n;
 }
 
-/// @throws InputError if there is any fault, not necessarily naming it.
-PolygonMesh read_in_slices(const PlyData& data, const Slicing& slicing)
+/// @param faults see read_ply. @throws InputError if there is any fault; naming it if there is one slice.
+PolygonMesh read_slices(const PlyData& data, std::span<const PlySlice> slices, const Executor& exec, FaultLog* faults)
 {
     const std::uint64_t n_vertices = data.header.element("vertex")->count;
-    const std::vector<PlySlice> slices = data.slices(data.header.elements, slicing);
-    if (n_vertices == 0 || n_vertices > std::numeric_limits<Index>::max() || slices.front().crosses_lines)
-        throw InputError("no vertices, too many, or no line per element");
+    constexpr std::uint64_t most = std::numeric_limits<Index>::max();
+    if (n_vertices > most)
+        data.source(slices.front())
+            .position()
+            .fail(fmt::format("more than {} vertices; divide the mesh into several files", most));
     PolygonMesh mesh;
     mesh.vertices = uninitialised_points(static_cast<Index>(n_vertices));
-    mesh.face_offsets.reserve(n_faces(data.header) + 1);
-    append_faces(mesh, static_cast<Index>(slices.size()), slicing.exec, [&](Index i, PolygonMesh& faces) {
+    const PlyElement* const faces_of_file = data.header.element("face");
+    mesh.face_offsets.reserve(faces_of_file != nullptr ? faces_of_file->count + 1 : 1);
+    append_faces(mesh, static_cast<Index>(slices.size()), exec, [&](Index i, PolygonMesh& faces) {
         const auto first = static_cast<Index>(vertices_before(slices[i].begin, data.header));
         const MeshSlice place{mesh.vertices, first, faces};
-        if (data.header.encoding != Encoding::Ascii && read_plain_slice(data.header, slices[i], place))
+        const bool may_be_plain = data.header.encoding != Encoding::Ascii && slices.size() > 1;
+        if (may_be_plain && read_plain_slice(data.header, slices[i], place))
             return;
         PlySource source = data.source(slices[i]);
+        source.note_faults_in(faults);
         MeshBuilder builder(source.position(), 0, place);
         read_slice(source, builder, data.header, slices[i]);
+        if (slices.size() == 1)
+            source.finish();
+        require_vertices(source.position(), static_cast<std::int64_t>(n_vertices));
     });
     const std::string_view last = slices.back().bytes;
     data.source({.bytes = last.substr(last.size())}).finish();
     return mesh;
+}
+
+/// Reads a file that may have faults. Where it has not one line per element, and cannot be read across lines either, it
+/// is read as if it had, for the messages.
+PolygonMesh read_in_one_go(const PlyData& data, FaultLog* faults)
+{
+    PlySlice whole = data.whole();
+    if (whole.crosses_lines) {
+        const FaultLog before = faults != nullptr ? *faults : FaultLog();
+        try {
+            return read_slices(data, {&whole, 1}, run_serially, faults);
+        } catch (const InputError&) {
+            whole.crosses_lines = false;
+            if (faults != nullptr)
+                *faults = before;
+        }
+    }
+    return read_slices(data, {&whole, 1}, run_serially, faults);
+}
+
+PolygonMesh read_in_slices(const PlyData& data, const Slicing& slicing)
+{
+    const std::vector<PlySlice> slices = data.slices(data.header.elements, slicing);
+    if (slices.front().crosses_lines)
+        throw InputError("no line per element");
+    return read_slices(data, slices, slicing.exec, nullptr);
 }
 
 }  // namespace

@@ -123,11 +123,19 @@ std::vector<std::string> add_fields(std::vector<Change>& changes, const PlyEleme
     return remarks;
 }
 
+/// New numbers of the vertices.
+struct NewVertices {
+    const Points& positions;
+    /// Nothing: they stay as they are.
+    const std::optional<MovedNormals>& normals;
+    /// See FileFields::values.
+    const Eigen::MatrixXd& fields;
+};
+
 /// Writes the vertices of a slice of a file.
 class VertexRewriter {
   public:
-    VertexRewriter(Splicer splicer, const PlyData& data, const std::vector<Change>& changes,
-                   const NewVertices<MovedNormals>& now)
+    VertexRewriter(Splicer splicer, const PlyData& data, const std::vector<Change>& changes, const NewVertices& now)
         : splicer_(splicer)
         , data_(data)
         , changes_(changes)
@@ -153,7 +161,7 @@ class VertexRewriter {
     Splicer splicer_;
     const PlyData& data_;
     const std::vector<Change>& changes_;
-    const NewVertices<MovedNormals>& now_;
+    const NewVertices& now_;
     const PlyElement& vertices_;
     /// One for each property.
     std::vector<Number> numbers_;
@@ -183,15 +191,14 @@ bool VertexRewriter::rewrite(const PlySlice& slice)
 void VertexRewriter::write_vertex(Index v, std::string_view end)
 {
     const bool is_text = data_.header.encoding == Encoding::Ascii;
-    const Point position = now_.position(v);
-    const Point normal = now_.normals != nullptr ? now_.normals->around_vertex(v, normal_).value_or(normal_) : normal_;
+    const Point normal = now_.normals ? now_.normals->around_vertex(v, normal_).value_or(normal_) : normal_;
     for (std::size_t p = 0; p < changes_.size(); ++p) {
         const auto [column, type] = changes_[p];
         if (column < 0)
             continue;
-        const double after = column < 3             ? position[column]
+        const double after = column < 3             ? now_.positions(v, column)
                              : column < first_field ? normal[column - 3]
-                                                    : now_.field(v, column - first_field);
+                                                    : now_.fields(v, column - first_field);
         if (p >= numbers_.size()) {
             ByteWriter& file = splicer_.exchange(end);
             file.text(is_text ? " " : "");
@@ -255,8 +262,8 @@ std::vector<std::string> rewrite_header(ByteWriter& file, const std::filesystem:
 
 /// Writes all that follows the header.
 /// @returns whether positions were rounded.
-bool rewrite_elements(OutputFile& file, const PlyData& data, const std::vector<Change>& changes,
-                      const NewVertices<MovedNormals>& now, const Slicing& slicing)
+bool rewrite_elements(OutputFile& file, const PlyData& data, const std::vector<Change>& changes, const NewVertices& now,
+                      const Slicing& slicing)
 {
     const std::vector<PlySlice> slices = data.slices(data.up_to(*data.header.element("vertex")), slicing);
     std::vector<std::uint8_t> rounded(slices.size());
@@ -271,14 +278,12 @@ bool rewrite_elements(OutputFile& file, const PlyData& data, const std::vector<C
 /// Whether the properties x, y and z can hold the coordinates, floats after rounding.
 std::array<bool, 3> coordinates_fit(const PlyElement& vertices, const Points& positions)
 {
-    std::array<bool, 3> fits = {true, true, true};
-    if (positions.rows() == 0)
-        return fits;
-    for (const PlyProperty& property : vertices.properties)
-        if (const auto column = std::find(names_of_columns.begin(), names_of_columns.begin() + 3, property.name);
-            column != names_of_columns.begin() + 3)
-            fits[column - names_of_columns.begin()] =
-                can_hold(property.type, positions.col(column - names_of_columns.begin()));
+    std::array<bool, 3> fits{};
+    for (std::size_t k = 0; k < fits.size(); ++k) {
+        const PlyType type = vertices.property(names_of_columns[k])->type;
+        const auto values = positions.col(static_cast<Index>(k));
+        fits[k] = reaches(type, values) && (!is_integer(type) || (values.array() == values.array().round()).all());
+    }
     return fits;
 }
 
@@ -305,8 +310,8 @@ std::vector<std::string> rewrite_ply(OutputFile& file, const std::filesystem::pa
     const std::string_view before_elements = content.substr(0, content.size() - scanner.rest().size());
     for (std::string& remark : rewrite_header(file, path, before_elements, vertices, changes, fields))
         remarks.push_back(std::move(remark));
-    const NewVertices<MovedNormals> now{mesh.vertices, 0, normals ? &*normals : nullptr, &fields.values};
-    const bool rounded = rewrite_elements(file, {path, content, header, scanner}, changes, now, slicing);
+    const bool rounded = rewrite_elements(file, {path, content, header, scanner}, changes,
+                                          {mesh.vertices, normals, fields.values}, slicing);
     if (kind == Normals::Other)
         remarks.push_back("the normals of " + path.string() +
                           " are written as they were: they are not three floating-point numbers nx, ny, nz");

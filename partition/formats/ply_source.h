@@ -22,16 +22,6 @@ inline std::endian order_of(Encoding encoding)
     return encoding == Encoding::BinaryBigEndian ? std::endian::big : std::endian::little;
 }
 
-/// For each property of an element, in order, what `column` makes of it: where its number goes, or -1 if it is passed
-/// over.
-std::vector<Index> columns_of(const PlyElement& element, const auto& column)
-{
-    std::vector<Index> columns;
-    for (const PlyProperty& property : element.properties)
-        columns.push_back(column(property));
-    return columns;
-}
-
 /// A property of an element that is read, or a list, and what is passed over before it.
 struct PlySlot {
     /// Numbers, not lists.

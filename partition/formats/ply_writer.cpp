@@ -17,45 +17,6 @@ namespace seamflow {
 
 namespace {
 
-const char* name_of(Encoding encoding)
-{
-    switch (encoding) {
-    case Encoding::Ascii:
-        return "ascii";
-    case Encoding::BinaryLittleEndian:
-        return "binary_little_endian";
-    case Encoding::BinaryBigEndian:
-        return "binary_big_endian";
-    }
-    return "";
-}
-
-/// Element counts of a file.
-struct PlyCounts {
-    Index vertices = 0;
-    Index faces = 0;
-    bool has_long_face = false;
-};
-
-std::string header_of(const PlyCounts& counts, Encoding encoding, const PlyExtras& extras)
-{
-    const std::string colour = "property uchar red\nproperty uchar green\nproperty uchar blue\n";
-    std::string header = fmt::format("ply\nformat {} 1.0\nelement vertex {}\n", name_of(encoding), counts.vertices);
-    header += "property double x\nproperty double y\nproperty double z\n";
-    header += extras.vertex_colours.empty() ? "" : colour;
-    for (const VertexValues& list : extras.vertex_values)
-        header += "property double " + list.name + "\n";
-    if (extras.vertex_fields != nullptr)
-        for (const std::string& name : extras.vertex_fields->names)
-            header += "property double " + name + "\n";
-    header += fmt::format("element face {}\nproperty list {} int vertex_indices\n", counts.faces,
-                          counts.has_long_face ? "int" : "uchar");
-    header += extras.face_labels.empty() ? "" : colour + "property int label\n";
-    for (const FaceNumbers& list : extras.face_numbers)
-        header += "property int " + list.name + "\n";
-    return header + "end_header\n";
-}
-
 /// The content to write.
 struct PlyContent {
     const PolygonMesh& mesh;
@@ -64,15 +25,32 @@ struct PlyContent {
     bool long_faces;
 };
 
+std::string header_of(const PlyContent& content)
+{
+    const std::string colour = "property uchar red\nproperty uchar green\nproperty uchar blue\n";
+    const PlyExtras& extras = content.extras;
+    std::string header =
+        fmt::format("ply\nformat {} 1.0\nelement vertex {}\n",
+                    ply_encodings[static_cast<std::size_t>(content.encoding)], content.mesh.n_vertices());
+    header += "property double x\nproperty double y\nproperty double z\n";
+    header += extras.vertex_colours.empty() ? "" : colour;
+    for (const NamedColumn& column : extras.vertex_values)
+        header += fmt::format("property double {}\n", column.name);
+    header += fmt::format("element face {}\nproperty list {} int vertex_indices\n", content.mesh.n_faces(),
+                          content.long_faces ? "int" : "uchar");
+    header += extras.face_labels.empty() ? "" : colour + "property int label\n";
+    for (const FaceNumbers& list : extras.face_numbers)
+        header += "property int " + list.name + "\n";
+    return header + "end_header\n";
+}
+
 /// Writes a file, or a slice of one.
 class PlyWriter {
   public:
     PlyWriter(ByteWriter& file, const PlyContent& content)
         : file_(file)
-        , mesh_(content.mesh)
-        , encoding_(content.encoding)
+        , content_(content)
         , extras_(content.extras)
-        , long_faces_(content.long_faces)
     {
     }
 
@@ -83,7 +61,7 @@ class PlyWriter {
     void write_colour(const Colour& colour);
     void end_element()
     {
-        if (encoding_ == Encoding::Ascii)
+        if (content_.encoding == Encoding::Ascii)
             file_.text("\n");
         begins_line_ = true;
     }
@@ -91,16 +69,16 @@ class PlyWriter {
     template <class Number>
     void write(std::span<const Number> values)
     {
-        if (encoding_ != Encoding::Ascii)
-            return file_.binary(values, order_of(encoding_));
+        if (content_.encoding != Encoding::Ascii)
+            return file_.binary(values, order_of(content_.encoding));
         for (const Number value : values)
             write(value);
     }
 
     void write(auto value)
     {
-        if (encoding_ != Encoding::Ascii)
-            return file_.binary(value, order_of(encoding_));
+        if (content_.encoding != Encoding::Ascii)
+            return file_.binary(value, order_of(content_.encoding));
         if (!begins_line_)
             file_.text(" ");
         begins_line_ = false;
@@ -108,10 +86,8 @@ class PlyWriter {
     }
 
     ByteWriter& file_;
-    const PolygonMesh& mesh_;
-    Encoding encoding_;
+    const PlyContent& content_;
     const PlyExtras& extras_;
-    bool long_faces_;
     bool begins_line_ = true;
 };
 
@@ -123,21 +99,18 @@ void PlyWriter::write_colour(const Colour& colour)
 
 void PlyWriter::write_vertex(Index v)
 {
-    write(std::span<const double>(mesh_.vertices.row(v).data(), 3));
+    write(std::span<const double>(content_.mesh.vertices.row(v).data(), 3));
     if (!extras_.vertex_colours.empty())
         write_colour(extras_.vertex_colours[v]);
-    for (const VertexValues& list : extras_.vertex_values)
-        write(list.values[v]);
-    if (extras_.vertex_fields != nullptr)
-        for (const double value : extras_.vertex_fields->values.row(v))
-            write(value);
+    for (const NamedColumn& column : extras_.vertex_values)
+        write(column.values[v]);
     end_element();
 }
 
 void PlyWriter::write_face(Index f)
 {
-    const auto corners = mesh_.face(f);
-    if (long_faces_)
+    const auto corners = content_.mesh.face(f);
+    if (content_.long_faces)
         write(static_cast<std::int32_t>(corners.size()));
     else
         write(static_cast<std::uint8_t>(corners.size()));
@@ -166,7 +139,7 @@ void write_ply(OutputFile& file, const PolygonMesh& mesh, Encoding encoding, con
                const PlyExtras& extras)
 {
     const PlyContent content{mesh, encoding, extras, has_long_face(mesh)};
-    file.text(header_of({mesh.n_vertices(), mesh.n_faces(), content.long_faces}, encoding, extras));
+    file.text(header_of(content));
     constexpr std::size_t element_bytes = 32;
     const Index per_slice = elements_per_slice(slicing, element_bytes);
     write_elements(file, mesh.n_vertices(), per_slice, slicing.exec,
@@ -201,9 +174,8 @@ std::optional<std::array<Index, 3>> columns_of_colours(const FileFields& fields)
     return places;
 }
 
-/// Takes these columns out of the fields.
-/// @returns #V colours.
-std::vector<Colour> take_colours(FileFields& fields, const std::array<Index, 3>& places)
+/// @param places see columns_of_colours. @returns #V.
+std::vector<Colour> colours_in(const FileFields& fields, const std::array<Index, 3>& places)
 {
     std::vector<Colour> colours(static_cast<std::size_t>(fields.values.rows()));
     for (std::size_t k = 0; k < places.size(); ++k) {
@@ -212,15 +184,6 @@ std::vector<Colour> take_colours(FileFields& fields, const std::array<Index, 3>&
             colours[v][k] = static_cast<std::uint8_t>(
                 std::lround(255.0 * std::clamp(fields.values(static_cast<Index>(v), places[k]) / all, 0.0, 1.0)));
     }
-    FileFields others;
-    std::vector<Eigen::Index> kept;
-    for (std::size_t c = 0; c < fields.names.size(); ++c)
-        if (std::ranges::find(places, static_cast<Index>(c)) == places.end()) {
-            others.names.push_back(fields.names[c]);
-            kept.push_back(static_cast<Eigen::Index>(c));
-        }
-    others.values = fields.values(Eigen::all, kept);
-    fields = std::move(others);
     return colours;
 }
 
@@ -230,11 +193,12 @@ void write_ply(OutputFile& file, const PolygonMesh& mesh, Encoding encoding, con
                const FileFields& fields)
 {
     const auto places = columns_of_colours(fields);
-    if (!places)
-        return write_ply(file, mesh, encoding, slicing, {.vertex_fields = &fields});
-    FileFields others = fields;
-    const std::vector<Colour> colours = take_colours(others, *places);
-    write_ply(file, mesh, encoding, slicing, {.vertex_colours = colours, .vertex_fields = &others});
+    const std::vector<Colour> colours = places ? colours_in(fields, *places) : std::vector<Colour>();
+    std::vector<NamedColumn> others;
+    for (Index c = 0; c < std::ssize(fields.names); ++c)
+        if (!places || std::ranges::find(*places, c) == places->end())
+            others.push_back({fields.names[c], {fields.values.col(c).data(), usize(mesh.n_vertices())}});
+    write_ply(file, mesh, encoding, slicing, {.vertex_colours = colours, .vertex_values = others});
 }
 
 }  // namespace seamflow

@@ -1,11 +1,9 @@
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <functional>
 #include <limits>
 #include <numeric>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -19,29 +17,14 @@
 
 namespace seamflow {
 
-/// Compares with a keyword in lower case.
-inline bool is_keyword(std::string_view token, std::string_view keyword)
-{
-    return std::equal(token.begin(), token.end(), keyword.begin(), keyword.end(),
-                      [](char a, char b) { return (a >= 'A' && a <= 'Z' ? a - 'A' + 'a' : a) == b; });
-}
-
-/// Joins the corners of facets to vertices, and facets to a mesh.
+/// Joins the corners of facets to vertices, and facets to faces, in a slice of a file.
 /// @tparam Real double or float: the type of the coordinates in the file.
 template <class Real>
 class FacetCollector {
   public:
     using Corner = std::array<Real, 3>;
 
-    /// Of a whole file.
-    explicit FacetCollector(const InputPosition& position)
-        : position_(position)
-        , builder_(position)
-    {
-    }
-
-    /// Of a slice, whose vertices are the points in it.
-    /// @param slice without vertices.
+    /// @param slice without vertices: those of the faces are the points in it.
     FacetCollector(const InputPosition& position, const MeshSlice& slice)
         : position_(position)
         , builder_(position, 0, slice)
@@ -62,21 +45,18 @@ class FacetCollector {
         last_corners_ = corners;
     }
 
-    [[nodiscard]] std::vector<Corner> take_points() { return numbers_.take_points(); }
-
-    PolygonMesh finish()
+    /// The points, by their numbers.
+    /// @param is_whole whether there are no other slices. @throws InputError if there are none then.
+    [[nodiscard]] std::vector<Corner> take_points(bool is_whole)
     {
-        for (const Corner& point : numbers_.points())
-            builder_.add_vertex({point[0], point[1], point[2]});
-        return builder_.finish();
+        if (is_whole)
+            require_vertices(position_, std::ssize(numbers_.points()));
+        return numbers_.take_points();
     }
 
-    /// Makes room for so many facets and, as a table with much room is faster, as many points: there are about half.
-    void expect_facets(std::size_t n)
-    {
-        numbers_.reserve(n);
-        builder_.reserve(0, n);
-    }
+    /// Makes room for as many points as there are facets, about twice as many as there are: a table with much room is
+    /// faster.
+    void expect_facets(std::size_t n) { numbers_.reserve(n); }
 
   private:
     static constexpr Real no_place = std::numeric_limits<Real>::quiet_NaN();
@@ -101,33 +81,31 @@ class FacetCollector {
 
 /// Reads slices, several at a time. Points are numbered within each slice, and then for all slices.
 /// @param read called with a slice and where its faces go; returns its points.
-/// @param faces gets the faces of all slices.
-/// @returns #V by 3: the points.
 template <class Real>
-Points join_facets(Index n_slices, const Executor& exec,
-                   const std::function<std::vector<std::array<Real, 3>>(Index slice, const MeshSlice& place)>& read,
-                   PolygonMesh& faces)
+PolygonMesh
+join_facets(Index n_slices, const Executor& exec,
+            const std::function<std::vector<std::array<Real, 3>>(Index slice, const MeshSlice& place)>& read)
 {
+    PolygonMesh mesh;
     std::vector<std::vector<std::array<Real, 3>>> of_slice(usize(n_slices));
     std::vector<Index> corners(usize(n_slices) + 1, 0);
     Points none(0, 3);
-    append_faces(faces, n_slices, exec, [&](Index i, PolygonMesh& part) {
+    append_faces(mesh, n_slices, exec, [&](Index i, PolygonMesh& part) {
         of_slice[i] = read(i, {none, 0, part});
         corners[i + 1] = part.n_corners();
     });
     std::partial_sum(corners.begin(), corners.end(), corners.begin());
     NumberedPoints all = number_together<Real>(of_slice, exec);
+    if (all.points.rows() == 0)
+        throw InputError("no vertices");
     for_each(exec, n_slices, [&](Index i) {
         for (Index corner = corners[i]; corner < corners[i + 1]; ++corner) {
-            Index& v = faces.face_vertices[corner];
+            Index& v = mesh.face_vertices[corner];
             v = all.numbers[all.begin[i] + v];
         }
     });
-    return std::move(all.points);
+    mesh.vertices = std::move(all.points);
+    return mesh;
 }
-
-/// Sets the mesh's vertices.
-/// @throws InputError with no useful message if there are none.
-void set_vertices(PolygonMesh& mesh, Points points);
 
 }  // namespace seamflow

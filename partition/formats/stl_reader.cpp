@@ -13,6 +13,7 @@
 #include "partition/errors.h"
 #include "partition/formats/stl.h"
 #include "partition/formats/stl_facets.h"
+#include "partition/formats/stl_scan.h"
 #include "partition/io/byte_scanner.h"
 #include "partition/io/mesh_builder.h"
 #include "partition/io/slices.h"
@@ -99,38 +100,27 @@ void read_facets(ByteScanner& scanner, std::uint64_t begin, std::uint64_t end, B
     }
 }
 
-PolygonMesh read_binary(const std::filesystem::path& path, std::string_view file, FaultLog* faults)
+/// @param per_slice number of facets that are read at a time. @param faults see read_stl.
+/// @throws InputError if there is any fault; naming it if all are read at a time.
+PolygonMesh read_binary(const std::filesystem::path& path, std::string_view file, std::uint64_t per_slice,
+                        const Executor& exec, FaultLog* faults)
 {
-    ByteScanner scanner(path, file, std::min(title_bytes, file.size()), std::endian::little);
-    scanner.note_faults_in(faults);
-    require_room_for_facets(scanner, file);
-    BinaryFacets collector(scanner);
-    read_facets(scanner, 0, scanner.read<std::uint32_t>(), collector);
-    scanner.require_end();
-    return collector.finish();
-}
-
-/// @throws InputError if there is any fault, not necessarily naming it.
-PolygonMesh read_binary_slices(const std::filesystem::path& path, std::string_view file, const Slicing& slicing)
-{
-    ByteScanner all(path, file, title_bytes, std::endian::little);
+    ByteScanner all(path, file, std::min(title_bytes, file.size()), std::endian::little);
     require_room_for_facets(all, file);
-    const auto n = all.read<std::uint32_t>();
-    // Longer than slices of other files: the points that two have in common are looked for in both.
-    const std::uint64_t per_slice = 2 * static_cast<std::uint64_t>(elements_per_slice(slicing, facet_bytes));
-    ByteScanner(path, file, header_bytes + facet_bytes * n, std::endian::little).require_end();
-    const auto read = [&](Index i, const MeshSlice& place) {
+    const std::uint64_t n = all.read<std::uint32_t>();
+    const std::uint64_t n_slices = std::max<std::uint64_t>((n + per_slice - 1) / per_slice, 1);
+    return join_facets<float>(static_cast<Index>(n_slices), exec, [&](Index i, const MeshSlice& place) {
         const std::uint64_t begin = usize(i) * per_slice;
+        const std::uint64_t end = std::min(begin + per_slice, n);
         ByteScanner scanner(path, file, header_bytes + facet_bytes * begin, std::endian::little);
+        scanner.note_faults_in(faults);
         BinaryFacets collector(scanner, place);
-        collector.expect_facets(per_slice);
-        read_facets(scanner, begin, std::min<std::uint64_t>(begin + per_slice, n), collector);
-        return collector.take_points();
-    };
-    PolygonMesh mesh;
-    set_vertices(mesh,
-                 join_facets<float>(static_cast<Index>((n + per_slice - 1) / per_slice), slicing.exec, read, mesh));
-    return mesh;
+        collector.expect_facets(end - begin);
+        read_facets(scanner, begin, end, collector);
+        if (end == n)
+            scanner.require_end();
+        return collector.take_points(n_slices == 1);
+    });
 }
 
 bool has_size_of_binary(std::string_view file)
@@ -139,13 +129,6 @@ bool has_size_of_binary(std::string_view file)
 }
 
 }  // namespace
-
-void set_vertices(PolygonMesh& mesh, Points points)
-{
-    if (points.rows() == 0)
-        throw InputError("no vertices");
-    mesh.vertices = std::move(points);
-}
 
 bool is_text_stl(std::string_view file)
 {
@@ -169,10 +152,13 @@ bool is_stl(std::string_view file)
 MeshFile read_stl(const std::filesystem::path& path, std::string_view file, const Slicing& slicing, FaultLog* faults)
 {
     if (!is_text_stl(file)) {
-        const auto in_one_go = [&] { return read_binary(path, file, faults); };
-        return {file.size() <= slicing.bytes
-                    ? in_one_go()
-                    : read_in_slices_if_faultless([&] { return read_binary_slices(path, file, slicing); }, in_one_go),
+        const auto in_one_go = [&] {
+            return read_binary(path, file, std::numeric_limits<std::uint32_t>::max(), run_serially, faults);
+        };
+        // Longer than slices of other files: the points that two have in common are looked for in both.
+        const std::uint64_t per_slice = 2 * static_cast<std::uint64_t>(elements_per_slice(slicing, facet_bytes));
+        const auto in_slices = [&] { return read_binary(path, file, per_slice, slicing.exec, nullptr); };
+        return {file.size() <= slicing.bytes ? in_one_go() : read_in_slices_if_faultless(in_slices, in_one_go),
                 {FileFormat::Stl, Encoding::BinaryLittleEndian}};
     }
     return {read_text_stl(path, file, slicing, faults), {FileFormat::Stl, Encoding::Ascii}};

@@ -12,8 +12,8 @@
 
 #include "partition/formats/splicing.h"
 #include "partition/formats/stl.h"
-#include "partition/formats/stl_facets.h"
-#include "partition/io/byte_scanner.h"
+#include "partition/formats/stl_scan.h"
+#include "partition/io/byte_order.h"
 
 namespace seamflow {
 
@@ -22,9 +22,104 @@ namespace {
 /// A facet as written in a file.
 struct WrittenFacet {
     WrittenNumbers normal;
-    StlFacet corners;
-    std::array<std::array<std::string_view, 3>, 3> parts;
+    std::array<WrittenNumbers, 3> corners;
+
+    [[nodiscard]] StlFacet values() const { return {corners[0].values, corners[1].values, corners[2].values}; }
 };
+
+WrittenNumbers floats_at(std::string_view bytes)
+{
+    WrittenNumbers floats;
+    for (std::size_t k = 0; k < 3; ++k) {
+        floats.parts[k] = bytes.substr(k * sizeof(float), sizeof(float));
+        floats.values[static_cast<Index>(k)] = from_bytes<float>(floats.parts[k].data(), std::endian::little);
+    }
+    return floats;
+}
+
+/// See scan_text_stl.
+template <class Visit>
+struct TextFacetVisitor {
+    Visit& visit;
+    WrittenFacet facet_so_far = {};
+
+    void normal(TextScanner& scanner)
+    {
+        scanner.token();
+        facet_so_far.normal = read_normal(scanner);
+    }
+    void corner(std::size_t k, TextScanner& scanner) { facet_so_far.corners[k] = read_position(scanner); }
+    void facet() { visit(facet_so_far); }
+};
+
+/// Finds solids with names; see scan_text_stl.
+struct NameFinder {
+    bool has_name = false;
+
+    void solid(TextScanner& scanner) { has_name |= scanner.has_token(); }
+};
+
+/// A file read by read_stl, as the template for one with other positions.
+struct StlForm {
+    StlForm(const std::filesystem::path& path, std::string_view content, const Slicing& slicing)
+        : whole(path, content, stl_syntax)
+        , is_text(is_text_stl(content))
+        , facets(is_text ? whole.rest() : stl_facets(content))
+    {
+        if (is_text)
+            pieces = stl_slices_at_facets(whole, slicing.bytes);
+        const std::size_t size = std::max(slicing.bytes / stl_facet_bytes, std::size_t{1}) * stl_facet_bytes;
+        for (std::size_t begin = 0; !is_text && begin < facets.size(); begin += size)
+            pieces.push_back(facets.substr(begin, size));
+    }
+
+    [[nodiscard]] Index n_pieces() const { return static_cast<Index>(pieces.size()); }
+
+    /// Calls visit with each facet of a piece.
+    template <class Visit>
+    void for_each_facet(Index piece, Visit&& visit) const
+    {
+        std::string_view rest = pieces[piece];
+        if (is_text) {
+            TextScanner scanner(whole, rest);
+            TextFacetVisitor<Visit> visitor{visit};
+            scan_text_stl(scanner, piece > 0, visitor);
+            return;
+        }
+        for (constexpr std::size_t size = 3 * sizeof(float); !rest.empty(); rest.remove_prefix(stl_facet_bytes))
+            visit(WrittenFacet{
+                floats_at(rest),
+                {floats_at(rest.substr(size)), floats_at(rest.substr(2 * size)), floats_at(rest.substr(3 * size))}});
+    }
+
+    TextScanner whole;
+    bool is_text;
+    /// In text, all except a byte order mark; and in pieces of whole facets.
+    std::string_view facets;
+    std::vector<std::string_view> pieces = {};
+};
+
+/// Writes a facet with other corners in place of one.
+void exchange_facet(Splicer& splicer, const WrittenFacet& before, const StlFacet& after, bool is_text)
+{
+    const auto exchange = [&](std::string_view part, auto value) {
+        ByteWriter& there = splicer.exchange(part);
+        if (is_text)
+            there.number(value);
+        else
+            there.binary(static_cast<float>(value), std::endian::little);
+    };
+    const double side = before.normal.values.dot(normal_of_facet(before.values())) < 0.0 ? -1.0 : 1.0;
+    // The sum has no negative zeros, which nobody likes to read.
+    const Point normal = side * normal_of_facet(after) + Point::Zero();
+    for (Index k = 0; k < 3; ++k)
+        if (!before.normal.parts[k].empty())
+            exchange(before.normal.parts[k], static_cast<float>(normal[k]));
+    for (std::size_t corner = 0; corner < 3; ++corner)
+        for (Index k = 0; k < 3; ++k)
+            if (differ(before.corners[corner].values[k], after[corner][k]))
+                exchange(before.corners[corner].parts[k], after[corner][k]);
+}
 
 bool is_other_facet(const StlFacet& a, const StlFacet& b)
 {
@@ -35,156 +130,38 @@ bool is_other_facet(const StlFacet& a, const StlFacet& b)
     return false;
 }
 
-Point read_floats(std::string_view bytes, std::array<std::string_view, 3>& parts)
-{
-    Point values;
-    for (std::size_t k = 0; k < 3; ++k) {
-        parts[k] = bytes.substr(k * sizeof(float), sizeof(float));
-        values[static_cast<Index>(k)] = from_bytes<float>(parts[k].data(), std::endian::little);
-    }
-    return values;
-}
-
-/// Calls visit with each facet.
-template <class Visit>
-void walk_binary(std::string_view facets, Visit&& visit)
-{
-    for (; !facets.empty(); facets.remove_prefix(stl_facet_bytes)) {
-        WrittenFacet facet;
-        facet.normal.values = read_floats(facets, facet.normal.parts);
-        for (std::size_t corner = 0; corner < 3; ++corner)
-            facet.corners[corner] = read_floats(facets.substr(12 * (corner + 1)), facet.parts[corner]);
-        visit(facet);
-    }
-}
-
-template <class Visit>
-void walk_text(TextScanner scanner, Visit&& visit)
-{
-    WrittenFacet facet;
-    std::size_t n_corners = 0;
-    while (scanner.next_line()) {
-        const std::string_view keyword = scanner.token();
-        if (is_keyword(keyword, "facet")) {
-            scanner.token();
-            facet.normal = read_normal(scanner);
-            n_corners = 0;
-        } else if (is_keyword(keyword, "vertex")) {
-            for (std::size_t k = 0; k < 3; ++k) {
-                facet.parts[n_corners][k] = scanner.peek();
-                facet.corners[n_corners][static_cast<Index>(k)] = scanner.real("a coordinate");
-            }
-            if (++n_corners == 3)
-                visit(facet);
-        }
-    }
-}
-
 }  // namespace
-
-StlForm::StlForm(const std::filesystem::path& path, std::string_view content)
-    : whole_(path, content, {.comment = '\0'})
-    , content_(content)
-    , is_text_(is_text_stl(content))
-{
-}
-
-std::string_view StlForm::begin() const
-{
-    return content_.substr(0, is_text_ ? content_.size() - whole_.rest().size() : stl_header_bytes);
-}
-
-std::string_view StlForm::facets() const
-{
-    return is_text_ ? whole_.rest() : stl_facets(content_);
-}
-
-std::string_view StlForm::end() const
-{
-    return content_.substr(begin().size() + facets().size());
-}
-
-std::vector<std::string_view> StlForm::pieces(std::string_view facets, std::size_t bytes) const
-{
-    if (is_text_)
-        return stl_slices_at_facets(TextScanner(whole_, facets), bytes);
-    std::vector<std::string_view> pieces;
-    const std::size_t size = std::max(bytes / stl_facet_bytes, std::size_t{1}) * stl_facet_bytes;
-    for (std::size_t begin = 0; begin < facets.size(); begin += size)
-        pieces.push_back(facets.substr(begin, size));
-    return pieces;
-}
-
-template <class Visit>
-void StlForm::walk(std::string_view piece, Visit&& visit) const
-{
-    is_text_ ? walk_text(TextScanner(whole_, piece), visit) : walk_binary(piece, visit);
-}
-
-Index StlForm::count(std::string_view piece) const
-{
-    Index n = 0;
-    walk(piece, [&](const WrittenFacet& facet) { n += is_line(facet.corners) ? 0 : 1; });
-    return n;
-}
-
-Index StlForm::rewrite(ByteWriter& file, std::string_view piece,
-                       const std::function<StlFacet(Index facet)>& facet_of) const
-{
-    Splicer splicer(file, piece);
-    const auto write = [&](std::string_view part, double before, double after) {
-        if (!differ(before, after))
-            return;
-        ByteWriter& there = splicer.exchange(part);
-        if (is_text_)
-            there.number(after);
-        else
-            there.binary(static_cast<float>(after), std::endian::little);
-    };
-    Index n = 0;
-    Index n_lines = 0;
-    walk(piece, [&](const WrittenFacet& before) {
-        if (is_line(before.corners))
-            return;
-        const StlFacet after = is_text_ ? facet_of(n++) : rounded(facet_of(n++));
-        if (!is_other_facet(before.corners, after))
-            return;
-        n_lines += is_line(after) ? 1 : 0;
-        const double side = before.normal.values.dot(normal_of_facet(before.corners)) < 0.0 ? -1.0 : 1.0;
-        // The sum has no negative zeros, which nobody likes to read.
-        const Point normal = side * normal_of_facet(after) + Point::Zero();
-        for (std::size_t k = 0; k < 3; ++k)
-            if (const std::string_view part = before.normal.parts[k]; !part.empty()) {
-                ByteWriter& there = splicer.exchange(part);
-                const auto value = static_cast<float>(normal[static_cast<Index>(k)]);
-                is_text_ ? there.number(value) : there.binary(value, std::endian::little);
-            }
-        for (std::size_t corner = 0; corner < 3; ++corner)
-            for (std::size_t k = 0; k < 3; ++k)
-                write(before.parts[corner][k], before.corners[corner][static_cast<Index>(k)],
-                      after[corner][static_cast<Index>(k)]);
-    });
-    splicer.finish();
-    return n_lines;
-}
 
 std::vector<std::string> rewrite_stl(OutputFile& file, const std::filesystem::path& path, std::string_view content,
                                      const PolygonMesh& mesh, const Slicing& slicing)
 {
-    const StlForm form(path, content);
-    if (!form.is_text())
-        require_floats(file.path(), mesh.vertices);
-    const std::vector<std::string_view> pieces = form.pieces(form.facets(), slicing.bytes);
-    const auto n = static_cast<Index>(pieces.size());
-    std::vector<Index> first(pieces.size() + 1, 0);
-    for_each(slicing.exec, n, [&](Index i) { first[i + 1] = form.count(pieces[i]); });
+    const StlForm form(path, content, slicing);
+    if (!form.is_text)
+        require_floats(file.path(), mesh.vertices, slicing.exec, "binary STL");
+    // How many facets before each piece are triangles, and so faces of the mesh.
+    std::vector<Index> first(form.pieces.size() + 1, 0);
+    for_each(slicing.exec, form.n_pieces(), [&](Index i) {
+        form.for_each_facet(i, [&](const WrittenFacet& facet) { first[i + 1] += is_line(facet.values()) ? 0 : 1; });
+    });
     std::partial_sum(first.begin(), first.end(), first.begin());
     std::atomic<Index> n_lines = 0;
-    file.text(form.begin());
-    file.slices(n, slicing.exec, [&](Index i, OutputBuffer& slice) {
-        n_lines += form.rewrite(slice, pieces[i], [&](Index f) { return facet_of(mesh, first[i] + f); });
+    file.text(content.substr(0, static_cast<std::size_t>(form.facets.data() - content.data())));
+    file.slices(form.n_pieces(), slicing.exec, [&](Index i, OutputBuffer& slice) {
+        Splicer splicer(slice, form.pieces[i]);
+        form.for_each_facet(i, [&, f = first[i]](const WrittenFacet& before) mutable {
+            if (is_line(before.values()))
+                return;
+            const StlFacet given = facet_of(mesh, f++);
+            const StlFacet after = form.is_text ? given : rounded(given);
+            if (!is_other_facet(before.values(), after))
+                return;
+            n_lines += is_line(after) ? 1 : 0;
+            exchange_facet(splicer, before, after, form.is_text);
+        });
+        splicer.finish();
     });
-    file.text(form.end());
+    const char* const end = form.facets.data() + form.facets.size();
+    file.text({end, static_cast<std::size_t>(content.data() + content.size() - end)});
     return remarks_on_lines(path, n_lines);
 }
 
@@ -201,26 +178,22 @@ std::vector<std::string> extras_of_stl(const std::filesystem::path& path, std::s
                                        const Slicing& slicing)
 {
     std::vector<std::string> extras;
-    const StlForm form(path, content);
-    if (form.is_text()) {
-        const std::vector<std::string_view> pieces = form.pieces(form.facets(), slicing.bytes);
-        std::vector<std::uint8_t> has_name(pieces.size(), 0);
-        for_each(slicing.exec, static_cast<Index>(pieces.size()), [&](Index i) {
-            TextScanner scanner(TextScanner(path, content, {.comment = '\0'}), pieces[i]);
-            while (scanner.next_line())
-                if (is_keyword(scanner.token(), "solid") && scanner.has_token())
-                    has_name[i] = 1;
+    const StlForm form(path, content, slicing);
+    if (form.is_text) {
+        std::vector<NameFinder> finders(form.pieces.size());
+        for_each(slicing.exec, form.n_pieces(), [&](Index i) {
+            TextScanner scanner(form.whole, form.pieces[i]);
+            scan_text_stl(scanner, i > 0, finders[i]);
         });
-        if (std::ranges::find(has_name, 1) != has_name.end())
+        if (std::ranges::find(finders, true, &NameFinder::has_name) != finders.end())
             extras.emplace_back("names of solids");
         return extras;
     }
-    if (form.begin().find("COLOR=") != std::string_view::npos ||
-        form.begin().find("MATERIAL=") != std::string_view::npos)
+    const std::string_view header = content.substr(0, stl_header_bytes);
+    if (header.find("COLOR=") != std::string_view::npos || header.find("MATERIAL=") != std::string_view::npos)
         extras.emplace_back("colours of the header");
-    const std::string_view facets = form.facets();
-    for (std::size_t end = stl_facet_bytes; end <= facets.size(); end += stl_facet_bytes)
-        if (facets[end - 2] != 0 || facets[end - 1] != 0) {
+    for (std::size_t end = stl_facet_bytes; end <= form.facets.size(); end += stl_facet_bytes)
+        if (form.facets[end - 2] != 0 || form.facets[end - 1] != 0) {
             extras.emplace_back("attributes of facets");
             break;
         }

@@ -1,4 +1,7 @@
+#include <algorithm>
+#include <array>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -9,143 +12,62 @@
 #include "partition/formats/mesh_file.h"
 #include "partition/formats/stl.h"
 #include "partition/formats/stl_facets.h"
-#include "partition/io/mesh_builder.h"
-#include "partition/io/slices.h"
-#include "partition/io/text_scanner.h"
-#include "partition/point_numbers.h"
+#include "partition/formats/stl_scan.h"
 
 namespace seamflow {
 
-namespace {
-
-/// Reads a whole file, or a slice of one.
-class TextReader {
-  public:
-    TextReader(const TextScanner& scanner, FaultLog* faults)
-        : scanner_(scanner)
-        , collector_(scanner_)
-    {
-        scanner_.note_faults_in(faults);
-    }
-
-    TextReader(const TextScanner& scanner, const MeshSlice& slice)
-        : scanner_(scanner)
-        , collector_(scanner_, slice)
-    {
-    }
-
-    /// @param in_solid whether the first line is within a solid. @param end where the last line to be read begins, at
-    /// most.
-    /// @returns whether a solid is still open.
-    bool read(bool in_solid, const char* end);
-
-    /// @throws InputError within a solid.
-    void require_end(bool in_solid)
-    {
-        if (in_solid)
-            next_line("facet or endsolid");
-    }
-
-    FacetCollector<double>& collector() { return collector_; }
-
-  private:
-    using Corner = FacetCollector<double>::Corner;
-
-    void read_facet();
-    Corner read_corner();
-    void next_line(std::string_view keyword);
-    void expect(std::string_view keyword);
-    bool is_end_of(std::string_view what);
-    void expect_end_of(std::string_view what);
-
-    TextScanner scanner_;
-    FacetCollector<double> collector_;
-};
-
-bool TextReader::read(bool in_solid, const char* end)
+bool is_keyword(std::string_view token, std::string_view keyword)
 {
-    while (scanner_.next_line() && scanner_.peek().data() < end) {
-        if (!in_solid) {
-            expect("solid");
-            in_solid = true;
-        } else if (is_end_of("solid")) {
-            in_solid = false;
-        } else if (!is_keyword(scanner_.peek(), "color")) {
-            expect("facet");
-            read_facet();
-        }
-    }
-    return in_solid;
+    return std::equal(token.begin(), token.end(), keyword.begin(), keyword.end(),
+                      [](char a, char b) { return (a >= 'A' && a <= 'Z' ? a - 'A' + 'a' : a) == b; });
 }
 
-void TextReader::read_facet()
+void next_stl_line(TextScanner& scanner, std::string_view keyword)
 {
-    next_line("outer loop");
-    expect("outer");
-    expect("loop");
-    const Corner a = read_corner();
-    const Corner b = read_corner();
-    const Corner c = read_corner();
-    next_line("endloop");
-    if (is_keyword(scanner_.peek(), "vertex"))
-        scanner_.fail("the facet has more than 3 corners, but STL holds triangles only; export the mesh as " +
-                      extensions_of(FormatGroup::Polygons));
-    expect_end_of("loop");
-    next_line("endfacet");
-    expect_end_of("facet");
-    collector_.add({a, b, c});
+    if (!scanner.next_line())
+        scanner.fail("the file ends where " + in_quotes(keyword) +
+                     " should follow; it has been cut off: export or copy the mesh again");
 }
 
-TextReader::Corner TextReader::read_corner()
+void pass_over_keyword(TextScanner& scanner, std::string_view keyword)
 {
-    next_line("vertex");
-    expect("vertex");
-    const Corner position = scanner_.coordinates();
-    if (scanner_.has_token())
-        scanner_.fail("expected the end of the line after the three coordinates, but found " +
-                      in_quotes(scanner_.peek()) + "; put each vertex on a line of its own");
-    return position;
-}
-
-void TextReader::next_line(std::string_view keyword)
-{
-    if (!scanner_.next_line())
-        scanner_.fail("the file ends where " + in_quotes(keyword) +
-                      " should follow; it has been cut off: export or copy the mesh again");
-}
-
-void TextReader::expect(std::string_view keyword)
-{
-    const auto token = scanner_.token();
+    const auto token = scanner.token();
     if (!is_keyword(token, keyword))
-        scanner_.fail(fmt::format("expected {}, but found {}; correct the line or export the mesh again",
-                                  in_quotes(keyword), token.empty() ? "the end of the line" : in_quotes(token)));
+        scanner.fail(fmt::format("expected {}, but found {}; correct the line or export the mesh again",
+                                 in_quotes(keyword), token.empty() ? "the end of the line" : in_quotes(token)));
 }
 
-/// Some programs write "end loop" for "endloop".
-bool TextReader::is_end_of(std::string_view what)
+bool is_end_of(TextScanner& scanner, std::string_view what)
 {
-    if (is_keyword(scanner_.peek(), "end" + std::string(what)))
-        return true;
-    if (!is_keyword(scanner_.peek(), "end"))
+    const std::string_view token = scanner.peek();
+    if (token.size() < 3 || !is_keyword(token.substr(0, 3), "end"))
         return false;
-    TextScanner ahead = scanner_;
+    if (token.size() > 3)
+        return is_keyword(token.substr(3), what);
+    TextScanner ahead = scanner;
     ahead.token();
     return is_keyword(ahead.token(), what);
 }
 
-void TextReader::expect_end_of(std::string_view what)
+void end_stl_facet(TextScanner& scanner)
 {
-    if (!is_end_of(what))
-        expect("end" + std::string(what));
+    next_stl_line(scanner, "endloop");
+    if (is_keyword(scanner.peek(), "vertex"))
+        scanner.fail("the facet has more than 3 corners, but STL holds triangles only; export the mesh as " +
+                     extensions_of(FormatGroup::Polygons));
+    if (!is_end_of(scanner, "loop"))
+        pass_over_keyword(scanner, "endloop");
+    next_stl_line(scanner, "endfacet");
+    if (!is_end_of(scanner, "facet"))
+        pass_over_keyword(scanner, "endfacet");
 }
 
-const char* end_of(std::string_view text)
+void end_stl_corner(TextScanner& scanner)
 {
-    return text.data() + text.size();
+    if (scanner.has_token())
+        scanner.fail("expected the end of the line after the three coordinates, but found " +
+                     in_quotes(scanner.peek()) + "; put each vertex on a line of its own");
 }
-
-}  // namespace
 
 std::vector<std::string_view> stl_slices_at_facets(const TextScanner& whole, std::size_t bytes)
 {
@@ -169,33 +91,47 @@ std::vector<std::string_view> stl_slices_at_facets(const TextScanner& whole, std
     return slices;
 }
 
+namespace {
+
+/// See scan_text_stl.
+struct TextFacetReader {
+    FacetCollector<double>& collector;
+    std::array<FacetCollector<double>::Corner, 3> corners = {};
+
+    void corner(std::size_t k, TextScanner& scanner) { corners[k] = scanner.coordinates(); }
+    void facet() { collector.add(corners); }
+};
+
+/// @param faults see read_stl. @throws InputError if there is any fault; naming it if there is one slice.
+PolygonMesh read_slices(const TextScanner& whole, std::span<const std::string_view> slices, const Executor& exec,
+                        FaultLog* faults)
+{
+    const auto n = static_cast<Index>(slices.size());
+    return join_facets<double>(n, exec, [&](Index i, const MeshSlice& place) {
+        TextScanner scanner(whole, slices[i]);
+        scanner.note_faults_in(faults);
+        FacetCollector<double> collector(scanner, place);
+        TextFacetReader reader{collector};
+        const bool is_open = scan_text_stl(scanner, i > 0, reader);
+        if (is_open && i + 1 == n)
+            next_stl_line(scanner, "facet or endsolid");
+        if (!is_open && i + 1 < n)
+            throw InputError("a solid ends too early");
+        return collector.take_points(n == 1);
+    });
+}
+
+}  // namespace
+
 PolygonMesh read_text_stl(const std::filesystem::path& path, std::string_view text, const Slicing& slicing,
                           FaultLog* faults)
 {
-    const TextScanner whole(path, text, {.comment = '\0'});
-    const char* const begin = whole.rest().data();
-    const char* const end = end_of(whole.rest());
-    const auto in_one_go = [&] {
-        TextReader reader(whole, faults);
-        reader.require_end(reader.read(false, end));
-        return reader.collector().finish();
-    };
-    if (text.size() <= slicing.bytes)
+    const TextScanner whole(path, text, stl_syntax);
+    const std::vector<std::string_view> slices = stl_slices_at_facets(whole, slicing.bytes);
+    const auto in_one_go = [&] { return read_slices(whole, std::array{whole.rest()}, run_serially, faults); };
+    if (slices.size() < 2)
         return in_one_go();
-    const auto in_slices = [&] {
-        const std::vector<std::string_view> slices = stl_slices_at_facets(whole, slicing.bytes);
-        const auto read = [&](Index i, const MeshSlice& place) {
-            TextReader reader(TextScanner(whole, slices[i]), place);
-            const bool is_last = end_of(slices[i]) == end;
-            if (reader.read(slices[i].data() != begin, end_of(slices[i])) == is_last)
-                throw InputError("a solid ends too early, or does not end");
-            return reader.collector().take_points();
-        };
-        PolygonMesh mesh;
-        set_vertices(mesh, join_facets<double>(static_cast<Index>(slices.size()), slicing.exec, read, mesh));
-        return mesh;
-    };
-    return read_in_slices_if_faultless(in_slices, in_one_go);
+    return read_in_slices_if_faultless([&] { return read_slices(whole, slices, slicing.exec, nullptr); }, in_one_go);
 }
 
 }  // namespace seamflow

@@ -11,26 +11,12 @@
 #include <fmt/format.h>
 
 #include "partition/errors.h"
-#include "partition/formats/mesh_file.h"
+#include "partition/formats/splicing.h"
 #include "partition/formats/stl.h"
 
 namespace seamflow {
 
 namespace {
-
-[[noreturn]] void refuse_mesh(const std::filesystem::path& path, const std::string& reason)
-{
-    throw OutputError(fmt::format("{}: cannot be written: {}; write {}, which can hold this mesh", path.string(),
-                                  reason, extensions_of(FormatGroup::Polygons)));
-}
-
-void require_triangles(const std::filesystem::path& path, const PolygonMesh& mesh)
-{
-    for (Index f = 0; f < mesh.n_faces(); ++f)
-        if (mesh.face(f).size() != 3)
-            refuse_mesh(path, fmt::format("face {} (numbered from 0) has {} sides, but STL holds triangles only", f,
-                                          mesh.face(f).size()));
-}
 
 void require_no_isolated_vertex(const std::filesystem::path& path, const PolygonMesh& mesh)
 {
@@ -39,9 +25,9 @@ void require_no_isolated_vertex(const std::filesystem::path& path, const Polygon
         used[v] = true;
     const auto unused = std::find(used.begin(), used.end(), false);
     if (unused != used.end())
-        refuse_mesh(path,
-                    fmt::format("vertex {} (numbered from 0) belongs to no face, and STL holds only vertices of faces",
-                                unused - used.begin()));
+        throw OutputError(fmt::format("{}: cannot be written: vertex {} (numbered from 0) belongs to no face, and STL "
+                                      "holds only vertices of faces; {}",
+                                      path.string(), unused - used.begin(), write_polygons_instead()));
 }
 
 void write_text_facet(ByteWriter& file, const StlFacet& triangle)
@@ -94,22 +80,12 @@ Point normal_of_facet(const StlFacet& triangle)
     return normal.transpose().cast<float>().cast<double>();
 }
 
-void require_floats(const std::filesystem::path& path, const Points& vertices, Index first)
-{
-    for (Index v = 0; v < vertices.rows(); ++v)
-        if (vertices.row(v).cwiseAbs().maxCoeff() > double{std::numeric_limits<float>::max()})
-            refuse_mesh(path,
-                        fmt::format("vertex {} (numbered from 0) has a coordinate too large for the single precision "
-                                    "of binary STL",
-                                    first + v));
-}
-
 std::vector<std::string> require_fits_stl(const std::filesystem::path& path, const PolygonMesh& mesh, Encoding encoding)
 {
-    require_triangles(path, mesh);
+    require_triangles(path, mesh, "STL");
     require_no_isolated_vertex(path, mesh);
     if (encoding != Encoding::Ascii)
-        require_floats(path, mesh.vertices);
+        require_floats(path, mesh.vertices, run_serially, "binary STL");
     std::int64_t n_lines = 0;
     for (Index f = 0; f < mesh.n_faces(); ++f)
         n_lines += is_line(encoding == Encoding::Ascii ? facet_of(mesh, f) : rounded(facet_of(mesh, f))) ? 1 : 0;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <compare>
 #include <limits>
 #include <numeric>
 #include <optional>
@@ -13,6 +12,7 @@
 #include "partition/index_lists.h"
 #include "partition/metrics/bounding_box.h"
 #include "partition/metrics/spikes.h"
+#include "partition/point_numbers.h"
 #include "partition/vector_area.h"
 #include "partition/weld.h"
 #include "partition/with_faces.h"
@@ -112,39 +112,14 @@ bool lacks_area(const PolygonMesh& mesh, Index f)
     return !has_area(mesh.face(f), mesh.vertices) && std::ranges::all_of(mesh.face(f), is_finite);
 }
 
-/// The elements that equal an earlier one, each with the first of these, ascending.
-/// @param before an order in which equal elements are consecutive. @param same whether two are equal.
-template <class Before, class Same>
-std::vector<std::pair<Index, Index>> repetitions(Index n, Before&& before, Same&& same)
+std::vector<Index> coincident_vertices(const Points& positions, const Executor& exec)
 {
-    std::vector<Index> order(n);
-    std::iota(order.begin(), order.end(), 0);
-    std::sort(order.begin(), order.end(), [&](Index a, Index b) { return before(a, b) || (!before(b, a) && a < b); });
-    std::vector<std::pair<Index, Index>> repeated;
-    for (std::size_t i = 1, first = 0; i < order.size(); ++i)
-        if (same(order[first], order[i]))
-            repeated.emplace_back(order[i], order[first]);
-        else
-            first = i;
-    std::sort(repeated.begin(), repeated.end());
-    return repeated;
-}
-
-std::vector<Index> coincident_vertices(const Points& positions)
-{
-    // A total order for any coordinates: zeros of both signs are equal, and NaNs are ordered, too.
-    const auto before = [&](Index a, Index b) {
-        for (int c = 0; c < 3; ++c)
-            if (const auto order = std::strong_order(positions(a, c) + 0.0, positions(b, c) + 0.0); order != 0)
-                return order < 0;
-        return false;
-    };
-    std::vector<Index> vertices;
-    for (const auto& [vertex, first] : repetitions(static_cast<Index>(positions.rows()), before, [&](Index a, Index b) {
-             return positions.row(a) == positions.row(b);
-         }))
-        vertices.push_back(vertex);
-    return vertices;
+    std::vector<PointNumbers::Place> places;
+    places.reserve(static_cast<std::size_t>(positions.rows()));
+    for (const auto& row : positions.rowwise())
+        places.push_back({row[0], row[1], row[2]});
+    const std::vector<Index> first = PointNumbers::first_equal(places);
+    return select(exec, static_cast<Index>(first.size()), [&](Index v) { return first[v] != v; });
 }
 
 /// Whether two faces with the same vertices run around them in opposite senses.
@@ -218,14 +193,17 @@ std::vector<RepeatedFace> find_repeated_faces(const PolygonMesh& mesh, const std
         std::sort(vertices.values.begin() + begin, vertices.values.end());
         vertices.close();
     }
-    const auto before = [&](Index a, Index b) {
-        return std::ranges::lexicographical_compare(vertices[a], vertices[b]);
-    };
+    std::vector<Index> order(candidates.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::ranges::stable_sort(
+        order, [&](Index a, Index b) { return std::ranges::lexicographical_compare(vertices[a], vertices[b]); });
     std::vector<RepeatedFace> repeated;
-    for (const auto& [place, first] : repetitions(static_cast<Index>(candidates.size()), before, [&](Index a, Index b) {
-             return std::ranges::equal(vertices[a], vertices[b]);
-         }))
-        repeated.push_back({candidates[place], candidates[first]});
+    for (std::size_t i = 1, first = 0; i < order.size(); ++i)
+        if (std::ranges::equal(vertices[order[first]], vertices[order[i]]))
+            repeated.push_back({candidates[order[i]], candidates[order[first]]});
+        else
+            first = i;
+    std::ranges::sort(repeated, {}, &RepeatedFace::face);
     return repeated;
 }
 
@@ -260,7 +238,7 @@ MeshInspection inspect(const PolygonMesh& mesh, const Topology& topology, const 
     for (const Spike& spike : find_spikes(mesh, mesh.vertices, exec))
         found.defects.spikes.push_back(spike.vertex);
     found.defects.faces_without_area = select(exec, mesh.n_faces(), [&](Index f) { return lacks_area(mesh, f); });
-    found.defects.coincident_vertices = coincident_vertices(mesh.vertices);
+    found.defects.coincident_vertices = coincident_vertices(mesh.vertices, exec);
     return found;
 }
 

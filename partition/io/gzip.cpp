@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <limits>
+#include <memory>
 #include <new>
 #include <vector>
 
@@ -22,20 +23,7 @@ constexpr std::size_t plausible_ratio = 250;
 constexpr std::size_t always_plausible = std::size_t{1} << 26;
 
 /// The state of zlib, freed on destruction.
-class Inflation {
-  public:
-    Inflation()
-    {
-        constexpr int gzip_format = 16;
-        if (::inflateInit2(&stream, MAX_WBITS + gzip_format) != Z_OK)
-            throw std::bad_alloc();
-    }
-    Inflation(const Inflation&) = delete;
-    Inflation& operator=(const Inflation&) = delete;
-    ~Inflation() { ::inflateEnd(&stream); }
-
-    z_stream stream = {};
-};
+using OpenStream = std::unique_ptr<z_stream, int (*)(z_streamp)>;
 
 [[noreturn]] void refuse(const std::filesystem::path& path, const std::string& complaint)
 {
@@ -47,8 +35,11 @@ class Inflation {
 std::size_t unpack_member(const std::filesystem::path& path, std::string_view packed,
                           const std::function<void(std::string_view piece)>& take)
 {
-    Inflation inflation;
-    z_stream& stream = inflation.stream;
+    constexpr int gzip_format = 16;
+    z_stream stream = {};
+    if (::inflateInit2(&stream, MAX_WBITS + gzip_format) != Z_OK)
+        throw std::bad_alloc();
+    const OpenStream open(&stream, ::inflateEnd);
     std::vector<char> piece(std::size_t{1} << 18);
     std::size_t n_fed = 0;
     for (int status = Z_OK; status != Z_STREAM_END;) {
@@ -108,16 +99,12 @@ PackedPiece pack_piece(std::string_view bytes)
     z_stream stream = {};
     if (::deflateInit2(&stream, level, Z_DEFLATED, without_header, memory, Z_DEFAULT_STRATEGY) != Z_OK)
         throw std::bad_alloc();
+    const OpenStream open(&stream, ::deflateEnd);
     PackedPiece piece{.bytes = {}, .checksum = 0, .size = bytes.size()};
     piece.checksum =
         static_cast<std::uint32_t>(::crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
-    try {
-        // A flush takes at most 6 bytes.
-        piece.bytes.resize(::deflateBound(&stream, bytes.size()) + 6);
-    } catch (...) {
-        ::deflateEnd(&stream);
-        throw;
-    }
+    // A flush takes at most 6 bytes.
+    piece.bytes.resize(::deflateBound(&stream, bytes.size()) + 6);
     stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
     stream.avail_in = static_cast<uInt>(bytes.size());
     stream.next_out = reinterpret_cast<Bytef*>(piece.bytes.data());
@@ -125,7 +112,6 @@ PackedPiece pack_piece(std::string_view bytes)
     // Flushed to whole bytes, and without an end: other pieces follow.
     ::deflate(&stream, Z_FULL_FLUSH);
     piece.bytes.resize(piece.bytes.size() - stream.avail_out);
-    ::deflateEnd(&stream);
     return piece;
 }
 

@@ -41,43 +41,6 @@ void require_regular(const std::filesystem::path& path)
         throw InputError(path.string() + ": the file is empty; export the mesh again");
 }
 
-/// An unnamed file in memory.
-class MemoryFile {
-  public:
-    /// @param path for messages only.
-    explicit MemoryFile(const std::filesystem::path& path)
-        : path_(path)
-        , descriptor_(::memfd_create("mesh", MFD_CLOEXEC))
-    {
-        if (descriptor_ < 0)
-            fail(path, errno);
-    }
-    MemoryFile(const MemoryFile&) = delete;
-    MemoryFile& operator=(const MemoryFile&) = delete;
-    ~MemoryFile()
-    {
-        if (descriptor_ >= 0)
-            ::close(descriptor_);
-    }
-
-    void append(std::string_view bytes)
-    {
-        while (!bytes.empty()) {
-            const ssize_t n = ::write(descriptor_, bytes.data(), bytes.size());
-            if (n < 0 && errno != EINTR)
-                fail(path_, errno);
-            bytes.remove_prefix(n > 0 ? static_cast<std::size_t>(n) : 0);
-        }
-    }
-
-    /// The descriptor, which the caller then owns.
-    [[nodiscard]] int release() { return std::exchange(descriptor_, -1); }
-
-  private:
-    const std::filesystem::path& path_;
-    int descriptor_;
-};
-
 /// @returns the number of bytes read; 0 at the end.
 std::size_t read_some(const std::filesystem::path& path, int descriptor, std::span<char> bytes)
 {
@@ -123,31 +86,45 @@ OpenFile::OpenFile(const std::filesystem::path& path, int descriptor)
 
 OpenFile OpenFile::in_memory(const std::filesystem::path& path, std::span<const std::string_view> pieces)
 {
-    MemoryFile file(path);
+    const int descriptor = ::memfd_create("mesh", MFD_CLOEXEC);
+    if (descriptor < 0)
+        fail(path, errno);
+    OpenFile file(path, descriptor);
     for (const std::string_view piece : pieces)
         file.append(piece);
-    return {path, file.release()};
+    return file;
+}
+
+void OpenFile::append(std::string_view bytes)
+{
+    while (!bytes.empty()) {
+        const ssize_t n = ::write(descriptor_, bytes.data(), bytes.size());
+        if (n < 0 && errno != EINTR)
+            fail(path_, errno);
+        bytes.remove_prefix(n > 0 ? static_cast<std::size_t>(n) : 0);
+    }
 }
 
 /// Reads a stream into memory.
 void OpenFile::collect()
 {
-    MemoryFile collected(path_);
+    OpenFile collected = in_memory(path_, {});
     std::vector<char> piece(std::size_t{1} << 18);
     while (const std::size_t n = read_some(path_, descriptor_, piece))
         collected.append({piece.data(), n});
-    ::close(descriptor_);
-    descriptor_ = collected.release();
-    if (size() == 0)
-        throw InputError(path_.string() + ": there is nothing in it; export the mesh again");
+    take_content(collected);
 }
 
 void OpenFile::unpack()
 {
-    MemoryFile unpacked(path_);
+    OpenFile unpacked = in_memory(path_, {});
     unpack_gzip(path_, InputFile(*this).content(), [&](std::string_view piece) { unpacked.append(piece); });
-    ::close(descriptor_);
-    descriptor_ = unpacked.release();
+    take_content(unpacked);
+}
+
+void OpenFile::take_content(OpenFile& other)
+{
+    std::swap(descriptor_, other.descriptor_);
     if (size() == 0)
         throw InputError(path_.string() + ": there is nothing in it; export the mesh again");
 }

@@ -58,8 +58,10 @@ class OpenFile {
 
   private:
     OpenFile(const std::filesystem::path& path, int descriptor);
+    void append(std::string_view bytes);
     void collect();
     void unpack();
+    void take_content(OpenFile& other);
 
     std::filesystem::path path_;
     int descriptor_ = -1;

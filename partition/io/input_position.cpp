@@ -13,11 +13,11 @@ void InputPosition::fail(const std::string& complaint) const
     throw InputError(position() + ": " + complaint);
 }
 
-void InputPosition::fault_at(const std::string& place, const std::string& complaint) const
+void InputPosition::fault(const std::string& complaint) const
 {
     if (!notes_faults())
-        throw InputError(place + ": " + complaint);
-    log_->add(place + ": " + complaint);
+        fail(complaint);
+    log_->add(position() + ": " + complaint);
 }
 
 void InputPosition::harmless_fault(const std::string& complaint) const

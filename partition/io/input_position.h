@@ -21,8 +21,7 @@ class InputPosition {
 
     /// Reports a fault that does not end reading.
     /// @throws InputError as `fail` does, unless faults are noted.
-    void fault(const std::string& complaint) const { fault_at(position(), complaint); }
-    void fault_at(const std::string& place, const std::string& complaint) const;
+    void fault(const std::string& complaint) const;
     /// The same for a fault of a face or a row that leaves no doubt about the rest (see FaultLog::of_faces_alone).
     void harmless_fault(const std::string& complaint) const;
     /// Notes that a face is left out.

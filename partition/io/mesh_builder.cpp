@@ -9,12 +9,6 @@
 
 namespace seamflow {
 
-namespace {
-
-constexpr std::size_t most = std::numeric_limits<Index>::max();
-
-}  // namespace
-
 bool are_corners_of_face(std::span<const Index> corners, std::vector<Index>& sorted)
 {
     if (corners.size() < 3)
@@ -36,37 +30,19 @@ void find_distinct_corners(std::span<const Index> corners, std::vector<Index>& p
         positions.pop_back();
 }
 
-MeshBuilder::MeshBuilder(const InputPosition& position, Index first_number)
-    : position_(position)
-    , first_number_(first_number)
+void require_vertices(const InputPosition& position, std::int64_t n)
 {
+    if (n == 0)
+        position.fail("the file has no vertices; export the mesh again");
 }
 
 MeshBuilder::MeshBuilder(const InputPosition& position, Index first_number, const MeshSlice& slice)
     : position_(position)
     , first_number_(first_number)
     , n_vertices_(slice.first_vertex)
-    , vertices_(&slice.vertices)
+    , vertices_(slice.vertices)
     , mesh_(slice.faces)
 {
-}
-
-void MeshBuilder::reserve(std::uint64_t n_vertices, std::uint64_t n_faces)
-{
-    coordinates_.reserve(3 * n_vertices);
-    mesh_.face_offsets.reserve(n_faces + 1);
-    mesh_.face_vertices.reserve(3 * n_faces);
-}
-
-void MeshBuilder::add_vertex(const std::array<double, 3>& position)
-{
-    if (usize(n_vertices_) >= most)
-        position_.fail(fmt::format("more than {} vertices; divide the mesh into several files", most));
-    if (vertices_ != nullptr)
-        vertices_->row(n_vertices_) << position[0], position[1], position[2];
-    else
-        coordinates_.insert(coordinates_.end(), position.begin(), position.end());
-    ++n_vertices_;
 }
 
 Index MeshBuilder::refuse_vertex(std::int64_t index, std::int64_t n) const
@@ -108,33 +84,11 @@ void MeshBuilder::add_face(std::span<const Index> corners)
         }
         corners = distinct_;
     }
+    constexpr std::size_t most = std::numeric_limits<Index>::max();
     if (corners.size() > most - mesh_.face_vertices.size())
-        position_.fail(fmt::format("the faces have more than {} corners in total; use several ranks "
-                                   "(smooth-distributed), or divide the mesh into several files",
-                                   most));
+        position_.fail(
+            fmt::format("the faces have more than {} corners in total; divide the mesh into several files", most));
     mesh_.add_face(corners);
-}
-
-/// Those that refer to vertices that were never added.
-void MeshBuilder::leave_out_faces_without_vertices()
-{
-    const PolygonMesh all = std::exchange(mesh_, {});
-    for (Index f = 0; f < all.n_faces(); ++f) {
-        const auto corners = all.face(f);
-        if (std::all_of(corners.begin(), corners.end(), [&](Index v) { return v < n_vertices(); }))
-            mesh_.add_face(corners);
-    }
-}
-
-PolygonMesh MeshBuilder::finish()
-{
-    if (coordinates_.empty())
-        position_.fail("the file has no vertices; export the mesh again");
-    if (position_.notes_faults())
-        leave_out_faces_without_vertices();
-    mesh_.vertices = Eigen::Map<const Points>(coordinates_.data(), n_vertices(), 3);
-    coordinates_ = {};
-    return std::exchange(mesh_, {});
 }
 
 }  // namespace seamflow

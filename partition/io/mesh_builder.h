@@ -18,7 +18,11 @@ bool are_corners_of_face(std::span<const Index> corners, std::vector<Index>& sor
 /// @param positions those of `corners` that are left.
 void find_distinct_corners(std::span<const Index> corners, std::vector<Index>& positions);
 
-/// Where the elements of one slice of a file belong.
+/// Checks that a file has a vertex.
+/// @param position at its end. @param n vertices of the file.
+void require_vertices(const InputPosition& position, std::int64_t n);
+
+/// Where the elements of one slice of a file belong; the whole file may be one.
 struct MeshSlice {
     /// Those of the whole file, with room for all.
     Points& vertices;
@@ -34,28 +38,21 @@ class MeshBuilder {
   public:
     /// @param position of the reader, for messages; must outlive the builder.
     /// @param first_number the number of the first vertex in this format, for messages.
-    explicit MeshBuilder(const InputPosition& position, Index first_number = 0);
-
-    /// A builder for one slice of a file, which need not be finished.
     MeshBuilder(const InputPosition& position, Index first_number, const MeshSlice& slice);
 
     MeshBuilder(const MeshBuilder&) = delete;
     MeshBuilder& operator=(const MeshBuilder&) = delete;
 
-    /// Makes room; the caller has checked that the file is long enough for so many.
-    void reserve(std::uint64_t n_vertices, std::uint64_t n_faces);
-
-    /// @throws InputError if there are 2^31 - 1 vertices already.
-    void add_vertex(const std::array<double, 3>& position);
+    void add_vertex(const std::array<double, 3>& position)
+    {
+        vertices_.row(n_vertices_++) << position[0], position[1], position[2];
+    }
 
     /// Corners that repeat the one before them count once.
     /// @param corners vertices from 0, which need not have been added yet, or -1 for those that `vertex` refused.
     /// @throws InputError for fewer than three corners and for other repeated vertices, unless such faces are left out
     ///         (see InputPosition::harmless_fault), and for more than 2^31 - 1 corners in all.
     void add_face(std::span<const Index> corners);
-
-    /// How many there are so far, those before the slice included.
-    [[nodiscard]] Index n_vertices() const { return n_vertices_; }
 
     /// Checks that 0 <= index < n.
     /// @param n number of vertices to choose from.
@@ -66,25 +63,18 @@ class MeshBuilder {
         return index >= 0 && index < n ? static_cast<Index>(index) : refuse_vertex(index, n);
     }
 
-    /// The mesh; the builder is empty afterwards.
-    /// @throws InputError if there is no vertex.
-    PolygonMesh finish();
-
   private:
     [[nodiscard]] Index refuse_vertex(std::int64_t index, std::int64_t n) const;
     void refuse_face(std::span<const Index> corners);
-    void leave_out_faces_without_vertices();
 
     const InputPosition& position_;
     Index first_number_;
-    Index n_vertices_ = 0;
+    /// How many there are so far, those before the slice included.
+    Index n_vertices_;
     /// How many faces were read, those included that were left out.
     Index n_faces_ = 0;
-    std::vector<double> coordinates_;
-    /// Of a slice, else null: then they are collected in `coordinates_`.
-    Points* vertices_ = nullptr;
-    PolygonMesh own_;
-    PolygonMesh& mesh_ = own_;
+    Points& vertices_;
+    PolygonMesh& mesh_;
     std::vector<Index> sorted_;
     std::vector<Index> distinct_;
 };

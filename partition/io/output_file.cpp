@@ -86,7 +86,7 @@ std::filesystem::path file_behind(const std::filesystem::path& path)
     return path;
 }
 
-OutputFile::OutputFile(const std::filesystem::path& path, Naming naming)
+OutputFile::OutputFile(const std::filesystem::path& path)
     : ByteWriter(buffer_bytes)
     , path_(is_standard_stream(path) ? "standard output" : path)
     , is_stream_(is_standard_stream(path))
@@ -110,15 +110,14 @@ OutputFile::OutputFile(const std::filesystem::path& path, Naming naming)
     std::error_code ignored;
     if (std::filesystem::is_symlink(target_, ignored))
         fail(ELOOP);
-    open(naming);
+    open();
     if (replaces)
         static_cast<void>(::fchmod(descriptor_, old.st_mode & 07777U));
 }
 
-void OutputFile::open(Naming naming)
+void OutputFile::open()
 {
-    if (naming == Naming::Late)
-        descriptor_ = open_unnamed(folder_);
+    descriptor_ = open_unnamed(folder_);
     if (descriptor_ >= 0)
         return;
     do {

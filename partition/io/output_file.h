@@ -29,12 +29,9 @@ std::filesystem::path file_behind(const std::filesystem::path& path);
 /// throw OutputError if the file cannot be written.
 class OutputFile final : public ByteWriter {
   public:
-    /// When it gets a name, if a temporary one: AtOnce for files that other processes must find.
-    enum class Naming { Late, AtOnce };
-
     /// @param path `-` for standard output, which gets everything at once and irrevocably.
     /// @throws OutputError naming the file and the system's reason; also if `path` is there but no regular file.
-    explicit OutputFile(const std::filesystem::path& path, Naming naming = Naming::Late);
+    explicit OutputFile(const std::filesystem::path& path);
     OutputFile(const OutputFile&) = delete;
     OutputFile& operator=(const OutputFile&) = delete;
     ~OutputFile();
@@ -44,12 +41,6 @@ class OutputFile final : public ByteWriter {
 
     /// Whether it is standard output.
     [[nodiscard]] bool is_stream() const { return is_stream_; }
-
-    /// The temporary name, if it has one.
-    [[nodiscard]] const std::filesystem::path& temporary() const { return temporary_; }
-
-    /// Writes bytes at an offset, and nothing in between: not for packed files, nor together with sequential writing.
-    void write_at(std::string_view bytes, std::size_t offset) const { write(bytes, offset); }
 
     /// Writes n consecutive slices, each of which `make` puts into a buffer; several are made and written at a time.
     void slices(Index n, const Executor& exec, const std::function<void(Index slice, OutputBuffer& buffer)>& make);
@@ -64,7 +55,7 @@ class OutputFile final : public ByteWriter {
 
   private:
     [[noreturn]] void fail(int error) const;
-    void open(Naming naming);
+    void open();
     void give_temporary_name();
     void finish();
     void take_name();

@@ -70,6 +70,8 @@ std::vector<std::int64_t> count_lines(const TextScanner& whole, std::span<const 
 void append_faces(PolygonMesh& mesh, Index n, const Executor& exec,
                   const std::function<void(Index slice, PolygonMesh& faces)>& read)
 {
+    if (n == 1)
+        return read(0, mesh);
     // Enough that few threads wait, and few enough that they need little memory.
     constexpr Index at_once = 32;
     std::vector<PolygonMesh> parts;

@@ -52,7 +52,8 @@ std::vector<std::int64_t> count_lines(const TextScanner& whole, std::span<const 
                                       const Executor& exec);
 
 /// Reads the faces of n slices, several at a time, and appends them to those of the mesh.
-/// @param read called with a slice and an empty mesh, which gets the faces of the slice.
+/// @param read called with a slice and a mesh without faces, which gets those of the slice; with a single slice, the
+///        mesh itself.
 /// @throws InputError if there are more than 2^31 - 1 corners.
 void append_faces(PolygonMesh& mesh, Index n, const Executor& exec,
                   const std::function<void(Index slice, PolygonMesh& faces)>& read);

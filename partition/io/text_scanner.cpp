@@ -103,7 +103,7 @@ std::vector<std::string_view> TextScanner::slices(std::size_t bytes) const
 
 std::string TextScanner::position_of(std::size_t line) const
 {
-    return fmt::format("{}:{}", path_, line);
+    return line > 0 ? fmt::format("{}:{}", path_, line) : path_;
 }
 
 void TextScanner::load_line()

@@ -112,7 +112,7 @@ class TextScanner final : public InputPosition {
     /// The number of the present line, from 1.
     [[nodiscard]] std::size_t line() const { return line_; }
 
-    /// "path:line" of any line.
+    /// "path:line" of any line; 0: "path".
     [[nodiscard]] std::string position_of(std::size_t line) const;
 
   private:

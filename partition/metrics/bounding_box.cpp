@@ -1,19 +1,8 @@
 #include "partition/metrics/bounding_box.h"
 
-#include <limits>
+#include "partition/metrics/box_tree.h"
 
 namespace seamflow {
-
-namespace {
-
-/// Around nothing.
-BoundingBox empty_box()
-{
-    constexpr double farthest = std::numeric_limits<double>::infinity();
-    return {Point::Constant(farthest), Point::Constant(-farthest)};
-}
-
-}  // namespace
 
 BoundingBox box_of_faces(const PolygonMesh& mesh, const Points& positions, const Executor& exec)
 {
@@ -22,20 +11,16 @@ BoundingBox box_of_faces(const PolygonMesh& mesh, const Points& positions, const
 
 BoundingBox box_of_vertices(const Points& positions, std::span<const std::uint8_t> is_used, const Executor& exec)
 {
-    const BoundingBox box = reduce(
-        exec, static_cast<Index>(positions.rows()), empty_box(),
-        [&](BoundingBox& part, Index v) {
+    const Box box = reduce(
+        exec, static_cast<Index>(positions.rows()), Box(),
+        [&](Box& part, Index v) {
             const Point position = positions.row(v);
             if (is_used[v] == 0 || !position.allFinite())
                 return;
-            part.low = part.low.cwiseMin(position);
-            part.high = part.high.cwiseMax(position);
+            part.add(position);
         },
-        [](BoundingBox& all, const BoundingBox& part) {
-            all.low = all.low.cwiseMin(part.low);
-            all.high = all.high.cwiseMax(part.high);
-        });
-    return box.low[0] <= box.high[0] ? box : BoundingBox{};
+        [](Box& all, const Box& part) { all.add(part); });
+    return box.low[0] <= box.high[0] ? BoundingBox{box.low, box.high} : BoundingBox{};
 }
 
 BoundingBox box_of_faces(const PolygonMesh& mesh, const Executor& exec)

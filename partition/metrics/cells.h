@@ -9,7 +9,7 @@
 namespace seamflow {
 
 /// The cells that the faces of a mesh enclose: the bounded regions of space between sheets that meet, such as the
-/// bubbles of a foam, however faces are oriented (see Regions). A region with a hole in its sheets is one with what is
+/// bubbles of a foam, however faces are oriented. A region with a hole in its sheets is one with what is
 /// behind the hole, and no cell if that is the outside. What lies within a cell, touching its sheets at no edge, is a
 /// cell of its own, and counts in the volume of the one around it, too.
 struct EnclosedCells {

@@ -5,6 +5,8 @@
 #include <limits>
 #include <span>
 
+#include "partition/metrics/vertex_distance.h"
+
 namespace seamflow {
 
 namespace {
@@ -84,7 +86,7 @@ double mean_without(const std::vector<Spike>& spikes, const LengthsOfEdges& all,
 
 }  // namespace
 
-double mean_edge(const PolygonMesh& mesh, const Points& positions, const Executor& exec)
+double mean_edge_length(const PolygonMesh& mesh, const Points& positions, const Executor& exec)
 {
     const LengthsOfEdges all = add_up_edges(mesh, positions, {}, exec);
     return has_long_edges(all) ? mean_without(spikes_of(all, mesh, positions), all, mesh, positions, exec)

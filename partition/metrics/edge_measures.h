@@ -8,13 +8,9 @@
 
 namespace seamflow {
 
-/// See mean_edge_length.
-/// @param positions #V by 3.
-double mean_edge(const PolygonMesh& mesh, const Points& positions, const Executor& exec = run_serially);
-
 /// Found in one look at all edges.
 struct EdgeMeasures {
-    /// See mean_edge.
+    /// See mean_edge_length.
     double mean = 0.0;
     /// See find_spikes.
     std::vector<Spike> spikes;

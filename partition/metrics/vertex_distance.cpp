@@ -8,18 +8,12 @@
 #include <fmt/format.h>
 
 #include "partition/errors.h"
-#include "partition/metrics/edge_measures.h"
 
 namespace seamflow {
 
 double mean_edge_length(const PolygonMesh& mesh)
 {
     return mean_edge_length(mesh, mesh.vertices);
-}
-
-double mean_edge_length(const PolygonMesh& mesh, const Points& positions, const Executor& exec)
-{
-    return mean_edge(mesh, positions, exec);
 }
 
 VertexDistance vertex_distance(const PolygonMesh& mesh, const Points& reference, const Points& candidate)

@@ -19,8 +19,4 @@ MethodResult run_in_process(const std::filesystem::path& folder, const MethodTas
 /// The work of such a process: reads the task from the folder, runs the method, and writes its result there.
 void serve_method(const std::filesystem::path& folder);
 
-/// The files of such a folder. Writing throws OutputError naming the file, reading InputError.
-void write_task(const std::filesystem::path& folder, const MethodTask& task);
-MethodTask read_task(const std::filesystem::path& folder);
-
 }  // namespace seamflow

@@ -12,6 +12,7 @@
 #include "samples/benchmark/grid_cell.h"
 #include "samples/benchmark/k_harmonic.h"
 #include "samples/benchmark/whole_run.h"
+#include "samples/files/about_file.h"
 #include "samples/files/mesh_results.h"
 #include "samples/meshes/meshes.h"
 #include "solvers/laplacian/degenerate.h"
@@ -30,16 +31,10 @@ struct NamedMesh {
 
 NamedMesh read_sound_mesh(const std::filesystem::path& file, Laplacian laplacian)
 {
-    const std::string name = file.string();
-    try {
-        NamedMesh named{file.filename().string(), file, read_mesh(file).mesh};
-        require_faces(file, named.mesh.n_faces());
-        require_sound_geometry(named.mesh, make_topology(named.mesh), laplacian);
-        return named;
-    } catch (const InputError& error) {
-        const std::string message = error.what();
-        throw InputError(message.starts_with(name) ? message : name + ": " + message);
-    }
+    NamedMesh named{file.filename().string(), file, read_mesh(file).mesh};
+    require_faces(file, named.mesh.n_faces());
+    about_file(file, [&] { require_sound_geometry(named.mesh, make_topology(named.mesh), laplacian); });
+    return named;
 }
 
 /// Calls visit(mesh) for each mesh of a command: of all sizes and kinds, and read.

@@ -17,8 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array all_files{"task.json",  "result.json", "report.json", "input.obj", "input.ply",
-                               "output.obj", "output.off",  "output.ply",  "output.stl"};
+constexpr std::array all_files{"task",       "result",     "report.json", "input.obj", "input.ply",
+                               "output.obj", "output.off", "output.ply",  "output.stl"};
 
 /// The files to remove when the program is told to stop. A signal handler can only use text that already exists.
 struct Remains {

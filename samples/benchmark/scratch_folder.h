@@ -5,7 +5,7 @@
 namespace seamflow {
 
 /// A folder for temporary files, in which the processes of a benchmark exchange data: input.EXT and output.EXT in the
-/// format of a mesh, task.json, result.json and report.json. It is removed with this object, or when the program is
+/// format of a mesh, task, result and report.json. It is removed with this object, or when the program is
 /// stopped by SIGHUP, SIGINT or SIGTERM. Only one object at a time.
 class ScratchFolder {
   public:

@@ -163,28 +163,7 @@ CheckpointPeriod parse_checkpoint_period(std::string_view text)
                       "\" is neither a number of steps from 1 nor a time: give one with s, min or h");
 }
 
-CLI::Option* add_real(CLI::App& app, const std::string& names, double& target, const Limits& limits,
-                      const std::string& description)
-{
-    const auto parse = [limits](const std::string& text) { return parse_real(text, limits); };
-    return add_parsed(app, names, target, parse, "NUMBER", description);
-}
-
-CLI::Option* add_real(CLI::App& app, const std::string& names, std::optional<double>& target, const Limits& limits,
-                      const std::string& description)
-{
-    const auto parse = [limits](const std::string& text) { return parse_real(text, limits); };
-    return add_parsed(app, names, target, parse, "NUMBER", description);
-}
-
 namespace {
-
-auto integer_from(int least)
-{
-    return [least](const std::string& text) {
-        return static_cast<int>(parse_integer(text, least, std::numeric_limits<int>::max()));
-    };
-}
 
 /// The number of letters to insert, remove or replace to turn one word into the other (Levenshtein, 1966).
 std::size_t edits_between(std::string_view a, std::string_view b)
@@ -229,30 +208,6 @@ std::string complaint_of_surplus(const CLI::App& app)
 }
 
 }  // namespace
-
-CLI::Option* add_integer(CLI::App& app, const std::string& names, int& target, int least,
-                         const std::string& description)
-{
-    return add_parsed(app, names, target, integer_from(least), "INTEGER", description);
-}
-
-CLI::Option* add_integer(CLI::App& app, const std::string& names, std::optional<int>& target, int least,
-                         const std::string& description)
-{
-    return add_parsed(app, names, target, integer_from(least), "INTEGER", description);
-}
-
-CLI::Option* add_bytes(CLI::App& app, const std::string& names, std::optional<std::size_t>& target,
-                       const std::string& description)
-{
-    return add_parsed(app, names, target, parse_bytes, "SIZE", description);
-}
-
-CLI::Option* add_length(CLI::App& app, const std::string& names, std::optional<LengthOnMesh>& target,
-                        const std::string& description)
-{
-    return add_parsed(app, names, target, parse_length, "LENGTH", description);
-}
 
 std::optional<ExitStatus> parse_command_line(CLI::App& app, int argc, char** argv)
 {

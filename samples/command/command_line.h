@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -62,26 +63,25 @@ CLI::Option* add_parsed(CLI::App& app, const std::string& names, Target& target,
     return app.add_option_function<std::string>(names, store, description)->type_name(type);
 }
 
-/// Adds an option that takes one number and stores it in `target`.
-CLI::Option* add_real(CLI::App& app, const std::string& names, double& target, const Limits& limits,
-                      const std::string& description);
-CLI::Option* add_real(CLI::App& app, const std::string& names, std::optional<double>& target, const Limits& limits,
-                      const std::string& description);
+/// Adds an option that takes one number and stores it in `target`, a double that may be empty.
+template <class Target>
+CLI::Option* add_real(CLI::App& app, const std::string& names, Target& target, const Limits& limits,
+                      const std::string& description)
+{
+    const auto parse = [limits](const std::string& text) { return parse_real(text, limits); };
+    return add_parsed(app, names, target, parse, "NUMBER", description);
+}
 
 /// As above, for a whole number from `least` to the largest that fits the target.
-CLI::Option* add_integer(CLI::App& app, const std::string& names, int& target, int least,
-                         const std::string& description);
-
-CLI::Option* add_integer(CLI::App& app, const std::string& names, std::optional<int>& target, int least,
-                         const std::string& description);
-
-/// As above, for a number of bytes (see parse_bytes).
-CLI::Option* add_bytes(CLI::App& app, const std::string& names, std::optional<std::size_t>& target,
-                       const std::string& description);
-
-/// As above, for a length on a mesh (see parse_length).
-CLI::Option* add_length(CLI::App& app, const std::string& names, std::optional<LengthOnMesh>& target,
-                        const std::string& description);
+template <class Target>
+CLI::Option* add_integer(CLI::App& app, const std::string& names, Target& target, int least,
+                         const std::string& description)
+{
+    const auto parse = [least](const std::string& text) {
+        return static_cast<int>(parse_integer(text, least, std::numeric_limits<int>::max()));
+    };
+    return add_parsed(app, names, target, parse, "INTEGER", description);
+}
 
 /// Adds an option that takes one of several words and stores what the word stands for in `target`.
 template <class Value>

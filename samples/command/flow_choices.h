@@ -44,9 +44,9 @@ CLI::Option* add_value(CLI::App& app, const OptionTraits& of, Value& value)
     else if constexpr (std::is_same_v<Value, std::vector<std::string>>)
         return app.add_option(name, value, text)->delimiter(',')->type_name("NAME,…");
     else if constexpr (std::is_same_v<Value, std::optional<std::size_t>>)
-        return add_bytes(app, name, value, text);
+        return add_parsed(app, name, value, parse_bytes, "SIZE", text);
     else if constexpr (std::is_same_v<Value, std::optional<LengthOnMesh>>)
-        return add_length(app, name, value, text);
+        return add_parsed(app, name, value, parse_length, "LENGTH", text);
     else if constexpr (std::is_same_v<Value, int> || std::is_same_v<Value, std::optional<int>>)
         return add_integer(app, name, value, static_cast<int>(of.limits.least), text);
     else

@@ -164,11 +164,4 @@ SmoothCommand parse_flow_options(const std::vector<std::string>& words)
     return command;
 }
 
-int steps_failed(const SmoothCommand& command, const ConvergenceReport& report)
-{
-    if (!command.options.accuracy.tolerance)
-        return 0;
-    return command.limits_iterations ? report.steps_stagnated : report.steps_short_of_tolerance;
-}
-
 }  // namespace seamflow

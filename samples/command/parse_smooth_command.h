@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "engine/measure/flow_report.h"
 #include "samples/command/smooth_command.h"
 #include "samples/process/exit_status.h"
 
@@ -48,9 +47,5 @@ std::vector<FlowOptionText> flow_options();
 /// @param words as on a command line: "--radius=1%", "--plain".
 /// @throws OptionError, also for errors that parse_smooth_command reports on standard error.
 SmoothCommand parse_flow_options(const std::vector<std::string>& words);
-
-/// The number of steps that failed because they missed the tolerance: all that missed it, or, if the user has limited
-/// the iterations, those that stagnated. 0 if the user has requested no tolerance.
-int steps_failed(const SmoothCommand& command, const ConvergenceReport& report);
 
 }  // namespace seamflow

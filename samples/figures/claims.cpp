@@ -24,12 +24,6 @@ constexpr std::string_view undecomposed_name = "undecomposed";
 
 using Laplacians = std::vector<Laplacian>;
 
-/// Shorter than std::to_string: "0.1", "10".
-std::string written(double limit)
-{
-    return csv_number(limit);
-}
-
 /// Makes the claims of one figure.
 class Claims {
   public:
@@ -66,7 +60,7 @@ class Claims {
                      double limit)
     {
         const auto values = last_step(table_, laplacians, conditions, what);
-        add(text + " ≤ " + written(limit), values, at_most(values, limit));
+        add(text + " ≤ " + csv_number(limit), values, at_most(values, limit));
     }
 
     void add_close(const std::string& text, const Laplacians& laplacians, std::string_view conditions)
@@ -82,7 +76,7 @@ class Claims {
         const double drag = quantity(table_, fujiwara_laplacian, conditions, table_.steps, drift);
         const bool holds = at_most(values, drag / limits_.drags);
         values.insert(values.begin(), {symbol_of(fujiwara_laplacian), drag});
-        add("Δ_F shifts vertices tangentially" + where + ": drift of Δ_F ≥ " + written(limits_.drags) +
+        add("Δ_F shifts vertices tangentially" + where + ": drift of Δ_F ≥ " + csv_number(limits_.drags) +
                 " times that of the others",
             values, holds);
     }
@@ -100,7 +94,7 @@ class Claims {
                 break;
             }
         add(symbol_of(laplacian) + " flows into a spiky mesh without decomposition, too: roughness > " +
-                written(limits_.spiky) + "° and > that of the input",
+                csv_number(limits_.spiky) + "° and > that of the input",
             values, holds);
     }
 
@@ -111,7 +105,7 @@ class Claims {
         auto values = last_step(table_, laplacians, conditions, rough);
         const bool holds = at_most(values, times * table_.roughness.rms);
         values.push_back({"input", table_.roughness.rms});
-        add(text + ": roughness ≤ " + (times == 1.0 ? "" : written(times) + " times ") + "that of the input", values,
+        add(text + ": roughness ≤ " + (times == 1.0 ? "" : csv_number(times) + " times ") + "that of the input", values,
             holds);
     }
 
@@ -121,7 +115,7 @@ class Claims {
         auto values = last_step(table_, {laplacian}, undecomposed_name, rough);
         const bool holds = values[0].value > limits_.artifacts * table_.roughness.rms;
         values.push_back({"input", table_.roughness.rms});
-        add(text + ": roughness > " + written(limits_.artifacts) + " times that of the input", values, holds);
+        add(text + ": roughness > " + csv_number(limits_.artifacts) + " times that of the input", values, holds);
     }
 
     /// Explains why a claim does not hold, if it does not, and no reason is known yet.
@@ -238,7 +232,7 @@ void Claims::wavy_cylinder()
         const std::vector<Measured> values{{"Schwarz", quantity(table_, laplacian, schwarz_name, table_.steps, v_mean)},
                                            {"Robin", quantity(table_, laplacian, robin_name, table_.steps, v_mean)}};
         add("Schwarz delays the interface, adapted Robin does not, with " + symbol_of(laplacian) +
-                ": V_mean of Schwarz ≥ " + written(times) + " times that of Robin",
+                ": V_mean of Schwarz ≥ " + csv_number(times) + " times that of Robin",
             values, values[0].value >= times * values[1].value);
     }
     add_at_most("adapted Robin works well: V_mean", {fujiwara_laplacian, velho_laplacian}, robin_name, v_mean,
@@ -333,9 +327,10 @@ std::vector<Claim> claims_of_many(const std::vector<Table>& tables, const ClaimL
                                             {"roughness of the undecomposed flow", roughness},
                                             {"of the input", table.roughness.rms}}));
         }
-    return {counted("not in the paper: the library's defaults keep as close as the plain method or closer, by V_mean",
-                    closer, all, not_closer),
-            counted("not in the paper: they keep V_mean ≤ " + written(limits.close_vertices), close, all, not_close)};
+    return {
+        counted("not in the paper: the library's defaults keep as close as the plain method or closer, by V_mean",
+                closer, all, not_closer),
+        counted("not in the paper: they keep V_mean ≤ " + csv_number(limits.close_vertices), close, all, not_close)};
 }
 
 void write_claims(const std::filesystem::path& path, const std::vector<Claim>& claims)

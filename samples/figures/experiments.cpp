@@ -2,8 +2,9 @@
 
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <limits>
+
+#include <fmt/format.h>
 
 #include "engine/options/option_names.h"
 #include "samples/figures/measured.h"
@@ -220,30 +221,16 @@ void cut_in_two(FlowOptions& options, const FigureMesh& mesh)
     options.interface.correction = Correction::None;
 }
 
-/// As many digits as distinguish it from any other number.
-std::string exact(double value)
-{
-    for (int digits = 1; digits < 17; ++digits) {
-        char text[32];
-        std::snprintf(text, sizeof text, "%.*g", digits, value);
-        if (std::strtod(text, nullptr) == value)
-            return text;
-    }
-    char text[32];
-    std::snprintf(text, sizeof text, "%.17g", value);
-    return text;
-}
-
 /// The command line of a flow of the paper, relative to --plain.
 std::string plain_arguments(const FlowOptions& options)
 {
     std::string text = " --plain";
     if (options.interface.conditions != robin)
-        text.append(" --conditions ").append(option_name(options.interface.conditions));
+        text += fmt::format(" --conditions {}", option_name(options.interface.conditions));
     if (options.interface.p)
-        text += " --p " + exact(*options.interface.p);
+        text += fmt::format(" --p {}", *options.interface.p);
     if (options.interface.q)
-        text += " --q " + exact(*options.interface.q);
+        text += fmt::format(" --q {}", *options.interface.q);
     if (options.interface.colouring == Colouring::Label)
         text += " --coloring label";
     if (options.interface.correction == Correction::None)
@@ -302,15 +289,11 @@ FlowOptions options_of(const Experiment& experiment, const Variant& variant, con
 std::string command_of(const Experiment& experiment, const Variant& variant, const FigureMesh& mesh)
 {
     const FlowOptions options = options_of(experiment, variant, mesh);
-    const std::string name(experiment.name);
-    std::string text = "smooth " + name + "-input.ply out.ply --laplacian ";
-    text.append(name_of(options.laplacian)).append(" --time-step ").append(exact(options.time_step));
-    text.append(" --steps ").append(std::to_string(options.steps));
-    text += variant.cut == CutKind::Halves ? " --labels " + name + "-cut.txt"
-                                           : " --subdomains " + std::to_string(options.cut.subdomains);
-    if (variant.settings == Settings::Plain)
-        text += plain_arguments(options);
-    return text;
+    const std::string cut = variant.cut == CutKind::Halves ? fmt::format("--labels {}-cut.txt", experiment.name)
+                                                           : fmt::format("--subdomains {}", options.cut.subdomains);
+    return fmt::format("smooth {}-input.ply out.ply --laplacian {} --time-step {} --steps {} {}{}", experiment.name,
+                       name_of(options.laplacian), options.time_step, options.steps, cut,
+                       variant.settings == Settings::Plain ? plain_arguments(options) : "");
 }
 
 }  // namespace seamflow

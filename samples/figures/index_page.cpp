@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+
+#include <fmt/format.h>
 
 #include "samples/figures/curves.h"
 #include "samples/figures/measured.h"
@@ -67,11 +68,7 @@ shown here.</p>
 /// A number with three digits; a dash for NaN.
 std::string short_number(double value)
 {
-    if (std::isnan(value))
-        return "–";
-    char text[32];
-    std::snprintf(text, sizeof text, "%.3g", value);
-    return text;
+    return std::isnan(value) ? "–" : fmt::format("{:.3g}", value);
 }
 
 std::string text_cell(std::string_view text)

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+
+#include <fmt/format.h>
 
 namespace seamflow {
 
@@ -35,11 +36,9 @@ std::vector<Measured> last_step(const Table& table, const std::vector<Laplacian>
 std::string listed(const std::vector<Measured>& values)
 {
     std::string text;
-    for (const Measured& one : values) {
-        char number[64];
-        std::snprintf(number, sizeof number, std::isnan(one.value) ? "none" : "%.3g", one.value);
-        text += (text.empty() ? "" : ", ") + one.name + " " + number;
-    }
+    for (const Measured& one : values)
+        text += fmt::format("{}{} {}", text.empty() ? "" : ", ", one.name,
+                            std::isnan(one.value) ? "none" : fmt::format("{:.3g}", one.value));
     return text;
 }
 

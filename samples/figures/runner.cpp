@@ -2,10 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
+#include <memory>
 #include <optional>
 #include <ostream>
+#include <sstream>
 #include <utility>
+
+#include <fmt/format.h>
 
 #include "engine/mean_curvature_flow.h"
 #include "engine/measure/displacement_meter.h"
@@ -15,8 +20,10 @@
 #include "partition/metrics/surface_distance.h"
 #include "partition/metrics/vertex_distance.h"
 #include "samples/figures/experiments.h"
-#include "samples/figures/figure_page.h"
 #include "samples/figures/pictures.h"
+#include "samples/files/output_files.h"
+#include "samples/page/page_html.h"
+#include "samples/report/report_json.h"
 
 namespace seamflow {
 
@@ -49,7 +56,7 @@ class Run {
         if (!places_.out.empty())
             pictures_.emplace(experiment, places_.out, input_);
         if (!places_.page.empty())
-            page_.emplace(input_);
+            page_mesh_ = std::make_shared<const PageMesh>(input_.mesh);
     }
 
     Table all()
@@ -59,8 +66,10 @@ class Run {
             flow(variant);
         if (pictures_)
             pictures_->write_inputs(leading_);
-        if (page_)
-            page_->write(places_.page, experiment_);
+        if (!page_flows_.empty())
+            write_text(places_.page, page_html(fmt::format("Figure {}: {} ({})", experiment_.figure,
+                                                           experiment_.heading, input_.name),
+                                               page_flows_));
         return std::move(table_);
     }
 
@@ -76,9 +85,9 @@ class Run {
             const auto steps = usize(run.experiment_.steps);
             if (variant.cut != CutKind::Uncut && reference != run.reference_.end() && reference->second.size() == steps)
                 undecomposed_ = &reference->second;
-            if (run.page_)
-                flow_ = run.page_->begin(words_of(variant), variant.laplacian, run.experiment_.steps,
-                                         undecomposed_ != nullptr);
+            if (run.page_mesh_)
+                flow_.emplace(run.page_mesh_, words_of(variant), variant.laplacian, run.experiment_.steps,
+                              undecomposed_ != nullptr);
         }
 
         void add_step(const StepState& state)
@@ -97,7 +106,16 @@ class Run {
                 return;
             for (std::size_t k = 0; k < distances_.size(); ++k)
                 report.steps[k].distance = distances_[k];
-            run_.page_->add(std::move(*flow_), report, command_of(run_.experiment_, variant_, run_.input_));
+            std::istringstream words(command_of(run_.experiment_, variant_, run_.input_));
+            std::string program;
+            words >> program;
+            const RunRecord record{.input = run_.input_.name,
+                                   .output = flow_->name(),
+                                   .arguments = {std::istream_iterator<std::string>(words), {}},
+                                   .scale = measure_scale(run_.input_.mesh)};
+            flow_->finish(report,
+                          smooth_report_json(record, options_of(run_.experiment_, variant_, run_.input_), report));
+            run_.page_flows_.push_back(std::move(*flow_));
         }
 
       private:
@@ -159,9 +177,6 @@ class Run {
     Row measured(const Variant& variant, const StepState& state, double drift) const
     {
         Row row;
-        row.figure = table_.figure;
-        row.mesh = table_.mesh;
-        row.vertices = input_.mesh.n_vertices();
         row.laplacian = variant.laplacian;
         row.conditions = conditions_of(variant);
         row.settings = name_of(variant.settings);
@@ -254,7 +269,9 @@ class Run {
     /// The half that solves first.
     Index leading_ = 0;
     std::optional<Pictures> pictures_;
-    std::optional<FigurePage> page_;
+    /// For the page with all flows, if there is one.
+    std::shared_ptr<const PageMesh> page_mesh_;
+    std::vector<PageFlow> page_flows_;
 };
 
 }  // namespace

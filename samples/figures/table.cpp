@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+
+#include <fmt/format.h>
 
 #include "samples/files/output_files.h"
 
@@ -14,23 +15,19 @@ constexpr std::string_view header = "figure,mesh,vertices,laplacian,conditions,s
                                     "h_mean,h_rms,h_max,seconds,options,drift_mean,roughness,roughness_95,"
                                     "interface_length,dt,p,q,cut,command\n";
 
-void append_lengths(std::string& text, const LengthStatistics& lengths)
+std::string text_of(const LengthStatistics& lengths)
 {
-    for (const double length : {lengths.mean, lengths.rms, lengths.max})
-        text += csv_number(length) + ",";
+    return fmt::format("{},{},{}", csv_number(lengths.mean), csv_number(lengths.rms), csv_number(lengths.max));
 }
 
-void append_row(std::string& text, const Row& row, double time_step)
+std::string text_of(const Table& table, const Row& row)
 {
-    text += csv_text(row.figure) + "," + csv_text(row.mesh) + "," + std::to_string(row.vertices) + ",";
-    text += std::string(name_of(row.laplacian)) + "," + row.conditions + "," + std::to_string(row.subdomains) + ",";
-    text += std::to_string(row.step) + ",";
-    append_lengths(text, row.v);
-    append_lengths(text, row.h);
-    text += csv_number(row.seconds) + "," + row.settings + "," + csv_number(row.drift) + ",";
-    text += csv_number(row.roughness.rms) + "," + csv_number(row.roughness.percentile_95) + ",";
-    text += csv_number(row.interface_length) + "," + csv_number(time_step) + "," + row.p + "," + row.q + ",";
-    text += csv_text(row.cut) + "," + csv_text(row.command) + "\n";
+    return fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", csv_text(table.figure),
+                       csv_text(table.mesh), table.vertices, name_of(row.laplacian), row.conditions, row.subdomains,
+                       row.step, text_of(row.v), text_of(row.h), csv_number(row.seconds), row.settings,
+                       csv_number(row.drift), csv_number(row.roughness.rms), csv_number(row.roughness.percentile_95),
+                       csv_number(row.interface_length), csv_number(table.time_step), row.p, row.q, csv_text(row.cut),
+                       csv_text(row.command));
 }
 
 }  // namespace
@@ -67,17 +64,13 @@ void write_csv(const std::filesystem::path& path, const std::vector<Table>& tabl
     std::string text(header);
     for (const Table& table : tables)
         for (const Row& row : table.rows)
-            append_row(text, row, table.time_step);
+            text += text_of(table, row);
     write_text(path, text);
 }
 
 std::string csv_number(double value)
 {
-    if (std::isnan(value))
-        return "nan";
-    char text[64];
-    std::snprintf(text, sizeof text, "%.6g", value);
-    return text;
+    return std::isnan(value) ? "nan" : fmt::format("{:.6g}", value);
 }
 
 std::string csv_text(std::string_view text)

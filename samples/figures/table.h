@@ -16,10 +16,6 @@ namespace seamflow {
 /// The state of one flow after one step. Lengths are in mean edge lengths of the undecomposed flow's mesh after the
 /// same step, as in the paper.
 struct Row {
-    std::string figure;
-    /// File name, or "generated".
-    std::string mesh;
-    Index vertices = 0;
     Laplacian laplacian = Laplacian::Fujiwara;
     /// See conditions_of.
     std::string conditions;
@@ -57,6 +53,7 @@ struct Row {
 /// The results of one experiment.
 struct Table {
     std::string figure;
+    /// File name, or "generated".
     std::string mesh;
     Index vertices = 0;
     /// Whether it is the authors' own (see FigureMesh::is_theirs).

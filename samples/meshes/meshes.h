@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "partition/polygon_mesh.h"
@@ -123,7 +124,7 @@ PolygonMesh make_chamfered_plate(Index vertices, const MachinePartShape& shape =
 
 /// A kind of mesh by its name.
 struct MeshKind {
-    std::string_view name;
+    std::string name;
     std::string_view description;
     /// Whether it has sheets that meet, between cells with labels; these are neither manifold nor oriented alike, have
     /// at least fewest_vertices_of_labels and no amplitude, and their time grows with the 1.5th power of the vertices.

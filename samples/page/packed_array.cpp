@@ -7,6 +7,8 @@
 
 #include <zlib.h>
 
+#include "partition/formats/gltf_text.h"
+
 namespace seamflow {
 
 namespace {
@@ -36,23 +38,6 @@ std::vector<std::uint8_t> planes_of_differences(std::span<const Number> numbers,
 
 }  // namespace
 
-std::string base64(std::span<const std::uint8_t> bytes)
-{
-    constexpr const char* digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string text((bytes.size() + 2) / 3 * 4, '=');
-    std::size_t out = 0;
-    for (std::size_t i = 0; i < bytes.size(); i += 3) {
-        const std::size_t n = std::min<std::size_t>(3, bytes.size() - i);
-        std::uint32_t group = 0;
-        for (std::size_t k = 0; k < 3; ++k)
-            group = group << 8 | (k < n ? bytes[i + k] : 0U);
-        for (std::size_t k = 0; k <= n; ++k)
-            text[out + k] = digits[group >> (18 - 6 * k) & 63U];
-        out += 4;
-    }
-    return text;
-}
-
 std::string packed(std::span<const std::uint8_t> bytes)
 {
     uLongf size = compressBound(bytes.size());
@@ -60,7 +45,9 @@ std::string packed(std::span<const std::uint8_t> bytes)
     // With enough room, the only way to fail.
     if (compress2(stream.data(), &size, bytes.data(), bytes.size(), Z_DEFAULT_COMPRESSION) != Z_OK)
         throw std::bad_alloc();
-    return base64(std::span(stream).first(size));
+    std::string text;
+    append_base64({reinterpret_cast<const char*>(stream.data()), size}, text);
+    return text;
 }
 
 std::string packed(std::span<const std::uint16_t> numbers, std::size_t columns)

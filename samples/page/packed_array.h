@@ -19,7 +19,4 @@ std::string packed(std::span<const std::uint32_t> numbers, std::size_t columns);
 /// Unchanged bytes as a zlib stream in base64.
 std::string packed(std::span<const std::uint8_t> bytes);
 
-/// Unchanged bytes in base64 (RFC 4648).
-std::string base64(std::span<const std::uint8_t> bytes);
-
 }  // namespace seamflow

@@ -1,15 +1,13 @@
 #include "samples/page/texture_images.h"
 
 #include <algorithm>
-#include <cstdint>
-#include <span>
 #include <system_error>
 
 #include <fmt/format.h>
 
 #include "partition/errors.h"
+#include "partition/formats/gltf_text.h"
 #include "partition/io/input_file.h"
-#include "samples/page/packed_array.h"
 
 namespace seamflow {
 
@@ -77,9 +75,7 @@ std::string TextureImages::read(const std::string& name)
             return {};
         }
         bytes_ += bytes.size();
-        const std::span<const char> letters(bytes.data(), bytes.size());
-        const std::vector<std::uint8_t> numbers(letters.begin(), letters.end());
-        return fmt::format("data:{};base64,{}", type, base64(numbers));
+        return gltf_data(fmt::format("data:{};base64", type), bytes);
     } catch (const InputError& error) {
         remarks_.push_back(fmt::format("The page lacks a texture: {}.", error.what()));
         return {};

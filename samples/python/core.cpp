@@ -191,44 +191,28 @@ py::list options()
     return list;
 }
 
-/// What diffuse() has besides the options of the program.
-struct FieldWords {
-    /// A number or a percentage; empty: another amount is among the options.
-    std::string fwhm;
-    /// 0: all diffuse alike.
-    double keep_edges = 0.0;
-    bool fill = false;
-    bool is_free = true;
-};
+/// What diffuse() has besides the options of the program: a width, a number or a percentage, which is empty if another
+/// amount is among the options; the differences above which fields keep their edges, 0 where all diffuse alike; whether
+/// to fill gaps; and whether the boundary is free.
+using FieldWords = std::tuple<std::string, double, bool, bool>;
 
-struct FieldArrays {
-    std::vector<Index> fixed;
-    /// #F, or empty.
-    std::vector<Index> labels;
-};
-
-/// @param fields #V by n, which receives the result.
-FieldReport diffuse_fields(PolygonMesh mesh, std::vector<std::string> words, const FieldArrays& arrays,
-                           const FieldWords& of_fields, Eigen::MatrixXd& fields, const FlowControl& control)
+/// @param command with labels and fixed vertices. @param fields #V by n, which receives the result.
+FieldReport diffuse_fields(const PolygonMesh& mesh, SmoothCommand command, const FieldWords& of_fields,
+                           Eigen::MatrixXd& fields, const FlowControl& control)
 {
-    // So that no preset chooses an amount.
-    if (!of_fields.fwhm.empty())
-        words.emplace_back("--time-step=1");
-    SmoothCommand command = parse_flow_options(words);
+    const auto& [fwhm, keep_edges, fill, is_free] = of_fields;
     command.fields.names = {"fields"};
-    if (!of_fields.fwhm.empty())
-        command.fields.fwhm = parse_length(of_fields.fwhm);
-    command.options.motion.fixed_vertices = arrays.fixed;
-    command.options.cut.labels = arrays.labels;
+    if (!fwhm.empty())
+        command.fields.fwhm = parse_length(fwhm);
     RunRecord record = begin_record(command);
     require_valid(mesh);
     resolve_field_amount(command, mesh, run_serially, record);
     FieldOptions options = command.fields.options;
-    if (of_fields.keep_edges != 0.0)
-        options.keep_edges = of_fields.keep_edges;
+    if (keep_edges != 0.0)
+        options.keep_edges = keep_edges;
     options.laplacian = command.options.laplacian;
-    options.fill = of_fields.fill;
-    options.boundary = of_fields.is_free ? Boundary::Free : Boundary::Fixed;
+    options.fill = fill;
+    options.boundary = is_free ? Boundary::Free : Boundary::Fixed;
     if (options.fwhm)
         command.options.time_step = 0.0;
     return diffuse(mesh, fields, command.options, options, control);
@@ -236,20 +220,22 @@ FieldReport diffuse_fields(PolygonMesh mesh, std::vector<std::string> words, con
 
 template <class Integer>
 py::tuple diffuse_arrays(const Array<double>& positions, const Array<Integer>& corners,
-                         const Array<std::int64_t>& offsets, const std::vector<std::string>& words,
-                         const Array<Index>& fixed, const Array<Index>& labels, const Array<double>& fields,
-                         const std::tuple<std::string, double, bool, bool>& of_fields)
+                         const Array<std::int64_t>& offsets, std::vector<std::string> words, const Array<Index>& fixed,
+                         const Array<Index>& labels, const Array<double>& fields, const FieldWords& of_fields)
 {
     using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-    PolygonMesh mesh = make_mesh(positions, corners, offsets);
+    const PolygonMesh mesh = make_mesh(positions, corners, offsets);
     Eigen::MatrixXd values;
     resize_large(values, fields.shape(0), fields.shape(1));
     values = Eigen::Map<const Rows>(fields.data(), fields.shape(0), fields.shape(1));
-    const auto& [fwhm, keep_edges, fill, is_free] = of_fields;
-    const FieldWords field_words{fwhm, keep_edges, fill, is_free};
-    const FieldArrays arrays{to_vector(fixed), to_vector(labels)};
+    // So that no preset chooses an amount.
+    if (!std::get<0>(of_fields).empty())
+        words.emplace_back("--time-step=1");
+    SmoothCommand command = parse_flow_options(words);
+    command.options.motion.fixed_vertices = to_vector(fixed);
+    command.options.cut.labels = to_vector(labels);
     const auto work = [&](const FlowControl& control) {
-        return diffuse_fields(std::move(mesh), words, arrays, field_words, values, control);
+        return diffuse_fields(mesh, std::move(command), of_fields, values, control);
     };
     const FieldReport report = run_interruptibly(work, py::none());
     py::array_t<double> result({fields.shape(0), fields.shape(1)});
@@ -288,30 +274,25 @@ void define_fields(py::module_& module, py::class_<Geodesics>& geodesics)
                   py::arg("offsets").noconvert(), py::arg("threads"));
 }
 
-std::vector<Index> vertices_of(const Array<Index>& vertices)
-{
-    return {vertices.data(), vertices.data() + vertices.size()};
-}
-
 void define_changes(py::class_<FlowCall>& flow)
 {
     using Vertices = Array<Index>;
     flow.def("hold",
              [](FlowCall& call, const Vertices& vertices, bool is_held) {
-                 const std::vector<Index> list = vertices_of(vertices);
+                 const std::vector<Index> list = to_vector(vertices);
                  const py::gil_scoped_release release;
                  call.change([&](Flow& of_call) { is_held ? of_call.hold(list) : of_call.release(list); });
              })
         .def("move",
              [](FlowCall& call, const Vertices& vertices, const Array<double>& to) {
-                 const std::vector<Index> list = vertices_of(vertices);
+                 const std::vector<Index> list = to_vector(vertices);
                  const Points positions = Eigen::Map<const Points>(to.data(), to.shape(0), 3);
                  const py::gil_scoped_release release;
                  call.change([&](Flow& of_call) { of_call.move(list, positions); });
              })
         .def("attach", [](FlowCall& call, const Vertices& vertices, const Array<double>& weights) {
-            const std::vector<Index> list = vertices_of(vertices);
-            const std::vector<double> of_list(weights.data(), weights.data() + weights.size());
+            const std::vector<Index> list = to_vector(vertices);
+            const std::vector<double> of_list = to_vector(weights);
             const py::gil_scoped_release release;
             call.change([&](Flow& of_call) { of_call.attach(list, of_list); });
         });

@@ -70,7 +70,7 @@ FlowResult FlowCall::result()
     record_.seconds = watch_.seconds();
     FlowResult result{.positions = mesh_.vertices,
                       .labels = {},
-                      .report = smooth_report_json(record_, report),
+                      .report = smooth_report_json(record_, command_.options, report),
                       .missed = missed_tolerance(command_, report.convergence)};
     result.labels = std::move(report.cut.labels);
     return result;

@@ -62,35 +62,23 @@ void FieldRange::add(const FieldRange& other)
     n += other.n;
 }
 
-void FieldRange::add(double value)
-{
-    add({value, value, value, std::ldexp(value, -exponent_of_small_sums), 1});
-}
-
 double FieldRange::mean() const
 {
     const auto divisor = static_cast<double>(std::max(n, std::int64_t{1}));
     return std::isfinite(sum) ? sum / divisor : std::ldexp(small_sum / divisor, exponent_of_small_sums);
 }
 
-std::vector<FieldRange> ranges_of_blocks(const Eigen::MatrixXd& values, Eigen::Index column)
-{
-    std::vector<FieldRange> ranges;
-    for_each_block(run_serially, static_cast<Index>(values.rows()), [&](Index, Index begin, Index end) {
-        FieldRange& range = ranges.emplace_back();
-        for (Index v = begin; v < end; ++v)
-            if (const double value = values(v, column); !std::isnan(value))
-                range.add(value);
-    });
-    return ranges;
-}
-
 std::vector<FieldRange> ranges_of_columns(const Eigen::MatrixXd& values)
 {
-    std::vector<FieldRange> ranges(static_cast<std::size_t>(values.cols()));
+    std::vector<FieldRange> ranges;
     for (Eigen::Index c = 0; c < values.cols(); ++c)
-        for (const FieldRange& block : ranges_of_blocks(values, c))
-            ranges[static_cast<std::size_t>(c)].add(block);
+        ranges.push_back(reduce(
+            run_serially, static_cast<Index>(values.rows()), FieldRange{},
+            [&](FieldRange& range, Index v) {
+                if (const double value = values(v, c); !std::isnan(value))
+                    range.add({value, value, value, std::ldexp(value, -exponent_of_small_sums), 1});
+            },
+            [](FieldRange& range, const FieldRange& block) { range.add(block); }));
     return ranges;
 }
 
@@ -141,7 +129,7 @@ std::string field_report_json(const RunRecord& run, const FlowOptions& options, 
     ReportJson json = begin_report(run);
     json["vertices"] = summary.n_vertices;
     if (!summary.before.empty()) {
-        json["laplacian"] = run.laplacian;
+        json["laplacian"] = name_of(options.laplacian);
         json["steps"] = options.steps;
         json["time_step"] = options.time_step;
         add_convergence(json, report.flow.convergence);

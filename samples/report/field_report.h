@@ -24,14 +24,10 @@ struct FieldRange {
     std::int64_t n = 0;
 
     void add(const FieldRange& other);
-    void add(double value);
 
     /// 0 without data.
     [[nodiscard]] double mean() const;
 };
-
-/// Of blocks of vertices: added in their order, they are the range of all.
-std::vector<FieldRange> ranges_of_blocks(const Eigen::MatrixXd& values, Eigen::Index column);
 
 /// Of each column.
 std::vector<FieldRange> ranges_of_columns(const Eigen::MatrixXd& values);

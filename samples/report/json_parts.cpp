@@ -24,14 +24,18 @@ ReportJson json_number(double value)
     return std::isfinite(value) ? ReportJson(value) : ReportJson(nullptr);
 }
 
+void add_lengths(ReportJson& json, const std::string& name, const LengthStatistics& lengths, double unit,
+                 const char* ending)
+{
+    json[name + "_mean" + ending] = json_number(lengths.mean / unit);
+    json[name + "_rms" + ending] = json_number(lengths.rms / unit);
+    json[name + "_max" + ending] = json_number(lengths.max / unit);
+}
+
 void add_statistics(ReportJson& json, const std::string& name, const LengthStatistics& lengths, double mean_edge)
 {
-    json[name + "_mean"] = json_number(lengths.mean / mean_edge);
-    json[name + "_rms"] = json_number(lengths.rms / mean_edge);
-    json[name + "_max"] = json_number(lengths.max / mean_edge);
-    json[name + "_mean_absolute"] = json_number(lengths.mean);
-    json[name + "_rms_absolute"] = json_number(lengths.rms);
-    json[name + "_max_absolute"] = json_number(lengths.max);
+    add_lengths(json, name, lengths, mean_edge);
+    add_lengths(json, name, lengths, 1.0, "_absolute");
 }
 
 void add_convergence(ReportJson& json, const ConvergenceReport& convergence)

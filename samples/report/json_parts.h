@@ -24,7 +24,11 @@ ReportJson begin_report(const RunRecord& run);
 /// Null for a number that is not finite.
 ReportJson json_number(double value);
 
-/// NAME_mean, NAME_rms and NAME_max in units of `mean_edge`; with the suffix _absolute in units of length.
+/// NAME_mean, NAME_rms and NAME_max in some unit, with an ending.
+void add_lengths(ReportJson& json, const std::string& name, const LengthStatistics& lengths, double unit,
+                 const char* ending = "");
+
+/// The same in units of `mean_edge`, and with the ending _absolute in units of length.
 void add_statistics(ReportJson& json, const std::string& name, const LengthStatistics& lengths, double mean_edge);
 
 /// With a tolerance: it, and how many steps have missed it.

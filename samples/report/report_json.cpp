@@ -1,14 +1,15 @@
 #include "samples/report/report_json.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <string>
 #include <type_traits>
 #include <vector>
 
 #include <fmt/format.h>
+#include <sys/resource.h>
 
 #include "engine/options/option_names.h"
-#include "samples/process/page_faults.h"
 #include "samples/report/json_parts.h"
 #include "samples/report/smoothing_request.h"
 
@@ -34,34 +35,21 @@ Json of_sub_meshes(const CutReport& cut, Value SubMeshReport::*member)
 
 void add_distance(Json& json, const VertexDistance& distance)
 {
-    json["v_mean"] = json_number(distance.mean / distance.mean_edge);
-    json["v_rms"] = json_number(distance.rms / distance.mean_edge);
-    json["v_max"] = json_number(distance.max / distance.mean_edge);
-    json["v_mean_absolute"] = json_number(distance.mean);
-    json["v_rms_absolute"] = json_number(distance.rms);
-    json["v_max_absolute"] = json_number(distance.max);
+    add_statistics(json, "v", {distance.mean, distance.rms, distance.max}, distance.mean_edge);
     json["mean_edge"] = json_number(distance.mean_edge);
-}
-
-/// In units of `unit`.
-void add_relative(Json& json, const std::string& name, const LengthStatistics& lengths, double unit)
-{
-    json[name + "_mean"] = json_number(lengths.mean / unit);
-    json[name + "_rms"] = json_number(lengths.rms / unit);
-    json[name + "_max"] = json_number(lengths.max / unit);
 }
 
 void add_displacement(Json& json, const DisplacementStatistics& displacement, double mean_edge)
 {
-    add_relative(json, "tangential", displacement.tangential, mean_edge);
-    add_relative(json, "normal", displacement.normal, mean_edge);
+    add_lengths(json, "tangential", displacement.tangential, mean_edge);
+    add_lengths(json, "normal", displacement.normal, mean_edge);
 }
 
 Json total_json(const TotalDisplacement& total, double mean_edge)
 {
     Json json;
     add_displacement(json, total.path, mean_edge);
-    add_relative(json, "drift", total.drift, mean_edge);
+    add_lengths(json, "drift", total.drift, mean_edge);
     return json;
 }
 
@@ -115,15 +103,57 @@ Json surface_json(const RunRecord& run)
     return json;
 }
 
+/// How often this process has touched a page of memory, small or large, that the system had to provide first.
+std::int64_t page_faults()
+{
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return std::int64_t{usage.ru_minflt} + usage.ru_majflt;
+}
+
 /// Empty if missing or not a number.
 std::string text_of_cell(const Json& value)
 {
     return value.is_null() ? "" : value.dump();
 }
 
+/// The flow and its amount.
+void add_flow(Json& json, const RunRecord& run, const FlowOptions& options, const FlowReport& report)
+{
+    const MotionOptions& motion = options.motion;
+    const StepFilter filter = filter_of(options);
+    json["laplacian"] = name_of(options.laplacian);
+    json["flow"] = option_name(options.flow);
+    json["filter"] = option_name(filter.kind);
+    json["order"] = filter.order;
+    if (!run.preset.empty())
+        json["preset"] = run.preset;
+    if (run.noise)
+        json["noise"] = json_number(*run.noise);
+    if (report.noise) {
+        json["noise"] = json_number(report.noise->deviation);
+        json["noisy_part"] = json_number(report.noise->part);
+    }
+    if (motion.attachment > 0.0)
+        json["attachment"] = json_number(motion.attachment);
+    json["attachment_weights"] = !motion.attachment_weights.empty();
+    json["rescale"] = option_name(motion.rescale);
+    if (options.keep_edges)
+        json["keep_edges"] = json_number(*options.keep_edges);
+    // Where normals are smoothed there is no equation, and where noise is removed, or nothing is, there is no amount.
+    const bool has_amount = !report.noise && !report.steps.empty();
+    if (has_amount) {
+        json["time_step"] = json_number(report.time_step);
+        json["time_step_edges"] = json_number(report.time_step / (run.scale.mean_edge * run.scale.mean_edge));
+        json["radius"] = json_number(smoothed_radius(report.time_step, static_cast<int>(report.steps.size()), filter));
+    }
+    if (!options.keep_edges && has_amount)
+        json["approach"] = option_name(report.convergence.approach);
+}
+
 }  // namespace
 
-std::string smooth_report_json(const RunRecord& run, const FlowReport& report)
+std::string smooth_report_json(const RunRecord& run, const FlowOptions& options, const FlowReport& report)
 {
     Json json = begin_report(run);
     json["vertices"] = report.mesh.vertices;
@@ -139,37 +169,10 @@ std::string smooth_report_json(const RunRecord& run, const FlowReport& report)
     json["repaired_faces"] = report.cut.repaired_faces;
     json["non_manifold_vertices"] = report.mesh.non_manifold_vertices;
     json["junction_vertices"] = report.mesh.junction_vertices;
-    if (run.has_region)
+    if (!options.motion.strength.empty())
         json["region"] = true;
     json["fixed_vertices"] = report.mesh.fixed_vertices;
-    json["laplacian"] = run.laplacian;
-    json["flow"] = option_name(run.flow);
-    json["filter"] = option_name(run.filter.kind);
-    json["order"] = run.filter.order;
-    if (!run.preset.empty())
-        json["preset"] = run.preset;
-    if (run.noise)
-        json["noise"] = json_number(*run.noise);
-    if (report.noise) {
-        json["noise"] = json_number(report.noise->deviation);
-        json["noisy_part"] = json_number(report.noise->part);
-    }
-    if (run.attachment)
-        json["attachment"] = json_number(*run.attachment);
-    json["attachment_weights"] = run.has_attachment_weights;
-    json["rescale"] = option_name(run.rescale);
-    if (run.keep_edges)
-        json["keep_edges"] = json_number(*run.keep_edges);
-    // Where normals are smoothed there is no equation, and where noise is removed, or nothing is, there is no amount.
-    const bool has_amount = !report.noise && !report.steps.empty();
-    if (has_amount) {
-        json["time_step"] = json_number(report.time_step);
-        json["time_step_edges"] = json_number(report.time_step / (run.scale.mean_edge * run.scale.mean_edge));
-        json["radius"] =
-            json_number(smoothed_radius(report.time_step, static_cast<int>(report.steps.size()), run.filter));
-    }
-    if (!run.keep_edges && has_amount)
-        json["approach"] = option_name(report.convergence.approach);
+    add_flow(json, run, options, report);
     add_convergence(json, report.convergence);
     json["threads"] = report.resources.threads;
     json["p"] = of_sub_meshes(report.cut, &SubMeshReport::p);

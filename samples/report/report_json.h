@@ -16,7 +16,8 @@ namespace seamflow {
 /// REPORT.json of `smooth` and `smooth-distributed`. All numbers read back to the same double; a number that is not
 /// finite becomes null. v_mean, v_rms and v_max are in mean edge lengths of the undecomposed flow's mesh,
 /// v_mean_absolute and so on in units of length; displacements are in mean edge lengths of the input.
-std::string smooth_report_json(const RunRecord& run, const FlowReport& report);
+/// @param options with the amount.
+std::string smooth_report_json(const RunRecord& run, const FlowOptions& options, const FlowReport& report);
 
 /// STEPS.csv of --csv: one row per step, with all keys of steps in the report, and the smallest and the largest Robin
 /// parameter p of sub-meshes, in 1/length. A cell is empty if there is no such number.

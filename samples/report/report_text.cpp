@@ -179,22 +179,23 @@ void print_step(std::ostream& out, const StepReport& report, int step, int steps
     out << std::endl;
 }
 
-void print_details(std::ostream& out, const RunRecord& run, const FlowReport& report)
+void print_details(std::ostream& out, const RunRecord& run, const FlowOptions& options, const FlowReport& report)
 {
+    const StepFilter filter = filter_of(options);
     out << "flow       "
-        << (report.noise     ? std::string("noise removed")
-            : run.keep_edges ? fmt::format("edges sharper than {:g} degrees kept", *run.keep_edges)
-                             : run.laplacian);
-    if (run.flow != FlowEquation::MeanCurvature)
-        out << ", " << option_name(run.flow);
-    if (!run.filter.is_plain())
-        out << ", " << option_name(run.filter.kind) << " of order " << run.filter.order;
-    if (run.attachment)
-        out << ", attached with " << digits(*run.attachment, 4) << " / length²";
-    if (run.has_attachment_weights)
+        << (report.noise         ? std::string("noise removed")
+            : options.keep_edges ? fmt::format("edges sharper than {:g} degrees kept", *options.keep_edges)
+                                 : std::string(name_of(options.laplacian)));
+    if (options.flow != FlowEquation::MeanCurvature)
+        out << ", " << option_name(options.flow);
+    if (!filter.is_plain())
+        out << ", " << option_name(filter.kind) << " of order " << filter.order;
+    if (options.motion.attachment > 0.0)
+        out << ", attached with " << digits(options.motion.attachment, 4) << " / length²";
+    if (!options.motion.attachment_weights.empty())
         out << ", attached by weights";
-    if (run.rescale != Rescale::None)
-        out << ", " << option_name(run.rescale) << " kept";
+    if (options.motion.rescale != Rescale::None)
+        out << ", " << option_name(options.motion.rescale) << " kept";
     if (!report.noise && !report.steps.empty())
         out << ", time step " << digits(report.time_step, 10);
     out << '\n';

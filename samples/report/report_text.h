@@ -29,7 +29,7 @@ void print_amount(std::ostream& out, const MeshScale& scale, const FlowOptions& 
 void print_step(std::ostream& out, const StepReport& report, int step, int steps, double mean_edge);
 
 /// Prints how steps were taken: the cut, factors, the time per task and displacements.
-void print_details(std::ostream& out, const RunRecord& run, const FlowReport& report);
+void print_details(std::ostream& out, const RunRecord& run, const FlowOptions& options, const FlowReport& report);
 
 /// Prints how many vertices each rank had, or that there was nothing for others to do.
 /// @param n_ranks that were started.

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "engine/measure/flow_report.h"
-#include "engine/options/flow_options.h"
 #include "samples/report/smoothing_request.h"
 #include "samples/report/surface_change.h"
 
@@ -18,20 +17,6 @@ struct RunRecord {
     std::string output;
     /// As the user typed them.
     std::vector<std::string> arguments;
-    /// Name of the Laplacian.
-    std::string laplacian;
-    /// The flow besides the Laplacian: FlowOptions::flow, its filter, and MotionOptions::attachment.
-    FlowEquation flow = FlowEquation::MeanCurvature;
-    StepFilter filter = {};
-    /// In 1/length²; empty where there is none.
-    std::optional<double> attachment = {};
-    /// Whether each vertex has an attachment of its own.
-    bool has_attachment_weights = false;
-    /// MotionOptions::rescale, and FlowOptions::keep_edges: in degrees.
-    Rescale rescale = Rescale::None;
-    std::optional<double> keep_edges = {};
-    /// Whether only a region flows (MotionOptions::strength).
-    bool has_region = false;
     /// The preset that chose options; empty: none.
     std::string preset = {};
     /// Of the input.

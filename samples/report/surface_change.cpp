@@ -6,6 +6,8 @@
 #include <span>
 #include <utility>
 
+#include <xxhash.h>
+
 #include "partition/index_lists.h"
 #include "partition/metrics/cells.h"
 #include "partition/metrics/flipped_faces.h"
@@ -14,11 +16,21 @@
 #include "partition/surface_components.h"
 #include "partition/vector_area.h"
 #include "partition/with_faces.h"
-#include "samples/meshes/surface_sample.h"
 
 namespace seamflow {
 
 namespace {
+
+/// The faces around so many vertices give the roughness of all within about a hundredth.
+constexpr Index enough_vertices = 4000;
+
+/// Whether the faces around a vertex are in the sample from which the roughness of large meshes is estimated: those
+/// around some thousands of vertices, spread over the mesh without a pattern. The sample of small meshes has all faces.
+bool is_sampled(Index v, Index n_vertices)
+{
+    return n_vertices <= enough_vertices ||
+           XXH3_64bits(&v, sizeof v) % static_cast<XXH64_hash_t>(n_vertices) < enough_vertices;
+}
 
 /// The mesh, and some of its faces, as its vertices move.
 class Surface {
@@ -37,14 +49,16 @@ class Surface {
         const std::vector<Index> faces = select(exec, mesh.n_faces(), [&](Index f) {
             return std::ranges::any_of(mesh.face(f), [&](Index v) { return is_in_sample[v] != 0; });
         });
-        IndexLists corners;
-        for (const Index f : faces) {
-            corners.values.insert(corners.values.end(), mesh.face(f).begin(), mesh.face(f).end());
-            corners.close();
-        }
-        sampled_vertices_ = corners.values;
+        for (const Index f : faces)
+            sampled_vertices_.insert(sampled_vertices_.end(), mesh.face(f).begin(), mesh.face(f).end());
         sort_unique(sampled_vertices_);
-        sample_ = extract(corners, sampled_vertices_);
+        std::vector<Index> corners;
+        for (const Index f : faces) {
+            corners.clear();
+            for (const Index v : mesh.face(f))
+                corners.push_back(place_in(sampled_vertices_, v));
+            sample_.add_face(corners);
+        }
     }
 
     /// From now on, looks have the cells that the sheets enclose at these positions, unless sheets overlap.

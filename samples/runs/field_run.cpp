@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include <Eigen/Core>
 #include <fmt/format.h>
 
 #include "engine/fields/diffuse.h"
@@ -18,6 +19,7 @@
 #include "engine/tasks/stopwatch.h"
 #include "engine/tasks/workers.h"
 #include "partition/errors.h"
+#include "partition/formats/file_fields.h"
 #include "partition/formats/index_files.h"
 #include "partition/formats/mesh_io.h"
 #include "partition/formats/ply.h"
@@ -32,7 +34,6 @@
 #include "samples/process/interruption.h"
 #include "samples/report/field_report.h"
 #include "samples/report/report_text.h"
-#include "samples/runs/run_output.h"
 #include "samples/runs/smoothing_run.h"
 
 namespace seamflow {
@@ -40,6 +41,33 @@ namespace seamflow {
 namespace {
 
 constexpr const char* name_of_distance = "distance";
+
+/// Columns nx, ny and nz are normals: as long as they were, unless nothing is left of them.
+/// @param before #V by n: the fields before.
+void renormalise(FileFields& fields, const Eigen::MatrixXd& before)
+{
+    const Index x = fields.column("nx");
+    const Index y = fields.column("ny");
+    const Index z = fields.column("nz");
+    if (x < 0 || y < 0 || z < 0)
+        return;
+    for (Eigen::Index v = 0; v < fields.values.rows(); ++v) {
+        const double length = std::hypot(fields.values(v, x), fields.values(v, y), fields.values(v, z));
+        const double wanted = std::hypot(before(v, x), before(v, y), before(v, z));
+        if (length > 0.0 && wanted > 0.0)
+            for (const Index column : {x, y, z})
+                fields.values(v, column) *= wanted / length;
+    }
+}
+
+/// Checks that OUTPUT has a place for fields, so that nothing is computed in vain.
+void require_place(const SmoothCommand& command, const MeshFile& file)
+{
+    const FileFormat format = kind_for_writing(command.output, file.kind).format;
+    if (format != FileFormat::Ply && (format != file.kind.format || command.fields.names.empty()))
+        throw OutputError(
+            fmt::format("{}: cannot be written: only .ply files hold such fields; write one", command.output.string()));
+}
 
 /// Completes options that the command line leaves to the mesh.
 void complete_options(SmoothCommand& command, const MeshFile& file, const FaultLog& left_out, const Executor& exec,
@@ -176,30 +204,6 @@ void write_page(const SmoothCommand& command, const PolygonMesh& mesh, FileColou
 }
 
 }  // namespace
-
-void renormalise(FileFields& fields, const Eigen::MatrixXd& before)
-{
-    const Index x = fields.column("nx");
-    const Index y = fields.column("ny");
-    const Index z = fields.column("nz");
-    if (x < 0 || y < 0 || z < 0)
-        return;
-    for (Eigen::Index v = 0; v < fields.values.rows(); ++v) {
-        const double length = std::hypot(fields.values(v, x), fields.values(v, y), fields.values(v, z));
-        const double wanted = std::hypot(before(v, x), before(v, y), before(v, z));
-        if (length > 0.0 && wanted > 0.0)
-            for (const Index column : {x, y, z})
-                fields.values(v, column) *= wanted / length;
-    }
-}
-
-void require_place(const SmoothCommand& command, const MeshFile& file)
-{
-    const FileFormat format = kind_for_writing(command.output, file.kind).format;
-    if (format != FileFormat::Ply && (format != file.kind.format || command.fields.names.empty()))
-        throw OutputError(
-            fmt::format("{}: cannot be written: only .ply files hold such fields; write one", command.output.string()));
-}
 
 void resolve_field_amount(SmoothCommand& command, const PolygonMesh& mesh, const Executor& exec, RunRecord& run)
 {

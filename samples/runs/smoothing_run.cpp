@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
+#include <iostream>
 #include <optional>
 #include <utility>
 
@@ -12,11 +13,11 @@
 #include "engine/setup/smoothed_radius.h"
 #include "partition/errors.h"
 #include "partition/formats/index_files.h"
+#include "partition/io/input_file.h"
 #include "partition/io/input_position.h"
 #include "partition/metrics/bounding_box.h"
 #include "partition/metrics/feathered.h"
 #include "partition/metrics/spikes.h"
-#include "samples/command/parse_smooth_command.h"
 #include "samples/command/presets.h"
 
 namespace seamflow {
@@ -50,12 +51,6 @@ RunRecord begin_record(const SmoothCommand& command)
     return {.input = command.input.string(),
             .output = command.output.string(),
             .arguments = command.arguments,
-            .laplacian = std::string(name_of(command.options.laplacian)),
-            .flow = command.options.flow,
-            .filter = filter_of(command.options),
-            .rescale = command.options.motion.rescale,
-            .keep_edges = command.options.keep_edges,
-            .has_region = !command.region.empty(),
             .preset = command.preset,
             .remarks = command.remarks};
 }
@@ -94,8 +89,6 @@ void resolve_lengths(SmoothCommand& command, RunRecord& run)
     motion.within = command.within ? std::optional(length_of(*command.within, run.scale.diagonal)) : std::nullopt;
     if (command.attach)
         motion.attachment = attachment_of(*command.attach, run.scale.diagonal);
-    if (motion.attachment > 0.0)
-        run.attachment = motion.attachment;
 }
 
 double seam_distance_of(const SmoothCommand& command)
@@ -145,7 +138,6 @@ void resolve_amount(SmoothCommand& command, const PolygonMesh& mesh, const Execu
     feather(command, mesh, exec, run, command.options.motion.strength);
     // As the identity of checkpoints has it.
     command.options.uniform_edge = uniform_edge_of(command.options, mesh);
-    run.has_attachment_weights = !command.options.motion.attachment_weights.empty();
 }
 
 namespace {
@@ -250,11 +242,27 @@ void remark_on_folds(const FlowOptions& options, const SurfaceChange& change, st
 
 std::string missed_tolerance(const SmoothCommand& command, const ConvergenceReport& report)
 {
-    const int missed = steps_failed(command, report);
-    if (missed == 0)
-        return {};
-    return fmt::format("the tolerance {} was missed in {} {}", *command.options.accuracy.tolerance, missed,
-                       missed == 1 ? "step" : "steps");
+    const std::optional<double>& tolerance = command.options.accuracy.tolerance;
+    const int missed = command.limits_iterations ? report.steps_stagnated : report.steps_short_of_tolerance;
+    return !tolerance || missed == 0 ? ""
+                                     : fmt::format("the tolerance {} was missed in {}", *tolerance,
+                                                   counted(static_cast<std::uint64_t>(missed), "step", "steps"));
+}
+
+std::ostream& message_stream(const SmoothCommand& command)
+{
+    static std::ostream silence(nullptr);
+    const bool is_taken = is_standard_stream(command.output) || is_standard_stream(command.report);
+    return command.quiet ? silence : is_taken ? std::cerr : std::cout;
+}
+
+ExitStatus require_converged(const SmoothCommand& command, const ConvergenceReport& report)
+{
+    const std::string missed = missed_tolerance(command, report);
+    if (missed.empty())
+        return ExitStatus::Success;
+    std::cerr << command.program << ": " << missed << "; " << command.output.string() << " has the last state\n";
+    return ExitStatus::ComputationFailed;
 }
 
 }  // namespace seamflow

@@ -1,11 +1,13 @@
 #pragma once
 
+#include <iosfwd>
 #include <string>
 #include <vector>
 
 #include "engine/measure/flow_report.h"
 #include "partition/polygon_mesh.h"
 #include "samples/command/smooth_command.h"
+#include "samples/process/exit_status.h"
 #include "samples/report/run_record.h"
 
 /// The work around a flow that `smooth` and the Python module share.
@@ -49,7 +51,15 @@ void remark_on_loss(const FlowOptions& options, const SurfaceChange& change, std
 /// sheets lie on each other so that cells are not known.
 void remark_on_folds(const FlowOptions& options, const SurfaceChange& change, std::vector<std::string>& remarks);
 
-/// "the tolerance 1e-08 was missed in 2 steps"; empty if no step has failed (see steps_failed).
+/// "the tolerance 1e-08 was missed in 2 steps"; empty if the user has requested no tolerance or no step has failed.
+/// Those fail that missed it, or, if the user has limited the iterations, those that stagnated.
 std::string missed_tolerance(const SmoothCommand& command, const ConvergenceReport& report);
+
+/// Where messages go: nowhere with --quiet, to standard error where a result takes standard output.
+std::ostream& message_stream(const SmoothCommand& command);
+
+/// The status of a complete run. If steps have missed their tolerance, the results are not what was asked for: prints
+/// that to standard error.
+ExitStatus require_converged(const SmoothCommand& command, const ConvergenceReport& report);
 
 }  // namespace seamflow

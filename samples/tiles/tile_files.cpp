@@ -24,10 +24,6 @@ namespace {
 
 constexpr const char* name_of_lock = "lock";
 constexpr std::string_view line_of_run = "seamflow run over tiles\n";
-constexpr std::string_view line_of_faces = "seamflow faces of a tile\n";
-constexpr std::string_view line_of_border = "seamflow border of a tile\n";
-constexpr std::string_view line_of_owners = "seamflow owners of a tile\n";
-constexpr std::string_view line_of_state = "seamflow positions of a tile\n";
 
 }  // namespace
 
@@ -86,36 +82,6 @@ void TileFolder::save(const TileRun& run) const
     write_archive(run_file(), line_of_run, run);
 }
 
-TileFaces TileFolder::faces(Index tile) const
-{
-    return read_archive<TileFaces>(file(tile, "faces"), line_of_faces);
-}
-
-TileBorder TileFolder::border(Index tile) const
-{
-    return read_archive<TileBorder>(file(tile, "border"), line_of_border);
-}
-
-TileOwners TileFolder::owners(Index tile) const
-{
-    return read_archive<TileOwners>(file(tile, "owners"), line_of_owners);
-}
-
-void TileFolder::save(Index tile, const TileFaces& faces) const
-{
-    write_archive(file(tile, "faces"), line_of_faces, faces);
-}
-
-void TileFolder::save(Index tile, const TileBorder& border) const
-{
-    write_archive(file(tile, "border"), line_of_border, border);
-}
-
-void TileFolder::save(Index tile, const TileOwners& owners) const
-{
-    write_archive(file(tile, "owners"), line_of_owners, owners);
-}
-
 bool TileFolder::has_state(Index tile, int step) const
 {
     std::error_code ignored;
@@ -124,12 +90,12 @@ bool TileFolder::has_state(Index tile, int step) const
 
 Points TileFolder::state(Index tile, int step) const
 {
-    return read_archive<TileState>(state_file(tile, step), line_of_state).positions;
+    return read_archive<Points>(state_file(tile, step), line_of("positions"));
 }
 
-void TileFolder::save_state(Index tile, int step, Points positions) const
+void TileFolder::save_state(Index tile, int step, const Points& positions) const
 {
-    write_archive(state_file(tile, step), line_of_state, TileState{std::move(positions)});
+    write_archive(state_file(tile, step), line_of("positions"), positions);
 }
 
 int TileFolder::latest_step(Index n_tiles) const
@@ -170,14 +136,19 @@ void TileFolder::take_from_owners(Index tile, const TileOwners& owners, int step
     }
 }
 
-std::filesystem::path TileFolder::file(Index tile, const char* what) const
+std::filesystem::path TileFolder::file(Index tile, const std::string& name) const
 {
-    return folder_ / fmt::format("tile-{}.{}", tile, what);
+    return folder_ / fmt::format("tile-{}.{}", tile, name);
 }
 
 std::filesystem::path TileFolder::state_file(Index tile, int step) const
 {
-    return folder_ / fmt::format("tile-{}.step-{}", tile, step);
+    return file(tile, fmt::format("step-{}", step));
+}
+
+std::string TileFolder::line_of(const std::string& name)
+{
+    return fmt::format("seamflow {} of a tile\n", name);
 }
 
 }  // namespace seamflow

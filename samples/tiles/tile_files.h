@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <string>
 #include <tuple>
 #include <vector>
 
@@ -14,6 +15,8 @@ namespace seamflow {
 
 /// The faces of a tile.
 struct TileFaces {
+    /// In the names of its files.
+    static constexpr const char* name = "faces";
     /// As in PolygonMesh, with the numbers of vertices in the file.
     std::vector<Index> face_offsets{0};
     std::vector<Index> face_vertices;
@@ -21,6 +24,8 @@ struct TileFaces {
 
 /// The faces around the border of a tile: all those with a vertex at an edge of one face.
 struct TileBorder {
+    /// In the names of its files.
+    static constexpr const char* name = "border";
     /// #B, ascending: the number of each vertex in the tile.
     std::vector<Index> vertices;
     /// #B: 1 for the vertices at edges of one face.
@@ -37,6 +42,8 @@ struct TileBorder {
 /// Which vertices of the borders are one vertex of the surface. Each vertex of a border has an owner, a vertex of the
 /// same or of another tile, which is its own owner: that one is computed, and the others take its position.
 struct TileOwners {
+    /// In the names of its files.
+    static constexpr const char* name = "owners";
     /// The vertices of the border, ascending.
     std::vector<Index> vertices;
     /// The tile of the owner, at most this one, and its number there.
@@ -46,12 +53,6 @@ struct TileOwners {
     std::vector<Index> is_shared;
     /// Ascending: vertices that are held, see hold_unjoined.
     std::vector<Index> held;
-};
-
-/// The vertices of a tile after a step.
-struct TileState {
-    /// #V by 3, in units of length.
-    Points positions = Points(0, 3);
 };
 
 /// The run that the files belong to.
@@ -81,12 +82,6 @@ auto fields(Is<TileOwners> auto& of)
 {
     auto& [vertices, tiles, numbers, is_shared, held] = of;
     return std::tie(vertices, tiles, numbers, is_shared, held);
-}
-
-auto fields(Is<TileState> auto& of)
-{
-    auto& [positions] = of;
-    return std::tie(positions);
 }
 
 auto fields(Is<TileRun> auto& of)
@@ -119,17 +114,22 @@ class TileFolder {
     /// To be called when all files of step 0 are there.
     void save(const TileRun& run) const;
 
-    [[nodiscard]] TileFaces faces(Index tile) const;
-    [[nodiscard]] TileBorder border(Index tile) const;
-    [[nodiscard]] TileOwners owners(Index tile) const;
-    void save(Index tile, const TileFaces& faces) const;
-    void save(Index tile, const TileBorder& border) const;
-    void save(Index tile, const TileOwners& owners) const;
+    /// TileFaces, TileBorder or TileOwners.
+    template <class Data>
+    [[nodiscard]] Data read(Index tile) const
+    {
+        return read_archive<Data>(file(tile, Data::name), line_of(Data::name));
+    }
+    template <class Data>
+    void save(Index tile, const Data& data) const
+    {
+        write_archive(file(tile, Data::name), line_of(Data::name), data);
+    }
 
     /// The positions after a step; step 0 is the input.
     [[nodiscard]] bool has_state(Index tile, int step) const;
     [[nodiscard]] Points state(Index tile, int step) const;
-    void save_state(Index tile, int step, Points positions) const;
+    void save_state(Index tile, int step, const Points& positions) const;
     /// The last step that all tiles have, from 0.
     /// @throws InputError if there is none.
     [[nodiscard]] int latest_step(Index n_tiles) const;
@@ -140,8 +140,9 @@ class TileFolder {
     void take_from_owners(Index tile, const TileOwners& owners, int step, Points& positions) const;
 
   private:
-    [[nodiscard]] std::filesystem::path file(Index tile, const char* what) const;
+    [[nodiscard]] std::filesystem::path file(Index tile, const std::string& name) const;
     [[nodiscard]] std::filesystem::path state_file(Index tile, int step) const;
+    [[nodiscard]] static std::string line_of(const std::string& name);
 
     /// @throws OutputError.
     void lock();

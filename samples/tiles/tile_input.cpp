@@ -27,7 +27,8 @@ std::vector<BorderOfTile> borders_near(const TileFolder& folder, std::span<const
     const BoundingBox box = inflated(tiles[usize(tile)].box, distances_of_chain * distance);
     for (Index other = 0; std::cmp_less(other, tiles.size()); ++other)
         if (meet(box, tiles[usize(other)].box))
-            near.push_back({other, folder.border(other), other < tile ? folder.owners(other) : TileOwners{}});
+            near.push_back(
+                {other, folder.read<TileBorder>(other), other < tile ? folder.read<TileOwners>(other) : TileOwners{}});
     return near;
 }
 
@@ -40,7 +41,7 @@ void place_on_owners(const TileFolder& folder, Index tile, const TileOwners& own
     const std::span<const double> old(before.data(), static_cast<std::size_t>(before.size()));
     const std::span<const double> now(positions.data(), static_cast<std::size_t>(positions.size()));
     if (!std::ranges::equal(std::as_bytes(old), std::as_bytes(now)))
-        folder.save_state(tile, 0, std::move(positions));
+        folder.save_state(tile, 0, positions);
 }
 
 }  // namespace
@@ -81,7 +82,8 @@ MeshScale scale_of(std::span<const TileSummary> tiles)
 void keep_input(const TileFolder& folder, Index tile, PolygonMesh& mesh, const Executor& exec)
 {
     folder.save(tile, border_of(mesh, make_topology(mesh, exec), exec));
-    folder.save_state(tile, 0, std::exchange(mesh.vertices, Points(0, 3)));
+    folder.save_state(tile, 0, mesh.vertices);
+    mesh.vertices.resize(0, 3);
     folder.save(tile, TileFaces{std::move(mesh.face_offsets), std::move(mesh.face_vertices)});
 }
 

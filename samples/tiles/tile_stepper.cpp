@@ -66,9 +66,9 @@ FlowReport TileStepper::take(Index tile, int step, std::span<const BoundingBox> 
     std::vector<Index> number_of;
     Neighbourhood near(Points(0, 3), width_);
     {
-        const TileOwners owners = folder_->owners(tile);
+        const TileOwners owners = folder_->read<TileOwners>(tile);
         const std::vector<std::uint8_t> all(static_cast<std::size_t>(positions.rows()), 1);
-        number_of = whole.add(folder_->faces(tile), owners, positions, all);
+        number_of = whole.add(folder_->read<TileFaces>(tile), owners, positions, all);
         near = Neighbourhood(shared_positions(owners, positions), width_);
     }
     for (Index other = 0; std::cmp_less(other, boxes.size()) && !near.is_empty(); ++other) {
@@ -77,7 +77,7 @@ FlowReport TileStepper::take(Index tile, int step, std::span<const BoundingBox> 
         const Points of_other = folder_->state(other, step - 1);
         const std::vector<std::uint8_t> is_wanted = near.select(of_other, exec);
         if (std::ranges::count(is_wanted, 1) > 0)
-            whole.add(folder_->faces(other), folder_->owners(other), of_other, is_wanted);
+            whole.add(folder_->read<TileFaces>(other), folder_->read<TileOwners>(other), of_other, is_wanted);
     }
     FlowOptions options = options_;
     options.motion.fixed_vertices = whole.held();

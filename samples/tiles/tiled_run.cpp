@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <malloc.h>
 
 #include "engine/options/option_table.h"
 #include "engine/setup/presets.h"
@@ -18,7 +19,6 @@
 #include "partition/io/input_position.h"
 #include "samples/files/mesh_results.h"
 #include "samples/files/output_files.h"
-#include "samples/process/freed_memory.h"
 #include "samples/process/interruption.h"
 #include "samples/report/progress_bar.h"
 #include "samples/tiles/tile_input.h"
@@ -189,7 +189,8 @@ void TiledRun::read_all()
         join_tiles(folder_, tiles_, options_.motion.weld, run_, exec_);
         folder_.save(run_);
     }
-    return_freed_memory();
+    // The C library keeps memory that was freed between other memory.
+    malloc_trim(0);
 }
 
 /// @returns the step to take; tiles may already have it.
@@ -236,13 +237,13 @@ bool TiledRun::take_step(Index tile, int step)
     } catch (const Cancelled&) {
         return false;
     }
-    return_freed_memory();
-    folder_.take_from_owners(tile, folder_.owners(tile), step, positions);
+    malloc_trim(0);
+    folder_.take_from_owners(tile, folder_.read<TileOwners>(tile), step, positions);
     next_boxes_[tile] = box_around(positions);
     // First the result: what has a state of the last step is written.
     if (step == options_.steps)
         write(tile, positions);
-    folder_.save_state(tile, step, std::move(positions));
+    folder_.save_state(tile, step, positions);
     has_stepped_ = true;
     return true;
 }

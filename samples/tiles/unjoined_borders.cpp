@@ -23,7 +23,7 @@ PointNumbers::Place place_of(const Points& positions, Index v)
 /// The vertices of a tile that may be where surfaces meet.
 std::vector<Index> suspects_of(const TileFolder& folder, Index tile, const TileOwners& owners)
 {
-    std::vector<Index> suspects = folder.border(tile).non_manifold;
+    std::vector<Index> suspects = folder.read<TileBorder>(tile).non_manifold;
     suspects.insert(suspects.end(), owners.vertices.begin(), owners.vertices.end());
     sort_unique(suspects);
     return suspects;
@@ -93,20 +93,20 @@ std::int64_t hold_unjoined(const TileFolder& folder, std::span<const BoundingBox
 {
     std::vector<std::vector<Index>> held(boxes.size());
     for (Index tile = 0; std::cmp_less(tile, boxes.size()); ++tile) {
-        const auto suspects = suspects_of(folder, tile, folder.owners(tile));
+        const auto suspects = suspects_of(folder, tile, folder.read<TileOwners>(tile));
         if (suspects.empty())
             continue;
         SuspectPlaces places(folder.state(tile, 0), suspects);
         for (Index other = 0; std::cmp_less(other, boxes.size()); ++other)
             if (meet(boxes[usize(tile)], boxes[usize(other)]))
-                places.add(other, folder.state(other, 0), folder.owners(other));
+                places.add(other, folder.state(other, 0), folder.read<TileOwners>(other));
         places.select_unjoined(held);
     }
     std::int64_t n_held = 0;
     for (Index tile = 0; std::cmp_less(tile, boxes.size()); ++tile) {
         if (held[usize(tile)].empty())
             continue;
-        TileOwners owners = folder.owners(tile);
+        TileOwners owners = folder.read<TileOwners>(tile);
         owners.held = std::move(held[usize(tile)]);
         sort_unique(owners.held);
         n_held += std::ssize(owners.held);

@@ -4,14 +4,14 @@
 //                                                 (estimates, samples, a network)
 
 #include <filesystem>
-#include <fstream>
 #include <iostream>
-#include <iterator>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "engine/tasks/workers.h"
+#include "partition/io/input_file.h"
 #include "samples/command/command_line.h"
 #include "samples/files/output_files.h"
 #include "samples/training/denoiser_training.h"
@@ -22,14 +22,6 @@
 using namespace seamflow;
 
 namespace {
-
-std::string read_text(const std::filesystem::path& path)
-{
-    std::ifstream file(path, std::ios::binary);
-    if (!file)
-        throw InputError(path.string() + ": the file cannot be read");
-    return {std::istreambuf_iterator<char>(file), {}};
-}
 
 std::vector<PolygonMesh> make_surfaces(std::uint32_t seed, int n, const Executor& exec)
 {
@@ -64,7 +56,7 @@ ExitStatus train(int argc, char** argv)
         return *end;
     training.seed = static_cast<std::uint32_t>(seed);
     training.n_stages = static_cast<int>(mixing_weights().size());
-    const std::string source = read_text(file);
+    const std::string source(InputFile(OpenFile(file)).content());
     replace_weights(source, {});
     require_writable(file);
 

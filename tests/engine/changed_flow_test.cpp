@@ -12,6 +12,7 @@
 #include "partition/metrics/vertex_distance.h"
 #include "samples/meshes/meshes.h"
 #include "tests/support/flows.h"
+#include "tests/support/messages.h"
 
 using namespace seamflow;
 
@@ -50,16 +51,6 @@ Points lifted(const PolygonMesh& mesh, const std::vector<Index>& vertices)
         to.row(static_cast<Eigen::Index>(i)) =
             mesh.vertices.row(vertices[i]) + Point(0.0, 0.0, 0.02 * (1.0 + static_cast<double>(i % 3)));
     return to;
-}
-
-std::string message_of(const std::function<void()>& action)
-{
-    try {
-        action();
-    } catch (const std::exception& error) {
-        return error.what();
-    }
-    return {};
 }
 
 }  // namespace
@@ -278,7 +269,7 @@ TEST_CASE("conjugate gradients and sweeps of the mean curvature flow go on from 
         CHECK(test::largest_difference(moved.vertices, test::flowed(anew, options)) <
               (approach == Approach::Sweep ? 0.02 : 1e-3));
         CHECK(test::largest_difference(moved.vertices, before) > 1e-3);
-        const std::string message = message_of([&] { flow.hold(region); });
+        const std::string message = test::message_of([&] { flow.hold(region); });
         CHECK(message.find("converged") != std::string::npos);
     }
 }
@@ -382,7 +373,7 @@ TEST_CASE("changes that cannot be are refused, and nothing has changed")
     std::string of_capture;
     bool is_changed = false;
     Flow flow(moved, options, [&](const StepState& state) {
-        of_capture = message_of([&] { (void)state.capture(); });
+        of_capture = test::message_of([&] { (void)state.capture(); });
         CHECK(of_capture.empty() != is_changed);
     });
     flow.step();
@@ -398,7 +389,7 @@ TEST_CASE("changes that cannot be are refused, and nothing has changed")
     Index fixed = 0;
     while (topology.moves(fixed))
         ++fixed;
-    const std::string message = message_of([&] { flow.release(std::vector<Index>{fixed}); });
+    const std::string message = test::message_of([&] { flow.release(std::vector<Index>{fixed}); });
     CHECK(message.starts_with("vertex " + std::to_string(fixed) + " was fixed when the flow began"));
     flow.step(2);
     CHECK(test::same_bits(moved.vertices, expected));
@@ -408,7 +399,7 @@ TEST_CASE("changes that cannot be are refused, and nothing has changed")
 
     options.motion.attachment = 1.0;
     Flow attached(moved, options,
-                  [&](const StepState& state) { of_capture = message_of([&] { (void)state.capture(); }); });
+                  [&](const StepState& state) { of_capture = test::message_of([&] { (void)state.capture(); }); });
     attached.step();
     CHECK(of_capture.empty());
     attached.attach(std::vector<Index>{1}, std::vector<double>{2.0});

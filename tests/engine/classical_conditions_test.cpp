@@ -33,21 +33,6 @@ constexpr std::array classical{Conditions::Robin, Conditions::Ventcell};
 
 }  // namespace
 
-TEST_CASE("with classical conditions a flat mesh stays flat")
-{
-    for (const Conditions conditions : classical)
-        for (const Index subdomains : {2, 5, 16}) {
-            CAPTURE(subdomains);
-            PolygonMesh mesh = make_quads(900);
-            mesh.vertices.col(2).setZero();
-            for (const Laplacian laplacian : test::all_laplacians) {
-                CAPTURE(name_of(laplacian));
-                const Points moved = flowed(mesh, classical_options(conditions, laplacian, subdomains));
-                CHECK(moved.col(2).cwiseAbs().maxCoeff() == 0.0);
-            }
-        }
-}
-
 TEST_CASE("a flat grid cut along a straight line rests, and its copies of the line stay together")
 {
     const test::CutMesh cut = test::cut_by_place("", test::quad_grid(10, 6),
@@ -62,23 +47,6 @@ TEST_CASE("a flat grid cut along a straight line rests, and its copies of the li
             const FlowReport report = mean_curvature_flow(mesh, options);
             CHECK(test::largest_difference(mesh.vertices, cut.mesh.vertices) < 1e-12);
             CHECK(report.steps.back().gap->max < 1e-12);
-        }
-}
-
-TEST_CASE("classical conditions in one sub-mesh are the undecomposed flow to the bit, with no gap")
-{
-    const PolygonMesh mesh = make_mixed_polygons(900);
-    for (const Conditions conditions : classical)
-        for (const Laplacian laplacian : test::all_laplacians) {
-            FlowOptions undecomposed = classical_options(Conditions::AdaptedRobin, laplacian, 1);
-            PolygonMesh moved = mesh;
-            FlowOptions options = classical_options(conditions, laplacian, 1);
-            options.report.keep_gaps = true;
-            const FlowReport report = mean_curvature_flow(moved, options);
-            CHECK(same_bits(moved.vertices, flowed(mesh, undecomposed)));
-            CHECK(report.steps.back().gap->max == 0.0);
-            CHECK(same_bits(report.separated->vertices, moved.vertices));
-            CHECK(report.separated->face_vertices == mesh.face_vertices);
         }
 }
 
@@ -118,39 +86,4 @@ TEST_CASE("the result has the mean of the copies, and the gap is the largest dis
             CHECK(report.steps.back().gap->max == test::relative(largest, 1e-12));
             CHECK(report.steps.back().gap->mean <= report.steps.back().gap->max);
         }
-}
-
-TEST_CASE("classical conditions give the same bits for every number of threads")
-{
-    const PolygonMesh mesh = make_mixed_polygons(3000);
-    for (const Conditions conditions : classical) {
-        FlowOptions options = classical_options(conditions, Laplacian::PtackovaVelho, 24);
-        options.resources.threads = 1;
-        const Points expected = flowed(mesh, options);
-        for (options.resources.threads = 2; options.resources.threads <= 5; ++options.resources.threads) {
-            CAPTURE(options.resources.threads);
-            CHECK(same_bits(flowed(mesh, options), expected));
-        }
-    }
-}
-
-TEST_CASE("classical conditions refuse what means nothing with them")
-{
-    PolygonMesh mesh = make_quads(100);
-    FlowOptions options = classical_options(Conditions::Robin, Laplacian::Fujiwara, 2);
-    options.interface.correction = Correction::Centroid;
-    CHECK_THROWS_AS(mean_curvature_flow(mesh, options), OptionError);
-    options = classical_options(Conditions::Robin, Laplacian::Fujiwara, 2);
-    options.interface.q = 0.1;
-    CHECK_THROWS_AS(mean_curvature_flow(mesh, options), OptionError);
-    options = classical_options(Conditions::Ventcell, Laplacian::Fujiwara, 2);
-    options.interface.q.reset();
-    CHECK_THROWS_AS(mean_curvature_flow(mesh, options), OptionError);
-    options = classical_options(Conditions::AdaptedRobin, Laplacian::Fujiwara, 2);
-    options.report.keep_gaps = true;
-    CHECK_THROWS_AS(mean_curvature_flow(mesh, options), OptionError);
-    options = classical_options(Conditions::Robin, Laplacian::Fujiwara, 2);
-    options.report.keep_gaps = true;
-    options.scheme = Scheme::ExplicitEuler;
-    CHECK_THROWS_AS(mean_curvature_flow(mesh, options), OptionError);
 }

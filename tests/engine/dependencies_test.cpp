@@ -13,11 +13,11 @@
 #include "engine/steppers/sweep_order.h"
 #include "partition/decomposition/overlap.h"
 #include "partition/decomposition/reverse_cuthill_mckee.h"
-#include "partition/errors.h"
 #include "samples/meshes/meshes.h"
 #include "solvers/laplacian/laplacian.h"
 #include "tests/support/flows.h"
 #include "tests/support/matrices.h"
+#include "tests/support/memory_limits.h"
 #include "tests/support/test_meshes.h"
 
 using namespace seamflow;
@@ -196,19 +196,6 @@ Index check_graphs(const PolygonMesh& mesh, const FlowOptions& options)
     return report.resources.live_factors;
 }
 
-/// The lowest limit of memory with which the flow runs: the refusal of a lower one says it.
-std::size_t least_memory(PolygonMesh mesh, FlowOptions options)
-{
-    options.resources.memory_limit = 1;
-    try {
-        mean_curvature_flow(mesh, options);
-    } catch (const OptionError& error) {
-        const std::string refusal = error.what();
-        return std::stoul(refusal.substr(refusal.find(" take ") + 6));
-    }
-    return 1;
-}
-
 std::vector<test::NamedMesh> meshes()
 {
     return {test::named("triangles", make_triangles(1500)), test::named("mixed polygons", make_mixed_polygons(1500)),
@@ -257,7 +244,7 @@ TEST_CASE("so has that of sweeps in an order of their own, without correction, a
         }
     FlowOptions options = recorded_options(24);
     const Index without_limit = check_graphs(mesh, options);
-    options.resources.memory_limit = least_memory(mesh, options);
+    options.resources.memory_limit = test::least_memory_limit(mesh, options);
     CHECK(check_graphs(mesh, options) < without_limit);
 }
 

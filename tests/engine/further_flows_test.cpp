@@ -3,7 +3,6 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/Geometry>
 #include <doctest/doctest.h>
 
 #include "engine/mean_curvature_flow.h"
@@ -118,17 +117,6 @@ int check_against_references(Index subdomains, std::optional<double> tolerance)
     return n;
 }
 
-std::string refusal_of(const FlowOptions& options)
-{
-    PolygonMesh mesh = make_quads(100);
-    try {
-        mean_curvature_flow(mesh, options);
-    } catch (const std::exception& error) {
-        return error.what();
-    }
-    return {};
-}
-
 }  // namespace
 
 TEST_CASE("flows beyond the paper's are those of the reference, undecomposed and converged in sub-meshes")
@@ -195,53 +183,6 @@ TEST_CASE("every step of the linear flow has the matrix of the first surface")
                     CHECK(step.distance->max <= 1e-10);
             }
         }
-}
-
-TEST_CASE("a flat mesh stays flat, and a rigid motion moves the results of further flows alike")
-{
-    const Eigen::Matrix3d rotation =
-        Eigen::AngleAxisd(0.7, Eigen::Vector3d(1.0, 2.0, -0.5).normalized()).toRotationMatrix();
-    const auto moved = [&](const Points& points) {
-        return Points((points * rotation.transpose()).rowwise() + Eigen::RowVector3d(3.0, -1.0, 2.0));
-    };
-    for (const PolygonMesh& mesh : height_fields(400))
-        for (const FurtherFlow& flow : all_further_flows()) {
-            CAPTURE(flow.name);
-            PolygonMesh other = mesh;
-            other.vertices.col(2).setZero();
-            CHECK(flowed(other, flow.options).col(2).cwiseAbs().maxCoeff() == 0.0);
-            other.vertices = moved(mesh.vertices);
-            CHECK(largest_difference(flowed(other, flow.options), moved(flowed(mesh, flow.options))) <= 1e-9);
-        }
-}
-
-TEST_CASE("a mesh enlarged has its results enlarged, with dt and what else has a unit")
-{
-    for (const double s : {1e-3, 7.0})
-        for (const FurtherFlow& flow : all_further_flows()) {
-            CAPTURE(flow.name);
-            PolygonMesh mesh = make_mixed_polygons(400);
-            const Points expected = s * flowed(mesh, flow.options);
-            mesh.vertices *= s;
-            FlowOptions options = flow.options;
-            options.time_step *= s * s;
-            options.motion.attachment /= s * s;
-            CHECK(largest_difference(flowed(mesh, options), expected) <= 1e-9 * s);
-        }
-}
-
-TEST_CASE("further flows have the same bits with any number of threads")
-{
-    const PolygonMesh mesh = make_mixed_polygons(900);
-    for (FurtherFlow& flow : all_further_flows()) {
-        CAPTURE(flow.name);
-        flow.options.resources.threads = 1;
-        const Points expected = flowed(mesh, flow.options);
-        for (const int threads : {2, 3}) {
-            flow.options.resources.threads = threads;
-            CHECK(same_bits(flowed(mesh, flow.options), expected));
-        }
-    }
 }
 
 TEST_CASE("an attached flow ends where (Δ + w) V = w V⁰, and vertices stay the nearer the larger their w is")
@@ -376,50 +317,4 @@ TEST_CASE("a low-pass filter loses a tenth of the volume that diffusion loses, a
     } while (noise_of(filtered) > noise_of(diffused));
     const double before = volume(noisy.vertices);
     CHECK(before - volume(filtered) < 0.1 * (before - volume(diffused)));
-}
-
-TEST_CASE("options that further flows exclude are refused with what to do")
-{
-    FlowOptions options;
-    options.time_step = 1e-3;
-    options.flow = FlowEquation::Conformalized;
-    const auto with = [&](auto change) {
-        FlowOptions changed = options;
-        change(changed);
-        return refusal_of(changed);
-    };
-    CHECK(with([](FlowOptions&) {}).empty());
-    CHECK(with([](FlowOptions& o) { o.motion.attachment = -1.0; }) ==
-          "attachment is -1, but must be at least 0 and finite (1/length²)");
-    const auto attached = [](FlowOptions& o) { o.flow = FlowEquation::MeanCurvature, o.motion.attachment = 1.0; };
-    CHECK(with([&](FlowOptions& o) {
-              attached(o), o.laplacian = Laplacian::PtackovaVelho;
-          }).starts_with("vertices are attached, but"));
-    CHECK(with([&](FlowOptions& o) {
-              attached(o), o.motion.attachment_weights.assign(121, 1.0);
-          }).ends_with("leave one of them out"));
-    CHECK(with([](FlowOptions& o) { o.motion.attachment_weights = {1.0, 2.0}; }).starts_with("there are 2 attachment"));
-    CHECK(with([](FlowOptions& o) {
-              o.motion.attachment_weights.assign(121, -2.0);
-          }).starts_with("the attachment weight of vertex 0 is -2"));
-    CHECK(with([](FlowOptions& o) { o.laplacian = Laplacian::PtackovaVelho; }) ==
-          "flow is conformalized, but the Laplacian ptackova-velho is not symmetric: use fujiwara, "
-          "alexa-wardetzky, virtual-refinement or uniform");
-    const auto filtered = [](FlowOptions& o) { o.flow = FlowEquation::MeanCurvature, o.filter = Filter::LowPass; };
-    CHECK(with([&](FlowOptions& o) {
-              filtered(o), o.laplacian = Laplacian::PtackovaVelho;
-          }).starts_with("filter is low-pass, of order 2, but the Laplacian"));
-    CHECK(with([&](FlowOptions& o) { filtered(o), o.interface.p = 1.0; }).find("predicted") != std::string::npos);
-    CHECK(with([](FlowOptions& o) { o.scheme = Scheme::ExplicitEuler; }).find("backward Euler") != std::string::npos);
-    CHECK(with([](FlowOptions& o) { o.accuracy.approach = Approach::ConjugateGradients; }).find("leave the approach") !=
-          std::string::npos);
-    options.flow = FlowEquation::Linear;
-    CHECK(with([](FlowOptions&) {}).empty());
-    CHECK(with([](FlowOptions& o) { o.accuracy.approach = Approach::Sweep; }) ==
-          "flow is linear, whose steps are converged or undecomposed, but the approach is for sweeps: leave that out");
-    CHECK(
-        with([](FlowOptions& o) { o.interface.conditions = Conditions::Robin; }).starts_with("flow is linear, whose"));
-    CHECK(with([](FlowOptions& o) {
-              o.resources.factorisation = Factorisation::Cholmod;
-          }).find("only this library's") != std::string::npos);
 }

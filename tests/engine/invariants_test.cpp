@@ -1,13 +1,11 @@
-#include <cmath>
-
 #include <doctest/doctest.h>
 
 #include "engine/mean_curvature_flow.h"
 #include "partition/metrics/vertex_distance.h"
 #include "partition/topology.h"
 #include "samples/meshes/meshes.h"
+#include "tests/support/flow_kinds.h"
 #include "tests/support/flows.h"
-#include "tests/support/relative.h"
 
 using namespace seamflow;
 using test::all_laplacians;
@@ -36,27 +34,53 @@ FlowOptions sweep_options(Laplacian laplacian, Index subdomains)
 
 }  // namespace
 
-TEST_CASE("a flat mesh stays flat whatever the cut")
+TEST_CASE("a flat mesh stays flat, however steps are taken")
 {
-    for (const PolygonMesh& mesh : height_fields())
-        for (const Laplacian laplacian : all_laplacians)
-            for (const Index subdomains : {1, 2, 5, 16}) {
-                CAPTURE(name_of(laplacian));
-                CAPTURE(subdomains);
-                const Points result = flowed(flat(mesh), sweep_options(laplacian, subdomains));
-                CHECK(result.allFinite());
-                CHECK(result.col(2).cwiseAbs().maxCoeff() == 0.0);
-            }
+    for (const PolygonMesh& mesh : height_fields(600))
+        for (const test::FlowKind& kind : test::flow_kinds(mean_edge_length(mesh))) {
+            CAPTURE(kind.name);
+            const Points result = flowed(flat(mesh), kind.options);
+            CHECK(result.allFinite());
+            CHECK(result.col(2).cwiseAbs().maxCoeff() == 0.0);
+        }
 }
 
 TEST_CASE("with Alexa-Wardetzky a flat mesh of triangles does not move at all without the correction")
 {
     const PolygonMesh mesh = flat(make_triangles(900));
-    for (const Index subdomains : {1, 2, 5, 16}) {
-        FlowOptions options = sweep_options(Laplacian::AlexaWardetzky, subdomains);
-        options.interface.correction = Correction::None;
-        CHECK(largest_difference(flowed(mesh, options), mesh.vertices) <= 1e-12);
-    }
+    for (const Conditions conditions : {Conditions::AdaptedRobin, Conditions::Schwarz})
+        for (const Index subdomains : {1, 2, 5, 16}) {
+            FlowOptions options = sweep_options(Laplacian::AlexaWardetzky, subdomains);
+            options.interface.conditions = conditions;
+            options.interface.correction = Correction::None;
+            CHECK(largest_difference(flowed(mesh, options), mesh.vertices) <= 1e-12);
+        }
+}
+
+TEST_CASE("in one sub-mesh every condition gives the undecomposed flow to the bit, with no gap")
+{
+    const PolygonMesh mesh = make_mixed_polygons(900);
+    for (const Laplacian laplacian : all_laplacians)
+        for (const Conditions conditions : {Conditions::AdaptedRobin, Conditions::AdaptedVentcell, Conditions::Robin,
+                                            Conditions::Ventcell, Conditions::Schwarz}) {
+            CAPTURE(name_of(laplacian));
+            CAPTURE(static_cast<int>(conditions));
+            FlowOptions options = sweep_options(laplacian, 1);
+            options.interface.conditions = conditions;
+            if (conditions == Conditions::AdaptedVentcell || conditions == Conditions::Ventcell)
+                options.interface.q = 0.2;
+            options.report.reference = true;
+            options.report.keep_gaps = is_classical(conditions);
+            PolygonMesh moved = mesh;
+            const FlowReport report = mean_curvature_flow(moved, options);
+            CHECK(report.cut.n_colours() == 1);
+            CHECK(report.steps.back().distance->max == 0.0);
+            if (!is_classical(conditions))
+                continue;
+            CHECK(report.steps.back().gap->max == 0.0);
+            CHECK(test::same_bits(report.separated->vertices, moved.vertices));
+            CHECK(report.separated->face_vertices == mesh.face_vertices);
+        }
 }
 
 TEST_CASE("boundary vertices and vertices without faces stay to the bit")
@@ -76,34 +100,4 @@ TEST_CASE("boundary vertices and vertices without faces stay to the bit")
             CHECK(moved > 700);
         }
     }
-}
-
-TEST_CASE("components that nothing joins flow as they do alone")
-{
-    const PolygonMesh first = make_triangles(400);
-    const PolygonMesh second = make_hexagons(400);
-    const PolygonMesh both = test::side_by_side({first, second});
-    for (const Laplacian laplacian : all_laplacians) {
-        const Points result = flowed(both, sweep_options(laplacian, 2));
-        const Points offset_first = both.vertices.topRows(first.n_vertices());
-        PolygonMesh alone = first;
-        alone.vertices = offset_first;
-        FlowOptions options = sweep_options(laplacian, 1);
-        // That of both.
-        options.uniform_edge = mean_edge_length(both, both.vertices);
-        CHECK(largest_difference(result.topRows(first.n_vertices()), flowed(alone, options)) <= 1e-12);
-    }
-}
-
-TEST_CASE("the flow shrinks the height of a bump, decomposed and not, to about the same")
-{
-    for (const PolygonMesh& mesh : height_fields())
-        for (const Laplacian laplacian : {Laplacian::Fujiwara, Laplacian::PtackovaVelho}) {
-            CAPTURE(name_of(laplacian));
-            const double before = mesh.vertices.col(2).norm();
-            const double undecomposed = flowed(mesh, sweep_options(laplacian, 1)).col(2).norm();
-            const double decomposed = flowed(mesh, sweep_options(laplacian, 4)).col(2).norm();
-            CHECK(undecomposed < 0.8 * before);
-            CHECK(decomposed == test::relative(undecomposed, 0.05));
-        }
 }

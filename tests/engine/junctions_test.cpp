@@ -307,22 +307,6 @@ TEST_CASE("parts reach across junctions that move, and end at those that are hel
     CHECK(cut.repaired_faces == 0);
 }
 
-TEST_CASE("flows at junctions have the same bits on any number of threads")
-{
-    const PolygonMesh mesh = test::foam(14, 6, 5);
-    for (const Approach approach : {Approach::Converged, Approach::ConjugateGradients, Approach::Undecomposed}) {
-        FlowOptions options = junction_options(Laplacian::VirtualRefinement, 1.0, approach);
-        options.steps = 2;
-        options.cut.subdomains = approach == Approach::Converged ? 6 : 1;
-        options.resources.threads = 1;
-        const Points expected = test::flowed(mesh, options);
-        for (const int threads : {2, 3, 8}) {
-            options.resources.threads = threads;
-            CHECK(test::same_bits(test::flowed(mesh, options), expected));
-        }
-    }
-}
-
 TEST_CASE("where steps cannot move junctions, or must not, they stay, and a remark says why")
 {
     const PolygonMesh first = roughened(plates_at({0, 90, 180}, 8, 8), 0.1);

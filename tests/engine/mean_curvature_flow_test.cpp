@@ -75,20 +75,6 @@ TEST_CASE("the report tells what was done")
     CHECK(seconds.total >= seconds.cut + seconds.analyse + seconds.step);
 }
 
-TEST_CASE("one sub-mesh is the undecomposed flow to the bit")
-{
-    const PolygonMesh mesh = make_hexagons(1000);
-    for (const Laplacian laplacian : test::all_laplacians) {
-        FlowOptions options = two_step_options(1);
-        options.laplacian = laplacian;
-        options.report.reference = true;
-        PolygonMesh flowing = mesh;
-        const FlowReport report = mean_curvature_flow(flowing, options);
-        CHECK(report.cut.n_colours() == 1);
-        CHECK(report.steps.back().distance->max == 0.0);
-    }
-}
-
 TEST_CASE("a large mesh that is not cut is factorised by several threads, with the same bits")
 {
     const PolygonMesh mesh = make_triangles(40'000);
@@ -162,41 +148,7 @@ TEST_CASE("non-manifold meshes flow, with their non-manifold vertices fixed, and
     }
 }
 
-TEST_CASE("options outside their limits are refused by name")
-{
-    PolygonMesh mesh = make_triangles(400);
-    const auto refused = [&](auto change, const char* name) {
-        FlowOptions options = two_step_options(2);
-        change(options);
-        CHECK_THROWS_WITH_AS(mean_curvature_flow(mesh, options), doctest::Contains(name), OptionError);
-    };
-    const double nan = std::numeric_limits<double>::quiet_NaN();
-    const double infinity = std::numeric_limits<double>::infinity();
-    for (const double bad : {0.0, -1.0, nan, infinity}) {
-        refused([&](FlowOptions& o) { o.time_step = bad; }, "time_step");
-        refused([&](FlowOptions& o) { o.interface.p = bad; }, "p is");
-    }
-    refused([](FlowOptions& o) { o.steps = -1; }, "steps");
-    refused([](FlowOptions& o) { o.cut.subdomains = -1; }, "subdomains");
-    refused([](FlowOptions& o) { o.resources.threads = -1; }, "threads");
-    refused([](FlowOptions& o) { o.resources.threads = 1025; }, "threads");
-    refused([](FlowOptions& o) { o.steps = 2'000'000'000; }, "steps");
-    refused([](FlowOptions& o) { o.interface.overlap = 0; }, "overlap");
-    refused(
-        [](FlowOptions& o) {
-            o.interface.conditions = Conditions::Schwarz;
-            o.interface.sweep = Sweep::Alternating;
-        },
-        "sweep");
-    refused(
-        [](FlowOptions& o) {
-            o.interface.conditions = Conditions::Schwarz;
-            o.interface.p = 20.0;
-        },
-        "p is given");
-}
-
-TEST_CASE("labels that do not fit the mesh are refused")
+TEST_CASE("labels, weights and strengths that do not fit the mesh are refused")
 {
     PolygonMesh mesh = make_triangles(400);
     FlowOptions options = two_step_options(0);
@@ -205,6 +157,12 @@ TEST_CASE("labels that do not fit the mesh are refused")
     options.cut.labels.assign(mesh.n_faces(), 0);
     options.cut.labels[7] = -3;
     CHECK_THROWS_WITH_AS(mean_curvature_flow(mesh, options), doctest::Contains("face 7"), InputError);
+    options = two_step_options(0);
+    options.motion.attachment_weights = {1.0, 2.0};
+    CHECK_THROWS_WITH_AS(mean_curvature_flow(mesh, options), doctest::Contains("there are 2 attachment"), InputError);
+    options = two_step_options(0);
+    options.motion.strength = {1.0, 0.5, 0.0};
+    CHECK_THROWS_WITH_AS(mean_curvature_flow(mesh, options), doctest::Contains("there are 3 "), InputError);
 }
 
 TEST_CASE("geometry that a Laplacian would divide by zero on is refused by strict with the element's number")
@@ -295,7 +253,7 @@ TEST_CASE("a converged step of a mesh at rest asks for no more than rounding lea
     }
 }
 
-TEST_CASE("what is not measured changes no result, and is 0 or missing in the report")
+TEST_CASE("what is recorded or not measured changes no result, and what is not is 0 or missing in the report")
 {
     const PolygonMesh mesh = make_mixed_polygons(600);
     for (const test::FlowKind& kind : test::flow_kinds(mean_edge_length(mesh))) {
@@ -303,6 +261,7 @@ TEST_CASE("what is not measured changes no result, and is 0 or missing in the re
         FlowOptions options = kind.options;
         const Points expected = test::flowed(mesh, options);
         options.report.measures = false;
+        options.report.record_schedule = true;
         PolygonMesh moved = mesh;
         const FlowReport report = mean_curvature_flow(moved, options);
         CHECK(test::same_bits(moved.vertices, expected));

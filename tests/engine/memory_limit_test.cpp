@@ -10,6 +10,7 @@
 #include "samples/meshes/meshes.h"
 #include "tests/support/flow_kinds.h"
 #include "tests/support/memory_limits.h"
+#include "tests/support/messages.h"
 
 using namespace seamflow;
 using test::same_bits;
@@ -43,12 +44,7 @@ FlowOptions limited_converged(Laplacian laplacian, int threads = 1)
 std::string complaint_about(PolygonMesh mesh, FlowOptions options, std::size_t memory_limit)
 {
     options.resources.memory_limit = memory_limit;
-    try {
-        mean_curvature_flow(mesh, options);
-        return {};
-    } catch (const OptionError& error) {
-        return error.what();
-    }
+    return test::message_of<OptionError>([&] { mean_curvature_flow(mesh, options); });
 }
 
 std::size_t least_limit(const PolygonMesh& mesh, const FlowOptions& options)

@@ -1,5 +1,3 @@
-#include <cstring>
-
 #include <doctest/doctest.h>
 
 #include "engine/mean_curvature_flow.h"
@@ -9,7 +7,6 @@
 
 using namespace seamflow;
 using test::flowed;
-using test::height_fields;
 
 namespace {
 
@@ -34,57 +31,6 @@ double distance_to_undecomposed(PolygonMesh mesh, FlowOptions options)
 }
 
 }  // namespace
-
-TEST_CASE("with Schwarz a flat mesh stays flat whatever the cut, and closed ones stay finite")
-{
-    for (const Laplacian laplacian : test::all_laplacians)
-        for (const Index subdomains : {2, 5, 16}) {
-            CAPTURE(name_of(laplacian));
-            CAPTURE(subdomains);
-            for (PolygonMesh mesh : height_fields()) {
-                CHECK(flowed(mesh, schwarz_options(laplacian, subdomains)).allFinite());
-                mesh.vertices.col(2).setZero();
-                CHECK(flowed(mesh, schwarz_options(laplacian, subdomains, 2)).col(2).cwiseAbs().maxCoeff() == 0.0);
-            }
-            CHECK(flowed(make_noisy_sphere(900), schwarz_options(laplacian, subdomains)).allFinite());
-        }
-}
-
-TEST_CASE("with Alexa-Wardetzky and Schwarz a flat mesh of triangles does not move at all")
-{
-    PolygonMesh mesh = make_triangles(900);
-    mesh.vertices.col(2).setZero();
-    for (const Index subdomains : {2, 5, 16})
-        CHECK(test::largest_difference(flowed(mesh, schwarz_options(Laplacian::AlexaWardetzky, subdomains)),
-                                       mesh.vertices) <= 1e-12);
-}
-
-TEST_CASE("Schwarz in one sub-mesh is the undecomposed flow to the bit")
-{
-    for (const PolygonMesh& mesh : height_fields()) {
-        FlowOptions undecomposed = schwarz_options(Laplacian::Fujiwara, 1);
-        undecomposed.interface.conditions = Conditions::AdaptedRobin;
-        CHECK(flowed(mesh, schwarz_options(Laplacian::Fujiwara, 1, 3)) == flowed(mesh, undecomposed));
-    }
-}
-
-TEST_CASE("Schwarz gives the same bits for every number of threads from 1 to 8")
-{
-    const PolygonMesh mesh = make_mixed_polygons(3000);
-    for (const Laplacian laplacian : test::all_laplacians)
-        for (const Correction correction : {Correction::Automatic, Correction::Centroid}) {
-            FlowOptions options = schwarz_options(laplacian, 24, 2);
-            options.interface.correction = correction;
-            options.resources.threads = 1;
-            const Points expected = flowed(mesh, options);
-            for (options.resources.threads = 2; options.resources.threads <= 8; ++options.resources.threads) {
-                CAPTURE(options.resources.threads);
-                const Points found = flowed(mesh, options);
-                CHECK(std::memcmp(found.data(), expected.data(),
-                                  static_cast<std::size_t>(found.size()) * sizeof(double)) == 0);
-            }
-        }
-}
 
 TEST_CASE("the wider the overlap the nearer Schwarz is to the undecomposed flow")
 {

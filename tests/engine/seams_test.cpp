@@ -9,21 +9,13 @@
 #include "partition/errors.h"
 #include "partition/weld.h"
 #include "tests/support/flows.h"
+#include "tests/support/messages.h"
 #include "tests/support/test_meshes.h"
 
 using namespace seamflow;
 using namespace seamflow::test;
 
 namespace {
-
-/// Two parts of the faces, with a seam between them that runs through the mesh.
-std::vector<Index> halves(const PolygonMesh& mesh)
-{
-    std::vector<Index> labels;
-    for (Index f = 0; f < mesh.n_faces(); ++f)
-        labels.push_back(mesh.vertices.row(mesh.face(f).front())[0] < 0.5 ? 0 : 1);
-    return labels;
-}
 
 FlowOptions in_sub_meshes()
 {
@@ -33,15 +25,6 @@ FlowOptions in_sub_meshes()
     options.steps = 3;
     options.cut.subdomains = 4;
     return options;
-}
-
-/// The vertex of the whole mesh at the place of each vertex of a part.
-std::vector<Index> originals(const PolygonMesh& parts, const PolygonMesh& whole)
-{
-    std::vector<Index> of(usize(parts.n_vertices()));
-    for (std::size_t corner = 0; corner < parts.face_vertices.size(); ++corner)
-        of[parts.face_vertices[corner]] = whole.face_vertices[corner];
-    return of;
 }
 
 /// Compares bit for bit.
@@ -106,7 +89,7 @@ TEST_CASE("what is said of seams: a remark, who moved with whom, and who was fix
     const FlowReport report = mean_curvature_flow(mesh, in_sub_meshes());
     CHECK(report.mesh.moved_with == originals(parts, whole));
     CHECK(report.mesh.vertices == parts.n_vertices());
-    CHECK(std::ranges::any_of(report.remarks, [](const std::string& r) { return r.find("along seams") != r.npos; }));
+    CHECK(count_with(report.remarks, "along seams") == 1);
     // Copies at both ends of the seam lie on the boundary.
     CHECK(report.mesh.fixed_vertices == of_whole.mesh.fixed_vertices + 2);
     CHECK(report.mesh.non_manifold_vertices == 0);
@@ -260,26 +243,4 @@ TEST_CASE("sub-meshes that are written as they are keep seams, and what an obser
             CHECK(v == parts.face_vertices[corner]);
         CHECK(separated.vertices.row(v) == of_whole.separated->vertices.row(of_whole.separated->face_vertices[corner]));
     }
-}
-
-TEST_CASE("a flow with seams continues from a state as if it had never ended, but not with seams apart")
-{
-    const PolygonMesh whole = make_triangles(400);
-    const PolygonMesh parts = split(whole, halves(whole));
-    FlowOptions options = in_sub_meshes();
-    auto state = std::make_shared<FlowState>();
-    PolygonMesh mesh = parts;
-    mean_curvature_flow(mesh, options, [&](const StepState& now) {
-        if (now.step == 1)
-            *state = now.capture();
-    });
-    PolygonMesh again = parts;
-    mean_curvature_flow(again, options, {}, {.resume = state});
-    CHECK(same_bits(again.vertices, mesh.vertices));
-    options.motion.weld.reset();
-    again = parts;
-    CHECK_THROWS_WITH_AS(mean_curvature_flow(again, options, {}, {.resume = state}),
-                         doctest::Contains("to other options"), InputError);
-    options.motion.weld = -1.0;
-    CHECK_THROWS_WITH_AS(mean_curvature_flow(again, options), doctest::Contains("weld is -1"), OptionError);
 }

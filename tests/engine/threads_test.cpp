@@ -2,13 +2,17 @@
 #include <thread>
 
 #include <doctest/doctest.h>
-#include <oneapi/tbb/task_arena.h>
 
 #include "engine/mean_curvature_flow.h"
 #include "engine/tasks/workers.h"
 #include "partition/errors.h"
+#include "partition/metrics/vertex_distance.h"
 #include "samples/meshes/meshes.h"
+#include "tests/support/flow_kinds.h"
 #include "tests/support/flows.h"
+#include "tests/support/junction_meshes.h"
+#include "tests/support/option_cases.h"
+#include "tests/support/outcome.h"
 
 using namespace seamflow;
 using test::same_bits;
@@ -26,34 +30,47 @@ FlowOptions threaded_options(Laplacian laplacian, int threads)
     return options;
 }
 
+void check_threads(const std::string& name, const PolygonMesh& mesh, FlowOptions options)
+{
+    CAPTURE(name);
+    options.resources.threads = 1;
+    const test::Outcome expected = test::outcome_of(mesh, options);
+    for (const int threads : {2, 3, 8}) {
+        CAPTURE(threads);
+        options.resources.threads = threads;
+        const test::Outcome found = test::outcome_of(mesh, options);
+        CHECK(found.message == expected.message);
+        CHECK(same_bits(found.end, expected.end));
+        if (!expected.message.empty())
+            continue;
+        CHECK(found.report.resources.threads == threads);
+        CHECK(found.report.displacement.has_value() == expected.report.displacement.has_value());
+        if (found.report.displacement)
+            CHECK(found.report.displacement->drift.rms == expected.report.displacement->drift.rms);
+        for (std::size_t i = 0; i < expected.report.steps.size(); ++i) {
+            const StepReport& step = found.report.steps[i];
+            const StepReport& other = expected.report.steps[i];
+            CHECK(step.estimated_v_max == other.estimated_v_max);
+            CHECK(step.displacement.tangential.mean == other.displacement.tangential.mean);
+            CHECK(step.displacement.normal.rms == other.displacement.normal.rms);
+        }
+    }
+}
+
 }  // namespace
 
-TEST_CASE("every number of threads from 1 to 8, and every repetition, gives the same bits")
+TEST_CASE("every kind of flow and every option give the same bits on any number of threads, junctions or not")
 {
-    for (const PolygonMesh& mesh : {make_mixed_polygons(3000), make_noisy_sphere(3000)})
-        for (const Laplacian laplacian : test::all_laplacians) {
-            CAPTURE(name_of(laplacian));
-            const Points expected = test::flowed(mesh, threaded_options(laplacian, 1));
-            for (int threads = 1; threads <= 8; ++threads) {
-                CAPTURE(threads);
-                CHECK(same_bits(test::flowed(mesh, threaded_options(laplacian, threads)), expected));
-            }
-        }
-}
-
-TEST_CASE("the report says how many threads there were")
-{
-    PolygonMesh mesh = make_quads(400);
-    CHECK(mean_curvature_flow(mesh, threaded_options(Laplacian::Fujiwara, 3)).resources.threads == 3);
-}
-
-TEST_CASE("without a number of its own the flow keeps to the caller's arena")
-{
-    PolygonMesh mesh = make_quads(400);
-    oneapi::tbb::task_arena arena(1);
-    const FlowReport report =
-        arena.execute([&] { return mean_curvature_flow(mesh, threaded_options(Laplacian::Fujiwara, 0)); });
-    CHECK(report.resources.threads == 1);
+    const PolygonMesh mesh = make_mixed_polygons(3000);
+    for (const PolygonMesh& any : {mesh, test::foam(14, 6, 5)})
+        for (const test::FlowKind& kind : test::flow_kinds(mean_edge_length(any)))
+            check_threads(kind.name, any, kind.options);
+    const double edge = mean_edge_length(mesh);
+    for (const test::OptionCase& option : test::option_cases()) {
+        FlowOptions options = test::options_without_cases(edge);
+        option.set(options, mesh, edge);
+        check_threads(option.name(), mesh, options);
+    }
 }
 
 TEST_CASE("the observer is called in the thread that called the flow")
@@ -63,19 +80,6 @@ TEST_CASE("the observer is called in the thread that called the flow")
     for (const int threads : {0, 1, 2, 5})
         mean_curvature_flow(mesh, threaded_options(Laplacian::Fujiwara, threads),
                             [&](const StepState&) { CHECK(std::this_thread::get_id() == caller); });
-}
-
-TEST_CASE("two flows at the same time do not disturb each other")
-{
-    const PolygonMesh mesh = make_mixed_polygons(2000);
-    const Points expected = test::flowed(mesh, threaded_options(Laplacian::AlexaWardetzky, 1));
-    Points first;
-    Points second;
-    std::thread other([&] { first = test::flowed(mesh, threaded_options(Laplacian::AlexaWardetzky, 2)); });
-    second = test::flowed(mesh, threaded_options(Laplacian::AlexaWardetzky, 3));
-    other.join();
-    CHECK(same_bits(first, expected));
-    CHECK(same_bits(second, expected));
 }
 
 TEST_CASE("numbers of threads that no machine has are refused before any thread is made")

@@ -186,13 +186,10 @@ bool are_independent(const SimpleChange& a, const SimpleChange& b)
 std::vector<std::string> fields_that_differ(const FlowOptions& options, const FlowOptions& from)
 {
     std::vector<std::string> fields;
-    const auto compare = [&](const auto& a, const auto& b) {
+    for_each_option(options, from, [&](const auto& a, const auto& b) {
         if (*a.value != *b.value)
             fields.emplace_back(a.field);
-    };
-    std::apply(
-        [&](const auto&... a) { std::apply([&](const auto&... b) { (compare(a, b), ...); }, option_table(from)); },
-        option_table(options));
+    });
     return fields;
 }
 

@@ -87,7 +87,7 @@ bool FailingFactorisation::has_failed() const
 using namespace seamflow;
 using namespace seamflow::test;
 
-#define SEAMFLOW_ADD_TASK "_ZN8seamflow9TaskGraph8add_taskESt8functionIFvvEENS_12TaskPriorityE"
+#define SEAMFLOW_ADD_TASK "_ZN8seamflow9TaskGraph8add_taskESt8functionIFvvEERKNS_13ScheduledTaskE"
 #define SEAMFLOW_LDL(number)                                                                                           \
     "_ZNK8seamflow9LdlSolver9factoriseI" number                                                                        \
     "EESt8optionalINS_9LdlFactorIT_EEESt4spanIKdLm18446744073709551615EERNSt3pmr15memory_resourceERNS_"                \
@@ -98,7 +98,7 @@ using namespace seamflow::test;
 using Values = std::span<const double>;
 
 TaskGraph::Node real_add_task(TaskGraph* graph, std::function<void()> body,
-                              TaskPriority priority) asm("__real_" SEAMFLOW_ADD_TASK);
+                              const ScheduledTask& task) asm("__real_" SEAMFLOW_ADD_TASK);
 using SingleFactor = std::optional<LdlFactor<float>>;
 using DoubleFactor = std::optional<LdlFactor<double>>;
 using LuFactor = std::optional<LuSolver::Factor>;
@@ -125,8 +125,8 @@ int number_at(TaskGraph::Node node)
 }  // namespace
 
 TaskGraph::Node wrap_add_task(TaskGraph* graph, std::function<void()> body,
-                              TaskPriority priority) asm("__wrap_" SEAMFLOW_ADD_TASK);
-TaskGraph::Node wrap_add_task(TaskGraph* graph, std::function<void()> body, TaskPriority priority)
+                              const ScheduledTask& task) asm("__wrap_" SEAMFLOW_ADD_TASK);
+TaskGraph::Node wrap_add_task(TaskGraph* graph, std::function<void()> body, const ScheduledTask& task)
 {
     auto number = std::make_shared<int>(0);
     auto failing = [number, n_runs = 0, body = std::move(body)]() mutable {
@@ -136,7 +136,7 @@ TaskGraph::Node wrap_add_task(TaskGraph* graph, std::function<void()> body, Task
         }
         body();
     };
-    const TaskGraph::Node node = real_add_task(graph, std::move(failing), priority);
+    const TaskGraph::Node node = real_add_task(graph, std::move(failing), task);
     *number = number_at(node);
     return node;
 }

@@ -8,6 +8,7 @@
 #include "tests/faults/failing_work.h"
 #include "tests/faults/small_runs.h"
 #include "tests/support/flows.h"
+#include "tests/support/messages.h"
 
 using namespace seamflow;
 
@@ -47,12 +48,7 @@ struct SharedFlow {
     /// @returns what rank 0 throws; empty: nothing.
     std::string failure()
     {
-        try {
-            run();
-        } catch (const ComputationError& error) {
-            return error.what();
-        }
-        return {};
+        return test::message_of<ComputationError>([&] { run(); });
     }
 
     [[nodiscard]] std::string result() const

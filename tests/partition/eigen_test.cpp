@@ -6,6 +6,7 @@
 
 #include "partition/eigen.h"
 #include "samples/meshes/meshes.h"
+#include "tests/support/messages.h"
 
 using namespace seamflow;
 
@@ -15,12 +16,7 @@ namespace {
 template <class Vertices, class Faces>
 std::string matrix_complaint(const Vertices& vertices, const Faces& faces)
 {
-    try {
-        to_polygon_mesh(vertices, faces);
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "";
+    return test::message_of<InputError>([&] { to_polygon_mesh(vertices, faces); });
 }
 
 }  // namespace

@@ -6,20 +6,10 @@
 
 #include <doctest/doctest.h>
 
-#include "partition/executor.h"
+#include "tests/support/backwards.h"
 
 using namespace seamflow;
-
-namespace {
-
-/// Ranges of one index, the last one first.
-void run_backwards(Index n, const RangeBody& body)
-{
-    for (Index i = n; i > 0; --i)
-        body(i - 1, i);
-}
-
-}  // namespace
+using test::run_backwards;
 
 TEST_CASE("a loop comes by every index once")
 {

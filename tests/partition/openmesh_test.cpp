@@ -34,10 +34,11 @@ void check_same_faces(const PolygonMesh& found, const PolygonMesh& expected)
         CHECK(from_lowest(found.face(f)) == from_lowest(expected.face(f)));
 }
 
-/// Positions as they are after rounding to single precision.
-Points rounded(const Points& positions)
+/// Positions as they are in a mesh of this kind.
+template <class Mesh>
+Points in_precision_of(const Points& positions)
 {
-    return positions.cast<float>().cast<double>();
+    return positions.cast<typename Mesh::Scalar>().template cast<double>();
 }
 
 /// Rows 1, 3, 4 … without those listed.
@@ -52,26 +53,14 @@ Points without_rows(const Points& positions, const std::vector<Index>& rows)
 
 }  // namespace
 
-TEST_CASE("polygons come over with their order, in single and in double precision")
+TEST_CASE_TEMPLATE("faces come over with their order, in single and in double precision", Mesh, FloatPolyMesh,
+                   DoublePolyMesh, FloatTriMesh, DoubleTriMesh)
 {
-    const PolygonMesh mesh = make_mixed_polygons(200);
-    const PolygonMesh from_double = to_polygon_mesh(openmesh_of<DoublePolyMesh>(mesh));
-    check_same_faces(from_double, mesh);
-    CHECK(from_double.vertices == mesh.vertices);
-    const PolygonMesh from_float = to_polygon_mesh(openmesh_of<FloatPolyMesh>(mesh));
-    check_same_faces(from_float, mesh);
-    CHECK(from_float.vertices == rounded(mesh.vertices));
-}
-
-TEST_CASE("triangles come over with their order, in single and in double precision")
-{
-    const PolygonMesh mesh = make_noisy_sphere(150);
-    const PolygonMesh from_double = to_polygon_mesh(openmesh_of<DoubleTriMesh>(mesh));
-    check_same_faces(from_double, mesh);
-    CHECK(from_double.vertices == mesh.vertices);
-    const PolygonMesh from_float = to_polygon_mesh(openmesh_of<FloatTriMesh>(mesh));
-    check_same_faces(from_float, mesh);
-    CHECK(from_float.vertices == rounded(mesh.vertices));
+    const bool has_triangles = std::is_same_v<Mesh, FloatTriMesh> || std::is_same_v<Mesh, DoubleTriMesh>;
+    const PolygonMesh mesh = has_triangles ? make_noisy_sphere(150) : make_mixed_polygons(200);
+    const PolygonMesh found = to_polygon_mesh(openmesh_of<Mesh>(mesh));
+    check_same_faces(found, mesh);
+    CHECK(found.vertices == in_precision_of<Mesh>(mesh.vertices));
 }
 
 TEST_CASE("an empty mesh and vertices without faces come over")
@@ -123,7 +112,6 @@ TEST_CASE_TEMPLATE("positions go back in the same order, past deleted vertices",
     Points moved = before;
     moved.col(2).setLinSpaced(0.1, 0.7);
     set_positions(mesh, moved);
-    const bool is_single = std::is_same_v<typename Mesh::Scalar, float>;
-    CHECK(to_polygon_mesh(mesh).vertices == (is_single ? rounded(moved) : moved));
+    CHECK(to_polygon_mesh(mesh).vertices == in_precision_of<Mesh>(moved));
     CHECK(mesh.point(mesh.vertex_handle(7)) == untouched);
 }

@@ -86,68 +86,16 @@ void check_fans(const PolygonMesh& mesh, const Topology& topology, std::span<con
              {std::pair(fan.corners.front(), fan.first), std::pair(fan.corners.back(), fan.last)})
             CHECK((mesh.face_vertices[topology.next(mesh, corner)] == end ||
                    mesh.face_vertices[topology.previous(mesh, corner)] == end));
+        // Fans that share a spoke would be one.
+        for (const Index other : found)
+            for (const Index corner : fan.corners)
+                CHECK_FALSE(share_spoke(other, corner));
         found.insert(found.end(), fan.corners.begin(), fan.corners.end());
     }
     std::sort(found.begin(), found.end());
     std::vector<Index> expected;
     std::copy_if(corners.begin(), corners.end(), std::back_inserter(expected), belongs);
     CHECK(found == expected);
-}
-
-std::vector<Index> sorted(std::vector<Index> values)
-{
-    std::sort(values.begin(), values.end());
-    return values;
-}
-
-/// The faces of each fan, sorted, the fans sorted.
-std::vector<std::vector<Index>> face_sets(const Topology& topology, const std::vector<Fan>& fans)
-{
-    std::vector<std::vector<Index>> sets;
-    for (const Fan& fan : fans) {
-        auto& set = sets.emplace_back();
-        for (const Index corner : fan.corners)
-            set.push_back(topology.face_of[static_cast<std::size_t>(corner)]);
-        std::sort(set.begin(), set.end());
-    }
-    std::sort(sets.begin(), sets.end());
-    return sets;
-}
-
-/// Whether the two faces have an edge at v in common.
-bool share_edge_at(const PolygonMesh& mesh, const Topology& topology, Index v, Index f, Index g)
-{
-    const auto shares = [&](Index h) {
-        const Index twin = topology.twin[static_cast<std::size_t>(h)];
-        return twin >= 0 && topology.face_of[static_cast<std::size_t>(twin)] == g;
-    };
-    for (const Index corner : topology.corners_at(v))
-        if (topology.face_of[static_cast<std::size_t>(corner)] == f)
-            return shares(corner) || shares(topology.previous(mesh, corner));
-    return false;
-}
-
-/// Faces with a label around v, joined by repeated merging of sets that share an edge at v.
-std::vector<std::vector<Index>> fans_by_merging(const PolygonMesh& mesh, const Topology& topology, Index v,
-                                                const std::vector<Index>& labels, Index label)
-{
-    std::vector<std::vector<Index>> sets;
-    for (const Index corner : topology.corners_at(v)) {
-        const Index f = topology.face_of[static_cast<std::size_t>(corner)];
-        if (labels[static_cast<std::size_t>(f)] != label)
-            continue;
-        std::vector<Index> joined{f};
-        std::erase_if(sets, [&](const std::vector<Index>& set) {
-            const bool joins =
-                std::any_of(set.begin(), set.end(), [&](Index g) { return share_edge_at(mesh, topology, v, f, g); });
-            if (joins)
-                joined.insert(joined.end(), set.begin(), set.end());
-            return joins;
-        });
-        sets.push_back(sorted(joined));
-    }
-    std::sort(sets.begin(), sets.end());
-    return sets;
 }
 
 }  // namespace
@@ -368,16 +316,4 @@ TEST_CASE("at first interior vertices move, with a free boundary those on it too
     CHECK_FALSE(topology.moves(6));
     CHECK_THROWS_AS(hold(topology, std::vector<Index>{mesh.n_vertices()}), InputError);
     CHECK_THROWS_AS(hold(topology, std::vector<Index>{-1}), InputError);
-}
-
-TEST_CASE("fans of a part are the sets of its faces joined by edges")
-{
-    for (const NamedMesh& m : assorted_meshes()) {
-        CAPTURE(m.name);
-        const auto labels = random_labels(m.mesh.n_faces(), 2, 5);
-        for (Index v = 0; v < m.mesh.n_vertices(); ++v)
-            for (const Index label : {0, 1})
-                CHECK(face_sets(m.topology, fans_at(m.mesh, m.topology, v, labels, label)) ==
-                      fans_by_merging(m.mesh, m.topology, v, labels, label));
-    }
 }

@@ -9,12 +9,11 @@
 #include "partition/metrics/vertex_distance.h"
 #include "samples/benchmark/benchmark_command.h"
 #include "samples/benchmark/grid_cell.h"
-#include "samples/benchmark/method_process.h"
 #include "samples/benchmark/methods/peer_solver.h"
 #include "samples/benchmark/run_method.h"
-#include "samples/benchmark/scratch_folder.h"
 #include "samples/meshes/meshes.h"
 #include "tests/support/relative.h"
+#include "tests/support/temporary_directory.h"
 
 using namespace seamflow;
 
@@ -149,7 +148,11 @@ TEST_CASE("the equations are symmetric")
 
 TEST_CASE("the task that a process is given arrives as it was")
 {
-    const ScratchFolder folder;
+    const test::TemporaryDirectory folder;
+    const auto sent = [&](const MethodTask& of) {
+        write_archive(folder / "task", "task\n", of);
+        return read_archive<MethodTask>(folder / "task", "task\n");
+    };
     MethodTask task = task_of(Method::Amg, make_mesh("mixed", 200), Laplacian::AlexaWardetzky, 1e-4);
     task.options.accuracy.approach = Approach::Converged;
     task.options.accuracy.tolerance = 1e-5;
@@ -157,8 +160,7 @@ TEST_CASE("the task that a process is given arrives as it was")
     task.options.resources.tune_for = 16;
     task.input = "in.obj";
     task.output = "out.ply";
-    write_task(folder.path(), task);
-    const MethodTask task_read = read_task(folder.path());
+    const MethodTask task_read = sent(task);
     CHECK(task_read.method == task.method);
     CHECK(task_read.tolerance == task.tolerance);
     CHECK(task_read.options.laplacian == task.options.laplacian);
@@ -174,9 +176,8 @@ TEST_CASE("the task that a process is given arrives as it was")
     CHECK(task_read.output == task.output);
     task.options.accuracy.tolerance.reset();
     task.options.resources.memory_limit.reset();
-    write_task(folder.path(), task);
-    CHECK_FALSE(read_task(folder.path()).options.accuracy.tolerance);
-    CHECK_FALSE(read_task(folder.path()).options.resources.memory_limit);
+    CHECK_FALSE(sent(task).options.accuracy.tolerance);
+    CHECK_FALSE(sent(task).options.resources.memory_limit);
 }
 
 TEST_CASE("iterations and their accuracy do not depend on where the mesh lies")

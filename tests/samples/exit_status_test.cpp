@@ -5,9 +5,8 @@
 #include <doctest/doctest.h>
 
 #include "partition/errors.h"
-#include "samples/command/parse_smooth_command.h"
-#include "samples/command/smooth_command.h"
 #include "samples/process/exit_status.h"
+#include "samples/runs/smoothing_run.h"
 
 using namespace seamflow;
 
@@ -42,18 +41,18 @@ TEST_CASE("every kind of exception has its exit status and one message")
 TEST_CASE(
     "steps fail that miss the tolerance asked for, unless they were to have few iterations and only these ran out")
 {
-    FlowReport report;
-    report.convergence.steps_short_of_tolerance = 3;
-    report.convergence.steps_stagnated = 1;
+    ConvergenceReport report;
+    report.steps_short_of_tolerance = 3;
+    report.steps_stagnated = 1;
     SmoothCommand command;
-    CHECK(steps_failed(command, report.convergence) == 0);
+    CHECK(missed_tolerance(command, report).empty());
     command.options.accuracy.tolerance = 1e-8;
-    CHECK(steps_failed(command, report.convergence) == 3);
+    CHECK(missed_tolerance(command, report) == "the tolerance 1e-08 was missed in 3 steps");
     command.limits_iterations = true;
-    CHECK(steps_failed(command, report.convergence) == 1);
-    report.convergence.steps_stagnated = 0;
-    CHECK(steps_failed(command, report.convergence) == 0);
+    CHECK(missed_tolerance(command, report) == "the tolerance 1e-08 was missed in 1 step");
+    report.steps_stagnated = 0;
+    CHECK(missed_tolerance(command, report).empty());
     command.limits_iterations = false;
-    CHECK(steps_failed(command, report.convergence) == 3);
-    CHECK(steps_failed(command, ConvergenceReport{}) == 0);
+    CHECK(missed_tolerance(command, report).ends_with("3 steps"));
+    CHECK(missed_tolerance(command, {}).empty());
 }

@@ -182,7 +182,7 @@ TEST_CASE("the same of the other programs" * doctest::skip(test::under_sanitizer
     fail_every_output(w,
                       BENCHMARK " --vertices 200 --peers none --threads 1 --subdomains 2 --steps 1 "
                                 "--json benchmark.json",
-                      {"benchmark.json"}, {"input.ply", "task.json"});
+                      {"benchmark.json"}, {"input.ply", "task"});
 }
 
 TEST_CASE("whatever call fails while a file is read: status 3, and a message that names it" *

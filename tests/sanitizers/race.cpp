@@ -45,9 +45,9 @@ void write_in_tasks(long& number, bool ordered)
     };
     TaskGraph graph;
     const auto root = graph.add_root();
-    const auto before = graph.add_task([&] { ++number; }, TaskPriority::Normal);
-    const auto one = graph.add_task(write, TaskPriority::Normal);
-    const auto other = graph.add_task(write, TaskPriority::Normal);
+    const auto before = graph.add_task([&] { ++number; }, ScheduledTask());
+    const auto one = graph.add_task(write, ScheduledTask());
+    const auto other = graph.add_task(write, ScheduledTask());
     graph.add_dependency(root, before);
     graph.add_dependency(before, one);
     graph.add_dependency(ordered ? one : before, other);

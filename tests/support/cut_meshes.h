@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include <doctest/doctest.h>
+
 #include "partition/decomposition/decomposition.h"
 #include "solvers/laplacian/geometry.h"
 
@@ -26,6 +28,18 @@ CutMesh cut_by_place(const std::string& name, PolygonMesh mesh, const std::funct
 const std::vector<CutMesh>& cut_meshes();
 
 Decomposition decompose(const CutMesh& cut);
+
+/// Calls `check` with every cut mesh and each of its sub-meshes.
+template <class Check>
+void for_each_sub_mesh(Check&& check)
+{
+    for (const CutMesh& cut : cut_meshes()) {
+        CAPTURE(cut.name);
+        const Decomposition decomposition = decompose(cut);
+        for (const SubMesh& sub_mesh : decomposition.sub_meshes)
+            check(cut, sub_mesh);
+    }
+}
 
 /// The rows of `positions` in a sub-mesh's own order, the halo included.
 Points localised(const SubMesh& sub_mesh, const Points& positions);

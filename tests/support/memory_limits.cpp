@@ -4,6 +4,7 @@
 
 #include "partition/errors.h"
 #include "tests/support/flows.h"
+#include "tests/support/messages.h"
 
 namespace seamflow::test {
 
@@ -18,12 +19,7 @@ std::optional<std::size_t> least_limit_named(const std::string& message)
 std::optional<std::size_t> least_memory_limit(const PolygonMesh& mesh, FlowOptions options)
 {
     options.resources.memory_limit = 1;
-    try {
-        flowed(mesh, options);
-    } catch (const OptionError& error) {
-        return least_limit_named(error.what());
-    }
-    return std::nullopt;
+    return least_limit_named(message_of<OptionError>([&] { flowed(mesh, options); }));
 }
 
 }  // namespace seamflow::test

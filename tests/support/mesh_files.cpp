@@ -32,24 +32,15 @@ MeshFile read_text(const std::string& name, std::string_view content)
 std::string complaint_about(const std::string& name, std::string_view content)
 {
     const TemporaryDirectory folder;
-    try {
-        read_mesh(folder.with(name, content));
-    } catch (const InputError& error) {
-        return without_folder(error.what(), folder);
-    }
-    return {};
+    return without_folder(message_of<InputError>([&] { read_mesh(folder.with(name, content)); }), folder);
 }
 
 std::string complaint_of_writing(const PolygonMesh& mesh, const std::string& name, const FileKind& kind)
 {
     const TemporaryDirectory folder;
-    try {
-        write_mesh(folder.path() / name, mesh, kind);
-    } catch (const OutputError& error) {
-        const std::string left_behind = folder.n_files() == 0 ? "" : " [and a file is left behind]";
-        return without_folder(error.what(), folder) + left_behind;
-    }
-    return {};
+    const std::string message = message_of<OutputError>([&] { write_mesh(folder.path() / name, mesh, kind); });
+    const bool leaves_file = !message.empty() && folder.n_files() > 0;
+    return without_folder(message, folder) + (leaves_file ? " [and a file is left behind]" : "");
 }
 
 MeshFile round_trip(const PolygonMesh& mesh, const std::string& name, const FileKind& kind)

@@ -8,6 +8,7 @@
 
 #include "partition/errors.h"
 #include "partition/formats/mesh_io.h"
+#include "tests/support/messages.h"
 
 namespace seamflow::test {
 
@@ -58,11 +59,6 @@ inline std::string with(const std::string& text, std::string_view old, std::stri
 {
     const auto begin = text.find(old);
     return text.substr(0, begin).append(now).append(text.substr(begin + old.size()));
-}
-
-inline bool contains(std::string_view text, std::string_view part)
-{
-    return text.find(part) != std::string_view::npos;
 }
 
 }  // namespace seamflow::test

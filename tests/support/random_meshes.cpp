@@ -251,6 +251,20 @@ PolygonMesh renumbered(const PolygonMesh& mesh, const std::vector<Index>& new_ve
     return result;
 }
 
+ShuffledMesh shuffled(const PolygonMesh& mesh, std::uint32_t seed)
+{
+    RandomNumbers random(seed);
+    ShuffledMesh result{{}, random_permutation(mesh.n_vertices(), random)};
+    result.mesh = renumbered(mesh, result.new_vertex, random_permutation(mesh.n_faces(), random));
+    for (Index f = 0; f < mesh.n_faces(); ++f) {
+        const auto corners = result.mesh.face_vertices.begin();
+        const Index begin = result.mesh.face_offsets[f];
+        const Index end = result.mesh.face_offsets[f + 1];
+        std::rotate(corners + begin, corners + begin + random.below(end - begin), corners + end);
+    }
+    return result;
+}
+
 std::vector<Index> random_cut(const PolygonMesh& mesh, Index k, RandomNumbers& random)
 {
     if (random.unit() < 0.25)

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cmath>
+#include <cstdint>
 #include <string>
+#include <vector>
 
 #include "samples/meshes/random_numbers.h"
 #include "tests/support/loose_mesh.h"
@@ -42,6 +44,15 @@ std::vector<Index> random_permutation(Index n, RandomNumbers& random);
 /// The same mesh with other numbers: vertex v becomes new_vertex[v], face f comes from old_face[f].
 PolygonMesh renumbered(const PolygonMesh& mesh, const std::vector<Index>& new_vertex,
                        const std::vector<Index>& old_face);
+
+/// A mesh with its vertices and faces in random order, and the new number of each vertex.
+struct ShuffledMesh {
+    PolygonMesh mesh;
+    std::vector<Index> new_vertex;
+};
+
+/// The same mesh, every face from any of its corners on.
+ShuffledMesh shuffled(const PolygonMesh& mesh, std::uint32_t seed);
 
 /// A label from 0 to about k - 1 for each face: regions that grow from k faces, or scattered ones.
 std::vector<Index> random_cut(const PolygonMesh& mesh, Index k, RandomNumbers& random);

@@ -238,6 +238,22 @@ PolygonMesh split(const PolygonMesh& mesh, const std::vector<Index>& labels)
     return parts;
 }
 
+std::vector<Index> halves(const PolygonMesh& mesh, double middle)
+{
+    std::vector<Index> labels;
+    for (Index f = 0; f < mesh.n_faces(); ++f)
+        labels.push_back(mesh.vertices(mesh.face(f).front(), 0) < middle ? 0 : 1);
+    return labels;
+}
+
+std::vector<Index> originals(const PolygonMesh& parts, const PolygonMesh& whole)
+{
+    std::vector<Index> of(usize(parts.n_vertices()));
+    for (std::size_t corner = 0; corner < parts.face_vertices.size(); ++corner)
+        of[parts.face_vertices[corner]] = whole.face_vertices[corner];
+    return of;
+}
+
 std::vector<NamedMesh> assorted_meshes()
 {
     std::vector<NamedMesh> meshes;

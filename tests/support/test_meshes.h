@@ -60,6 +60,12 @@ PolygonMesh with_faces_flipped(const PolygonMesh& mesh, std::uint32_t seed);
 /// @param labels #F.
 PolygonMesh split(const PolygonMesh& mesh, const std::vector<Index>& labels);
 
+/// Labels of faces: 0 where the first corner lies at an x below the middle, else 1.
+std::vector<Index> halves(const PolygonMesh& mesh, double middle = 0.5);
+
+/// For each vertex of a split mesh, that of the whole one.
+std::vector<Index> originals(const PolygonMesh& parts, const PolygonMesh& whole);
+
 /// A mesh with a name for the messages of tests.
 struct NamedMesh {
     std::string name;

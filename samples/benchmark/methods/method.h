@@ -2,12 +2,13 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <vector>
 
 #include "engine/options/flow_options.h"
+#include "engine/state/archive.h"
 #include "partition/polygon_mesh.h"
 
 namespace seamflow {
@@ -39,8 +40,8 @@ struct MethodTask {
     /// libraries measure it; coordinates are relative to the centroid of the mesh, so that its place does not matter.
     double tolerance = 0.0;
     /// The file of the mesh, and that of the result.
-    std::filesystem::path input = {};
-    std::filesystem::path output = {};
+    std::string input = {};
+    std::string output = {};
 };
 
 /// The result of a method.
@@ -70,5 +71,20 @@ struct MethodResult {
 
 /// The result of a method that failed.
 MethodResult failed(std::string error);
+
+/// What of a task another process needs (see archive.h).
+auto fields(Is<MethodTask> auto& of)
+{
+    auto& options = of.options;
+    return std::tie(of.method, options.laplacian, options.time_step, options.steps, options.cut.subdomains,
+                    options.accuracy.tolerance, options.accuracy.approach, options.resources.memory_limit,
+                    options.resources.threads, options.resources.tune_for, of.tolerance, of.input, of.output);
+}
+
+/// What that process reports; the positions are in a file of their own.
+auto fields(Is<MethodResult> auto& of)
+{
+    return std::tie(of.error, of.setup_seconds, of.steps, of.iterations, of.approach, of.peak_memory_bytes);
+}
 
 }  // namespace seamflow

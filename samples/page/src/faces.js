@@ -3,7 +3,7 @@
 // WebGL takes what is flat from the last vertex of a triangle. So each vertex gets a sub-mesh to stand for, and every
 // triangle is turned until its last vertex stands for its own; only along seams vertices are doubled for that.
 
-/** The sub-mesh of each triangle. @param perFace into how many triangles each face is cut. */
+/** The sub-mesh, or the material, of each triangle: that of its face. @param perFace into how many triangles each face is cut. */
 export function labelsOfTriangles(labels, perFace, nTriangles) {
     const result = new Uint32Array(nTriangles);
     for (let f = 0, t = 0; f < perFace.length; ++f)

@@ -1,7 +1,7 @@
 // The colours and textures that the file of the mesh has itself, see samples/page/file_colours.h.
 
 import { facts, unpacked16, unpacked32, unpackedBytes } from "./data.js";
-import { byMaterial } from "./faces.js";
+import { byMaterial, labelsOfTriangles } from "./faces.js";
 
 const { colours } = facts.mesh;
 
@@ -29,11 +29,7 @@ export const materials = () =>
  */
 export async function layout(perFace, nTriangles) {
     const ofFaces = await unpacked32(colours.material_of_face, 1);
-    const ofTriangles = new Uint32Array(nTriangles);
-    for (let f = 0, t = 0; f < perFace.length; ++f)
-        for (let k = 0; k < perFace[f]; ++k)
-            ofTriangles[t++] = ofFaces[f];
-    const result = byMaterial(ofTriangles, colours.materials.length);
+    const result = byMaterial(labelsOfTriangles(ofFaces, perFace, nTriangles), colours.materials.length);
     if (colours.places === undefined)
         return { ...result, placeOfCorner: null, places: null };
     const [placeOfCorner, places] = await Promise.all([unpacked32(colours.place_of_corner, 3), unpacked16(colours.places.block, 3, 4)]);

@@ -15,6 +15,7 @@
 #include "partition/metrics/vertex_distance.h"
 #include "samples/meshes/meshes.h"
 #include "tests/support/junction_meshes.h"
+#include "tests/support/messages.h"
 #include "tests/support/reference_data.h"
 #include "tests/support/relative.h"
 #include "tests/support/test_meshes.h"
@@ -100,16 +101,6 @@ FlowOptions steps_of(const PolygonMesh& mesh, double squared_edges, int steps, A
         options.accuracy.tolerance.reset();
     options.cut.subdomains = subdomains;
     return options;
-}
-
-std::string complaint_of(const std::function<void()>& action)
-{
-    try {
-        action();
-    } catch (const std::exception& error) {
-        return error.what();
-    }
-    return {};
 }
 
 }  // namespace
@@ -418,9 +409,7 @@ TEST_CASE("what is said of filling says so, and once")
     fields(plates.n_vertices() - 1, 0) = no_data;
     const FieldReport most = report_of({.time_step = 0.1});
     CHECK(most.filled == 1);
-    CHECK(std::ranges::count_if(most.remarks, [](const std::string& remark) {
-              return remark.find("three faces or more") != std::string::npos;
-          }) == 1);
+    CHECK(test::count_with(most.remarks, "three faces or more") == 1);
 }
 
 TEST_CASE("a column without any data, and a component without any, stay so")
@@ -436,13 +425,12 @@ TEST_CASE("a column without any data, and a component without any, stay so")
     CHECK(fields.col(0).tail(mesh.n_vertices() - 36).array().isNaN().all());
     CHECK(fields.col(0).head(36).allFinite());
     CHECK(report.filled == 1);
-    const auto says = [&](const char* words) {
-        return std::ranges::any_of(report.remarks,
-                                   [&](const std::string& remark) { return remark.find(words) != remark.npos; });
-    };
-    CHECK(says("For column 0 (numbered from 0): Filling: 25 vertices stay without data, because faces connect them "
-               "with no vertex that has any."));
-    CHECK(says("For column 1 (numbered from 0): Filling: 61 vertices stay without data"));
+    CHECK(test::count_with(
+              report.remarks,
+              "For column 0 (numbered from 0): Filling: 25 vertices stay without data, because faces connect them "
+              "with no vertex that has any.") == 1);
+    CHECK(test::count_with(report.remarks, "For column 1 (numbered from 0): Filling: 61 vertices stay without data") ==
+          1);
     // Of two columns that lack data at different vertices.
     fields.setOnes();
     fields(7, 0) = fields(8, 1) = fields(9, 1) = no_data;
@@ -486,7 +474,7 @@ TEST_CASE("edges of fields stay by the diffusivity of Perona and Malik")
     };
     CHECK(across(fields) > 150.0);
     CHECK(across(plain) < 100.0);
-    CHECK(complaint_of([&] {
+    CHECK(test::message_of([&] {
               diffuse(mesh, fields, steps_of(mesh, 3.0, 2, Approach::ConjugateGradients, 1), {.keep_edges = 15.0});
           }) == "edges of fields are kept only in converged and undecomposed steps: leave the approach automatic");
 }
@@ -520,27 +508,19 @@ TEST_CASE("a step that misses its tolerance counts once, whatever takes it: colu
 TEST_CASE("vertices along seams get one value")
 {
     const PolygonMesh whole = bumpy_triangles(600);
-    std::vector<Index> labels;
-    for (Index f = 0; f < whole.n_faces(); ++f)
-        labels.push_back(whole.vertices(whole.face(f)[0], 0) > 0.5 ? 1 : 0);
-    const PolygonMesh mesh = test::split(whole, labels);
+    const PolygonMesh mesh = test::split(whole, test::halves(whole));
     REQUIRE(mesh.n_vertices() > whole.n_vertices());
     Eigen::MatrixXd of_whole = waves_on(whole);
-    Eigen::MatrixXd fields = waves_on(mesh);
-    for (Index v = whole.n_vertices(); v < mesh.n_vertices(); ++v)
-        for (Index w = 0; w < whole.n_vertices(); ++w)
-            if (mesh.vertices.row(v) == whole.vertices.row(w))
-                fields.row(v) = of_whole.row(w);
+    const std::vector<Index> originals = test::originals(mesh, whole);
+    Eigen::MatrixXd fields = of_whole(originals, Eigen::all);
     const FlowOptions options = steps_of(whole, 10.0, 2, Approach::Automatic, 0);
     diffuse(whole, of_whole, options);
     Eigen::MatrixXd apart = fields;
     diffuse(mesh, fields, options);
     CHECK(largest_difference(fields.topRows(whole.n_vertices()), of_whole) < 1e-9);
     // Where they differ, their mean counts.
-    Index copy = whole.n_vertices();
-    Index of_copy = 0;
-    while (mesh.vertices.row(of_copy) != mesh.vertices.row(copy))
-        ++of_copy;
+    const Index copy = whole.n_vertices();
+    const Index of_copy = originals[copy];
     apart.row(copy).array() += 50.0;
     apart.row(of_copy).array() -= 50.0;
     diffuse(mesh, apart, options);
@@ -564,7 +544,7 @@ TEST_CASE("fields refuse what they do not have, and stay as they were")
     Eigen::MatrixXd fields = Eigen::MatrixXd::Random(mesh.n_vertices(), 2);
     const Eigen::MatrixXd before = fields;
     const auto complaint = [&](const FlowOptions& options, const FieldOptions& of_fields = {}) {
-        const std::string text = complaint_of([&] { diffuse(mesh, fields, options, of_fields); });
+        const std::string text = test::message_of([&] { diffuse(mesh, fields, options, of_fields); });
         CHECK(fields == before);
         return text;
     };
@@ -582,10 +562,10 @@ TEST_CASE("fields refuse what they do not have, and stay as they were")
           "fields diffuse by a symmetric matrix, which the Laplacian ptackova-velho does not have: use fujiwara, "
           "alexa-wardetzky, virtual-refinement or uniform");
     fields(3, 1) = std::numeric_limits<double>::infinity();
-    CHECK(complaint_of([&] { diffuse(mesh, fields, {.time_step = 1.0}); }) ==
+    CHECK(test::message_of([&] { diffuse(mesh, fields, {.time_step = 1.0}); }) ==
           "column 1 of the fields is infinite at vertex 3 (both numbered from 0): give a finite number, or NaN where "
           "there are no data");
     Eigen::MatrixXd short_one = Eigen::MatrixXd::Zero(3, 1);
-    CHECK(complaint_of([&] { diffuse(mesh, short_one, {.time_step = 1.0}); }) ==
+    CHECK(test::message_of([&] { diffuse(mesh, short_one, {.time_step = 1.0}); }) ==
           "the fields have 3 rows, but the mesh has 25 vertices: give one for each");
 }

@@ -132,9 +132,7 @@ TEST_CASE("fields diffuse across seams of long triangles as without them, with l
     FlowOptions options = amount(whole, 1.0, 3);
     options.cut.labels = labels;
     Eigen::MatrixXd of_whole = steps_of_zero_and_one(whole.n_vertices(), 1);
-    std::vector<Index> original(usize(seams.n_vertices()));
-    for (std::size_t c = 0; c < seams.face_vertices.size(); ++c)
-        original[seams.face_vertices[c]] = whole.face_vertices[c];
+    const std::vector<Index> original = test::originals(seams, whole);
     Eigen::MatrixXd across = of_whole(original, Eigen::all);
     const FieldReport report = diffuse(whole, of_whole, options);
     // Parts that flips have torn are mended.

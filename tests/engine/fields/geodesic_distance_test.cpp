@@ -166,10 +166,7 @@ TEST_CASE("geodesic distances continue across seams, and are infinite where the 
 {
     PolygonMesh whole = make_triangles(900);
     whole.vertices.col(2).setZero();
-    std::vector<Index> labels;
-    for (Index f = 0; f < whole.n_faces(); ++f)
-        labels.push_back(whole.vertices(whole.face(f)[0], 0) > 0.5 ? 1 : 0);
-    const PolygonMesh seams = test::split(whole, labels);
+    const PolygonMesh seams = test::split(whole, test::halves(whole));
     REQUIRE(seams.n_vertices() > whole.n_vertices());
     const std::array<Index, 1> from{40};
     const Eigen::VectorXd of_whole = geodesic_distance(whole, from);
@@ -258,17 +255,6 @@ TEST_CASE("distances from one vertex after the other are those of one call each,
              {std::vector<Index>{600}, {on_boundary, 601}, {7, 7, 333}, {on_boundary}, {42}})
             CHECK(geodesics.distance(from) == geodesic_distance(mesh, from));
     }
-}
-
-TEST_CASE("faces that repeat others count once in distances")
-{
-    const PolygonMesh mesh = make_noisy_sphere(600);
-    PolygonMesh repeated = mesh;
-    for (int n = 0; n < 3; ++n)
-        for (Index f = 0; f < mesh.n_faces(); f += 2)
-            repeated.add_face(mesh.face(f));
-    const std::array<Index, 1> from{77};
-    CHECK(geodesic_distance(repeated, from) == geodesic_distance(mesh, from));
 }
 
 TEST_CASE("where the lengths of edges differ too much for distances, the vertex is named")

@@ -11,6 +11,7 @@
 #include "engine/flow.h"
 #include "partition/metrics/vertex_distance.h"
 #include "samples/meshes/meshes.h"
+#include "tests/support/messages.h"
 
 using namespace seamflow;
 
@@ -64,8 +65,7 @@ double difference_of_columns(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b)
 
 bool chooses_one_factor(const FieldReport& report)
 {
-    return std::ranges::any_of(report.flow.choices,
-                               [](const std::string& choice) { return choice.ends_with("for so many columns."); });
+    return test::count_with(report.flow.choices, "for so many columns.") > 0;
 }
 
 }  // namespace

@@ -8,7 +8,6 @@
 #include "tests/support/relative.h"
 
 using namespace seamflow;
-using test::all_laplacians;
 
 namespace {
 
@@ -85,24 +84,4 @@ TEST_CASE("Fujiwara's Laplacian drags the texture, the others hardly do")
             CHECK(drag(c.mesh, Laplacian::AlexaWardetzky, c.time_step, subdomains) < 0.25 * dragged);
             CHECK(drag(c.mesh, Laplacian::PtackovaVelho, c.time_step, subdomains) < 0.25 * dragged);
         }
-}
-
-TEST_CASE("displacements do not depend on the number of threads")
-{
-    const PolygonMesh mesh = make_mixed_polygons(2000);
-    for (const Laplacian laplacian : all_laplacians) {
-        FlowOptions options;
-        options.laplacian = laplacian;
-        options.time_step = 0.001;
-        options.cut.subdomains = 5;
-        options.resources.threads = 1;
-        PolygonMesh flowing = mesh;
-        const FlowReport one = mean_curvature_flow(flowing, options);
-        options.resources.threads = 4;
-        flowing = mesh;
-        const FlowReport four = mean_curvature_flow(flowing, options);
-        CHECK(one.displacement->drift.rms == four.displacement->drift.rms);
-        CHECK(one.steps[0].displacement.tangential.mean == four.steps[0].displacement.tangential.mean);
-        CHECK(one.steps[0].displacement.normal.rms == four.steps[0].displacement.normal.rms);
-    }
 }

@@ -205,20 +205,3 @@ TEST_CASE("after a failure the mesh is back where it was")
     CHECK_THROWS(mean_curvature_flow(mesh, options));
     CHECK(mesh.vertices == before);
 }
-
-TEST_CASE("a flow far away continues from a step before")
-{
-    PolygonMesh mesh = make_noisy_sphere(800);
-    mesh.vertices = (1e-2 * mesh.vertices.array() + 1e6).matrix();
-    FlowOptions options = short_step_options(Laplacian::Fujiwara, 3);
-    FlowControl control;
-    PolygonMesh whole = mesh;
-    mean_curvature_flow(whole, options, [&](const StepState& state) {
-        if (state.step == 1)
-            control.resume = std::make_shared<const FlowState>(state.capture());
-    });
-    CHECK(control.resume->identity == identify(mesh, options));
-    PolygonMesh resumed = mesh;
-    mean_curvature_flow(resumed, options, {}, control);
-    CHECK(resumed.vertices == whole.vertices);
-}

@@ -8,6 +8,7 @@
 #include "partition/metrics/bounding_box.h"
 #include "samples/meshes/meshes.h"
 #include "tests/support/flows.h"
+#include "tests/support/messages.h"
 #include "tests/support/relative.h"
 
 using namespace seamflow;
@@ -125,10 +126,6 @@ TEST_CASE("an open surface keeps its area where its boundary is free, and has no
 TEST_CASE("what cannot be scaled is refused")
 {
     const PolygonMesh sphere = make_noisy_sphere(400);
-    PolygonMesh moved = sphere;
-    FlowOptions options = rescaled_options(Rescale::Volume);
-    options.motion.fixed_vertices = {3};
-    CHECK_THROWS_WITH_AS(mean_curvature_flow(moved, options), doctest::Contains("LowPass"), OptionError);
     PolygonMesh flipped = with_faces_flipped(sphere, 7);
     CHECK_THROWS_AS(mean_curvature_flow(flipped, rescaled_options(Rescale::Volume)), InputError);
     CHECK_NOTHROW(mean_curvature_flow(flipped, rescaled_options(Rescale::Area)));
@@ -184,9 +181,7 @@ TEST_CASE("a body of which only a point is left does not keep the others from be
     const FlowReport report = mean_curvature_flow(moved, options);
     const Points first = moved.vertices.topRows(sphere.n_vertices());
     CHECK(measure(sphere, first).volume == relative(measure(sphere, sphere.vertices).volume, 1e-9));
-    CHECK(std::ranges::any_of(report.remarks, [](const std::string& remark) {
-        return remark.starts_with("1 of 2 components was not scaled back");
-    }));
+    CHECK(test::count_with(report.remarks, "1 of 2 components was not scaled back") == 1);
 }
 
 TEST_CASE("what a step moves is measured without the rescaling")

@@ -9,6 +9,7 @@
 #include "partition/errors.h"
 #include "samples/meshes/meshes.h"
 #include "tests/support/flows.h"
+#include "tests/support/messages.h"
 
 using namespace seamflow;
 
@@ -27,13 +28,6 @@ FlowOptions sweeps_of(Laplacian laplacian, Factorisation factorisation)
     options.cut.subdomains = 5;
     options.resources.factorisation = factorisation;
     return options;
-}
-
-/// How many remarks have this text.
-std::ptrdiff_t remarks_with(const FlowReport& report, const std::string& text)
-{
-    return std::ranges::count_if(report.remarks,
-                                 [&](const std::string& remark) { return remark.find(text) != std::string::npos; });
 }
 
 /// Flows with each factorisation, whose results are to be those of the automatic one but for rounding.
@@ -68,8 +62,9 @@ TEST_CASE("sweeps have the same result with any factorisation")
         const FlowOptions options = sweeps_of(laplacian, Factorisation::Automatic);
         compare_factorisations(make_noisy_sphere(900), options, [&](Factorisation asked, const FlowReport& report) {
             const bool is_general = laplacian == Laplacian::PtackovaVelho;
-            CHECK(remarks_with(report, "not by CHOLMOD") == (asked == Factorisation::Cholmod && is_general ? 1 : 0));
-            CHECK(remarks_with(report, "pivots from the diagonal") == 0);
+            CHECK(test::count_with(report.remarks, "not by CHOLMOD") ==
+                  (asked == Factorisation::Cholmod && is_general ? 1 : 0));
+            CHECK(test::count_with(report.remarks, "pivots from the diagonal") == 0);
         });
         compare_factorisations(make_quads(900), options, [](Factorisation, const FlowReport&) {});
     }
@@ -97,7 +92,7 @@ TEST_CASE("converged steps of Δ_P have any factorisation")
     options.accuracy.approach = Approach::Automatic;
     options.accuracy.tolerance = 1e-11;
     compare_factorisations(make_noisy_sphere(600), options, [](Factorisation asked, const FlowReport& report) {
-        CHECK(remarks_with(report, "not by CHOLMOD") == (asked == Factorisation::Cholmod ? 1 : 0));
+        CHECK(test::count_with(report.remarks, "not by CHOLMOD") == (asked == Factorisation::Cholmod ? 1 : 0));
     });
 }
 

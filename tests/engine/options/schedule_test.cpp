@@ -108,32 +108,6 @@ TEST_CASE("records are in the order of steps and tasks")
                                  [](const TaskRecord& record) { return std::pair(record.step, record.task); }));
 }
 
-TEST_CASE("solve waits for factorise, and accept for solve")
-{
-    const Recorded flow(recorded(1));
-    std::set<std::pair<Index, Index>> waits;
-    for (const auto& [before, after] : flow.schedule().dependencies) {
-        const ScheduledTask& first = flow.schedule().tasks[before];
-        const ScheduledTask& second = flow.schedule().tasks[after];
-        if (first.sub_mesh == second.sub_mesh && first.kind == TaskKind::AssembleAndFactorise &&
-            second.kind == TaskKind::Solve)
-            waits.emplace(first.sub_mesh, 0);
-        if (first.sub_mesh == second.sub_mesh && first.kind == TaskKind::Solve && second.kind == TaskKind::Accept)
-            waits.emplace(first.sub_mesh, 1);
-    }
-    CHECK(waits.size() == 2 * usize(flow.report.cut.n_sub_meshes()));
-}
-
-TEST_CASE("recording changes no position by a bit")
-{
-    const PolygonMesh mesh = make_mixed_polygons(3000);
-    FlowOptions silent = recorded(1);
-    silent.report.record_schedule = false;
-    const Points expected = test::flowed(mesh, silent);
-    for (const int threads : {1, 2, 5})
-        CHECK((test::flowed(mesh, recorded(threads)).array() == expected.array()).all());
-}
-
 TEST_CASE("without being asked a flow records nothing, and explicit steps have no tasks")
 {
     PolygonMesh mesh = make_quads(400);

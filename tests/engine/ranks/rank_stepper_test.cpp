@@ -11,9 +11,13 @@
 #include "engine/flow.h"
 #include "engine/state/flow_state.h"
 #include "partition/errors.h"
+#include "partition/metrics/vertex_distance.h"
 #include "tests/engine/ranks/rank_flows.h"
+#include "tests/support/flow_kinds.h"
 #include "tests/support/flows.h"
 #include "tests/support/junction_meshes.h"
+#include "tests/support/option_cases.h"
+#include "tests/support/writings.h"
 
 using namespace seamflow;
 using test::by_sweeps;
@@ -51,67 +55,49 @@ TEST_CASE("ranks find the bits of one process: any number of them, surfaces of a
     }
 }
 
-TEST_CASE("ranks find the bits of one process: what steps may have")
+TEST_CASE("ranks find the bits of one process: every kind of flow and every option, whether they share it or not")
 {
-    const PolygonMesh mesh = make_mixed_polygons(700);
-    const auto check = [&](const char* name, auto&& change) {
-        for (FlowOptions options :
-             {by_sweeps(Laplacian::VirtualRefinement, 2e-3), converged(Laplacian::VirtualRefinement, 2e-3)}) {
-            change(options);
-            check_bits(name, mesh, options, 8, {2, 5});
-        }
+    int n_shared = 0;
+    int n_alone = 0;
+    const auto check = [&](const std::string& name, const PolygonMesh& mesh, FlowOptions options) {
+        CAPTURE(name);
+        options.resources.threads = 1;
+        // What is left open is chosen so that ranks can share it.
+        if (options.accuracy.approach == Approach::Automatic && !options.accuracy.tolerance)
+            return;
+        if (options.accuracy.approach == Approach::Automatic)
+            options.accuracy.approach = Approach::Converged;
+        if (options.accuracy.approach == Approach::Converged && options.cut.labels.empty())
+            options.cut.subdomains = 8;
+        const Flowed expected = flowed_with(mesh, options, {});
+        on_ranks(3, [&](RankGroup& ranks) {
+            const Flowed found = flowed_on(ranks, mesh, options);
+            const bool is_shared = !found.report.ranks.empty();
+            ++(is_shared ? n_shared : n_alone);
+            check_same(found, expected, is_shared ? 3 : 0);
+        });
     };
-    check("threads", [](FlowOptions& o) { o.resources.threads = 3; });
-    check("low-pass, attached", [](FlowOptions& o) {
-        o.filter = Filter::LowPass;
-        o.motion.attachment = 0.3;
-    });
-    check("weights, bounded", [&](FlowOptions& o) {
-        for (Index v = 0; v < mesh.n_vertices(); ++v)
-            o.motion.attachment_weights.push_back(v % 5);
-        o.motion.within = 0.01;
-    });
-    check("held, along a line", [&](FlowOptions& o) {
-        for (Index v = 0; v < mesh.n_vertices(); v += 13)
-            o.motion.fixed_vertices.push_back(v);
-        o.motion.direction.kind = MotionDirection::Kind::Vector;
-        o.motion.direction.vector = Point(0.0, 1.0, 2.0);
-    });
-    check("along normals", [](FlowOptions& o) { o.motion.direction.kind = MotionDirection::Kind::Normal; });
-    check("beside the undecomposed flow", [](FlowOptions& o) { o.report.reference = true; });
-
-    for (const FlowEquation flow : {FlowEquation::MeanCurvature, FlowEquation::Conformalized})
-        for (FlowOptions options : {by_sweeps(Laplacian::Fujiwara, 2e-3), converged(Laplacian::Fujiwara, 2e-3)}) {
-            options.flow = flow;
-            options.motion.rescale = Rescale::Volume;
-            check_bits("rescaled", make_noisy_sphere(800), options, 8, {2, 5});
-        }
-
-    FlowOptions options = by_sweeps(Laplacian::Fujiwara, 2e-3);
-    options.interface.transmission = Transmission::Derivative;
-    options.interface.colouring = Colouring::Label;
-    options.interface.correction = Correction::None;
-    check_bits("derivative", mesh, options, 8, {3});
-    options = by_sweeps(Laplacian::Fujiwara, 2e-3);
-    options.interface.conditions = Conditions::AdaptedVentcell;
-    options.interface.q = 0.1;
-    options.interface.sweep = Sweep::Fixed;
-    check_bits("Ventcell", mesh, options, 8, {3});
-    options = converged(Laplacian::Fujiwara, 1e-2);
-    options.motion.boundary = Boundary::Free;
-    options.motion.strength.assign(static_cast<std::size_t>(mesh.n_vertices()), 1.0);
-    for (Index v = 0; v < mesh.n_vertices(); v += 2)
-        options.motion.strength[static_cast<std::size_t>(v)] = v % 3 * 0.5;
-    check_bits("region, free boundary", mesh, options, 8, {3});
-    options = converged(Laplacian::Fujiwara, 1e-2);
+    const PolygonMesh mesh = make_mixed_polygons(700);
+    for (const test::FlowKind& kind : test::flow_kinds(mean_edge_length(mesh)))
+        check(kind.name, mesh, kind.options);
+    const PolygonMesh ball = test::rimmed_ball();
+    const double edge = mean_edge_length(ball);
+    for (const test::OptionCase& option : test::option_cases()) {
+        FlowOptions options = test::options_without_cases(edge);
+        option.set(options, ball, edge);
+        check(option.name(), ball, options);
+    }
+    CHECK(n_shared > 60);
+    CHECK(n_alone > 20);
+    for (FlowOptions options : {by_sweeps(Laplacian::Fujiwara, 2e-3), converged(Laplacian::Fujiwara, 2e-3)}) {
+        options.resources.threads = 3;
+        options.motion.rescale = Rescale::Volume;
+        check_bits("threads, rescaled", make_noisy_sphere(800), options, 8, {2, 5});
+    }
+    FlowOptions options = converged(Laplacian::Fujiwara, 1e-2);
     options.flow = FlowEquation::Linear;
     options.resources.memory_limit = 150'000;
     check_bits("linear, factors made again", mesh, options, 20, {3});
-    // Single precision goes no further, and steps are taken again in double precision.
-    options = converged(Laplacian::Fujiwara, 1e-2, 1e-14);
-    check_bits("tight", mesh, options, 8, {3});
-    options.accuracy.converge_iterations = 2;
-    check_bits("few iterations", mesh, options, 8, {3});
 }
 
 TEST_CASE("ranks find the bits of one process: meshes that are not as they should be")
@@ -135,32 +121,6 @@ TEST_CASE("ranks find the bits of one process: meshes that are not as they shoul
         speck.vertices *= 1e-6;
         check_bits("vanishing", test::side_by_side({make_triangles(600), speck}), options, 8, {3});
     }
-}
-
-TEST_CASE("flows that ranks do not share are those of one process, and rank 0 takes them alone")
-{
-    const PolygonMesh mesh = make_triangles(600);
-    on_ranks(3, [&](RankGroup& ranks) {
-        const auto check = [&](auto&& change) {
-            FlowOptions options = by_sweeps(Laplacian::Fujiwara, 2e-3);
-            options.cut.subdomains = 6;
-            change(options);
-            check_same(flowed_on(ranks, mesh, options), flowed_with(mesh, options, {}), 0);
-        };
-        check([](FlowOptions& o) { o.cut.subdomains = 1; });
-        check([](FlowOptions& o) { o.interface.conditions = Conditions::Robin; });
-        check([](FlowOptions& o) { o.interface.conditions = Conditions::Schwarz; });
-        check([](FlowOptions& o) { o.report.record_schedule = true; });
-        check([](FlowOptions& o) {
-            o.cut.subdomains = 0;
-            o.accuracy.approach = Approach::ConjugateGradients;
-        });
-        check([](FlowOptions& o) {
-            o.laplacian = Laplacian::PtackovaVelho;
-            o.accuracy.tolerance = 1e-6;
-            o.accuracy.approach = Approach::Converged;
-        });
-    });
 }
 
 TEST_CASE("where the approach is left open it is one that ranks can share, and a flow resumes with and without them")

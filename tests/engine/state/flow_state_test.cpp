@@ -8,7 +8,10 @@
 #include "partition/metrics/vertex_distance.h"
 #include "samples/meshes/meshes.h"
 #include "tests/support/flow_kinds.h"
+#include "tests/support/option_cases.h"
 #include "tests/support/temporary_directory.h"
+#include "tests/support/test_meshes.h"
+#include "tests/support/writings.h"
 
 using namespace seamflow;
 
@@ -77,8 +80,11 @@ void check_resumed(const PolygonMesh& mesh, const FlowOptions& options)
         REQUIRE(resumed.report.steps.size() == whole.report.steps.size());
         for (std::size_t i = 0; i < whole.report.steps.size(); ++i)
             check_same(resumed.report.steps[i], whole.report.steps[i]);
-        check_same(resumed.report.displacement->path.tangential, whole.report.displacement->path.tangential);
-        check_same(resumed.report.displacement->drift, whole.report.displacement->drift);
+        REQUIRE(resumed.report.displacement.has_value() == options.report.measures);
+        if (options.report.measures) {
+            check_same(resumed.report.displacement->path.tangential, whole.report.displacement->path.tangential);
+            check_same(resumed.report.displacement->drift, whole.report.displacement->drift);
+        }
         CHECK(resumed.report.choices == whole.report.choices);
         CHECK(resumed.report.noise.has_value() == whole.report.noise.has_value());
         CHECK(resumed.report.remarks == whole.report.remarks);
@@ -91,15 +97,35 @@ void check_resumed(const PolygonMesh& mesh, const FlowOptions& options)
     }
 }
 
+/// Far away, and with seams.
+PolygonMesh far_in_pieces()
+{
+    const PolygonMesh whole = make_triangles(500);
+    PolygonMesh mesh = test::split(whole, test::random_labels(whole.n_faces(), 2, 3));
+    mesh.vertices.array() += 1e6;
+    return mesh;
+}
+
 }  // namespace
 
 TEST_CASE("a flow that goes on after any step ends with the same bits and the same report")
 {
-    for (const PolygonMesh& mesh : {make_mixed_polygons(600), make_noisy_sphere(500)})
+    for (const PolygonMesh& mesh : {make_mixed_polygons(600), make_noisy_sphere(500), far_in_pieces()})
         for (const test::FlowKind& kind : test::flow_kinds(mean_edge_length(mesh))) {
             CAPTURE(kind.name);
             check_resumed(mesh, kind.options);
         }
+    const PolygonMesh mesh = test::rimmed_ball();
+    const double edge = mean_edge_length(mesh);
+    for (const test::OptionCase& option : test::option_cases()) {
+        // The time step for a radius depends on the number of steps.
+        if (option.field == "radius")
+            continue;
+        CAPTURE(option.name());
+        FlowOptions options = test::options_without_cases(edge);
+        option.set(options, mesh, edge);
+        check_resumed(mesh, options);
+    }
 }
 
 TEST_CASE("steps that remove noise go on with what the first one found")

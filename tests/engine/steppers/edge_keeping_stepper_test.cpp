@@ -14,6 +14,7 @@
 #include "solvers/laplacian/geometry.h"
 #include "tests/support/denoising.h"
 #include "tests/support/flows.h"
+#include "tests/support/messages.h"
 #include "tests/support/random_meshes.h"
 
 using namespace seamflow;
@@ -91,8 +92,7 @@ TEST_CASE("parts without noise keep their edges and corners, step after step")
         CHECK(left.distance < 0.005);
         CHECK(std::abs(left.volume) < 2e-3);
         CHECK(report.steps.size() == 3);
-        CHECK(std::ranges::any_of(report.remarks,
-                                  [](const std::string& r) { return r.starts_with("Nothing was smoothed"); }));
+        CHECK(test::count_with(report.remarks, "Nothing was smoothed") == 1);
     }
 }
 
@@ -124,27 +124,6 @@ TEST_CASE("a free boundary is smoothed and does not draw in")
     CHECK(total_area(sheet, result) > 0.999);
 }
 
-TEST_CASE("the result turns, moves and scales with the mesh, and does not depend on how faces are oriented")
-{
-    const Eigen::Matrix3d rotation =
-        Eigen::AngleAxisd(0.7, Eigen::Vector3d(1.0, 2.0, -0.5).normalized()).toRotationMatrix();
-    const auto moved = [&](const Points& points, double s) {
-        return Points((s * points * rotation.transpose()).rowwise() + Point(3.0, -1.0, 2.0));
-    };
-    for (const char* kind : {"noisy-sphere", "box-quads", "mixed"})
-        for (const double s : {1.0, 1e-4, 300.0}) {
-            CAPTURE(kind);
-            const PolygonMesh mesh = test::with_gaussian_noise(make_mesh(kind, 900), 0.1, 2);
-            const FlowOptions options = edge_options(mesh);
-            const Points expected = flowed(mesh, options);
-            PolygonMesh other = test::with_faces_flipped(mesh, 5);
-            CHECK(largest_difference(flowed(other, options), expected) <= 1e-9);
-            other.vertices = moved(mesh.vertices, s);
-            CHECK(largest_difference(flowed(other, edge_options(other)), moved(expected, s)) <=
-                  1e-8 * std::max(s, 1.0));
-        }
-}
-
 TEST_CASE("faces without area and surfaces with one side do no harm")
 {
     PolygonMesh mesh = make_triangles(900);
@@ -159,7 +138,7 @@ TEST_CASE("faces without area and surfaces with one side do no harm")
     CHECK(flowed(sphere, edge_options(sphere, 1e30)).allFinite());
 }
 
-TEST_CASE("feature edges divide faces that would be smoothed together, the same on turned and renumbered meshes")
+TEST_CASE("feature edges divide faces that would be smoothed together")
 {
     // A round tube with a scratch drawn along it, where its faces hardly bend.
     PolygonMesh mesh = make_cylinder(900, {.noise = 0.1});
@@ -178,53 +157,4 @@ TEST_CASE("feature edges divide faces that would be smoothed together, the same 
     CHECK(largest_difference(with, without) > 1e-3 * mean_edge_length(mesh, mesh.vertices));
     // Both ends of the line stay to the bit.
     CHECK(with.row(options.motion.feature_edges.front()[0]) == mesh.vertices.row(mesh.n_vertices() / 2));
-    options.resources.threads = 1;
-    CHECK(test::same_bits(flowed(mesh, options), with));
-    options.resources.threads = 0;
-
-    const Eigen::AngleAxisd turn(0.7, Eigen::Vector3d(1, 2, 3).normalized());
-    PolygonMesh turned = mesh;
-    turned.vertices = mesh.vertices * turn.toRotationMatrix().transpose();
-    CHECK(largest_difference(flowed(turned, options), with * turn.toRotationMatrix().transpose()) < 1e-9);
-
-    RandomNumbers random(4);
-    const std::vector<Index> new_vertex = test::random_permutation(mesh.n_vertices(), random);
-    FlowOptions renamed = options;
-    for (Edge& edge : renamed.motion.feature_edges)
-        edge = {new_vertex[edge[1]], new_vertex[edge[0]]};
-    const PolygonMesh shuffled = test::renumbered(mesh, new_vertex, test::random_permutation(mesh.n_faces(), random));
-    const Points result = flowed(shuffled, renamed);
-    for (Index v = 0; v < mesh.n_vertices(); ++v)
-        CHECK((result.row(new_vertex[v]) - with.row(v)).norm() < 1e-9);
-}
-
-TEST_CASE("what leaves no room for edges is refused")
-{
-    PolygonMesh mesh = make_quads(400);
-    for (const double angle : {0.0, -3.0, 180.0, std::nan(""), std::numeric_limits<double>::infinity()}) {
-        FlowOptions options = edge_options(mesh);
-        options.keep_edges = angle;
-        CHECK_THROWS_WITH_AS(mean_curvature_flow(mesh, options), doctest::Contains("above 0 and below 180"),
-                             OptionError);
-    }
-    const auto refuses = [&](auto change) {
-        FlowOptions options = edge_options(mesh);
-        change(options);
-        CHECK_THROWS_WITH_AS(mean_curvature_flow(mesh, options), doctest::Contains("keep_edges"), OptionError);
-    };
-    refuses([](FlowOptions& o) { o.scheme = Scheme::ExplicitEuler; });
-    refuses([](FlowOptions& o) { o.cut.subdomains = 2; });
-    refuses([](FlowOptions& o) { o.interface.colouring = Colouring::Label; });
-    refuses([](FlowOptions& o) { o.accuracy.approach = Approach::ConjugateGradients; });
-    refuses([](FlowOptions& o) { o.accuracy.tolerance = 1e-3; });
-    refuses([](FlowOptions& o) { o.report.reference = true; });
-    const auto refuses_feature = [&](auto change) {
-        FlowOptions options = edge_options(mesh);
-        options.motion.feature_edges = {{mesh.face(0)[0], mesh.face(0)[1]}};
-        change(options);
-        CHECK_THROWS_WITH_AS(mean_curvature_flow(mesh, options), doctest::Contains("feature_edges"), OptionError);
-    };
-    refuses_feature([](FlowOptions& o) { o.keep_edges.reset(); });
-    refuses_feature([](FlowOptions& o) { o.motion.within = 1.0; });
-    refuses_feature([](FlowOptions& o) { o.motion.rescale = Rescale::Area; });
 }

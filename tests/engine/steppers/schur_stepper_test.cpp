@@ -142,22 +142,6 @@ TEST_CASE("the tighter the tolerance the nearer, and iterations that run out are
     CHECK(stagnant.steps.back().iterations < 500);
 }
 
-TEST_CASE("converged steps give the same bits for every number of threads")
-{
-    const PolygonMesh mesh = make_mixed_polygons(3000);
-    for (const Laplacian laplacian : test::symmetric_laplacians) {
-        FlowOptions options = converged(laplacian, 24, 1e-8);
-        options.resources.threads = 1;
-        const Points expected = flowed(mesh, options);
-        for (options.resources.threads = 2; options.resources.threads <= 5; ++options.resources.threads) {
-            CAPTURE(options.resources.threads);
-            const Points found = flowed(mesh, options);
-            CHECK(std::memcmp(found.data(), expected.data(), static_cast<std::size_t>(found.size()) * sizeof(double)) ==
-                  0);
-        }
-    }
-}
-
 TEST_CASE("in any precision converged steps reach the same tolerance, with Γ and without")
 {
     const PolygonMesh mesh = make_noisy_sphere(3000);
@@ -234,34 +218,4 @@ TEST_CASE("the unit of length changes no bit of the result")
                 CHECK(scaled.vertices == unit * expected);
             }
         }
-}
-
-TEST_CASE("the boundary keeps its bits, a flat mesh stays flat, and one with nothing to move as it is")
-{
-    PolygonMesh mesh = make_quads(900);
-    mesh.vertices.col(2).setZero();
-    CHECK(flowed(mesh, converged(Laplacian::Fujiwara, 6)).col(2).cwiseAbs().maxCoeff() == 0.0);
-    PolygonMesh triangle;
-    triangle.vertices.resize(3, 3);
-    triangle.vertices << 0, 0, 0, 1, 0, 0, 0, 1, 0;
-    triangle.add_face(std::array<Index, 3>{0, 1, 2});
-    CHECK(flowed(triangle, converged(Laplacian::AlexaWardetzky, 1)) == triangle.vertices);
-}
-
-TEST_CASE("what cannot be converged is refused")
-{
-    PolygonMesh mesh = make_quads(100);
-    for (const double tolerance : {0.0, -1.0, 1.0, std::numeric_limits<double>::quiet_NaN()})
-        CHECK_THROWS_AS(mean_curvature_flow(mesh, converged(Laplacian::Fujiwara, 2, tolerance)), OptionError);
-    FlowOptions options = converged(Laplacian::Fujiwara, 2);
-    options.interface.conditions = Conditions::Schwarz;
-    CHECK_THROWS_AS(mean_curvature_flow(mesh, options), OptionError);
-    options = converged(Laplacian::Fujiwara, 2);
-    options.accuracy.converge_iterations = -1;
-    CHECK_THROWS_AS(mean_curvature_flow(mesh, options), OptionError);
-    options = converged(Laplacian::Fujiwara, 2);
-    options.resources.memory_limit = 100;
-    CHECK_THROWS_AS(mean_curvature_flow(mesh, options), OptionError);
-    options.resources.memory_limit = 100'000'000;
-    CHECK_NOTHROW(mean_curvature_flow(mesh, options));
 }

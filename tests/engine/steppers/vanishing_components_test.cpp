@@ -8,8 +8,8 @@
 
 #include "engine/flow.h"
 #include "engine/mean_curvature_flow.h"
-#include "engine/steppers/vanishing_components.h"
 #include "tests/support/flows.h"
+#include "tests/support/messages.h"
 #include "tests/support/relative.h"
 
 using namespace seamflow;
@@ -191,25 +191,27 @@ TEST_CASE("a component that is held does not count as one that vanishes")
     options.accuracy.approach = Approach::Undecomposed;
     options.motion.fixed_vertices = {mesh.n_vertices() - 1};
     const FlowReport report = mean_curvature_flow(mesh, options);
-    CHECK(std::ranges::none_of(report.remarks, [](const auto& r) { return r.find("small compared with") != r.npos; }));
+    CHECK(test::count_with(report.remarks, "small compared with") == 0);
     CHECK(Point(mesh.vertices.row(mesh.n_vertices() - 1)) == held);
     CHECK((mesh.vertices.bottomRows(100).rowwise() - held).rowwise().norm().maxCoeff() < 1e-8);
 }
 
 TEST_CASE("a component with a vertex that hardly moves does not count as one that vanishes")
 {
-    PolygonMesh mesh = together({ball(1.0, {0.0, 0.0, 0.0}, 300), ball(1e-6, {3.0, 0.0, 0.0}, 100)});
+    const PolygonMesh mesh = together({ball(1.0, {0.0, 0.0, 0.0}, 300), ball(1e-6, {3.0, 0.0, 0.0}, 100)});
     FlowOptions options;
     options.time_step = 0.002;
     options.accuracy.approach = Approach::Undecomposed;
-    const auto n_small = [&](double strength) {
+    const auto n_remarks = [&](double strength) {
         options.motion.strength.assign(usize(mesh.n_vertices()), 0.5);
         options.motion.strength.back() = strength;
-        const Topology topology = make_topology(mesh);
-        return find_small_components(mesh, topology, options.motion.strength)(mesh.vertices, 1e-3).rows.size();
+        PolygonMesh flowing = mesh;
+        const FlowReport report = mean_curvature_flow(flowing, options);
+        return std::ranges::count_if(report.remarks,
+                                     [](const auto& r) { return r.starts_with("1 component is so small"); });
     };
-    CHECK(n_small(0.5) == 1);
-    CHECK(n_small(0.001) == 0);
+    CHECK(n_remarks(0.5) == 1);
+    CHECK(n_remarks(0.001) == 0);
 }
 
 TEST_CASE("a small component is pulled as far as any vertex of a region that is attached")

@@ -11,9 +11,14 @@
 #include "engine/tasks/workers.h"
 
 using namespace seamflow;
-using Priority = TaskPriority;
 
 namespace {
+
+/// Tasks without and with priority.
+struct Priority {
+    static constexpr ScheduledTask Normal{TaskKind::AssembleAndFactorise};
+    static constexpr ScheduledTask High{TaskKind::Solve};
+};
 
 /// A graph of `depth` layers of `width` tasks, each after three of the layer before, that notes when a task starts too
 /// early.
@@ -43,7 +48,7 @@ class Layers {
     }
 
     TaskGraph graph;
-    TaskGraph::Node root = -1;
+    TaskGraph::Node root = 0;
     std::atomic<int> too_early{0};
 
   private:

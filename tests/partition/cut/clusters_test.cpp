@@ -5,6 +5,7 @@
 #include "partition/connected_components.h"
 #include "partition/cut/clusters.h"
 #include "samples/meshes/meshes.h"
+#include "tests/support/backwards.h"
 #include "tests/support/cut_checks.h"
 #include "tests/support/random_meshes.h"
 #include "tests/support/test_meshes.h"
@@ -94,17 +95,12 @@ TEST_CASE("large meshes are done in chunks, in any order, whose ends are no ends
     }
     CHECK(n_between_chunks > 100);
     CHECK(2 * n_cut < n_between_chunks);
-    const Executor in_reverse = [](Index n, const RangeBody& body) {
-        for (Index i = n; i-- > 0;)
-            body(i, i + 1);
-    };
-    const FaceClusters backwards = grow_clusters(mesh, make_topology(mesh), weight, in_reverse, chunk);
+    const FaceClusters backwards = grow_clusters(mesh, make_topology(mesh), weight, run_backwards, chunk);
     CHECK(backwards.cluster_of == clusters.cluster_of);
     CHECK(backwards.faces.values == clusters.faces.values);
     CHECK(backwards.faces.offsets == clusters.faces.offsets);
 
-    RandomNumbers random(1);
-    mesh = renumbered(mesh, random_permutation(mesh.n_vertices(), random), random_permutation(mesh.n_faces(), random));
+    mesh = shuffled(mesh, 1).mesh;
     CHECK(grow_clusters(mesh, make_topology(mesh), weight, run_serially, chunk).cluster_of ==
           grow_clusters(mesh, make_topology(mesh), weight, run_serially, mesh.n_faces()).cluster_of);
 }

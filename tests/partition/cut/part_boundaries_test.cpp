@@ -1,13 +1,12 @@
 #include <algorithm>
-#include <random>
 
 #include <doctest/doctest.h>
 
 #include "partition/connected_components.h"
-#include "partition/cut/clusters.h"
 #include "partition/cut/part_boundaries.h"
 #include "partition/cut/refine.h"
 #include "partition/labels.h"
+#include "tests/support/backwards.h"
 #include "tests/support/cut_checks.h"
 #include "tests/support/test_meshes.h"
 
@@ -26,15 +25,6 @@ Index cut_edges(const NamedMesh& m, const std::vector<Index>& labels)
     return n;
 }
 
-std::vector<Index> random_labels(const PolygonMesh& mesh, Index n_labels)
-{
-    std::mt19937 random(7);
-    std::vector<Index> labels(mesh.n_faces());
-    for (Index& label : labels)
-        label = static_cast<Index>(random() % static_cast<unsigned>(n_labels));
-    return labels;
-}
-
 std::vector<double> weights(const PolygonMesh& mesh, const std::vector<Index>& labels, Index n_labels)
 {
     std::vector<double> weight(n_labels, 0.0);
@@ -43,38 +33,13 @@ std::vector<double> weights(const PolygonMesh& mesh, const std::vector<Index>& l
     return weight;
 }
 
-/// Of how many components each part consists.
-std::vector<Index> count_components(const NamedMesh& m, const std::vector<Index>& labels, Index n_labels)
-{
-    std::vector<Index> n_components(n_labels, 0);
-    std::vector<bool> reached(labels.size(), false);
-    for (Index root = 0; root < m.mesh.n_faces(); ++root) {
-        std::vector<Index> stack;
-        const auto reach = [&](Index f) {
-            if (!reached[f] && labels[f] == labels[root])
-                stack.push_back(f);
-        };
-        reach(root);
-        n_components[labels[root]] += static_cast<Index>(stack.size());
-        while (!stack.empty()) {
-            const Index f = stack.back();
-            stack.pop_back();
-            reached[f] = true;
-            for (Index h = m.mesh.face_offsets[f]; h < m.mesh.face_offsets[f + 1]; ++h)
-                if (const Index twin = m.topology.twin[h]; twin >= 0)
-                    reach(m.topology.face_of[twin]);
-        }
-    }
-    return n_components;
-}
-
 }  // namespace
 
 TEST_CASE("fewer edges are cut, and no label enters another component")
 {
     for (const NamedMesh& m : assorted_meshes()) {
         CAPTURE(m.name);
-        std::vector<Index> labels = random_labels(m.mesh, 3);
+        std::vector<Index> labels = random_labels(m.mesh.n_faces(), 3, 7);
         const Index before = cut_edges(m, labels);
         shorten_boundaries(m.mesh, m.topology, 3, labels);
         CHECK(cut_edges(m, labels) <= before);
@@ -89,7 +54,7 @@ TEST_CASE("fewer edges are cut, and no label enters another component")
 TEST_CASE("parts in balance remain so, and the result does not depend on how loops are run")
 {
     const NamedMesh m = with_topology(triangle_torus(40, 40));
-    std::vector<Index> labels = random_labels(m.mesh, 4);
+    std::vector<Index> labels = random_labels(m.mesh.n_faces(), 4, 7);
     std::vector<Index> other = labels;
     const auto before = weights(m.mesh, labels, 4);
     const Index cut_before = cut_edges(m, labels);
@@ -100,10 +65,7 @@ TEST_CASE("parts in balance remain so, and the result does not depend on how loo
         CHECK(after[i] <= std::max(before[i], 800 * (1.0 + balance_tolerance)));
         CHECK(after[i] >= std::min(before[i], 800 / (1.0 + balance_tolerance) - 1.0));
     }
-    shorten_boundaries(m.mesh, m.topology, 4, other, [](Index n, const RangeBody& body) {
-        for (Index i = n; i > 0; --i)
-            body(i - 1, i);
-    });
+    shorten_boundaries(m.mesh, m.topology, 4, other, run_backwards);
     CHECK(other == labels);
 }
 
@@ -161,18 +123,4 @@ TEST_CASE("mixed vertices are those whose faces differ")
     const NamedMesh m = with_topology(quad_grid(2, 1));
     CHECK(mixed_vertices(m.topology, std::vector<Index>{0, 1}) == std::vector<Index>{1, 4});
     CHECK(mixed_vertices(m.topology, std::vector<Index>{5, 5}).empty());
-}
-
-TEST_CASE("parts that are no longer connected are suspected")
-{
-    for (const PolygonMesh& mesh : {quad_torus(40, 40), hexagon_sheet(30, 30), triangle_torus(30, 30)})
-        for (const Index weight : {6, 12, 20, 40, 100}) {
-            const NamedMesh m = with_topology(mesh);
-            const FaceClusters clusters = grow_clusters(m.mesh, m.topology, weight);
-            std::vector<Index> labels = clusters.cluster_of;
-            const SuspectedDefects defects = shorten_boundaries(m.mesh, m.topology, clusters.size(), labels);
-            const std::vector<Index> n_components = count_components(m, labels, clusters.size());
-            for (Index label = 0; label < clusters.size(); ++label)
-                CHECK((n_components[label] <= 1 || defects.parts[label]));
-        }
 }

@@ -5,6 +5,7 @@
 
 #include "partition/cut/colouring.h"
 #include "partition/decomposition/decomposition.h"
+#include "tests/support/backwards.h"
 #include "tests/support/cut_checks.h"
 #include "tests/support/cut_meshes.h"
 #include "tests/support/test_meshes.h"
@@ -37,18 +38,6 @@ TEST_CASE("every face lies in exactly one sub-mesh, the one of its label")
                 CHECK(cut.labels[f] == s);
             }
         CHECK(std::all_of(times.begin(), times.end(), [](int n) { return n == 1; }));
-    });
-}
-
-TEST_CASE("every vertex that may move is owned by exactly one sub-mesh, no other by any")
-{
-    for_each_decomposition([](const CutMesh& cut, const Decomposition& decomposition) {
-        std::vector<int> owners(cut.mesh.n_vertices(), 0);
-        for (const SubMesh& sub_mesh : decomposition.sub_meshes)
-            for (Index i = 0; i < sub_mesh.n_vertices; ++i)
-                owners[sub_mesh.local_to_global[i]] += sub_mesh.owned[i];
-        for (std::size_t v = 0; v < owners.size(); ++v)
-            CHECK(owners[v] == (cut.topology.kind[v] == VertexKind::Interior ? 1 : 0));
     });
 }
 
@@ -151,10 +140,7 @@ TEST_CASE("faces are listed by label, in ascending order")
     for (Index f = 0; f < n_faces; ++f)
         expected[labels[f]].push_back(f);
     CHECK(faces_by_label(labels, n_parts) == expected);
-    CHECK(faces_by_label(labels, n_parts, [](Index n, const RangeBody& body) {
-              for (Index i = n; i > 0; --i)
-                  body(i - 1, i);
-          }) == expected);
+    CHECK(faces_by_label(labels, n_parts, run_backwards) == expected);
 }
 
 TEST_CASE("rows of one sender make one transfer, in their order; senders ascend")

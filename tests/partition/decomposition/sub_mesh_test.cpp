@@ -13,18 +13,6 @@ using namespace seamflow::test;
 
 namespace {
 
-/// Calls `check` for every sub-mesh of every cut mesh.
-template <class Check>
-void for_each_sub_mesh(Check&& check)
-{
-    for (const CutMesh& cut : cut_meshes()) {
-        CAPTURE(cut.name);
-        const Decomposition decomposition = test::decompose(cut);
-        for (const SubMesh& sub_mesh : decomposition.sub_meshes)
-            check(cut, sub_mesh);
-    }
-}
-
 std::vector<Index> to_global(const SubMesh& sub_mesh, std::span<const Index> vertices)
 {
     std::vector<Index> global;
@@ -242,22 +230,4 @@ TEST_CASE("the neighbours of a vertex of the interface are the other ends of its
             CHECK(std::equal(found.begin(), found.end(), expected.begin(), expected.end()));
         }
     });
-}
-
-TEST_CASE("the sub-mesh of all faces is the mesh")
-{
-    const PolygonMesh mesh = quad_grid(4, 3);
-    const Topology topology = make_topology(mesh);
-    const std::vector<Index> labels(12, 0);
-    std::vector<Index> faces(12);
-    for (Index f = 0; f < 12; ++f)
-        faces[f] = f;
-    const SubMesh sub_mesh = make_sub_mesh(mesh, topology, labels, faces);
-    CHECK(sub_mesh.n_vertices == mesh.n_vertices());
-    CHECK(sub_mesh.n_halo == 0);
-    CHECK(sub_mesh.interface.size() == 0);
-    CHECK(sub_mesh.face_vertices.values == mesh.face_vertices);
-    CHECK(sub_mesh.face_vertices.offsets == mesh.face_offsets);
-    CHECK(sub_mesh.twin == topology.twin);
-    CHECK(std::count(sub_mesh.owned.begin(), sub_mesh.owned.end(), 1) == 6);
 }

@@ -5,6 +5,7 @@
 
 #include "partition/errors.h"
 #include "partition/formats/edge_files.h"
+#include "tests/support/messages.h"
 #include "tests/support/temporary_directory.h"
 
 using namespace seamflow;
@@ -20,13 +21,8 @@ std::vector<Edge> edges_of(const char* name, const std::string& content)
 
 std::string refusal_of(const char* name, const std::string& content)
 {
-    try {
-        (void)edges_of(name, content);
-    } catch (const InputError& error) {
-        const std::string text = error.what();
-        return text.substr(text.rfind('/') + 1);
-    }
-    return "none";
+    const std::string text = message_of<InputError>([&] { (void)edges_of(name, content); });
+    return text.substr(text.rfind('/') + 1);
 }
 
 }  // namespace

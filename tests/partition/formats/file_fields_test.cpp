@@ -36,16 +36,11 @@ FileFields fields_in(const std::string& name, std::string_view content, const Fi
 template <class Error>
 std::string complaint_of(const TemporaryDirectory& folder, const std::function<void()>& act)
 {
-    try {
-        act();
-    } catch (const Error& error) {
-        std::string message = error.what();
-        const std::string prefix = folder.path().string() + "/";
-        if (const auto at = message.find(prefix); at != std::string::npos)
-            message.erase(at, prefix.size());
-        return message;
-    }
-    return {};
+    std::string message = message_of<Error>(act);
+    const std::string prefix = folder.path().string() + "/";
+    if (const auto at = message.find(prefix); at != std::string::npos)
+        message.erase(at, prefix.size());
+    return message;
 }
 
 std::string complaint_about_fields(const std::string& name, std::string_view content, const FieldNames& names)

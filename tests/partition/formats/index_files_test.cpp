@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -7,6 +8,7 @@
 #include "partition/errors.h"
 #include "partition/formats/index_files.h"
 #include "partition/formats/mesh_io.h"
+#include "tests/support/messages.h"
 #include "tests/support/temporary_directory.h"
 #include "tests/support/test_meshes.h"
 
@@ -42,18 +44,12 @@ struct Files {
         return message_at(path, [&] { static_cast<void>(read_labels(path, n_faces)); });
     }
 
-  private:
     template <class Read>
     static std::string message_at(const std::filesystem::path& path, Read&& read)
     {
-        try {
-            read();
-        } catch (const InputError& error) {
-            const std::string message = error.what();
-            CHECK(message.starts_with(path.string() + ":"));
-            return message.substr(path.string().size());
-        }
-        return "";
+        const std::string message = test::message_of<InputError>(read);
+        CHECK((message.empty() || message.starts_with(path.string() + ":")));
+        return message.substr(std::min(message.size(), path.string().size()));
     }
 };
 
@@ -151,13 +147,8 @@ TEST_CASE("weights of vertices come one a line, or as a property of a .ply")
                "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty double weight\nend_header\n"
                "7 1.25\n8 0\n",
                2) == std::vector<double>{1.25, 0.0});
-    const auto refusal = [&](const std::string& name, const std::string& text, Index n) -> std::string {
-        try {
-            static_cast<void>(read(name, text, n));
-        } catch (const InputError& error) {
-            return std::string(error.what()).substr((files.directory / name).string().size());
-        }
-        return "";
+    const auto refusal = [&](const std::string& name, const std::string& text, Index n) {
+        return Files::message_at(files.directory / name, [&] { static_cast<void>(read(name, text, n)); });
     };
     CHECK(refusal("a.txt", "1\n-2\n", 2).starts_with(":2: '-2' is not a weight: "));
     CHECK(refusal("a.txt", "inf\n", 1).starts_with(":1: 'inf' is not a weight: "));

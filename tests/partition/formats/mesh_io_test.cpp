@@ -1,10 +1,7 @@
 #include <array>
-#include <bit>
 #include <clocale>
-#include <cmath>
 #include <limits>
 #include <numeric>
-#include <random>
 #include <vector>
 
 #include <doctest/doctest.h>
@@ -36,55 +33,30 @@ constexpr std::array<Variant, 9> variants = {{
     {"a.gltf", {FileFormat::Gltf, Encoding::BinaryLittleEndian}, true, true},
 }};
 
-/// A finite number of random sign, exponent and digits.
-double random_double(std::mt19937_64& random)
-{
-    const auto value = std::bit_cast<double>(random());
-    return std::isfinite(value) ? value : 0.0;
-}
-
 std::string message_of_reading(const std::filesystem::path& path)
 {
-    try {
-        read_mesh(path);
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return {};
+    return message_of<InputError>([&] { read_mesh(path); });
 }
 
 std::string message_of_writing(const std::filesystem::path& path)
 {
-    try {
-        write_mesh(path, make_triangle(), {FileFormat::Obj, Encoding::Ascii});
-    } catch (const OutputError& error) {
-        return error.what();
-    }
-    return {};
+    return message_of<OutputError>([&] { write_mesh(path, make_triangle(), {FileFormat::Obj, Encoding::Ascii}); });
 }
 
 }  // namespace
 
-TEST_CASE("Every variant keeps every bit of the coordinates")
+TEST_CASE("Every variant keeps every bit of the coordinates, whatever the locale's decimal point")
 {
-    for (const Variant& variant : variants) {
-        const auto mesh = make_mesh(tricky_points(variant.single_precision), {{0, 1, 2}, {3, 4, 5}});
-        const auto file = round_trip(mesh, variant.name, variant.kind);
-        CHECK(file.kind == variant.kind);
-        CHECK(identical(file.mesh, mesh));
+    for (const char* locale : {"C", "de_DE.UTF-8", "fr_FR.UTF-8"}) {
+        std::setlocale(LC_NUMERIC, locale);
+        for (const Variant& variant : variants) {
+            const auto mesh = make_mesh(tricky_points(variant.single_precision), {{0, 1, 2}, {3, 4, 5}});
+            const auto file = round_trip(mesh, variant.name, variant.kind);
+            CHECK(file.kind == variant.kind);
+            CHECK(identical(file.mesh, mesh));
+        }
     }
-}
-
-TEST_CASE("Every variant in double precision keeps random coordinates")
-{
-    std::mt19937_64 random(1);
-    PolygonMesh mesh;
-    mesh.vertices = Points::NullaryExpr(3000, 3, [&] { return random_double(random); });
-    for (Index v = 0; v + 2 < mesh.n_vertices(); v += 3)
-        mesh.add_face(std::vector<Index>{v, v + 1, v + 2});
-    for (const Variant& variant : variants)
-        if (!variant.single_precision)
-            CHECK(identical(round_trip(mesh, variant.name, variant.kind).mesh, mesh));
+    std::setlocale(LC_NUMERIC, "C");
 }
 
 TEST_CASE("Text uses at most 17 digits")
@@ -120,18 +92,6 @@ TEST_CASE("A mesh without faces")
     for (const Variant& variant : variants)
         if (!variant.triangles_only)
             CHECK(identical(round_trip(mesh, variant.name, variant.kind).mesh, mesh));
-}
-
-TEST_CASE("A locale with a decimal comma makes no difference")
-{
-    for (const char* name : {"de_DE.UTF-8", "fr_FR.UTF-8", "C"})
-        if (std::setlocale(LC_NUMERIC, name) != nullptr)
-            break;
-    for (const Variant& variant : variants) {
-        const auto mesh = make_mesh(tricky_points(variant.single_precision), {{0, 1, 2}, {3, 4, 5}});
-        CHECK(identical(round_trip(mesh, variant.name, variant.kind).mesh, mesh));
-    }
-    std::setlocale(LC_NUMERIC, "C");
 }
 
 TEST_CASE("Every file cut off anywhere is refused or read, and refused by the binary formats")
@@ -224,21 +184,6 @@ TEST_CASE("A mesh that could not be read again is not written")
     }
 }
 
-TEST_CASE("A failed output leaves the old file as it was, a successful one replaces it and keeps its permissions")
-{
-    const TemporaryDirectory folder;
-    const auto path = folder.with("a.stl", "precious");
-    const auto owner_only = std::filesystem::perms::owner_read | std::filesystem::perms::owner_write;
-    std::filesystem::permissions(path, owner_only);
-    const FileKind kind{FileFormat::Stl, Encoding::Ascii};
-    CHECK_THROWS_AS(write_mesh(path, make_mesh(tricky_points(false), {{0, 1, 2, 3}}), kind), OutputError);
-    CHECK(content_of(path) == "precious");
-    write_mesh(path, make_triangle(), kind);
-    CHECK(identical(read_mesh(path).mesh, make_triangle()));
-    CHECK(std::filesystem::status(path).permissions() == owner_only);
-    CHECK(folder.n_files() == 1);
-}
-
 TEST_CASE("PLY: faces of as many corners as a byte can count, and of one more")
 {
     const TemporaryDirectory folder;
@@ -253,17 +198,6 @@ TEST_CASE("PLY: faces of as many corners as a byte can count, and of one more")
             write_mesh(folder.path() / "a.ply", mesh, {FileFormat::Ply, encoding});
             CHECK(identical(read_mesh(folder.path() / "a.ply").mesh, mesh));
         }
-}
-
-TEST_CASE("A symbolic link stays one")
-{
-    const TemporaryDirectory folder;
-    const auto file = folder.with("file.obj", "old");
-    const auto link = folder.path() / "link.obj";
-    std::filesystem::create_symlink("file.obj", link);
-    CHECK(message_of_writing(link).empty());
-    CHECK(std::filesystem::is_symlink(link));
-    CHECK(read_mesh(file).mesh.n_faces() == 1);
 }
 
 TEST_CASE("Places where nothing can be written")

@@ -89,15 +89,6 @@ TEST_CASE("a mesh with other vertices or faces does not fit")
     CHECK(folder.n_files() == 1);
 }
 
-TEST_CASE("STL is written as by write_mesh")
-{
-    const TemporaryDirectory folder;
-    write_mesh(folder / "a.stl", make_triangle(), {FileFormat::Stl, Encoding::Ascii});
-    const MeshFile file = moved_file(folder / "a.stl");
-    CHECK(write_mesh_like(*file.source, folder / "b.stl", file.mesh).empty());
-    CHECK(read_mesh(folder / "b.stl").mesh.vertices == file.mesh.vertices);
-}
-
 TEST_CASE("the source of a file outlives its mesh and is shared by copies")
 {
     const TemporaryDirectory folder;

@@ -57,11 +57,6 @@ TEST_CASE("OFF: numbers after the coordinates and colours of faces are passed ov
     }
 }
 
-TEST_CASE("OFF: vertices without faces")
-{
-    CHECK(read_text("a.off", "OFF 1 0 0\n1 2 3").mesh.n_faces() == 0);
-}
-
 TEST_CASE("OFF: every complaint names the line")
 {
     CHECK(contains(off_complaint("solid\n"), "a.off:1: the file begins with 'solid' and not with OFF"));

@@ -8,27 +8,6 @@
 
 using namespace seamflow;
 
-namespace {
-
-double mean_x_of_face_at_seam(const PolygonMesh& mesh, Index f)
-{
-    double sum = 0.0;
-    for (const Index v : mesh.face(f))
-        sum += mesh.vertices(v, 0);
-    return sum / static_cast<double>(mesh.face(f).size());
-}
-
-Index nearest_to_copy_at_seam(const PolygonMesh& mesh, Index v)
-{
-    Eigen::VectorXd distances = (mesh.vertices.rowwise() - mesh.vertices.row(v)).rowwise().norm();
-    distances[v] = distances.maxCoeff();
-    Eigen::Index nearest = 0;
-    distances.minCoeff(&nearest);
-    return static_cast<Index>(nearest);
-}
-
-}  // namespace
-
 TEST_CASE("normals of faces that have not moved stay, those of others turn with them")
 {
     PolygonMesh mesh = test::quad_grid(6, 6);
@@ -53,10 +32,7 @@ TEST_CASE("normals stay continuous across a seam as wide as is said")
 {
     const PolygonMesh whole = test::quad_grid(6, 6);
     const double middle = 0.5 * (whole.vertices.col(0).minCoeff() + whole.vertices.col(0).maxCoeff());
-    std::vector<Index> labels;
-    for (Index f = 0; f < whole.n_faces(); ++f)
-        labels.push_back(mean_x_of_face_at_seam(whole, f) > middle ? 1 : 0);
-    PolygonMesh mesh = test::split(whole, labels);
+    PolygonMesh mesh = test::split(whole, test::halves(whole, middle));
     constexpr double gap = 1e-3;
     const auto bend = [&](double left, double right) {
         for (Index v = 0; v < mesh.n_vertices(); ++v) {
@@ -70,7 +46,7 @@ TEST_CASE("normals stay continuous across a seam as wide as is said")
     const Points before = mesh.vertices;
     bend(0.2, -0.9);
     const Index copy = mesh.n_vertices() - 3;
-    const Index of_copy = nearest_to_copy_at_seam(mesh, copy);
+    const Index of_copy = test::originals(mesh, whole)[copy];
     const Point ridge(0, 0, 1);
     for (const double distance : {0.0, 2.0 * gap}) {
         const MovedNormals normals(mesh, before, run_serially, distance);

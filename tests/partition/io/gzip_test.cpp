@@ -39,12 +39,7 @@ std::string unpacked(std::string_view bytes)
 
 std::string complaint_about(std::string_view bytes)
 {
-    try {
-        unpacked(bytes);
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return {};
+    return test::message_of<InputError>([&] { unpacked(bytes); });
 }
 
 /// Large enough for several slices.

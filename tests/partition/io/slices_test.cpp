@@ -18,22 +18,17 @@
 #include "partition/formats/ply.h"
 #include "partition/formats/stl.h"
 #include "samples/meshes/random_numbers.h"
+#include "tests/support/backwards.h"
 #include "tests/support/mesh_files.h"
 #include "tests/support/random_meshes.h"
 #include "tests/support/temporary_directory.h"
 
 using namespace seamflow;
 using test::content_of;
+using test::run_backwards;
 using test::TemporaryDirectory;
 
 namespace {
-
-/// One range for every index, the last first.
-void last_slice_first(Index n, const RangeBody& body)
-{
-    for (Index i = n; i-- > 0;)
-        body(i, i + 1);
-}
 
 const Slicing in_one_go{};
 
@@ -90,7 +85,7 @@ void check_reading(FileFormat format, std::string_view content, std::size_t byte
     CAPTURE(content);
     for (const bool notes : {false, true}) {
         const Outcome whole = outcome_of(format, content, in_one_go, notes);
-        const Outcome sliced = outcome_of(format, content, {last_slice_first, bytes}, notes);
+        const Outcome sliced = outcome_of(format, content, {run_backwards, bytes}, notes);
         CHECK(sliced.messages == whole.messages);
         CHECK(same_bits(sliced.mesh, whole.mesh));
     }
@@ -233,12 +228,12 @@ TEST_CASE("good and bad texts, cut anywhere, are read as in one go, with the sam
             for (std::size_t bytes = 0; bytes < content.size(); ++bytes) {
                 check_reading(format, content, bytes);
                 if (format == FileFormat::Obj)
-                    CHECK(extras_of_obj("a", content, {last_slice_first, bytes}) == extras_of_obj("a", content));
+                    CHECK(extras_of_obj("a", content, {run_backwards, bytes}) == extras_of_obj("a", content));
             }
     for (const auto& [format, content] : good_files())
-        CHECK(outcome_of(format, content, {last_slice_first, 1}, false).messages.empty());
+        CHECK(outcome_of(format, content, {run_backwards, 1}, false).messages.empty());
     for (const auto& [format, content] : bad_files())
-        CHECK_FALSE(outcome_of(format, content, {last_slice_first, 1}, false).messages.empty());
+        CHECK_FALSE(outcome_of(format, content, {run_backwards, 1}, false).messages.empty());
 }
 
 TEST_CASE("binary files, cut anywhere, are read as in one go; cut off and damaged ones, too")
@@ -269,7 +264,7 @@ TEST_CASE("files without an element, and with padding or more after none, are re
         for (const std::string kind : {"ascii", "binary_little_endian", "binary_big_endian"}) {
             const std::string content = "ply\nformat " + kind + " 1.0\n" + header + more;
             check_reading(FileFormat::Ply, content, 7);
-            CHECK(rewritten(FileFormat::Ply, content, PolygonMesh(), {last_slice_first, 7}).content == content);
+            CHECK(rewritten(FileFormat::Ply, content, PolygonMesh(), {run_backwards, 7}).content == content);
         }
     check_reading(FileFormat::Off, "OFF BINARY\n" + std::string(12 + 100, '\0'), 7);
 }
@@ -310,7 +305,7 @@ TEST_CASE("files cut anywhere are written again as in one go")
             CHECK(whole.content != content);
             for (const std::size_t bytes : {0, 5, 40, 100, 200}) {
                 CAPTURE(bytes);
-                const test::Rewritten sliced = rewritten(format, content, mesh, {last_slice_first, bytes});
+                const test::Rewritten sliced = rewritten(format, content, mesh, {run_backwards, bytes});
                 CHECK(sliced.content == whole.content);
                 CHECK(sliced.remarks == whole.remarks);
             }
@@ -324,7 +319,7 @@ TEST_CASE("slices are written in order, however many, between what comes before 
         std::string expected = "before ";
         OutputFile file(folder / "a");
         file.text(expected);
-        file.slices(n, last_slice_first, [](Index i, OutputBuffer& slice) {
+        file.slices(n, run_backwards, [](Index i, OutputBuffer& slice) {
             for (Index k = 0; k < i % 50; ++k)
                 slice.line("slice", std::array{i, k});
         });

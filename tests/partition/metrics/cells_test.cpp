@@ -16,6 +16,7 @@
 #include "samples/meshes/meshes.h"
 #include "samples/meshes/random_numbers.h"
 #include "tests/support/junction_meshes.h"
+#include "tests/support/random_meshes.h"
 #include "tests/support/relative.h"
 
 using namespace seamflow;
@@ -30,30 +31,7 @@ std::vector<double> volumes_of_cells(const PolygonMesh& mesh)
 /// Faces in another order, from other corners on and turned at random; vertices in another order.
 PolygonMesh shuffled_mesh(const PolygonMesh& mesh, std::uint32_t seed)
 {
-    RandomNumbers random(seed);
-    const auto any_order = [&](Index n) {
-        std::vector<Index> order(usize(n));
-        for (Index i = 0; i < n; ++i) {
-            order[usize(i)] = i;
-            std::swap(order[usize(i)], order[usize(random.below(i + 1))]);
-        }
-        return order;
-    };
-    const std::vector<Index> new_number = any_order(mesh.n_vertices());
-    PolygonMesh other;
-    other.vertices.resize(mesh.n_vertices(), 3);
-    for (Index v = 0; v < mesh.n_vertices(); ++v)
-        other.vertices.row(new_number[usize(v)]) = mesh.vertices.row(v);
-    for (const Index f : any_order(mesh.n_faces())) {
-        std::vector<Index> corners;
-        for (const Index v : mesh.face(f))
-            corners.push_back(new_number[usize(v)]);
-        std::rotate(corners.begin(), corners.begin() + random.below(static_cast<int>(corners.size())), corners.end());
-        if (random.below(2) == 0)
-            std::reverse(corners.begin(), corners.end());
-        other.add_face(corners);
-    }
-    return other;
+    return test::with_faces_flipped(test::shuffled(mesh, seed).mesh, seed);
 }
 
 PolygonMesh without_faces(const PolygonMesh& mesh, std::span<const Index> left_out)

@@ -85,9 +85,7 @@ TEST_CASE("strength rises smoothly from the rim of a region, and not from the bo
 TEST_CASE("the distance from the rim continues across the seams of a texture, whose copies have one strength")
 {
     const PolygonMesh whole = quad_grid(20, 5);
-    std::vector<Index> labels;
-    for (Index f = 0; f < whole.n_faces(); ++f)
-        labels.push_back(whole.vertices(whole.face(f).front(), 0) < 6.5 ? 0 : 1);
+    const std::vector<Index> labels = halves(whole, 6.5);
     const PolygonMesh mesh = split(whole, labels);
     REQUIRE(mesh.n_vertices() > whole.n_vertices());
     const std::vector<double> soft = feathered(mesh, strengths_right_of(mesh, 4.5), 8.0);

@@ -2,33 +2,25 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <doctest/doctest.h>
 #include <zlib.h>
 
+#include "partition/formats/gltf_text.h"
+
 namespace seamflow::test {
 
 /// What packed() has packed, undone as far as the bytes.
 inline std::vector<std::uint8_t> inflated(const std::string& base64)
 {
-    const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    REQUIRE(base64.size() % 4 == 0);
-    std::vector<std::uint8_t> stream;
-    std::uint32_t bits = 0;
-    int n_bits = 0;
-    for (const char letter : base64) {
-        if (letter == '=')
-            break;
-        bits = bits << 6 | static_cast<std::uint32_t>(digits.find(letter));
-        n_bits += 6;
-        if (n_bits >= 8)
-            stream.push_back(static_cast<std::uint8_t>(bits >> (n_bits -= 8) & 255U));
-    }
+    const std::optional<std::string> stream = bytes_of_gltf_base64(base64);
+    REQUIRE(stream);
     std::vector<std::uint8_t> bytes(1U << 20U);
     uLongf size = bytes.size();
-    REQUIRE(uncompress(bytes.data(), &size, stream.data(), stream.size()) == Z_OK);
+    REQUIRE(uncompress(bytes.data(), &size, reinterpret_cast<const Bytef*>(stream->data()), stream->size()) == Z_OK);
     bytes.resize(size);
     return bytes;
 }

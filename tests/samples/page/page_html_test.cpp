@@ -35,7 +35,7 @@ PageFlow make_flow(bool undecomposed, const std::string& input = "torus.obj")
     });
     RunRecord run;
     run.input = input;
-    flow.finish(report, smooth_report_json(run, report));
+    flow.finish(report, smooth_report_json(run, options, report));
     return flow;
 }
 
@@ -145,7 +145,7 @@ TEST_CASE("numbers that are none do not get onto a page")
     flow.add_step(1, nowhere, &nowhere);
     FlowReport report;
     report.steps.emplace_back().seconds = std::nan("");
-    flow.finish(report, smooth_report_json({}, report));
+    flow.finish(report, smooth_report_json({}, {}, report));
     const std::string html = page_html("point", {&flow, 1});
     const Json facts = facts_of(html);
     const Json& distance = facts["flows"][0]["states"][1]["distance"];

@@ -27,24 +27,20 @@ long allocations_in_step(TransmissionCondition& condition, Index n_rows, const P
 TEST_CASE("from the second step on no condition allocates memory")
 {
     std::vector<double> row(1000);
-    for (const CutMesh& cut : cut_meshes()) {
-        CAPTURE(cut.name);
-        const Decomposition decomposition = test::decompose(cut);
-        for (const SubMesh& sub_mesh : decomposition.sub_meshes) {
-            const Points positions = localised(sub_mesh, cut.mesh.vertices);
-            const long before = n_allocations();
-            std::vector<std::unique_ptr<TransmissionCondition>> conditions;
-            conditions.push_back(make_adapted_ventcell(sub_mesh));
-            conditions.push_back(make_adapted_ventcell(sub_mesh, 0.4));
-            conditions.push_back(make_ventcell(sub_mesh));
-            conditions.push_back(make_ventcell(sub_mesh, 0.4));
-            for (const Laplacian laplacian : {Laplacian::Fujiwara, Laplacian::AlexaWardetzky, Laplacian::PtackovaVelho})
-                conditions.push_back(make_predicted_side(sub_mesh, laplacian));
-            CHECK(n_allocations() > before);
-            for (const auto& condition : conditions) {
-                allocations_in_step(*condition, sub_mesh.interface.size(), positions, row);
-                CHECK(allocations_in_step(*condition, sub_mesh.interface.size(), positions, row) == 0);
-            }
+    for_each_sub_mesh([&](const CutMesh& cut, const SubMesh& sub_mesh) {
+        const Points positions = localised(sub_mesh, cut.mesh.vertices);
+        const long before = n_allocations();
+        std::vector<std::unique_ptr<TransmissionCondition>> conditions;
+        conditions.push_back(make_adapted_ventcell(sub_mesh));
+        conditions.push_back(make_adapted_ventcell(sub_mesh, 0.4));
+        conditions.push_back(make_ventcell(sub_mesh));
+        conditions.push_back(make_ventcell(sub_mesh, 0.4));
+        for (const Laplacian laplacian : {Laplacian::Fujiwara, Laplacian::AlexaWardetzky, Laplacian::PtackovaVelho})
+            conditions.push_back(make_predicted_side(sub_mesh, laplacian));
+        CHECK(n_allocations() > before);
+        for (const auto& condition : conditions) {
+            allocations_in_step(*condition, sub_mesh.interface.size(), positions, row);
+            CHECK(allocations_in_step(*condition, sub_mesh.interface.size(), positions, row) == 0);
         }
-    }
+    });
 }

@@ -15,6 +15,7 @@
 #include "solvers/denoising/denoising_amount.h"
 #include "solvers/denoising/mesh_denoiser.h"
 #include "tests/support/denoising.h"
+#include "tests/support/random_meshes.h"
 #include "tests/support/relative.h"
 #include "tests/support/test_meshes.h"
 
@@ -184,13 +185,6 @@ TEST_CASE("the amount hardly depends on the order of vertices")
 {
     const PolygonMesh noisy = test::with_gaussian_noise(make_triangles(9000), 0.2, 4);
     const double noise = noise_along_normals(0.2, noisy);
-    std::vector<Index> order(usize(noisy.n_vertices()));
-    std::iota(order.begin(), order.end(), Index{0});
-    std::shuffle(order.begin(), order.end(), std::mt19937(5));
-    PolygonMesh shuffled = noisy;
-    for (Index v = 0; v < noisy.n_vertices(); ++v)
-        shuffled.vertices.row(order[v]) = noisy.vertices.row(v);
-    for (Index& v : shuffled.face_vertices)
-        v = order[v];
+    const PolygonMesh shuffled = test::shuffled(noisy, 5).mesh;
     CHECK(std::abs(amount_for(shuffled, noise).amount / amount_for(noisy, noise).amount - 1.0) < 0.1);
 }

@@ -16,6 +16,7 @@
 #include "solvers/denoising/filter_sample.h"
 #include "solvers/denoising/mesh_denoiser.h"
 #include "tests/support/denoising.h"
+#include "tests/support/random_meshes.h"
 #include "tests/support/relative.h"
 #include "tests/support/test_meshes.h"
 
@@ -38,19 +39,6 @@ PolygonMesh bumpy_sphere(Index vertices)
 PolygonMesh with_noise(const PolygonMesh& truth, double sigma)
 {
     return test::with_gaussian_noise(truth, std::sqrt(3.0) * sigma, 3);
-}
-
-PolygonMesh renumbered(PolygonMesh mesh)
-{
-    std::vector<Index> order(usize(mesh.n_vertices()));
-    std::iota(order.begin(), order.end(), Index{0});
-    std::ranges::shuffle(order, std::mt19937(5));
-    const Points before = mesh.vertices;
-    for (Index v = 0; v < mesh.n_vertices(); ++v)
-        mesh.vertices.row(order[v]) = before.row(v);
-    for (Index& v : mesh.face_vertices)
-        v = order[v];
-    return mesh;
 }
 
 /// How the rims of a tube are closed: by one polygon, by triangles from one vertex, or in a zigzag.
@@ -176,7 +164,7 @@ TEST_CASE("patches of a large mesh say what the whole says, in any order of vert
     const SurfaceNoise noise = noise_of(noisy);
     CHECK(noise.deviation / whole.noise().deviation == test::relative(1.0, 0.03));
     CHECK(noise.part > 0.9);
-    CHECK(noise_of(renumbered(noisy)).deviation / noise.deviation == test::relative(1.0, 0.03));
+    CHECK(noise_of(test::shuffled(noisy, 5).mesh).deviation / noise.deviation == test::relative(1.0, 0.03));
     CHECK(noise_of(noisy, run_in_parallel).deviation == noise.deviation);
     CHECK(noise_of(grid).deviation == 0.0);
 }

@@ -17,6 +17,7 @@
 #include "solvers/denoising/thinned_mesh.h"
 #include "solvers/denoising/vertex_averages.h"
 #include "tests/support/denoising.h"
+#include "tests/support/random_meshes.h"
 #include "tests/support/relative.h"
 #include "tests/support/test_meshes.h"
 
@@ -120,17 +121,8 @@ TEST_CASE("which vertices are left depends on where they are, not on their order
         return thin_out(of, topology, around.neighbours(), of.vertices, std::vector<int>(usize(of.n_vertices()), 0),
                         round);
     };
-    std::vector<Index> number(usize(mesh.n_vertices()));
-    std::iota(number.begin(), number.end(), Index{0});
-    std::ranges::shuffle(number, std::mt19937(5));
-    PolygonMesh other;
-    other.vertices.resize(mesh.n_vertices(), 3);
-    for (Index v = 0; v < mesh.n_vertices(); ++v)
-        other.vertices.row(number[v]) = 0.25 * mesh.vertices.row(v);
-    for (Index f = mesh.n_faces(); f-- > 0;) {
-        const auto face = mesh.face(f);
-        other.add_face(std::array{number[face[1]], number[face[2]], number[face[0]]});
-    }
+    auto [other, number] = test::shuffled(mesh, 5);
+    other.vertices *= 0.25;
     std::vector<Index> of_mesh = left(mesh, 3).vertices;
     for (Index& v : of_mesh)
         v = number[v];

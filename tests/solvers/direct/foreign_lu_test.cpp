@@ -91,22 +91,6 @@ TEST_CASE("random systems are solved, one set of values after the other")
     }
 }
 
-TEST_CASE("a factor may be given up before it is used")
-{
-    for (MakeLu* const make : foreign_lu()) {
-        CAPTURE(make == &make_eigen_lu);
-        RandomNumbers random(2);
-        const SparsePattern pattern = random_pattern(50, random);
-        const auto unused = random_values(pattern, random);
-        const auto values = random_values(pattern, random);
-        const Columns right_hand_side = random_columns(50, random);
-        const auto solver = make(pattern);
-        static_cast<void>(factorised(*solver, unused));
-        const Columns solution = solved(*solver, values, right_hand_side);
-        CHECK((dense(pattern, values) * solution - right_hand_side).cwiseAbs().maxCoeff() < 1e-10);
-    }
-}
-
 TEST_CASE("singular matrices are refused, and the solver goes on with regular ones")
 {
     for (MakeLu* const make : foreign_lu()) {

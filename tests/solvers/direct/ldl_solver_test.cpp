@@ -8,6 +8,7 @@
 
 #include "solvers/direct/ldl_solver.h"
 #include "tests/support/allocations.h"
+#include "tests/support/backwards.h"
 #include "tests/support/heap.h"
 #include "tests/support/random_graphs.h"
 #include "tests/support/symmetric_matrices.h"
@@ -113,13 +114,6 @@ struct OrderedTriangles {
     EliminationTree tree;
     std::vector<double> values;
 };
-
-/// Indices one by one, the last one first.
-void run_last_first(Index n, const RangeBody& body)
-{
-    for (Index i = n; i-- > 0;)
-        body(i, i + 1);
-}
 
 /// Every third index in a thread of its own.
 void run_in_three_threads(Index n, const RangeBody& body)
@@ -380,7 +374,7 @@ TEST_CASE_TEMPLATE("several threads factorise one matrix, with the same bits as 
     const Columns one_by_one = solved<Number>(in_order, matrix.values, right, workspace);
     CHECK(found != one_by_one);
     CHECK((found - one_by_one).norm() < rounding<Number> * found.norm());
-    for (const Executor& exec : {Executor(run_last_first), Executor(run_in_three_threads)}) {
+    for (const Executor& exec : {Executor(run_backwards), Executor(run_in_three_threads)}) {
         const LdlSolver solver(matrix.upper, {}, matrix.tree, exec);
         CHECK(solved<Number>(solver, matrix.values, right, workspace) == found);
     }

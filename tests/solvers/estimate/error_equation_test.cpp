@@ -7,6 +7,7 @@
 
 #include "solvers/estimate/error_equation.h"
 #include "solvers/interface/interface_peers.h"
+#include "tests/support/backwards.h"
 #include "tests/support/cut_meshes.h"
 #include "tests/support/matrices.h"
 
@@ -63,13 +64,6 @@ void assemble(const Case& c, const Points& after, double time_step, ErrorEquatio
         const Points before = test::localised(sub_mesh, c.cut.mesh.vertices);
         equation.assemble(s, before, test::localised(sub_mesh, after), before, time_step);
     }
-}
-
-/// The last index first.
-void run_backwards(Index n, const RangeBody& body)
-{
-    for (Index i = n; i-- > 0;)
-        body(i, i + 1);
 }
 
 /// The highest wave numbers are those that Δ_A on quads, and Δ_P, hardly see: there the error is underestimated.
@@ -147,7 +141,7 @@ TEST_CASE("the order of the loop does not matter")
         assemble(c, after, 4.0, forward);
         assemble(c, after, 4.0, backward);
         forward.solve(run_serially);
-        backward.solve(run_backwards);
+        backward.solve(test::run_backwards);
         CHECK(forward.error() == backward.error());
     }
 }

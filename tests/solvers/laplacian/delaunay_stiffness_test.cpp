@@ -13,6 +13,7 @@
 #include "solvers/laplacian/laplacian_assembler.h"
 #include "solvers/laplacian/symmetric_laplacian.h"
 #include "tests/support/junction_meshes.h"
+#include "tests/support/random_meshes.h"
 #include "tests/support/relative.h"
 #include "tests/support/test_meshes.h"
 
@@ -147,26 +148,8 @@ TEST_CASE("linear functions on a plane are harmonic away from the boundary")
 TEST_CASE("a triangulation within a surface does not depend on the order of faces and vertices")
 {
     const PolygonMesh mesh = rolled(sheared(test::triangle_grid(12, 7), 1.5));
-    std::vector<Index> number(usize(mesh.n_vertices()));
-    std::iota(number.begin(), number.end(), 0);
-    std::vector<Index> faces(usize(mesh.n_faces()));
-    std::iota(faces.begin(), faces.end(), 0);
-    std::mt19937 random(3);
-    std::ranges::shuffle(number, random);
-    std::ranges::shuffle(faces, random);
-    PolygonMesh other;
-    other.vertices.resize(mesh.n_vertices(), 3);
-    for (Index v = 0; v < mesh.n_vertices(); ++v)
-        other.vertices.row(number[v]) = mesh.vertices.row(v);
-    for (const Index f : faces) {
-        std::vector<Index> corners;
-        for (const Index v : mesh.face(f))
-            corners.push_back(number[v]);
-        std::rotate(corners.begin(), corners.begin() + f % 3, corners.end());
-        if (f % 4 == 0)
-            std::ranges::reverse(corners);
-        other.add_face(corners);
-    }
+    const auto [shuffled, number] = test::shuffled(mesh, 3);
+    const PolygonMesh other = test::with_faces_flipped(shuffled, 3);
     const Eigen::MatrixXd of_mesh = dense(delaunay_of(mesh)->stiffness);
     const Eigen::MatrixXd of_other = dense(delaunay_of(other)->stiffness);
     CHECK((of_other(number, number) - of_mesh).cwiseAbs().maxCoeff() < 1e-9);

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <cstddef>
+#include <string_view>
+#include <vector>
+
+#include "partition/io/text_scanner.h"
+
+/// The grammar of text STL.
+namespace seamflow {
+
+inline constexpr TextSyntax stl_syntax = {.comment = '\0'};
+
+/// Compares with a keyword in lower case.
+bool is_keyword(std::string_view token, std::string_view keyword);
+
+/// Goes to the next line. @param keyword with which it should begin, for the message.
+/// @throws InputError if there is none.
+void next_stl_line(TextScanner& scanner, std::string_view keyword);
+
+/// Passes over a keyword.
+/// @throws InputError if there is something else.
+void pass_over_keyword(TextScanner& scanner, std::string_view keyword);
+
+/// Whether the line ends something: some programs write "end loop" for "endloop".
+bool is_end_of(TextScanner& scanner, std::string_view what);
+
+/// Goes to the line behind the corners of a facet, and to its end.
+/// @throws InputError if there are more corners, or something else.
+void end_stl_facet(TextScanner& scanner);
+
+/// @throws InputError unless the line ends here.
+void end_stl_corner(TextScanner& scanner);
+
+/// Scans a text, or a slice of it (see stl_slices_at_facets). Of these functions the visitor has those that it needs:
+/// - solid(scanner): reads the line `solid` from the name on;
+/// - normal(scanner): reads the line `facet` from the word `normal` on;
+/// - corner(k, scanner): reads the three coordinates of a corner, which it must if it has it;
+/// - facet(): is told that all of a facet has been read.
+/// @param in_solid whether it begins within a solid. @returns whether it ends within one.
+template <class Visitor>
+bool scan_text_stl(TextScanner& scanner, bool in_solid, Visitor& visitor)
+{
+    while (scanner.next_line()) {
+        if (!in_solid) {
+            pass_over_keyword(scanner, "solid");
+            if constexpr (requires { visitor.solid(scanner); })
+                visitor.solid(scanner);
+            in_solid = true;
+        } else if (is_end_of(scanner, "solid")) {
+            in_solid = false;
+        } else if (!is_keyword(scanner.peek(), "color")) {
+            pass_over_keyword(scanner, "facet");
+            if constexpr (requires { visitor.normal(scanner); })
+                visitor.normal(scanner);
+            next_stl_line(scanner, "outer loop");
+            pass_over_keyword(scanner, "outer");
+            pass_over_keyword(scanner, "loop");
+            for (std::size_t k = 0; k < 3; ++k) {
+                next_stl_line(scanner, "vertex");
+                pass_over_keyword(scanner, "vertex");
+                if constexpr (requires { visitor.corner(k, scanner); }) {
+                    visitor.corner(k, scanner);
+                    end_stl_corner(scanner);
+                }
+            }
+            end_stl_facet(scanner);
+            if constexpr (requires { visitor.facet(); })
+                visitor.facet();
+        }
+    }
+    return in_solid;
+}
+
+/// Slices of a text that begin at facets, except for the first.
+std::vector<std::string_view> stl_slices_at_facets(const TextScanner& whole, std::size_t bytes);
+
+}  // namespace seamflow
