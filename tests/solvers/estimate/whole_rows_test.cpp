@@ -23,7 +23,7 @@ double vertex_area(const PolygonMesh& mesh, const Topology& topology, Index v)
     return sum;
 }
 
-/// Per copy, sub-mesh and index on its Γ: the moving vertices off Γ with which it shares a face of the sub-mesh.
+/// Per copy, sub-mesh and local vertex: the moving vertices off Γ with which it shares a face of the sub-mesh.
 std::map<std::pair<Index, Index>, std::set<Index>> beside_interface(const Decomposition& decomposition)
 {
     std::map<std::pair<Index, Index>, std::set<Index>> beside;
@@ -34,7 +34,7 @@ std::map<std::pair<Index, Index>, std::set<Index>> beside_interface(const Decomp
             for (const Index f : sub_mesh.interface.own_faces[i])
                 for (const Index v : sub_mesh.face_vertices[f])
                     if (sub_mesh.fixed[v] == 0 && std::ranges::find(on_interface, v) == on_interface.end())
-                        beside[{s, i}].insert(sub_mesh.local_to_global[v]);
+                        beside[{s, on_interface[i]}].insert(sub_mesh.local_to_global[v]);
     }
     return beside;
 }
