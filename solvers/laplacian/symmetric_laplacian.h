@@ -68,7 +68,10 @@ class SymmetricLaplacian {
     /// Replaces what is kept by K and M of other origin, which depend on no positions. For sums over faces that keep K
     /// and M, without auxiliary unknowns.
     /// @param local_to_global all vertices in the whole mesh.
-    virtual void give(const GivenStiffness& /*given*/, std::span<const Index> /*local_to_global*/) {}
+    virtual void give([[maybe_unused]] const GivenStiffness& given,
+                      [[maybe_unused]] std::span<const Index> local_to_global)
+    {
+    }
 
     /// Calls action(n) with the number of the next of `pairs` that belong to one face, or edge, for all of them.
     virtual void for_each_element(const std::function<void(std::size_t n)>& action) const = 0;

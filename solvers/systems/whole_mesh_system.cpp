@@ -235,11 +235,28 @@ double WholeMeshSystem::farthest_move(const Executor& exec) const
         keep_larger));
 }
 
-/// The sum of the updates that would follow if they kept decreasing at the same rate.
-double WholeMeshSystem::distance_after(const BlockRowMatrix::Result& pass)
+/// The sum of the updates that would follow if they kept decreasing at the same rate; after a short pass, the estimate
+/// before it as far as the residual has decreased.
+/// @param length unit of the updates. @param before_pass, left residual before and after the pass, as parts of the
+/// first.
+double WholeMeshSystem::distance_after(const BlockRowMatrix::Result& pass, double length, double before_pass,
+                                       double left, double distance_before)
 {
+    if (pass.residual > shortest_pass && distance_before > 0.0)
+        return distance_before * left / before_pass;
     const double rate = std::pow(pass.residual, 1.0 / pass.iterations);
-    return slower_somewhere * (rate < 1.0 ? pass.last_update * rate / (1.0 - rate) : pass.last_update);
+    const double distance = slower_somewhere * (rate < 1.0 ? pass.last_update * rate / (1.0 - rate) : pass.last_update);
+    return length * distance * left / (before_pass * pass.residual);
+}
+
+/// Writes the rows of vertices that have no equation.
+/// @param before by vertices: they stay there; null: 0.
+void WholeMeshSystem::write_without_row(const Points* before, Points& after, const Executor& exec) const
+{
+    for_each(exec, static_cast<Index>(rows_.without_row.size()), [&](Index i) {
+        const Index v = rows_.without_row[i];
+        after.row(v) = before != nullptr ? Point(before->row(v)) : Point::Zero();
+    });
 }
 
 void WholeMeshSystem::take_units(double time_step)
@@ -383,17 +400,12 @@ WholeMeshSystem::Result WholeMeshSystem::solve(const Beginning& beginning, const
             is_in_rows = true;
             renew();
         }
-        distance = pass.residual > shortest_pass && distance > 0.0
-                       ? distance * left / before_pass
-                       : length * distance_after(pass) * left / (before_pass * pass.residual);
+        distance = distance_after(pass, length, before_pass, left, distance);
         criterion.note(pass.iterations, left, left / before_pass);
     }
     if (!is_written)
         for_each(exec, matrix_.n_rows(), [&](Index i) { after.row(rows_.vertices.values[i]) = current(i); });
-    for_each(exec, static_cast<Index>(rows_.without_row.size()), [&](Index i) {
-        const Index v = rows_.without_row[i];
-        after.row(v) = beginning.before != nullptr ? Point(beginning.before->row(v)) : Point::Zero();
-    });
+    write_without_row(beginning.before, after, exec);
     return {criterion.result(left), distance};
 }
 
