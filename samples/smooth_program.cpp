@@ -150,16 +150,12 @@ FlowReport run_flow(const SmoothCommand& command, PolygonMesh& mesh, const StepO
     return about_file(command.input, [&] { return mean_curvature_flow(mesh, command.options, on_step, control); });
 }
 
-/// Reads, flows and writes.
-/// @param run holds the command line.
-ExitStatus run(SmoothCommand& command, RunRecord& run, RankGroup* ranks)
+/// Reads the mesh, settles what the flow takes, and prints both.
+/// @param left_out receives what is not read. @param whole runs since the beginning.
+/// @throws InputError, OptionError, or OutputError for a mesh that the result's format cannot hold.
+MeshFile read_input(SmoothCommand& command, FaultLog& left_out, const Stopwatch& whole, RunRecord& run,
+                    const Executor& exec, std::ostream& out)
 {
-    Interruption interruption(command.program);
-    std::ostream& out = message_stream(command);
-    const Stopwatch whole;
-    Workers workers(command.options.resources.threads);
-    const Executor exec = workers.exec();
-    FaultLog left_out{.of_faces_alone = true};
     MeshFile file = command.options.motion.strict ? read_mesh(command.input, exec)
                                                   : read_faulty_mesh(command.input, left_out, exec);
     require_faces(command.input, file.mesh.n_faces(), left_out);
@@ -172,14 +168,34 @@ ExitStatus run(SmoothCommand& command, RunRecord& run, RankGroup* ranks)
     if (command.every_step)
         require_storable(file.mesh, command.every_step->path(1),
                          kind_for_writing(command.every_step->path(1), file.kind));
+    return file;
+}
 
-    std::vector<std::string> losses = remarks_on_losses(command.output, !command.options.report.keep_gaps, file, exec);
-    if (left_out.count > 0) {
-        losses.push_back(remark_on_faces(left_out, command.output, !command.options.report.keep_gaps, file.kind));
-    }
+/// Remarks on what of the input file is not in the result, or no longer there.
+std::vector<std::string> remarks_on_input(const SmoothCommand& command, const MeshFile& file, const FaultLog& left_out,
+                                          const Executor& exec)
+{
+    std::vector<std::string> remarks = remarks_on_losses(command.output, !command.options.report.keep_gaps, file, exec);
+    if (left_out.count > 0)
+        remarks.push_back(remark_on_faces(left_out, command.output, !command.options.report.keep_gaps, file.kind));
     std::error_code ignored;
     if (std::filesystem::equivalent(command.input, command.output, ignored))
-        losses.push_back("The result has replaced the input, in one go when it was complete.");
+        remarks.push_back("The result has replaced the input, in one go when it was complete.");
+    return remarks;
+}
+
+/// Reads, flows and writes.
+/// @param run holds the command line.
+ExitStatus run(SmoothCommand& command, RunRecord& run, RankGroup* ranks)
+{
+    Interruption interruption(command.program);
+    std::ostream& out = message_stream(command);
+    const Stopwatch whole;
+    Workers workers(command.options.resources.threads);
+    const Executor exec = workers.exec();
+    FaultLog left_out{.of_faces_alone = true};
+    MeshFile file = read_input(command, left_out, whole, run, exec, out);
+    const std::vector<std::string> losses = remarks_on_input(command, file, left_out, exec);
     std::optional<PageFlow> page = make_page(command, file.mesh, left_out.faces_left_out);
     std::optional<SurfaceChangeMeter> change;
     if (!command.quiet || !command.report.empty() || !command.html.empty())

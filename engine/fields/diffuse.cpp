@@ -263,6 +263,31 @@ void remark_on_unfilled(const Eigen::VectorXd& filled, std::vector<std::string>&
                                       n == 1 ? "stays" : "stay", n == 1 ? "it" : "them"));
 }
 
+/// Takes steps with the columns of a group.
+void take_steps(Flow& flow, const FieldOptions& field_options, int steps, ScaledFields& scaled)
+{
+    if (!field_options.keep_edges)
+        return flow.diffuse(scaled.values(), steps);
+    for (int step = 0; step < steps; ++step) {
+        flow.keep_field_edges(scaled.in_units(), *field_options.keep_edges);
+        flow.diffuse(scaled.values());
+    }
+}
+
+/// Measures the width that noise gets by the same steps, which are none of the fields.
+/// @param wanted in length. @param of_group gets a remark, and the time.
+/// @returns nothing where it cannot be measured.
+std::optional<double> measure_width(Flow& flow, const PolygonMesh& surface, double wanted, int steps,
+                                    FlowReport& of_group)
+{
+    Eigen::MatrixXd noise = white_noise(surface.n_vertices());
+    flow.diffuse(noise, steps);
+    const std::optional<double> fwhm = fwhm_of_noise(surface, noise);
+    remark_on_width(wanted, fwhm, surface, steps, of_group.remarks);
+    of_group.seconds = flow.report().seconds;
+    return fwhm;
+}
+
 }  // namespace
 
 FieldReport diffuse(const PolygonMesh& mesh, Eigen::MatrixXd& fields, const FlowOptions& options,
@@ -299,31 +324,19 @@ FieldReport diffuse(const PolygonMesh& mesh, Eigen::MatrixXd& fields, const Flow
         const bool has_all = std::ssize(group.columns) == results.cols();
         ScaledFields scaled(has_all ? std::move(results) : Eigen::MatrixXd(results(Eigen::all, group.columns)), group,
                             ranges, own.time_step, exec);
-        if (field_options.keep_edges)
-            for (int step = 0; step < options.steps; ++step) {
-                flow.keep_field_edges(scaled.in_units(), *field_options.keep_edges);
-                flow.diffuse(scaled.values());
-            }
-        else
-            flow.diffuse(scaled.values(), options.steps);
+        take_steps(flow, field_options, options.steps, scaled);
         if (has_all)
             results = scaled.take(group, exec);
         else
             results(Eigen::all, group.columns) = scaled.take(group, exec);
         if (filter_of(own).is_plain() && own.weights != Weights::OfLaplacian)
             keep_within(ranges, group, results, exec);
-        // Steps that noise is measured with are none of the fields.
         FlowReport of_group = flow.report();
         if (is_whole)
             of_group.choices.emplace_back("The whole mesh is solved at once by one factorisation: that is fastest for "
                                           "so many columns.");
-        if (measures) {
-            Eigen::MatrixXd noise = white_noise(mesh.n_vertices());
-            flow.diffuse(noise, options.steps);
-            report.fwhm = fwhm_of_noise(surface, noise);
-            remark_on_width(*field_options.fwhm, report.fwhm, surface, options.steps, of_group.remarks);
-            of_group.seconds = flow.report().seconds;
-        }
+        if (measures)
+            report.fwhm = measure_width(flow, surface, *field_options.fwhm, options.steps, of_group);
         remarks.push_back(of_group.remarks);
         if (field_options.fill && group.n_lacking > 0 && group.n_lacking < mesh.n_vertices()) {
             const FlowReport of_fill = extend(mesh, group, of_flow, control, exec, results, filled);

@@ -203,6 +203,21 @@ void write_page(const SmoothCommand& command, const PolygonMesh& mesh, FileColou
     write_text(command.html, page_html(command.input.filename().string(), PageMesh(mesh, std::move(colours)), fields));
 }
 
+/// Writes the mesh with its fields, and remarks on what it lacks.
+void write_result(const SmoothCommand& command, const MeshFile& file, FileFields& fields, const FaultLog& left_out,
+                  const Executor& exec, RunRecord& run, FieldSummary& summary)
+{
+    const Stopwatch writing;
+    for (const auto& remarks :
+         {remarks_on_losses(command.output, true, file, exec), write_fields(command, file, fields, exec)})
+        summary.report.remarks.insert(summary.report.remarks.end(), remarks.begin(), remarks.end());
+    remark_on_vertices(file.mesh, run.scale, exec, summary.report.remarks);
+    summary.after = ranges_of_columns(fields.values);
+    if (left_out.count > 0)
+        summary.report.remarks.push_back(remark_on_faces(left_out, command.output, true, file.kind));
+    run.write_seconds = writing.seconds();
+}
+
 }  // namespace
 
 void resolve_field_amount(SmoothCommand& command, const PolygonMesh& mesh, const Executor& exec, RunRecord& run)
@@ -266,15 +281,7 @@ ExitStatus run_fields(SmoothCommand& command, RunRecord& run, RankGroup* ranks)
     }
     if (!from.empty())
         fields.decimals = {of_distances};
-    const Stopwatch writing;
-    for (const auto& remarks :
-         {remarks_on_losses(command.output, true, file, exec), write_fields(command, file, fields, exec)})
-        summary.report.remarks.insert(summary.report.remarks.end(), remarks.begin(), remarks.end());
-    remark_on_vertices(file.mesh, run.scale, exec, summary.report.remarks);
-    summary.after = ranges_of_columns(fields.values);
-    if (left_out.count > 0)
-        summary.report.remarks.push_back(remark_on_faces(left_out, command.output, true, file.kind));
-    run.write_seconds = writing.seconds();
+    write_result(command, file, fields, left_out, exec, run, summary);
     run.ranks = summary.report.flow.ranks;
     run.seconds = whole.seconds();
     const std::string report = field_report_json(run, command.options, summary);
