@@ -16,8 +16,8 @@ namespace {
 
 /// Tasks without and with priority.
 struct Priority {
-    static constexpr ScheduledTask Normal{TaskKind::AssembleAndFactorise};
-    static constexpr ScheduledTask High{TaskKind::Solve};
+    static constexpr ScheduledTask normal{TaskKind::AssembleAndFactorise};
+    static constexpr ScheduledTask high{TaskKind::Solve};
 };
 
 /// A graph of `depth` layers of `width` tasks, each after three of the layer before, that notes when a task starts too
@@ -62,7 +62,7 @@ class Layers {
                         too_early += done_[place(layer - 1, j)] == 1 ? 0 : 1;
                 ++done_[place(layer, i)];
             },
-            i % 2 == 0 ? Priority::Normal : Priority::High);
+            i % 2 == 0 ? Priority::normal : Priority::high);
         nodes_.push_back(node);
         if (layer == 0)
             graph.add_dependency(root, node);
@@ -99,8 +99,8 @@ TEST_CASE("a root reaches its own tasks alone")
     int first = 0;
     int second = 0;
     const auto roots = {graph.add_root(), graph.add_root()};
-    graph.add_dependency(*roots.begin(), graph.add_task([&] { ++first; }, Priority::Normal));
-    graph.add_dependency(*(roots.begin() + 1), graph.add_task([&] { ++second; }, Priority::Normal));
+    graph.add_dependency(*roots.begin(), graph.add_task([&] { ++first; }, Priority::normal));
+    graph.add_dependency(*(roots.begin() + 1), graph.add_task([&] { ++second; }, Priority::normal));
     graph.run(*(roots.begin() + 1));
     CHECK(first == 0);
     CHECK(second == 1);
@@ -121,8 +121,8 @@ TEST_CASE("a failure comes out of run, what depends on it does not start, and th
                         if (fails && i == 17)
                             throw std::runtime_error("seventeen");
                     },
-                    Priority::Normal);
-                const auto second = graph.add_task([&after] { ++after; }, Priority::High);
+                    Priority::normal);
+                const auto second = graph.add_task([&after] { ++after; }, Priority::high);
                 graph.add_dependency(root, first);
                 graph.add_dependency(first, second);
             }
@@ -160,13 +160,13 @@ TEST_CASE("of two failures at once the one of the task that was added first come
                 both_begin(0);
                 throw std::runtime_error("first");
             },
-            Priority::Normal);
+            Priority::normal);
         const auto second = graph.add_task(
             [&] {
                 if (both_begin(1))
                     throw std::runtime_error("second");
             },
-            Priority::Normal);
+            Priority::normal);
         graph.add_dependency(root, first);
         graph.add_dependency(root, second);
         for (int run = 0; run < 20; ++run) {
@@ -189,7 +189,7 @@ TEST_CASE("events wait for their signal and for tasks before them, whichever com
             std::atomic<int> n_after{0};
             std::atomic<int> too_early{0};
             const auto root = graph.add_root();
-            const auto before = graph.add_task([&] { ++n_before; }, Priority::Normal);
+            const auto before = graph.add_task([&] { ++n_before; }, Priority::normal);
             graph.add_dependency(root, before);
             std::vector<TaskGraph::Node> events;
             const auto after = graph.add_task(
@@ -197,7 +197,7 @@ TEST_CASE("events wait for their signal and for tasks before them, whichever com
                     ++n_after;
                     too_early += n_events == 10 * n_after ? 0 : 1;
                 },
-                Priority::Normal);
+                Priority::normal);
             for (int i = 0; i < 10; ++i) {
                 events.push_back(graph.add_event(
                     [&, i] {
@@ -205,7 +205,7 @@ TEST_CASE("events wait for their signal and for tasks before them, whichever com
                         // Half of them wait for the task, too.
                         too_early += (i % 2 == 0 && n_before != n_after + 1) || n_signalled < n_events ? 1 : 0;
                     },
-                    Priority::High));
+                    Priority::high));
                 graph.add_dependency(i % 2 == 0 ? before : root, events.back());
                 graph.add_dependency(events.back(), after);
             }
@@ -234,7 +234,7 @@ TEST_CASE("a run fails from outside, and the next one does not")
         TaskGraph graph;
         std::atomic<int> n_run{0};
         const auto root = graph.add_root();
-        const auto event = graph.add_event([&] { ++n_run; }, Priority::Normal);
+        const auto event = graph.add_event([&] { ++n_run; }, Priority::normal);
         graph.add_dependency(root, event);
         const auto run = [&](bool fails) {
             const std::jthread outside([&] {
