@@ -11,6 +11,7 @@
 #include "partition/errors.h"
 #include "partition/io/input_file.h"
 #include "samples/files/mesh_results.h"
+#include "samples/runs/smoothing_run.h"
 
 namespace seamflow {
 
