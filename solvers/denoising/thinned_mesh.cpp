@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "partition/mixed_bits.h"
+#include "partition/vector_area.h"
 
 namespace seamflow {
 
