@@ -15,7 +15,6 @@
 #include "engine/flow.h"
 #include "engine/options/option_table.h"
 #include "engine/setup/smoothed_radius.h"
-#include "engine/tasks/parallel_executor.h"
 #include "engine/tasks/workers.h"
 #include "partition/io/input_position.h"
 #include "partition/large_arrays.h"
@@ -89,9 +88,9 @@ class SeamsOfFields {
     }
 
     /// Whether a vertex is connected with one that has data, by faces.
-    [[nodiscard]] std::vector<std::uint8_t> reached_from_data(const FieldGroup& group) const
+    [[nodiscard]] std::vector<std::uint8_t> reached_from_data(const FieldGroup& group, const Executor& exec) const
     {
-        const SurfaceComponents components = surface_components(weld_ ? weld_->mesh : mesh_, run_in_parallel);
+        const SurfaceComponents components = surface_components(weld_ ? weld_->mesh : mesh_, exec);
         const auto component_of = [&](Index v) { return components.of_vertex[weld_ ? weld_->first[v] : v]; };
         std::vector<std::uint8_t> has_data(usize(components.count()), 0);
         std::vector<std::uint8_t> reached(group.lacks.size(), 0);
@@ -183,7 +182,7 @@ FlowReport extend(const PolygonMesh& mesh, FieldGroup& group, const FlowOptions&
     PolygonMesh surface = surface_for_extension(mesh, group, options.laplacian);
     const SeamsOfFields seams(surface, options.motion);
     seams.complete(group, fields);
-    const std::vector<std::uint8_t> reached = seams.reached_from_data(group);
+    const std::vector<std::uint8_t> reached = seams.reached_from_data(group, exec);
     FlowOptions own = options;
     own.filter = Filter::Diffusion;
     own.order.reset();
@@ -194,7 +193,7 @@ FlowReport extend(const PolygonMesh& mesh, FieldGroup& group, const FlowOptions&
     own.motion.boundary = Boundary::Free;
     own.motion.junctions = Junctions::Flow;
     own.motion.fixed_vertices.clear();
-    const BoundingBox box = box_of_faces(mesh, run_in_parallel);
+    const BoundingBox box = box_of_faces(mesh, exec);
     own.time_step = time_to_rest * (box.high - box.low).squaredNorm();
     for (Index v = 0; v < mesh.n_vertices(); ++v)
         if (group.lacks[v] == 0 || reached[v] == 0)

@@ -19,6 +19,7 @@
 #include "partition/formats/gltf_geometry.h"
 #include "partition/formats/mesh_file.h"
 #include "partition/formats/splicing.h"
+#include "partition/formats/writing_checks.h"
 #include "partition/io/byte_order.h"
 
 namespace seamflow {

@@ -9,7 +9,7 @@
 #include "partition/errors.h"
 #include "partition/formats/gltf.h"
 #include "partition/formats/gltf_content.h"
-#include "partition/formats/splicing.h"
+#include "partition/formats/writing_checks.h"
 #include "partition/vector_area.h"
 
 namespace seamflow {

@@ -9,7 +9,7 @@
 #include "partition/formats/off.h"
 #include "partition/formats/ply_data.h"
 #include "partition/formats/ply_source.h"
-#include "partition/formats/splicing.h"
+#include "partition/formats/writing_checks.h"
 #include "partition/io/byte_scanner.h"
 
 namespace seamflow {

@@ -55,9 +55,6 @@ WrittenNumbers read_normal(TextScanner& scanner);
 /// Writes a normal, in single precision, in place of another.
 void exchange_normal(Splicer& splicer, const WrittenNumbers& before, const Point& after);
 
-/// "write .obj, .off or .ply, which can hold this mesh".
-std::string write_polygons_instead();
-
 /// New normals for a file after its vertices have moved. A normal that pointed to the back of its faces still does.
 class MovedNormals {
   public:
@@ -94,16 +91,6 @@ class MovedNormals {
     std::optional<Weld> welded_;
     std::optional<VertexNormals> across_seams_;
 };
-
-/// Checks that single precision can hold all coordinates.
-/// @param path of the file to write. @param format "glTF" and so on. @param remedy what to do.
-/// @throws OutputError naming the vertex.
-void require_floats(const std::filesystem::path& path, const Points& vertices, const Executor& exec,
-                    std::string_view format, const std::string& remedy = write_polygons_instead());
-
-/// Checks that all faces are triangles.
-/// @throws OutputError naming the face.
-void require_triangles(const std::filesystem::path& path, const PolygonMesh& mesh, std::string_view format);
 
 /// The message for a file changed since it was read.
 std::string changed_since_read(const std::filesystem::path& source);

@@ -13,6 +13,7 @@
 #include "partition/formats/splicing.h"
 #include "partition/formats/stl.h"
 #include "partition/formats/stl_scan.h"
+#include "partition/formats/writing_checks.h"
 #include "partition/io/byte_order.h"
 
 namespace seamflow {

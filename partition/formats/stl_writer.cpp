@@ -11,8 +11,8 @@
 #include <fmt/format.h>
 
 #include "partition/errors.h"
-#include "partition/formats/splicing.h"
 #include "partition/formats/stl.h"
+#include "partition/formats/writing_checks.h"
 
 namespace seamflow {
 
