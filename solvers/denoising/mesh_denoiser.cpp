@@ -30,10 +30,8 @@ constexpr double noise_by_motion = 1.045;
 /// How often meshes are thinned out; components of how many faces are; and how many thinned meshes there are each time:
 /// nearly all vertices are in one then, most in two. (With ten results were no nearer to the truth.)
 constexpr int most_thinned = 2;
-constexpr std::size_t fewest_to_thin = 3000;
+constexpr Index fewest_to_thin = 3000;
 constexpr int rounds_of_thinning = 6;
-/// In faces: with more, patches decide whether there is anything to do.
-constexpr Index most_without_sample = 100'000;
 
 /// The mean chord between faces and their wanted normals.
 double mean_chord(const PolygonMesh& mesh, const Points& positions, const Points& wanted, const Executor& exec)
@@ -64,7 +62,8 @@ MeshDenoiser::MeshDenoiser(const PolygonMesh& mesh, const Topology& topology, co
     , mesh_(triangles_ ? &triangles_->mesh : &mesh)
     , topology_(triangles_ ? &triangles_->topology : &topology)
     , signs_(face_signs(*mesh_, *topology_))
-    , places_(*mesh_, *topology_, as_one, n_thinned > 0)
+    , averages_(*mesh_, *topology_, exec)
+    , places_(*mesh_, *topology_, as_one)
     , rims_(*mesh_, *topology_)
     , edge_angle_(edge_angle)
     , as_one_(as_one)
@@ -114,8 +113,25 @@ MeshDenoiser::Findings MeshDenoiser::examine(const Points& before, const Executo
     const Points& normals = found.normals.normals;
     fit_vertices(*mesh_, *topology_, {},
                  {normals, std::min(most_relaxation, mean_chord(*mesh_, before, normals, exec))}, found.fitted, exec);
-    found.places = places_.find(*mesh_, *topology_, before, found.fitted, found.normals, found.is_flat, exec);
+    found.places = places_.find(denoised(before, found), exec);
     return found;
+}
+
+NoisyPlaces::Denoised MeshDenoiser::denoised(const Points& before, const Findings& found) const
+{
+    return {*mesh_, *topology_, averages_, before, found.fitted, found.normals, found.is_flat};
+}
+
+std::vector<PlaceStatistics> MeshDenoiser::measure_places(Index most, const Executor& exec) const
+{
+    const Points& before = mesh_->vertices;
+    const Findings found = examine(before, exec);
+    const std::vector<Index> all = spread_places(*topology_, averages_.neighbours(), before, rings_between_places);
+    const std::size_t n = std::min(all.size(), usize(most));
+    std::vector<Index> places;
+    for (std::size_t i = 0; i < n; ++i)
+        places.push_back(all[i * all.size() / n]);
+    return seamflow::measure_places(denoised(before, found), places, exec);
 }
 
 Points MeshDenoiser::without_noise(const Points& before, std::span<const double> strengths, const Executor& exec)
@@ -123,7 +139,7 @@ Points MeshDenoiser::without_noise(const Points& before, std::span<const double>
     const auto strength = [&](Index v) { return strengths.empty() ? 1.0 : strengths[v]; };
     Findings found = examine(before, exec);
     Points begun = before;
-    if (const std::optional<Points> without = without_alike_noise(before, found.places.kinds, exec)) {
+    if (const std::optional<Points> without = without_alike_noise(before, found.places.is_alike, exec)) {
         for_each(exec, mesh_->n_vertices(),
                  [&](Index v) { begun.row(v) += strength(v) * (without->row(v) - before.row(v)); });
         keep_all_facing(before, found.normals.normals, begun, exec);
@@ -152,28 +168,26 @@ Points MeshDenoiser::without_noise(const Points& before, std::span<const double>
     return result;
 }
 
-std::optional<Points> MeshDenoiser::without_alike_noise(const Points& before, std::span<const NoiseKind> kinds,
+std::optional<Points> MeshDenoiser::without_alike_noise(const Points& before, std::span<const std::uint8_t> is_alike,
                                                         const Executor& exec) const
 {
+    if (n_thinned_ >= most_thinned)
+        return {};
     const Components& components = places_.components();
-    std::vector<std::uint8_t> is_wanted(usize(mesh_->n_vertices()), 0);
-    bool any = false;
-    for (Index c = 0; n_thinned_ < most_thinned && c < components.count(); ++c)
-        if (kinds[c] != NoiseKind::White && components.nodes[c].size() >= fewest_to_thin) {
-            any = true;
+    std::vector<std::uint8_t> is_wanted(is_alike.size(), 0);
+    for (Index c = 0; c < components.count(); ++c)
+        if (components.nodes[c].size() >= usize(fewest_to_thin))
             for (const Index f : components.nodes[c])
                 for (const Index v : mesh_->face(f))
-                    is_wanted[v] = 1;
-        }
-    if (!any || (n_thinned_ == 0 && mesh_->n_faces() > most_without_sample && !has_alike_noise_on_sample(before, exec)))
+                    is_wanted[v] = is_alike[v];
+    if (std::ranges::none_of(is_wanted, [](std::uint8_t wanted) { return wanted != 0; }))
         return {};
-    const VertexAverages vertices(*mesh_, *topology_, exec);
     std::vector<int> n_chosen(is_wanted.size(), 0);
     std::vector<int> n_moved(is_wanted.size(), 0);
     Points sums = Points::Zero(before.rows(), 3);
     for (int round = 0; round < rounds_of_thinning; ++round) {
         const ThinnedMesh thinned =
-            thin_out(*mesh_, *topology_, vertices.neighbours(), before, n_chosen, static_cast<std::uint64_t>(round));
+            thin_out(*mesh_, *topology_, averages_.neighbours(), before, n_chosen, static_cast<std::uint64_t>(round));
         MeshDenoiser denoiser(thinned.mesh, thinned.topology, exec, {}, as_one_, n_thinned_ + 1);
         const Points moved = denoiser.denoise(thinned.mesh.vertices, {}, exec);
         if (round == 0 && denoiser.noise().part == 0.0)
@@ -193,14 +207,6 @@ std::optional<Points> MeshDenoiser::without_alike_noise(const Points& before, st
             result.row(v) += sums.row(v) / static_cast<double>(n_moved[v]);
     });
     return result;
-}
-
-bool MeshDenoiser::has_alike_noise_on_sample(const Points& before, const Executor& exec) const
-{
-    const std::vector<Index> faces = faces_of(take_filter_sample(*mesh_, *topology_, exec), *mesh_, exec);
-    const MeshPiece patches = cut_out(*mesh_, *topology_, before, faces, exec);
-    const MeshDenoiser denoiser(patches.mesh, patches.topology, exec, {}, true, n_thinned_);
-    return denoiser.without_alike_noise(patches.mesh.vertices, std::vector{NoiseKind::None}, exec).has_value();
 }
 
 void MeshDenoiser::keep_all_facing(const Points& before, Points wanted, Points& positions, const Executor& exec) const

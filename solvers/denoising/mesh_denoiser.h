@@ -12,7 +12,9 @@
 #include "partition/topology.h"
 #include "solvers/denoising/denoised_normals.h"
 #include "solvers/denoising/noisy_places.h"
+#include "solvers/denoising/place_statistics.h"
 #include "solvers/denoising/rim_filter.h"
+#include "solvers/denoising/vertex_averages.h"
 
 namespace seamflow {
 
@@ -48,6 +50,10 @@ class MeshDenoiser {
     /// @returns #V by 3.
     Points denoise(const Points& before, std::span<const double> strengths = {}, const Executor& exec = run_serially);
 
+    /// What is taken away around some places, of which noise is told from shape: for the training of this decision.
+    /// @param most how many at most, spread over the mesh in its positions.
+    [[nodiscard]] std::vector<PlaceStatistics> measure_places(Index most, const Executor& exec = run_serially) const;
+
     /// That was found by the last call of denoise.
     [[nodiscard]] const SurfaceNoise& noise() const { return noise_; }
 
@@ -72,14 +78,14 @@ class MeshDenoiser {
 
     /// @param before #V by 3, without spikes.
     [[nodiscard]] Findings examine(const Points& before, const Executor& exec) const;
+    [[nodiscard]] NoisyPlaces::Denoised denoised(const Points& before, const Findings& found) const;
     /// @param strengths #V, or empty.
     Points without_noise(const Points& before, std::span<const double> strengths, const Executor& exec);
-    /// Removes noise that is alike at neighbours from the components that are not known to have other noise.
-    /// @param kinds per component. @returns #V by 3; nothing if there is no such noise.
-    [[nodiscard]] std::optional<Points> without_alike_noise(const Points& before, std::span<const NoiseKind> kinds,
+    /// Removes noise that is alike at neighbours.
+    /// @param is_alike #V (see NoisyPlaces::Found). @returns #V by 3; nothing if there is no such noise.
+    [[nodiscard]] std::optional<Points> without_alike_noise(const Points& before,
+                                                            std::span<const std::uint8_t> is_alike,
                                                             const Executor& exec) const;
-    /// Whether the same finds any on patches all over the mesh.
-    [[nodiscard]] bool has_alike_noise_on_sample(const Points& before, const Executor& exec) const;
     /// See keep_facing.
     void keep_all_facing(const Points& before, Points wanted, Points& positions, const Executor& exec) const;
     /// @param motions #V by 3, to the positions after. @param parts #V: 0 where there is no noise, nor where is_flat.
@@ -100,6 +106,7 @@ class MeshDenoiser {
     /// #F: -1 for the faces that are turned round in oriented_, so that all look to the same side; both empty: none is.
     std::vector<std::int8_t> signs_;
     PolygonMesh oriented_;
+    VertexAverages averages_;
     NoisyPlaces places_;
     RimFilter rims_;
     std::optional<double> edge_angle_;

@@ -2,66 +2,44 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <iterator>
+#include <cstddef>
+#include <limits>
 #include <numeric>
-#include <span>
 
+#include "partition/index_lists.h"
 #include "partition/vector_area.h"
+#include "solvers/denoising/noise_evidence.h"
 #include "solvers/denoising/normal_motion.h"
-#include "solvers/denoising/vertex_averages.h"
+#include "solvers/denoising/position_filters.h"
+#include "solvers/laplacian/geometry.h"
 
 namespace seamflow {
 
 namespace {
 
-// Lengths are in lengths of the edges at the vertex. Measured on surfaces that are known, without noise and with noise
-// of 0.03 to 0.5.
-
-/// The median of the motions is larger where there is noise, and the correlation of motions at neighbouring vertices is
-/// less: that of noise was -0.11 to 0.03, and up to 0.18 on scans whose noise is alike at neighbours; that of details
-/// that were taken for noise was 0.12 and more, with medians of 0.005 and less. So a small median needs a smaller
-/// correlation.
-constexpr float least_median = 0.004F;
-constexpr float clear_median = 0.009F;
-constexpr double most_correlation_of_little = 0.06;
-constexpr double most_correlation = 0.28;
-/// Around spikes it is large, too: so it may be that of faces whose vertices move by less than a few medians.
-constexpr double most_calm_correlation = 0.15;
-constexpr float most_medians = 10.0F;
-/// Noise that leaves no doubt, as the median over the faces: it may be alike at neighbours, too.
-constexpr float much_noise = 0.16F;
-constexpr std::size_t fewest_without_doubt = 1000;
-/// With fewer triangles nothing can be told.
-constexpr std::size_t fewest_faces = 200;
-constexpr std::size_t fewest_faces_if_thinned = 1000;
-/// Modelled surfaces of few triangles, such as cages of subdivision surfaces, bend like noise. Their motions had
-/// correlations of 0.1 to 0.2, or medians of less than this part of the noise that was estimated.
-constexpr std::size_t few_faces = 10'000;
-constexpr float least_part_of_noise = 0.2F;
-/// Larger correlations are those of noise that is alike at neighbours, and so are medians of a smaller part of the
-/// noise that was estimated.
-constexpr double most_correlation_of_white = 0.1;
-constexpr float least_part_if_white = 0.35F;
-/// On thinned surfaces, which bend more from vertex to vertex than they were made to, only clear noise counts: its
-/// medians were 0.011 and more and 0.32 to 0.5 of the noise that was estimated, its correlations up to 0.09; those of
-/// wrinkles, voxels and mouldings up to 0.035, 0.46 and 0.14 to 0.5, or 0.094 and more.
-constexpr float least_part_if_thinned = 0.25F;
-constexpr double most_correlation_if_thinned = 0.09;
+/// A component has noise if this part of its places has evidence for it; a small one, whose places are few and bend
+/// more from edge to edge, if they have clear evidence.
+constexpr double part_with_evidence = 0.75;
+constexpr float clear_evidence = 2.0F;
+constexpr Index few_faces = 3000;
+/// The evidence that outweighs that of the component: for noise more than any place of a clean surface in the training
+/// data has, and against it more than any with noise of a tenth of an edge length.
+constexpr float outweighing_evidence = 5.5F;
+constexpr float outweighing_evidence_against = -4.0F;
+/// With fewer faces nothing can be told; nor at a place with fewer vertices.
+constexpr Index fewest_faces = 200;
+constexpr Index fewest_of_place = 30;
+/// Rounds of means of the low-pass filter (see PositionFilters).
+constexpr int wide_rounds = 16;
 /// Squared chord of normals that are equal up to rounding.
 constexpr double same_normal = 1e-12;
-/// The mean motion around a vertex up to which it stays, and from which on it goes all the way.
+/// The mean displacement around a vertex, in edge lengths, up to which it stays, and from which on it goes all the way;
+/// and the rounds over which means are taken.
 constexpr float calm = 0.002F;
 constexpr float restless = 0.005F;
-constexpr int rounds = 24;
-
-template <class Number>
-Number middle_of(std::vector<Number>& numbers)
-{
-    const auto middle = numbers.begin() + std::ssize(numbers) / 2;
-    std::ranges::nth_element(numbers, middle);
-    return *middle;
-}
+constexpr int averaging_rounds = 24;
+/// Rounds over which places with noise and others are blended.
+constexpr int blending_rounds = 4;
 
 /// From 0 to 1 without a bend at either end.
 double smooth_step(double x)
@@ -69,52 +47,6 @@ double smooth_step(double x)
     const double t = std::clamp(x, 0.0, 1.0);
     return t * t * (3.0 - 2.0 * t);
 }
-
-/// Motions of vertices, in lengths of the edges there.
-struct Motion {
-    const PolygonMesh& mesh;
-    const Topology& topology;
-    const Points& before;
-    const Points& after;
-    const DenoisedNormals& found;
-    /// #V: along the normal, without sign.
-    std::vector<float> lengths;
-    /// #V: the mean length of the edges, in length.
-    std::vector<double> edges;
-
-    Motion(const PolygonMesh& of_mesh, const Topology& of_topology, const Points& from, const Points& to,
-           const DenoisedNormals& normals, const Executor& exec)
-        : mesh(of_mesh)
-        , topology(of_topology)
-        , before(from)
-        , after(to)
-        , found(normals)
-        , lengths(usize(of_mesh.n_vertices()), 0.0F)
-        , edges(edge_lengths_at_vertices(of_mesh, of_topology, from, exec))
-    {
-        for_each(exec, mesh.n_vertices(), [&](Index v) {
-            if (edges[v] > 0.0)
-                lengths[v] = static_cast<float>(
-                    motion_along_normal(topology, found.normals, v, after.row(v) - before.row(v)) / edges[v]);
-        });
-    }
-
-    /// The sums over the edges of a face of products of the motions at both ends, and over its corners of squares.
-    [[nodiscard]] Eigen::Array2d products(Index f) const
-    {
-        const auto along_normal = [&](Index v) {
-            const double length = (after.row(v) - before.row(v)).dot(found.normals.row(f));
-            return edges[v] > 0.0 ? length / edges[v] : 0.0;
-        };
-        const auto corners = mesh.face(f);
-        Eigen::Array2d sums = Eigen::Array2d::Zero();
-        for (std::size_t k = 0; k < corners.size(); ++k) {
-            const double here = along_normal(corners[k]);
-            sums += Eigen::Array2d(here * along_normal(corners[k + 1 < corners.size() ? k + 1 : 0]), here * here);
-        }
-        return sums;
-    }
-};
 
 Components all_together(const PolygonMesh& mesh)
 {
@@ -126,57 +58,50 @@ Components all_together(const PolygonMesh& mesh)
     return all;
 }
 
-/// @param of_component its faces. @param is_flat #V: see flat_vertices.
-NoiseKind kind_of_noise(const Motion& motion, std::span<const Index> of_component,
-                        std::span<const std::uint8_t> is_flat, bool is_thinned)
+/// #V by 3, of length 1 or 0: the means of face normals that may look to either side.
+Points mean_normals(const Topology& topology, const Points& normals, const Executor& exec)
 {
-    std::vector<Index> faces;
-    std::ranges::copy_if(of_component, std::back_inserter(faces), [&](Index f) {
-        return std::ranges::any_of(motion.mesh.face(f), [&](Index v) { return is_flat[v] == 0; });
+    Points means(static_cast<Index>(topology.kind.size()), 3);
+    for_each(exec, static_cast<Index>(means.rows()), [&](Index v) {
+        Point total = Point::Zero();
+        for (const Index corner : topology.corners_at(v)) {
+            const Point of_face = normals.row(topology.face_of[corner]);
+            total += of_face.dot(total) < 0.0 ? Point(-of_face) : of_face;
+        }
+        means.row(v) = unit_or_zero(total);
     });
-    if (faces.size() < (is_thinned ? fewest_faces_if_thinned : fewest_faces))
-        return NoiseKind::None;
-    std::vector<float> of_vertices;
-    std::vector<float> of_faces;
-    for (const Index f : faces) {
-        of_faces.push_back(motion.found.noise[f]);
-        for (const Index v : motion.mesh.face(f))
-            if (motion.topology.moves(v))
-                of_vertices.push_back(motion.lengths[v]);
-    }
-    if (of_vertices.empty())
-        return NoiseKind::None;
-    const float noise = middle_of(of_faces);
-    const float median = middle_of(of_vertices);
-    const bool is_without_doubt = noise > much_noise && faces.size() >= fewest_without_doubt && !is_thinned;
-    if (!is_without_doubt && median <= (is_thinned ? clear_median : least_median))
-        return NoiseKind::None;
-    Eigen::Array2d all = Eigen::Array2d::Zero();
-    Eigen::Array2d of_calm = Eigen::Array2d::Zero();
-    for (const Index f : faces) {
-        const Eigen::Array2d of_face = motion.products(f);
-        all += of_face;
-        if (std::ranges::none_of(motion.mesh.face(f),
-                                 [&](Index v) { return motion.lengths[v] > most_medians * median; }))
-            of_calm += of_face;
-    }
-    const auto is_below = [](const Eigen::Array2d& sums, double correlation) {
-        return sums[0] < correlation * sums[1];
-    };
-    const bool is_white =
-        is_below(all, most_correlation_of_white) && (noise > much_noise || median >= least_part_if_white * noise);
-    const NoiseKind kind = is_white ? NoiseKind::White : NoiseKind::Alike;
-    if (is_without_doubt)
-        return kind;
-    if (is_thinned)
-        return median >= least_part_if_thinned * noise && is_below(all, most_correlation_if_thinned) ? kind
-                                                                                                     : NoiseKind::None;
-    if (faces.size() < few_faces && median < least_part_of_noise * noise)
-        return NoiseKind::None;
-    const bool is_noise = median <= clear_median || faces.size() < few_faces
-                              ? is_below(all, most_correlation_of_little)
-                              : is_below(all, most_correlation) || is_below(of_calm, most_calm_correlation);
-    return is_noise ? kind : NoiseKind::None;
+    return means;
+}
+
+/// Per vertex: the place in the list of the nearest of some vertices along edges, or -1.
+std::vector<Index> nearest_of(std::span<const Index> places, const IndexLists& neighbours)
+{
+    std::vector<Index> nearest(usize(neighbours.size()), -1);
+    std::vector<Index> reached(places.begin(), places.end());
+    for (std::size_t i = 0; i < places.size(); ++i)
+        nearest[places[i]] = static_cast<Index>(i);
+    for (std::size_t i = 0; i < reached.size(); ++i)
+        for (const Index w : neighbours[reached[i]])
+            if (nearest[w] < 0) {
+                nearest[w] = nearest[reached[i]];
+                reached.push_back(w);
+            }
+    return nearest;
+}
+
+/// #F: the mean of numbers at vertices around each face.
+VertexAverages::Rows means_around(const NoisyPlaces::Denoised& denoised, int rounds, const Executor& exec,
+                                  const auto& number_of)
+{
+    VertexAverages::Rows near(denoised.mesh.n_faces(), 1);
+    for_each(exec, denoised.mesh.n_faces(), [&](Index f) {
+        near(f, 0) = 0.0F;
+        for (const Index v : denoised.mesh.face(f))
+            near(f, 0) += number_of(v) / static_cast<float>(denoised.mesh.face(f).size());
+    });
+    VertexAverages::Rows around(denoised.mesh.n_faces(), 1);
+    denoised.averages.spread(near, around, 0, rounds, exec);
+    return around;
 }
 
 }  // namespace
@@ -201,37 +126,103 @@ std::vector<std::uint8_t> flat_vertices(const PolygonMesh& mesh, const Topology&
     return is_flat;
 }
 
-NoisyPlaces::NoisyPlaces(const PolygonMesh& mesh, const Topology& topology, bool as_one, bool is_thinned)
+NoisyPlaces::NoisyPlaces(const PolygonMesh& mesh, const Topology& topology, bool as_one)
     : components_(as_one ? all_together(mesh) : face_components(mesh, topology))
-    , is_thinned_(is_thinned)
 {
 }
 
-NoisyPlaces::Found NoisyPlaces::find(const PolygonMesh& mesh, const Topology& topology, const Points& before,
-                                     const Points& after, const DenoisedNormals& found,
-                                     std::span<const std::uint8_t> is_flat, const Executor& exec) const
+std::vector<PlaceStatistics> measure_places(const NoisyPlaces::Denoised& denoised, std::span<const Index> places,
+                                            const Executor& exec)
 {
-    const Index n = mesh.n_vertices();
-    const Motion motion(mesh, topology, before, after, found, exec);
-    Found result{std::vector<double>(usize(n), 0.0), std::vector<NoiseKind>(usize(components_.count()))};
-    for_each(exec, components_.count(),
-             [&](Index c) { result.kinds[c] = kind_of_noise(motion, components_.nodes[c], is_flat, is_thinned_); });
-    VertexAverages::Rows near(mesh.n_faces(), 1);
-    VertexAverages::Rows around(mesh.n_faces(), 1);
-    for_each(exec, mesh.n_faces(), [&](Index f) {
-        near(f, 0) = 0.0F;
-        for (const Index v : mesh.face(f))
-            near(f, 0) += motion.lengths[v] / static_cast<float>(mesh.face(f).size());
+    const auto& [mesh, topology, averages, before, after, found, is_flat] = denoised;
+    const Points normals = mean_normals(topology, found.normals, exec);
+    const std::vector<double> edges = edge_lengths_at_vertices(mesh, topology, before, exec);
+    const Points filtered =
+        PositionFilters(topology, averages.neighbours()).low_pass(before, {wide_rounds}, exec).front();
+    Eigen::Matrix<float, Eigen::Dynamic, 2, Eigen::RowMajor> displacements(mesh.n_vertices(), 2);
+    for_each(exec, mesh.n_vertices(), [&](Index v) {
+        const double scale = edges[v] > 0.0 ? 1.0 / edges[v] : 0.0;
+        displacements(v, 0) = static_cast<float>(scale * (after.row(v) - before.row(v)).dot(normals.row(v)));
+        displacements(v, 1) = static_cast<float>(scale * (filtered.row(v) - before.row(v)).dot(normals.row(v)));
     });
-    VertexAverages(mesh, topology, exec).spread(near, around, 0, rounds, exec);
+    const TakenAway taken{topology,      averages.neighbours(), before,      normals,
+                          displacements, edges,                 found.noise, is_flat};
+    std::vector<PlaceStatistics> measured(places.size());
+    for_each(exec, static_cast<Index>(places.size()),
+             [&](Index i) { measured[i] = measure_place(taken, places[i]); });
+    return measured;
+}
+
+std::vector<std::uint8_t> NoisyPlaces::decide(std::span<const Index> component_of_place,
+                                              std::span<const float> evidence, std::span<const Index> sizes) const
+{
+    Lists<float> of_components = make_lists<float>(components_.count(), [&](auto&& add) {
+        for (std::size_t i = 0; i < evidence.size(); ++i)
+            add(component_of_place[i], evidence[i]);
+    });
+    std::vector<float> least(sizes.size());
+    for (Index c = 0; c < components_.count(); ++c) {
+        const auto begin = of_components.values.begin() + of_components.offsets[c];
+        const auto end = of_components.values.begin() + of_components.offsets[c + 1];
+        if (sizes[c] < fewest_faces || begin == end) {
+            least[c] = std::numeric_limits<float>::infinity();
+            continue;
+        }
+        const auto quantile =
+            begin + static_cast<std::ptrdiff_t>((1.0 - part_with_evidence) * static_cast<double>(end - begin));
+        std::nth_element(begin, quantile, end);
+        const bool has_noise = *quantile > (sizes[c] < few_faces ? clear_evidence : 0.0F);
+        least[c] = has_noise ? outweighing_evidence_against : outweighing_evidence;
+    }
+    std::vector<std::uint8_t> decisions;
+    for (std::size_t i = 0; i < evidence.size(); ++i)
+        decisions.push_back(evidence[i] > least[component_of_place[i]] ? 1 : 0);
+    return decisions;
+}
+
+NoisyPlaces::Found NoisyPlaces::find(const Denoised& denoised, const Executor& exec) const
+{
+    const auto& [mesh, topology, averages, before, after, found, is_flat] = denoised;
+    const std::vector<Index> places = spread_places(topology, averages.neighbours(), before, rings_between_places);
+    const std::vector<PlaceStatistics> measured = measure_places(denoised, places, exec);
+    std::vector<Index> component_of_place;
+    std::vector<float> evidence;
+    std::vector<float> evidence_of_alike;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        component_of_place.push_back(
+            components_.component_of[topology.face_of[topology.corners_at(places[i]).front()]]);
+        const bool says_nothing = measured[i].n_vertices < fewest_of_place;
+        evidence.push_back(says_nothing ? 0.0F : evidence_of_noise(measured[i]));
+        evidence_of_alike.push_back(says_nothing ? 0.0F : evidence_of_alike_noise(measured[i]));
+    }
+    std::vector<Index> sizes;
+    for (Index c = 0; c < components_.count(); ++c)
+        sizes.push_back(static_cast<Index>(std::ranges::count_if(components_.nodes[c], [&](Index f) {
+            return std::ranges::any_of(mesh.face(f), [&](Index v) { return is_flat[v] == 0; });
+        })));
+    const std::vector<std::uint8_t> has_noise = decide(component_of_place, evidence, sizes);
+    const std::vector<std::uint8_t> has_alike = decide(component_of_place, evidence_of_alike, sizes);
+    const std::vector<Index> nearest = nearest_of(places, averages.neighbours());
+    const std::vector<double> edges = edge_lengths_at_vertices(mesh, topology, before, exec);
+    const VertexAverages::Rows displaced = means_around(denoised, averaging_rounds, exec, [&](Index v) {
+        return edges[v] > 0.0 ? static_cast<float>(motion_along_normal(topology, found.normals, v,
+                                                                       after.row(v) - before.row(v)) /
+                                                   edges[v])
+                              : 0.0F;
+    });
+    const VertexAverages::Rows open = means_around(denoised, blending_rounds, exec, [&](Index v) {
+        return nearest[v] >= 0 && has_noise[nearest[v]] != 0 ? 1.0F : 0.0F;
+    });
+    const Index n = mesh.n_vertices();
+    Found result{std::vector<double>(usize(n), 0.0), std::vector<std::uint8_t>(usize(n), 0)};
     for_each(exec, n, [&](Index v) {
         const auto corners = topology.corners_at(v);
         const auto count = static_cast<double>(corners.size());
         for (const Index corner : corners) {
             const Index f = topology.face_of[corner];
-            if (result.kinds[components_.component_of[f]] != NoiseKind::None)
-                result.parts[v] += smooth_step((around(f, 0) - calm) / (restless - calm)) / count;
+            result.parts[v] += open(f, 0) * smooth_step((displaced(f, 0) - calm) / (restless - calm)) / count;
         }
+        result.is_alike[v] = nearest[v] >= 0 && has_alike[nearest[v]] != 0 ? 1 : 0;
     });
     return result;
 }

@@ -9,55 +9,70 @@
 #include "partition/polygon_mesh.h"
 #include "partition/topology.h"
 #include "solvers/denoising/denoised_normals.h"
+#include "solvers/denoising/place_statistics.h"
+#include "solvers/denoising/vertex_averages.h"
 
 namespace seamflow {
+
+/// How far apart places are, in rings of vertices.
+inline constexpr int rings_between_places = 8;
 
 /// 1 for the vertices whose faces lie in one plane up to rounding, such as those of a lake. They have no noise.
 /// @returns #V.
 std::vector<std::uint8_t> flat_vertices(const PolygonMesh& mesh, const Topology& topology, const Points& positions,
                                         const Executor& exec = run_serially);
 
-/// What a component has.
-enum class NoiseKind {
-    None,
-    /// Independent, or nearly, from vertex to vertex.
-    White,
-    /// Also alike at neighbours, so that a denoiser cannot tell all of it from shape.
-    Alike,
-};
-
-/// Tells noise from shape by what a denoiser would take away.
+/// Tells noise from shape by what would be taken away.
 ///
-/// Noise moves most vertices of a component, and neighbours hardly alike (its residual is white); a detail that the
-/// denoiser takes for noise is somewhere, and moves neighbours alike. So a component has noise if the median of the
-/// lengths along the normals by which its vertices would move is not tiny, and the motions of neighbours are hardly
-/// correlated, apart from flat places; or if the noise is so large that there is no doubt. Within a component, places
-/// where vertices would hardly move have no noise. No other component matters, and no single vertex does.
+/// Places are spread over the surface. The displacements around each of them, by a denoiser and by a low-pass filter,
+/// are measured (see PlaceStatistics), and give evidence for noise or against it (see evidence_of_noise). A component
+/// most of whose places have evidence for noise has noise, unless at places where the evidence is strong against it;
+/// any other has noise only where it is strong for it. So places where nothing is certain follow the others, and no
+/// other component matters. Where vertices would hardly move there is no noise.
 class NoisyPlaces {
   public:
     /// @param topology with twins; not needed later. @param as_one whether all components are judged as one.
-    /// @param is_thinned whether the surface bends more from edge to edge than it was made to: less counts as noise.
-    NoisyPlaces(const PolygonMesh& mesh, const Topology& topology, bool as_one = false, bool is_thinned = false);
+    NoisyPlaces(const PolygonMesh& mesh, const Topology& topology, bool as_one = false);
 
-    struct Found {
-        /// #V: how much of its motion each vertex should make, from 0 to 1.
-        std::vector<double> parts;
-        /// Per component.
-        std::vector<NoiseKind> kinds;
+    /// A denoiser's result, and what it is judged by. All members refer to the same mesh.
+    struct Denoised {
+        const PolygonMesh& mesh;
+        const Topology& topology;
+        const VertexAverages& averages;
+        /// #V by 3.
+        const Points& before;
+        const Points& after;
+        const DenoisedNormals& found;
+        /// #V: see flat_vertices.
+        std::span<const std::uint8_t> is_flat;
     };
 
-    /// @param before, after #V by 3. @param found of the positions before. @param is_flat #V: see flat_vertices.
-    [[nodiscard]] Found find(const PolygonMesh& mesh, const Topology& topology, const Points& before,
-                             const Points& after, const DenoisedNormals& found, std::span<const std::uint8_t> is_flat,
-                             const Executor& exec = run_serially) const;
+    struct Found {
+        /// #V: how much of its displacement each vertex should make, from 0 to 1.
+        std::vector<double> parts;
+        /// #V: 1 where there is noise that is alike at neighbours, of which a denoiser cannot tell all from shape.
+        std::vector<std::uint8_t> is_alike;
+    };
+
+    [[nodiscard]] Found find(const Denoised& denoised, const Executor& exec = run_serially) const;
 
     /// Of faces.
     [[nodiscard]] const Components& components() const { return components_; }
 
   private:
+    /// Per place: 1 where there is noise.
+    /// @param evidence per place. @param sizes per component: the number of faces that are not in flat places.
+    [[nodiscard]] std::vector<std::uint8_t> decide(std::span<const Index> component_of_place,
+                                                   std::span<const float> evidence,
+                                                   std::span<const Index> sizes) const;
+
     /// The components of the mesh, by faces: each is judged by itself.
     Components components_;
-    bool is_thinned_;
 };
+
+/// What is taken away around each of some places, for the training of the decision.
+/// @param places vertices.
+std::vector<PlaceStatistics> measure_places(const NoisyPlaces::Denoised& denoised, std::span<const Index> places,
+                                            const Executor& exec = run_serially);
 
 }  // namespace seamflow

@@ -2,28 +2,14 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
-#include <cmath>
 #include <limits>
 #include <utility>
 
-#include "partition/mixed_bits.h"
-#include "partition/vector_area.h"
+#include "solvers/denoising/random_number.h"
 
 namespace seamflow {
 
 namespace {
-
-/// The same in every unit of length that is a power of two times another.
-std::uint64_t random_number_of(const Point& position, std::uint64_t round)
-{
-    std::uint64_t x = mixed(round + 1);
-    for (const double coordinate : position) {
-        int exponent = 0;
-        x = mixed(x + std::bit_cast<std::uint64_t>(std::frexp(coordinate, &exponent)));
-    }
-    return x;
-}
 
 /// A maximal set of vertices with faces of which no two are neighbours.
 /// @returns #V: 1 for those.

@@ -1,0 +1,57 @@
+#include "solvers/denoising/noise_evidence.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "solvers/denoising/noise_weights.h"
+
+namespace seamflow {
+
+namespace {
+
+/// Added before logarithms are taken, in edge lengths and as kurtosis.
+constexpr float least_length = 0.001F;
+constexpr float least_kurtosis = 0.5F;
+/// Smoothness says nothing beyond these, nor correlations below this one.
+constexpr float most_smoothness = 3.0F;
+constexpr float least_smoothness = -0.5F;
+constexpr float least_correlation = -0.05F;
+/// Revivals that noise reaches at hardly any place, by itself and after a low-pass filter.
+constexpr float revival_of_noise = 0.35F;
+constexpr float wide_revival_of_noise = 0.6F;
+
+float evidence(const NoiseWeights& weights, const PlaceStatistics& place)
+{
+    const auto features = features_of(place);
+    float total = weights.constant;
+    for (std::size_t i = 0; i < features.size(); ++i)
+        total += weights.of_features[i] * features[i];
+    return total;
+}
+
+}  // namespace
+
+std::array<float, noise_features.size()> features_of(const PlaceStatistics& place)
+{
+    const auto log_length = [](float length) { return std::log(length + least_length); };
+    return {log_length(place.fine.median),
+            std::max(place.fine.correlation, least_correlation),
+            std::max(place.fine.revival - revival_of_noise, 0.0F),
+            log_length(place.noise),
+            std::clamp(place.smoothness, least_smoothness, most_smoothness),
+            place.wide.correlation,
+            std::max(place.wide.revival - wide_revival_of_noise, 0.0F),
+            std::log(place.wide.kurtosis + least_kurtosis)};
+}
+
+float evidence_of_noise(const PlaceStatistics& place)
+{
+    return evidence(weights_of_noise, place);
+}
+
+float evidence_of_alike_noise(const PlaceStatistics& place)
+{
+    return evidence(weights_of_alike_noise, place);
+}
+
+}  // namespace seamflow

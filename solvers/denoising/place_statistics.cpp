@@ -1,0 +1,369 @@
+#include "solvers/denoising/place_statistics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <iterator>
+#include <numbers>
+#include <unordered_map>
+#include <utility>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+
+#include "solvers/denoising/random_number.h"
+
+namespace seamflow {
+
+namespace {
+
+/// In mean edge lengths: how far vertices are near, and how far they count for the autocorrelation, which has to see a
+/// pattern of 16 edge lengths come back.
+constexpr double near_radius = 7.0;
+constexpr double far_radius = 13.0;
+constexpr std::size_t most_of_place = 800;
+/// Larger displacements count as this many medians in the autocorrelation, so that a sharp edge of the body does not
+/// outweigh what is beside it; and vertices do not count where the surface has turned away further than this.
+constexpr float most_medians_of_height = 3.0F;
+constexpr double least_cosine_to_middle = 0.5;
+constexpr int n_directions = 12;
+constexpr int first_lag = 3;
+constexpr int last_lag = 18;
+/// Fewer vertices and fewer pairs of them at a distance say nothing; the latter per vertex.
+constexpr std::size_t fewest_in_correlation = 50;
+constexpr float fewest_pairs = 0.35F;
+/// How many vertices get quadratic fits, the radii of these, and the fewest vertices of one.
+constexpr std::size_t n_fits = 48;
+constexpr std::array<double, 2> fit_radii{2.2, 5.0};
+constexpr int fewest_of_fit = 9;
+
+float median_of(std::vector<float>& numbers)
+{
+    if (numbers.empty())
+        return 0.0F;
+    const auto middle = numbers.begin() + std::ssize(numbers) / 2;
+    std::ranges::nth_element(numbers, middle);
+    return *middle;
+}
+
+/// The autocorrelation of numbers at points of a plane, on a grid of differences of 1.
+class Autocorrelation {
+  public:
+    Autocorrelation(std::span<const Eigen::Vector2f> points, std::span<const float> numbers)
+        : n_points_(static_cast<float>(points.size()))
+    {
+        for (std::size_t i = 0; i < points.size(); ++i)
+            for (std::size_t j = 0; j < i; ++j) {
+                const Eigen::Vector2f difference = points[i] - points[j];
+                if (std::max(std::abs(difference.x()), std::abs(difference.y())) >= last_lag + 0.5F)
+                    continue;
+                Cell& cell = cell_of(difference);
+                cell.products += numbers[i] * numbers[j];
+                cell.squares += 0.5F * (numbers[i] * numbers[i] + numbers[j] * numbers[j]);
+                cell.pairs += 1.0F;
+            }
+    }
+
+    /// See TakenStatistics::revival.
+    [[nodiscard]] float revival() const
+    {
+        float most = 0.0F;
+        for (int direction = 0; direction < n_directions; ++direction) {
+            const float angle = std::numbers::pi_v<float> * static_cast<float>(direction) / n_directions;
+            const Eigen::Vector2f way(std::cos(angle), std::sin(angle));
+            float least = 1.0F;
+            for (int lag = 1; lag <= last_lag; ++lag) {
+                const Cell there = around(static_cast<float>(lag) * way);
+                if (there.pairs < fewest_pairs * n_points_ || there.squares <= 0.0F)
+                    continue;
+                const float value = there.products / there.squares;
+                if (lag >= first_lag)
+                    most = std::max(most, value - least);
+                least = std::min(least, value);
+            }
+        }
+        return most;
+    }
+
+  private:
+    struct Cell {
+        float products = 0.0F;
+        float squares = 0.0F;
+        float pairs = 0.0F;
+    };
+
+    static constexpr int width = 2 * last_lag + 1;
+
+    [[nodiscard]] static std::size_t number_of(const Eigen::Vector2f& difference)
+    {
+        const int x = static_cast<int>(std::lround(difference.x())) + last_lag;
+        const int y = static_cast<int>(std::lround(difference.y())) + last_lag;
+        return static_cast<std::size_t>(std::clamp(y, 0, width - 1) * width + std::clamp(x, 0, width - 1));
+    }
+
+    Cell& cell_of(const Eigen::Vector2f& difference) { return cells_[number_of(difference)]; }
+
+    /// Of both signs of a difference.
+    [[nodiscard]] Cell around(const Eigen::Vector2f& difference) const
+    {
+        const Cell& here = cells_[number_of(difference)];
+        const Cell& opposite = cells_[number_of(-difference)];
+        return {here.products + opposite.products, here.squares + opposite.squares, here.pairs + opposite.pairs};
+    }
+
+    float n_points_;
+    std::array<Cell, static_cast<std::size_t>(width) * width> cells_{};
+};
+
+/// The vertices around a place.
+class Place {
+  public:
+    Place(const TakenAway& taken, Index middle)
+        : taken_(taken)
+        , middle_(middle)
+        , frame_(frame_at(middle))
+    {
+        collect(taken.edges[middle]);
+        double total = 0.0;
+        for (const Index v : vertices_)
+            total += taken.edges[v];
+        edge_ = total / static_cast<double>(vertices_.size());
+        locate();
+    }
+
+    [[nodiscard]] PlaceStatistics statistics() const
+    {
+        PlaceStatistics found;
+        std::vector<float> noise;
+        for (std::size_t i = 0; i < vertices_.size(); ++i) {
+            if (counts_[i] == 0)
+                continue;
+            ++found.n_vertices;
+            if (is_near_[i] != 0)
+                for (const Index corner : taken_.topology.corners_at(vertices_[i]))
+                    noise.push_back(taken_.noise[taken_.topology.face_of[corner]]);
+        }
+        found.noise = median_of(noise);
+        found.fine = statistics_of(0);
+        found.wide = statistics_of(1);
+        found.smoothness = smoothness();
+        return found;
+    }
+
+  private:
+    /// Rows: two directions along the surface, and its normal.
+    [[nodiscard]] Eigen::Matrix3d frame_at(Index v) const
+    {
+        const Point normal = taken_.vertex_normals.row(v);
+        Eigen::Matrix3d frame;
+        frame.row(2) = normal;
+        frame.row(0) = normal.isZero() ? Point(Point::UnitX()) : Point(normal.unitOrthogonal());
+        frame.row(1) = normal.cross(Point(frame.row(0)));
+        return frame;
+    }
+
+    void collect(double edge)
+    {
+        vertices_.push_back(middle_);
+        place_of_.emplace(middle_, 0);
+        const double squared = far_radius * far_radius * edge * edge;
+        for (std::size_t i = 0; i < vertices_.size() && vertices_.size() < most_of_place; ++i)
+            for (const Index w : taken_.neighbours[vertices_[i]])
+                if ((taken_.positions.row(w) - taken_.positions.row(middle_)).squaredNorm() <= squared &&
+                    place_of_.emplace(w, static_cast<Index>(vertices_.size())).second)
+                    vertices_.push_back(w);
+    }
+
+    void locate()
+    {
+        for (const Index v : vertices_) {
+            const Point position = taken_.positions.row(v) - taken_.positions.row(middle_);
+            const double cosine = taken_.vertex_normals.row(v).dot(taken_.vertex_normals.row(middle_));
+            plane_.emplace_back((frame_.topRows<2>() * position.transpose() / edge_).cast<float>());
+            signs_.push_back(cosine < 0.0 ? -1.0F : 1.0F);
+            counts_.push_back(taken_.is_left_out[v] == 0 && taken_.topology.moves(v) ? 1 : 0);
+            is_near_.push_back(position.norm() <= near_radius * edge_ ? 1 : 0);
+            is_alike_.push_back(std::abs(cosine) >= least_cosine_to_middle ? 1 : 0);
+        }
+    }
+
+    [[nodiscard]] TakenStatistics statistics_of(int column) const
+    {
+        std::vector<float> heights;
+        for (std::size_t i = 0; i < vertices_.size(); ++i)
+            heights.push_back(signs_[i] * taken_.displacements(vertices_[i], column));
+        std::vector<float> sizes;
+        for (std::size_t i = 0; i < vertices_.size(); ++i)
+            if (counts_[i] != 0 && is_near_[i] != 0)
+                sizes.push_back(std::abs(heights[i]));
+        return {median_of(sizes), correlation(heights), revival(heights), kurtosis(heights)};
+    }
+
+    [[nodiscard]] float correlation(std::span<const float> heights) const
+    {
+        float products = 0.0F;
+        float squares = 0.0F;
+        for (std::size_t i = 0; i < vertices_.size(); ++i) {
+            if (counts_[i] == 0 || is_near_[i] == 0)
+                continue;
+            for (const Index w : taken_.neighbours[vertices_[i]]) {
+                const auto found = place_of_.find(w);
+                if (found == place_of_.end() || counts_[found->second] == 0)
+                    continue;
+                const float there = heights[found->second];
+                products += heights[i] * there;
+                squares += 0.5F * (heights[i] * heights[i] + there * there);
+            }
+        }
+        return squares > 0.0F ? products / squares : 0.0F;
+    }
+
+    [[nodiscard]] float revival(std::span<const float> heights) const
+    {
+        std::vector<Eigen::Vector2f> points;
+        std::vector<float> numbers;
+        std::vector<float> sizes;
+        for (std::size_t i = 0; i < vertices_.size(); ++i)
+            if (counts_[i] != 0 && is_alike_[i] != 0) {
+                points.push_back(plane_[i]);
+                numbers.push_back(heights[i]);
+                sizes.push_back(std::abs(heights[i]));
+            }
+        if (points.size() < fewest_in_correlation)
+            return 0.0F;
+        const float most = most_medians_of_height * median_of(sizes);
+        float mean = 0.0F;
+        for (float& number : numbers) {
+            number = std::clamp(number, -most, most);
+            mean += number / static_cast<float>(numbers.size());
+        }
+        for (float& number : numbers)
+            number -= mean;
+        return Autocorrelation(points, numbers).revival();
+    }
+
+    [[nodiscard]] float kurtosis(std::span<const float> heights) const
+    {
+        double n = 0.0;
+        double mean = 0.0;
+        for (std::size_t i = 0; i < heights.size(); ++i)
+            if (counts_[i] != 0) {
+                mean += heights[i];
+                ++n;
+            }
+        mean /= std::max(n, 1.0);
+        double squares = 0.0;
+        double fourths = 0.0;
+        for (std::size_t i = 0; i < heights.size(); ++i)
+            if (counts_[i] != 0) {
+                const double square = (heights[i] - mean) * (heights[i] - mean);
+                squares += square;
+                fourths += square * square;
+            }
+        return squares > 0.0 ? static_cast<float>(n * fourths / (squares * squares)) : 0.0F;
+    }
+
+    /// Of the best quadratic function around a vertex, in edge lengths; -1 with too few vertices.
+    [[nodiscard]] double residual(Index v, double radius) const
+    {
+        using Row = Eigen::Matrix<double, 6, 1>;
+        const Eigen::Matrix3d frame = frame_at(v);
+        const Point origin = taken_.positions.row(v);
+        Eigen::Matrix<double, 6, 6> normal = Eigen::Matrix<double, 6, 6>::Zero();
+        Row right = Row::Zero();
+        double squares = 0.0;
+        int n = 0;
+        for (const Index w : vertices_) {
+            const Point difference = taken_.positions.row(w) - origin;
+            if (difference.squaredNorm() > radius * radius * edge_ * edge_)
+                continue;
+            const Eigen::Vector3d p = frame * difference.transpose() / (radius * edge_);
+            const Row row(1.0, p.x(), p.y(), p.x() * p.x(), p.x() * p.y(), p.y() * p.y());
+            normal += row * row.transpose();
+            right += p.z() * row;
+            squares += p.z() * p.z();
+            ++n;
+        }
+        if (n < fewest_of_fit)
+            return -1.0;
+        const double rest = squares - right.dot(normal.ldlt().solve(right));
+        return radius * std::sqrt(std::max(rest, 0.0) / (n - 6));
+    }
+
+    [[nodiscard]] float smoothness() const
+    {
+        constexpr double rounding = 1e-9;
+        std::vector<std::array<double, 2>> found;
+        const std::size_t stride = std::max<std::size_t>(1, vertices_.size() / (4 * n_fits));
+        for (std::size_t i = 0; i < vertices_.size() && found.size() < n_fits; i += stride) {
+            if (counts_[i] == 0 || is_near_[i] == 0)
+                continue;
+            const double fine = residual(vertices_[i], fit_radii[0]);
+            const double coarse = residual(vertices_[i], fit_radii[1]);
+            if (fine >= 0.0 && coarse >= 0.0)
+                found.push_back({coarse, fine});
+        }
+        std::ranges::sort(found);
+        std::array<double, 2> totals{rounding, rounding};
+        for (std::size_t i = 0; i < (found.size() + 3) / 4; ++i)
+            for (const std::size_t k : {0U, 1U})
+                totals[k] += found[i][k];
+        return static_cast<float>(std::log(totals[0] / totals[1]) / std::log(fit_radii[1] / fit_radii[0]));
+    }
+
+    const TakenAway& taken_;
+    Index middle_;
+    Eigen::Matrix3d frame_;
+    double edge_ = 0.0;
+    /// The middle first, then those around it.
+    std::vector<Index> vertices_;
+    std::unordered_map<Index, Index> place_of_;
+    /// As vertices_. In the plane of the frame, in edge lengths.
+    std::vector<Eigen::Vector2f> plane_;
+    std::vector<float> signs_;
+    std::vector<std::uint8_t> counts_;
+    std::vector<std::uint8_t> is_near_;
+    std::vector<std::uint8_t> is_alike_;
+};
+
+}  // namespace
+
+PlaceStatistics measure_place(const TakenAway& taken, Index middle)
+{
+    return Place(taken, middle).statistics();
+}
+
+std::vector<Index> spread_places(const Topology& topology, const IndexLists& neighbours, const Points& positions,
+                                 int rings)
+{
+    std::vector<std::pair<std::uint64_t, Index>> order;
+    for (Index v = 0; v < neighbours.size(); ++v)
+        if (!topology.corners_at(v).empty())
+            order.emplace_back(random_number_of(positions.row(v), 0), v);
+    std::ranges::sort(order);
+    std::vector<Index> reached_from(usize(neighbours.size()), -1);
+    std::vector<Index> places;
+    std::vector<Index> front;
+    std::vector<Index> next;
+    for (const auto& [number, v] : order) {
+        if (reached_from[v] >= 0)
+            continue;
+        places.push_back(v);
+        front.assign(1, v);
+        reached_from[v] = v;
+        for (int ring = 0; ring < rings; ++ring) {
+            next.clear();
+            for (const Index w : front)
+                for (const Index x : neighbours[w])
+                    if (reached_from[x] != v) {
+                        reached_from[x] = v;
+                        next.push_back(x);
+                    }
+            front.swap(next);
+        }
+    }
+    std::ranges::sort(places);
+    return places;
+}
+
+}  // namespace seamflow

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+
+#include "partition/mixed_bits.h"
+#include "partition/vector_area.h"
+
+namespace seamflow {
+
+/// A number for a position, as if drawn at random, so that choices do not depend on the order of vertices. It is the
+/// same in every unit of length that is a power of two times another.
+/// @param round another number draws anew.
+inline std::uint64_t random_number_of(const Point& position, std::uint64_t round)
+{
+    std::uint64_t x = mixed(round + 1);
+    for (const double coordinate : position) {
+        int exponent = 0;
+        x = mixed(x + std::bit_cast<std::uint64_t>(std::frexp(coordinate, &exponent)));
+    }
+    return x;
+}
+
+}  // namespace seamflow
