@@ -32,6 +32,7 @@ class AlikeNoise {
     AlikeNoise(const PolygonMesh& mesh, const Topology& topology, const VertexAverages& averages,
                std::span<const std::int8_t> signs, const Points& before, const Executor& exec = run_serially);
 
+    /// Of noise that is alike at neighbours; where it is white, up to twice as much was found.
     /// The standard deviation along the normals, in lengths of the edges at each vertex.
     [[nodiscard]] double deviation() const { return std::sqrt(covariances_[0]); }
 
