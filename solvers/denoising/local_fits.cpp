@@ -1,0 +1,135 @@
+#include "solvers/denoising/local_fits.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+
+#include "solvers/denoising/nearest_vertices.h"
+
+namespace seamflow {
+
+namespace {
+
+/// The numbers of a quadratic polynomial of two variables.
+constexpr int n_quadratic = 6;
+using QuadraticTerms = Eigen::Matrix<double, n_quadratic, 1>;
+using QuadraticProducts = Eigen::Matrix<double, n_quadratic, n_quadratic>;
+
+/// Of chords of normals.
+constexpr double width_of_normals = 0.35;
+/// Relative to the sum of the weights: of no account unless the vertices do not determine a polynomial.
+constexpr double fit_ridge = 1e-6;
+
+QuadraticTerms quadratic_terms(double x, double y)
+{
+    return {1.0, x, y, x * x, x * y, y * y};
+}
+
+/// The biweight. @param squared distance over radius.
+double biweight(double squared)
+{
+    return (1.0 - squared) * (1.0 - squared);
+}
+
+/// Fits a polynomial at one vertex.
+/// @param nearest from the vertex on; the last one has no weight.
+/// @returns how far it is above the vertex.
+std::optional<double> fit_quadratic(const Points& positions, const Points& normals,
+                                    std::span<const std::pair<double, Index>> nearest)
+{
+    const double squared_radius = nearest.back().first;
+    if (nearest.size() <= n_quadratic || squared_radius <= 0.0)
+        return {};
+    const double scale = 1.0 / std::sqrt(squared_radius);
+    const Index centre = nearest.front().second;
+    const Point up = normals.row(centre);
+    const Point first = up.unitOrthogonal();
+    const Point second = up.cross(first);
+    QuadraticProducts products = QuadraticProducts::Zero();
+    QuadraticTerms sums = QuadraticTerms::Zero();
+    for (const auto& [squared, w] : nearest.first(nearest.size() - 1)) {
+        const Point there = scale * (positions.row(w) - positions.row(centre));
+        const double squared_chord = (normals.row(w) - up).squaredNorm();
+        const double weight =
+            biweight(squared / squared_radius) * std::exp(squared_chord / (-2.0 * width_of_normals * width_of_normals));
+        const QuadraticTerms terms = quadratic_terms(there.dot(first), there.dot(second));
+        const QuadraticTerms weighted = weight * terms;
+        products.noalias() += weighted * terms.transpose();
+        sums += there.dot(up) * weighted;
+    }
+    products.diagonal().array() += fit_ridge * products(0, 0);
+    return products.ldlt().solve(sums)[0] / scale;
+}
+
+}  // namespace
+
+LocalFits::Heights LocalFits::heights(std::span<const double> radii, const Executor& exec) const
+{
+    const auto n_radii = static_cast<Eigen::Index>(radii.size());
+    Heights result = Heights::Zero(neighbours_->size(), n_radii);
+    exec(neighbours_->size(), [&](Index begin, Index end) {
+        NearestVertices search;
+        for (Index v = begin; v < end; ++v) {
+            if (normals_->row(v).isZero(0.0))
+                continue;
+            const auto nearest = search.find(*neighbours_, *positions_, v, n_within(radii.back()));
+            for (Eigen::Index i = 0; i < n_radii; ++i)
+                result(v, i) = fit_quadratic(*positions_, *normals_,
+                                             nearest.first(std::min(n_within(radii[static_cast<std::size_t>(i)]) + 1,
+                                                                    nearest.size())))
+                                   .value_or(0.0);
+        }
+    });
+    return result;
+}
+
+std::vector<double> LocalFits::heights_within(std::span<const double> radii, const Executor& exec) const
+{
+    std::vector<double> result(radii.size(), 0.0);
+    exec(neighbours_->size(), [&](Index begin, Index end) {
+        NearestVertices search;
+        for (Index v = begin; v < end; ++v)
+            if (!normals_->row(v).isZero(0.0))
+                result[v] =
+                    fit_quadratic(*positions_, *normals_, search.find(*neighbours_, *positions_, v, n_within(radii[v])))
+                        .value_or(0.0);
+    });
+    return result;
+}
+
+std::size_t LocalFits::n_within(double radius)
+{
+    return static_cast<std::size_t>(std::lround(2.0 * std::numbers::pi / std::numbers::sqrt3 * radius * radius));
+}
+
+LocalFits::Kernel LocalFits::kernel(double radius)
+{
+    Kernel kernel;
+    kernel.places.emplace_back(0.0, 0.0);
+    const auto most = static_cast<int>(std::ceil(2.0 * radius));
+    for (int i = -most; i <= most; ++i)
+        for (int j = -most; j <= most; ++j)
+            if (const Eigen::Vector2d place(i + 0.5 * j, 0.5 * std::numbers::sqrt3 * j);
+                place.norm() < radius && (i != 0 || j != 0))
+                kernel.places.push_back(place);
+    const auto terms_of = [&](const Eigen::Vector2d& place) {
+        return quadratic_terms(place[0] / radius, place[1] / radius);
+    };
+    const auto weight_of = [&](const Eigen::Vector2d& place) {
+        return biweight(place.squaredNorm() / (radius * radius));
+    };
+    QuadraticProducts products = QuadraticProducts::Zero();
+    for (const Eigen::Vector2d& place : kernel.places)
+        products += weight_of(place) * terms_of(place) * terms_of(place).transpose();
+    const QuadraticTerms row = products.ldlt().solve(QuadraticTerms::Unit(0));
+    for (const Eigen::Vector2d& place : kernel.places)
+        kernel.parts.push_back(weight_of(place) * row.dot(terms_of(place)));
+    return kernel;
+}
+
+}  // namespace seamflow

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "partition/index_lists.h"
+#include "partition/vector_area.h"
+
+namespace seamflow {
+
+/// Finds the vertices that are nearest to one, among those around it on the surface. Keeps its memory between searches.
+class NearestVertices {
+  public:
+    /// @param neighbours per vertex, along edges. @param positions #V by 3. @param count how many, besides the centre.
+    /// @returns with squared distances, nearest first, from the centre on; fewer where the surface has no more. Valid
+    /// until the next search.
+    std::span<const std::pair<double, Index>> find(const IndexLists& neighbours, const Points& positions, Index centre,
+                                                   std::size_t count);
+
+  private:
+    void clear(std::size_t n_slots);
+    void insert(Index v);
+
+    std::vector<Index> found_;
+    /// A hash table of them: -1 where none is.
+    std::vector<Index> slots_;
+    std::vector<std::size_t> used_;
+    std::vector<std::pair<double, Index>> nearest_;
+};
+
+}  // namespace seamflow
