@@ -22,11 +22,13 @@ DATA = HERE / "noise_or_shape.csv"
 WEIGHTS = ROOT / "solvers/denoising/noise_weights.h"
 PLACES = "6"
 # Of each feature: whether more of it speaks for noise or against it. A feature that would say the contrary is left out.
-SIGNS = np.array([1, -1, -1, 1, -1, -1, -1, 1])
+AGAINST_SHAPE = np.array([1, -1, -1, 1, -1, -1, -1, 1])
+NO_SIGNS = np.zeros(8)
 # Which labels speak for each kind of noise, and which against it.
 MODELS = {
-    "weights_of_noise": (("noise", "relief"), ("shape",)),
-    "weights_of_alike_noise": (("alike",), ("shape",)),
+    "weights_of_noise": (("noise", "relief"), ("shape",), AGAINST_SHAPE),
+    "weights_of_alike_noise": (("alike",), ("shape",), AGAINST_SHAPE),
+    "weights_of_alike_against_independent_noise": (("alike",), ("noise",), NO_SIGNS),
 }
 # Of the squares of weights of normalised features, relative to one mesh.
 RIDGE = 0.1
@@ -68,12 +70,12 @@ def logistic_regression(features, is_noise, weights):
     return beta[0] - slopes @ middle, slopes
 
 
-def signed_regression(features, is_noise, weights):
+def signed_regression(features, is_noise, weights, signs):
     """The same with slopes of the right signs only."""
     used = np.arange(features.shape[1])
     while True:
         constant, slopes = logistic_regression(features[:, used], is_noise, weights)
-        right = slopes * SIGNS[used] >= 0
+        right = slopes * signs[used] >= 0
         if right.all():
             break
         used = used[right]
@@ -85,13 +87,13 @@ def signed_regression(features, is_noise, weights):
 def fitted(labels, names, features):
     """The constant and the weights of each model. All meshes count alike, and noise as much as shape."""
     models = {}
-    for model, (yes, no) in MODELS.items():
+    for model, (yes, no, signs) in MODELS.items():
         used = np.isin(labels, yes + no)
         is_noise = np.isin(labels[used], yes)
         _, mesh, count = np.unique(names[used], return_inverse=True, return_counts=True)
         weights = 1.0 / count[mesh]
         weights[is_noise] *= weights[~is_noise].sum() / weights[is_noise].sum()
-        models[model] = signed_regression(features[used], is_noise.astype(float), weights)
+        models[model] = signed_regression(features[used], is_noise.astype(float), weights, signs)
     return models
 
 
@@ -100,7 +102,7 @@ def evidence(model, features):
 
 
 def report(models, labels, names, features):
-    for model, (yes, no) in MODELS.items():
+    for model, (yes, no, _) in MODELS.items():
         e = evidence(models[model], features)
         for label in yes + no:
             # As the library does, by the lower quartile of all places.
@@ -134,7 +136,7 @@ def draw(models, labels, names, features, picture):
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
 
-    figure, axes = plt.subplots(1, 2, figsize=(12, 5))
+    figure, axes = plt.subplots(1, len(models), figsize=(18, 5))
     for axis, (model, weights) in zip(axes, models.items()):
         e = evidence(weights, features)
         for row, label in enumerate(sorted(set(labels))):

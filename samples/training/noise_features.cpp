@@ -51,9 +51,8 @@ int main(int argc, char** argv)
         const PolygonMesh mesh = read_mesh(argv[1], exec).mesh;
         Topology topology = make_topology(mesh, exec);
         free_boundary(topology);
-        workers.execute([&] {
-            print_features(mesh, topology, std::stoi(argv[2]), argc > 3 ? std::stoi(argv[3]) : 0, exec);
-        });
+        workers.execute(
+            [&] { print_features(mesh, topology, std::stoi(argv[2]), argc > 3 ? std::stoi(argv[3]) : 0, exec); });
         return 0;
     } catch (const std::exception& error) {
         std::cerr << "noise_features: " << error.what() << '\n';

@@ -8,6 +8,7 @@
 
 #include "partition/metrics/triangulation.h"
 #include "partition/vector_area.h"
+#include "solvers/denoising/alike_noise.h"
 #include "solvers/denoising/filter_sample.h"
 #include "solvers/denoising/mesh_piece.h"
 #include "solvers/denoising/normal_motion.h"
@@ -32,6 +33,8 @@ constexpr double noise_by_motion = 1.045;
 constexpr int most_thinned = 2;
 constexpr Index fewest_to_thin = 3000;
 constexpr int rounds_of_thinning = 6;
+/// Local fits are taken where their risk is below this part of the noise's variance.
+constexpr double most_risk = 0.95;
 
 /// The mean chord between faces and their wanted normals.
 double mean_chord(const PolygonMesh& mesh, const Points& positions, const Points& wanted, const Executor& exec)
@@ -139,7 +142,7 @@ Points MeshDenoiser::without_noise(const Points& before, std::span<const double>
     const auto strength = [&](Index v) { return strengths.empty() ? 1.0 : strengths[v]; };
     Findings found = examine(before, exec);
     Points begun = before;
-    if (const std::optional<Points> without = without_alike_noise(before, found.places.is_alike, exec)) {
+    if (const std::optional<Points> without = without_alike_noise(before, found.places, exec)) {
         for_each(exec, mesh_->n_vertices(),
                  [&](Index v) { begun.row(v) += strength(v) * (without->row(v) - before.row(v)); });
         keep_all_facing(before, found.normals.normals, begun, exec);
@@ -168,20 +171,45 @@ Points MeshDenoiser::without_noise(const Points& before, std::span<const double>
     return result;
 }
 
-std::optional<Points> MeshDenoiser::without_alike_noise(const Points& before, std::span<const std::uint8_t> is_alike,
+std::optional<Points> MeshDenoiser::without_alike_noise(const Points& before, const NoisyPlaces::Found& places,
                                                         const Executor& exec) const
 {
     if (n_thinned_ >= most_thinned)
         return {};
     const Components& components = places_.components();
-    std::vector<std::uint8_t> is_wanted(is_alike.size(), 0);
+    std::vector<std::uint8_t> is_wanted(places.is_alike.size(), 0);
     for (Index c = 0; c < components.count(); ++c)
         if (components.nodes[c].size() >= usize(fewest_to_thin))
             for (const Index f : components.nodes[c])
                 for (const Index v : mesh_->face(f))
-                    is_wanted[v] = is_alike[v];
-    if (std::ranges::none_of(is_wanted, [](std::uint8_t wanted) { return wanted != 0; }))
+                    is_wanted[v] = places.is_alike[v];
+    const auto is_set = [](std::uint8_t wanted) { return wanted != 0; };
+    if (std::ranges::none_of(is_wanted, is_set))
         return {};
+    Points result = before;
+    std::vector<std::uint8_t> is_fitted(is_wanted.size(), 0);
+    for (std::size_t v = 0; v < is_wanted.size(); ++v)
+        is_fitted[v] = is_wanted[v] != 0 && places.parts[v] > 0.0 ? 1 : 0;
+    if (n_thinned_ == 0 && std::ranges::any_of(is_fitted, is_set)) {
+        const AlikeNoise noise(*mesh_, *topology_, averages_, signs_, before, exec);
+        if (noise.least_risk() < most_risk) {
+            const Points without = noise.without(exec);
+            for_each(exec, mesh_->n_vertices(), [&](Index v) {
+                if (is_fitted[v] == 0)
+                    return;
+                result.row(v) = without.row(v);
+                is_wanted[v] = 0;
+            });
+        }
+    }
+    if (std::ranges::any_of(is_wanted, is_set))
+        remove_on_thinned(before, is_wanted, result, exec);
+    return result;
+}
+
+void MeshDenoiser::remove_on_thinned(const Points& before, std::span<const std::uint8_t> is_wanted, Points& result,
+                                     const Executor& exec) const
+{
     std::vector<int> n_chosen(is_wanted.size(), 0);
     std::vector<int> n_moved(is_wanted.size(), 0);
     Points sums = Points::Zero(before.rows(), 3);
@@ -191,7 +219,7 @@ std::optional<Points> MeshDenoiser::without_alike_noise(const Points& before, st
         MeshDenoiser denoiser(thinned.mesh, thinned.topology, exec, {}, as_one_, n_thinned_ + 1);
         const Points moved = denoiser.denoise(thinned.mesh.vertices, {}, exec);
         if (round == 0 && denoiser.noise().part == 0.0)
-            return {};
+            return;
         for (Index i = 0; i < thinned.mesh.n_vertices(); ++i) {
             const Index v = thinned.vertices[i];
             ++n_chosen[v];
@@ -201,12 +229,10 @@ std::optional<Points> MeshDenoiser::without_alike_noise(const Points& before, st
             sums.row(v) += moved.row(i) - before.row(v);
         }
     }
-    Points result = before;
     for_each(exec, mesh_->n_vertices(), [&](Index v) {
         if (n_moved[v] > 0)
             result.row(v) += sums.row(v) / static_cast<double>(n_moved[v]);
     });
-    return result;
 }
 
 void MeshDenoiser::keep_all_facing(const Points& before, Points wanted, Points& positions, const Executor& exec) const

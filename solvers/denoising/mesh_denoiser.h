@@ -81,11 +81,13 @@ class MeshDenoiser {
     [[nodiscard]] NoisyPlaces::Denoised denoised(const Points& before, const Findings& found) const;
     /// @param strengths #V, or empty.
     Points without_noise(const Points& before, std::span<const double> strengths, const Executor& exec);
-    /// Removes noise that is alike at neighbours.
-    /// @param is_alike #V (see NoisyPlaces::Found). @returns #V by 3; nothing if there is no such noise.
-    [[nodiscard]] std::optional<Points> without_alike_noise(const Points& before,
-                                                            std::span<const std::uint8_t> is_alike,
+    /// Removes noise that is alike at neighbours: by local fits where there is other noise as well, which tells it from
+    /// shape, and on thinned meshes elsewhere. @returns #V by 3; nothing if there is no such noise.
+    [[nodiscard]] std::optional<Points> without_alike_noise(const Points& before, const NoisyPlaces::Found& places,
                                                             const Executor& exec) const;
+    /// @param is_wanted #V. @param result #V by 3: where noise is found on thinned meshes, positions without it.
+    void remove_on_thinned(const Points& before, std::span<const std::uint8_t> is_wanted, Points& result,
+                           const Executor& exec) const;
     /// See keep_facing.
     void keep_all_facing(const Points& before, Points wanted, Points& positions, const Executor& exec) const;
     /// @param motions #V by 3, to the positions after. @param parts #V: 0 where there is no noise, nor where is_flat.

@@ -14,11 +14,12 @@ inline constexpr std::array<std::string_view, 8> noise_features{
 /// Medians, kurtosis and noise as logarithms; of revivals what is more than those of noise.
 std::array<float, noise_features.size()> features_of(const PlaceStatistics& place);
 
-/// The logarithm of the odds that what the denoiser takes away at a place is noise, against shape: a logistic regression
-/// on places of surfaces that are known (see samples/training/noise_or_shape.md).
+/// The logarithm of the odds that what the denoiser takes away at a place is noise, against shape: a logistic
+/// regression on places of surfaces that are known (see samples/training/noise_or_shape.md).
 float evidence_of_noise(const PlaceStatistics& place);
 
-/// The same for what the low-pass filter takes away: noise that is alike at neighbours, as that of many scanners.
+/// The same for noise that is alike at neighbours, as that of many scanners: against shape, and against noise that is
+/// independent at neighbours, of which the denoiser takes all. The lesser of both.
 float evidence_of_alike_noise(const PlaceStatistics& place);
 
 }  // namespace seamflow

@@ -18,8 +18,9 @@ namespace seamflow {
 namespace {
 
 /// A component has noise if this part of its places has evidence for it; a small one, whose places are few and bend
-/// more from edge to edge, if they have clear evidence.
+/// more from edge to edge, if they have clear evidence. The noise of scanners is not everywhere alike at neighbours.
 constexpr double part_with_evidence = 0.75;
+constexpr double part_with_alike_noise = 0.5;
 constexpr float clear_evidence = 2.0F;
 constexpr Index few_faces = 3000;
 /// The evidence that outweighs that of the component: for noise more than any place of a clean surface in the training
@@ -145,16 +146,15 @@ std::vector<PlaceStatistics> measure_places(const NoisyPlaces::Denoised& denoise
         displacements(v, 0) = static_cast<float>(scale * (after.row(v) - before.row(v)).dot(normals.row(v)));
         displacements(v, 1) = static_cast<float>(scale * (filtered.row(v) - before.row(v)).dot(normals.row(v)));
     });
-    const TakenAway taken{topology,      averages.neighbours(), before,      normals,
-                          displacements, edges,                 found.noise, is_flat};
+    const TakenAway taken{topology, averages.neighbours(), before, normals, displacements, edges, found.noise, is_flat};
     std::vector<PlaceStatistics> measured(places.size());
-    for_each(exec, static_cast<Index>(places.size()),
-             [&](Index i) { measured[i] = measure_place(taken, places[i]); });
+    for_each(exec, static_cast<Index>(places.size()), [&](Index i) { measured[i] = measure_place(taken, places[i]); });
     return measured;
 }
 
 std::vector<std::uint8_t> NoisyPlaces::decide(std::span<const Index> component_of_place,
-                                              std::span<const float> evidence, std::span<const Index> sizes) const
+                                              std::span<const float> evidence, std::span<const Index> sizes,
+                                              double part) const
 {
     Lists<float> of_components = make_lists<float>(components_.count(), [&](auto&& add) {
         for (std::size_t i = 0; i < evidence.size(); ++i)
@@ -168,8 +168,7 @@ std::vector<std::uint8_t> NoisyPlaces::decide(std::span<const Index> component_o
             least[c] = std::numeric_limits<float>::infinity();
             continue;
         }
-        const auto quantile =
-            begin + static_cast<std::ptrdiff_t>((1.0 - part_with_evidence) * static_cast<double>(end - begin));
+        const auto quantile = begin + static_cast<std::ptrdiff_t>((1.0 - part) * static_cast<double>(end - begin));
         std::nth_element(begin, quantile, end);
         const bool has_noise = *quantile > (sizes[c] < few_faces ? clear_evidence : 0.0F);
         least[c] = has_noise ? outweighing_evidence_against : outweighing_evidence;
@@ -200,15 +199,16 @@ NoisyPlaces::Found NoisyPlaces::find(const Denoised& denoised, const Executor& e
         sizes.push_back(static_cast<Index>(std::ranges::count_if(components_.nodes[c], [&](Index f) {
             return std::ranges::any_of(mesh.face(f), [&](Index v) { return is_flat[v] == 0; });
         })));
-    const std::vector<std::uint8_t> has_noise = decide(component_of_place, evidence, sizes);
-    const std::vector<std::uint8_t> has_alike = decide(component_of_place, evidence_of_alike, sizes);
+    const std::vector<std::uint8_t> has_noise = decide(component_of_place, evidence, sizes, part_with_evidence);
+    const std::vector<std::uint8_t> has_alike =
+        decide(component_of_place, evidence_of_alike, sizes, part_with_alike_noise);
     const std::vector<Index> nearest = nearest_of(places, averages.neighbours());
     const std::vector<double> edges = edge_lengths_at_vertices(mesh, topology, before, exec);
     const VertexAverages::Rows displaced = means_around(denoised, averaging_rounds, exec, [&](Index v) {
-        return edges[v] > 0.0 ? static_cast<float>(motion_along_normal(topology, found.normals, v,
-                                                                       after.row(v) - before.row(v)) /
-                                                   edges[v])
-                              : 0.0F;
+        return edges[v] > 0.0
+                   ? static_cast<float>(motion_along_normal(topology, found.normals, v, after.row(v) - before.row(v)) /
+                                        edges[v])
+                   : 0.0F;
     });
     const VertexAverages::Rows open = means_around(denoised, blending_rounds, exec, [&](Index v) {
         return nearest[v] >= 0 && has_noise[nearest[v]] != 0 ? 1.0F : 0.0F;

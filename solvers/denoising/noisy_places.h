@@ -62,9 +62,10 @@ class NoisyPlaces {
   private:
     /// Per place: 1 where there is noise.
     /// @param evidence per place. @param sizes per component: the number of faces that are not in flat places.
+    /// @param part of the places of a component that must have evidence.
     [[nodiscard]] std::vector<std::uint8_t> decide(std::span<const Index> component_of_place,
-                                                   std::span<const float> evidence,
-                                                   std::span<const Index> sizes) const;
+                                                   std::span<const float> evidence, std::span<const Index> sizes,
+                                                   double part) const;
 
     /// The components of the mesh, by faces: each is judged by itself.
     Components components_;

@@ -17,7 +17,8 @@ namespace seamflow {
 struct TakenStatistics {
     /// The median without sign.
     float median = 0.0F;
-    /// The correlation of displacements at the two ends of edges: 0 or less for noise that is independent at neighbours.
+    /// The correlation of displacements at the two ends of edges: 0 or less for noise that is independent at
+    /// neighbours.
     float correlation = 0.0F;
     /// How much the autocorrelation rises again: the most, over 24 directions and all distances of three edges and
     /// more, by which it exceeds its least value at shorter distances in this direction. Noise cannot be predicted; a
