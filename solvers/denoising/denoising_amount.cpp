@@ -30,7 +30,7 @@ constexpr double most_noise = 1.15;
 /// Regrets that differ by less are alike.
 constexpr double same_regret = 0.02;
 /// Factor on the amount that comes nearest, for the normals.
-constexpr double for_normals = 1.25;
+constexpr double for_normals = 1.2;
 /// There is a gain if the risk is below this fraction of that of the unchanged mesh, σ².
 constexpr double clear_gain = 0.9;
 
