@@ -28,6 +28,7 @@ LimitedComponents::LimitedComponents(const PolygonMesh& mesh, const Topology& to
     , is_closed_(usize(components_.count()), topology.oriented ? 1 : 0)
     , first_(mesh.vertices)
     , factors_(usize(components_.count()), 1.0)
+    , losses_(usize(components_.count()))
 {
     for (Index c = 0; c < components_.count(); ++c) {
         std::vector<Index> vertices;
@@ -67,21 +68,23 @@ double LimitedComponents::volume_of(Index component, const Points& positions, do
     });
 }
 
-double LimitedComponents::factor_by_volume(Index component, const Points& positions) const
+double LimitedComponents::factor_by_volume(Index component, const Points& positions)
 {
+    losses_[component] = {};
     if (is_closed_[component] == 0)
         return 1.0;
     const double first = volume_of(component, positions, 0.0);
-    const auto is_within = [&](double factor) {
-        return std::abs(volume_of(component, positions, factor) - first) <= limits_.volume * std::abs(first);
-    };
-    if (is_within(1.0))
+    const auto change = [&](double factor) { return std::abs(volume_of(component, positions, factor) - first); };
+    const auto is_within = [&](double lost) { return lost <= limits_.volume * std::abs(first); };
+    const double lost = change(1.0);
+    if (is_within(lost))
         return 1.0;
+    losses_[component] = {lost, lost / std::abs(first)};
     double within = 0.0;
     double beyond = 1.0;
     for (int i = 0; i < bisections; ++i) {
         const double middle = 0.5 * (within + beyond);
-        (is_within(middle) ? within : beyond) = middle;
+        (is_within(change(middle)) ? within : beyond) = middle;
     }
     return within;
 }
@@ -98,7 +101,7 @@ double LimitedComponents::factor_by_move(Index component, const Points& position
     return move > limits_.move ? limits_.move / move : 1.0;
 }
 
-double LimitedComponents::factor_of(Index component, const Points& positions) const
+double LimitedComponents::factor_of(Index component, const Points& positions)
 {
     double factor = 1.0;
     if (std::isfinite(limits_.move))
@@ -139,6 +142,16 @@ void LimitedComponents::apply(Points& positions)
     }
 }
 
+/// In brackets; empty if no component would have lost too much of it.
+std::string LimitedComponents::largest_loss() const
+{
+    const Loss largest = *std::ranges::max_element(losses_, {}, &Loss::fraction);
+    if (largest.fraction == 0.0)
+        return {};
+    return fmt::format(" ({}{:.2g} %: {:.3g} in units of the file)", components_.count() == 1 ? "" : "up to ",
+                       100.0 * largest.fraction, largest.volume);
+}
+
 std::string LimitedComponents::remark() const
 {
     const auto n_held = std::ranges::count(factors_, 0.0);
@@ -150,11 +163,12 @@ std::string LimitedComponents::remark() const
                                         : fmt::format("{} of {} components", n, components_.count());
     };
     std::string text;
-    const std::string loss =
-        fmt::format("would have lost {}more than {:g} % of its volume",
-                    std::isfinite(limits_.move) ? "more than its noise, or " : "", 100.0 * limits_.volume);
+    const std::string loss = fmt::format("would have lost {}more than {:g} % of its volume{}",
+                                         std::isfinite(limits_.move) ? "more than its noise, or " : "",
+                                         100.0 * limits_.volume, largest_loss());
     if (n_less > 0)
-        text = fmt::format("{} {}: less was taken off there.", components(n_less), loss);
+        text = fmt::format("{} {}: less was taken off there. --radius smooths as much as it says.", components(n_less),
+                           loss);
     if (n_held > 0)
         text += fmt::format("{}{} {}, however little was taken off, and stayed as it was: say how much to smooth with "
                             "--radius.",

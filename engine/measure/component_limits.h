@@ -29,11 +29,18 @@ class LimitedComponents {
     [[nodiscard]] std::string remark() const;
 
   private:
+    /// Of volume, beyond the limit: in length³, and as a fraction of it. 0: within.
+    struct Loss {
+        double volume = 0.0;
+        double fraction = 0.0;
+    };
+
     void limit_slides(Points& positions) const;
     [[nodiscard]] double volume_of(Index component, const Points& positions, double factor) const;
-    [[nodiscard]] double factor_by_volume(Index component, const Points& positions) const;
+    [[nodiscard]] double factor_by_volume(Index component, const Points& positions);
     [[nodiscard]] double factor_by_move(Index component, const Points& positions) const;
-    [[nodiscard]] double factor_of(Index component, const Points& positions) const;
+    [[nodiscard]] double factor_of(Index component, const Points& positions);
+    [[nodiscard]] std::string largest_loss() const;
 
     const PolygonMesh* mesh_;
     ComponentLimits limits_;
@@ -46,6 +53,8 @@ class LimitedComponents {
     Points first_;
     /// Per component: the factor by which displacements were multiplied in the last result.
     std::vector<double> factors_;
+    /// Per component: what it would have lost in the last result.
+    std::vector<Loss> losses_;
 };
 
 }  // namespace seamflow

@@ -74,6 +74,7 @@ FlowOptions FlowOptions::denoising()
     FlowOptions options;
     options.denoise = true;
     options.motion.boundary = Boundary::Free;
+    options.motion.limits.volume = ComponentLimits::most_volume_change;
     return options;
 }
 

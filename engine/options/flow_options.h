@@ -227,6 +227,9 @@ struct LengthOnMesh {
 /// Limits on the change of each connected component of a mesh. If a component would exceed one, its displacement is
 /// scaled down, or set to zero if less than a tenth of it would be left. For flows that choose their own amount.
 struct ComponentLimits {
+    /// The limit of volume where a run chooses how much to smooth.
+    static constexpr double most_volume_change = 0.02;
+
     /// Change of the enclosed volume, as a fraction of it; for closed, consistently oriented components.
     double volume = std::numeric_limits<double>::infinity();
     /// Root mean square of the displacements along the normals, over the component, in length.
@@ -410,7 +413,8 @@ struct FlowOptions {
     /// does not change with the defaults.
     static FlowOptions plain();
 
-    /// Those without an amount: `denoise`, also of boundaries.
+    /// Those without an amount: `denoise`, also of boundaries, and no component loses more of its volume than
+    /// ComponentLimits::most_volume_change.
     static FlowOptions denoising();
 };
 

@@ -58,13 +58,11 @@ constexpr std::array table{
                  .radius = LengthOnMesh{0.03, true}},
 };
 
-/// The largest change in volume of each component of the mesh, as a fraction of it.
-constexpr double most_volume_change = 0.02;
 /// Of noise, over what is measured.
 constexpr double more_than_measured = 1.15;
 /// How far vertices move along the surface at most, in standard deviations of the noise, which also moved them there.
 constexpr double most_slide = 4.0;
-/// Larger bumps, as a fraction of the diagonal of the largest component, are not noise.
+/// Larger bumps, as a fraction of the diagonal of the largest component, are not noise: no larger ones are smoothed.
 constexpr double largest_radius = 0.1;
 
 /// Three digits, so that an amount is printed in full.
@@ -129,8 +127,9 @@ void choose_by_noise(const PolygonMesh& mesh, const std::optional<LengthOnMesh>&
                               "smooth anyway.");
     const double t = denoising_amount(flowing, joined, *choice.noise, exec).amount;
     // Of Δ_U, dt h²/4 of whose rows of the mean of differences are t.
-    const double radius = smoothed_radius(0.25 * t * mean_edge * mean_edge, 1, {.order = denoising_order});
-    if (!(radius > 0.0) || !(radius <= largest_radius * largest_diagonal(mesh, exec)))
+    const double radius = std::min(smoothed_radius(0.25 * t * mean_edge * mean_edge, 1, {.order = denoising_order}),
+                                   largest_radius * largest_diagonal(mesh, exec));
+    if (!(radius > 0.0))
         return smooth_nothing(
             choice, mean_edge,
             known ? fmt::format(
@@ -181,13 +180,13 @@ void choose_amount(const PresetTraits& preset, const PolygonMesh& mesh, const st
                    PresetChoice& choice, const Executor& exec)
 {
     FlowOptions& options = choice.options;
+    options.motion.limits = {.volume = ComponentLimits::most_volume_change};
     if (options.denoise) {
         // No step depends on it, but some messages print it.
         const double mean_edge = mean_edge_length(mesh, mesh.vertices, exec);
         options.time_step = std::isnormal(mean_edge * mean_edge) ? mean_edge * mean_edge : 1.0;
         return;
     }
-    options.motion.limits = {.volume = most_volume_change};
     if (preset.radius) {
         options.time_step = time_step_for_radius(*preset.radius, options.steps, box_of_faces(mesh, exec).diagonal(),
                                                  filter_of(options));

@@ -16,8 +16,8 @@ namespace {
 
 /// Steps of this many face areas move vertices half of the way.
 constexpr double short_step = 0.01;
-/// In mean edge lengths.
-constexpr double rounding = 1e-9;
+/// In mean edge lengths: a surface whose vertices all move by less is as it was.
+constexpr double next_to_nothing = 0.01;
 
 /// Normals diffuse only on each side of the lines.
 NormalDiffusion diffusion_between(const PolygonMesh& mesh, const Topology& topology, const FeatureLines& lines,
@@ -89,13 +89,13 @@ void EdgeKeepingStepper::report_to(FlowReport& report) const
     if (mesh_->n_faces() == 0)
         return;
     report.cut.sub_meshes = {{mesh_->n_faces(), mesh_->n_vertices()}};
-    if (furthest_ < rounding)
+    if (furthest_ < next_to_nothing)
         report.remarks.push_back(
-            fmt::format("Nothing was smoothed: most faces lie in planes that meet in edges sharper "
-                        "than {:g}°, which were kept. If these are noise, as in heights of whole "
-                        "numbers, give a larger angle, or leave out the amount, so that it "
+            fmt::format("Nothing was smoothed: most faces lie in planes that meet in edges sharper than {:g}°, which "
+                        "were kept (vertices moved by up to {:.1g} mean edge lengths in a step). If these are noise, "
+                        "as in heights of whole numbers, give a larger angle, or leave out the amount, so that it "
                         "follows from the noise.",
-                        angle_));
+                        angle_, furthest_));
     else
         report.remarks.push_back(
             fmt::format("Edges sharper than {:g}° were kept, and face normals smoothed between them, "

@@ -27,8 +27,10 @@ constexpr int n_rounds = 2;
 /// The noise is within these factors of the given value.
 constexpr double least_noise = 0.9;
 constexpr double most_noise = 1.15;
+/// Regrets that differ by less are alike.
+constexpr double same_regret = 0.02;
 /// Factor on the amount that comes nearest, for the normals.
-constexpr double for_normals = 1.15;
+constexpr double for_normals = 1.2;
 /// There is a gain if the risk is below this fraction of that of the unchanged mesh, σ².
 constexpr double clear_gain = 0.9;
 
@@ -84,19 +86,17 @@ class Risks {
         return squared_move(place) + noise * noise * (2.0 * interpolate(traces_, place) - 1.0);
     }
 
-    /// Where the risk is least.
-    [[nodiscard]] double best_place(double noise) const
+    /// Where the regret is least, the risk over the least one at that noise, in squares of it, at the worst of two
+    /// noises: the mean of all places, each the heavier the less its regret.
+    [[nodiscard]] double place_of_least_regret(double least, double most) const
     {
-        return minimum(squared_moves_ + 2.0 * noise * noise * traces_, 0, n_amounts - 1);
-    }
-
-    /// Where the generalised cross-validation is least, within a range of places.
-    [[nodiscard]] double best_place_between(double first, double last) const
-    {
-        const auto begin = static_cast<Index>(std::floor(first));
-        const auto end = static_cast<Index>(std::ceil(last));
-        return std::clamp(minimum(squared_moves_.cwiseQuotient((1.0 - traces_.array()).square().matrix()), begin, end),
-                          first, last);
+        const auto regrets = [&](double noise) -> Eigen::RowVectorXd {
+            const Eigen::RowVectorXd risks = squared_moves_ / (noise * noise) + 2.0 * traces_;
+            return risks.array() - risks.minCoeff();
+        };
+        const Eigen::RowVectorXd worst = regrets(least).cwiseMax(regrets(most));
+        const Eigen::RowVectorXd weights = ((worst.minCoeff() - worst.array()) / same_regret).exp();
+        return weights.dot(Eigen::RowVectorXd::LinSpaced(n_amounts, 0.0, n_amounts - 1.0)) / weights.sum();
     }
 
     /// The last place up to the given one where vertices move by no more than the noise.
@@ -118,19 +118,6 @@ class Risks {
     {
         const auto i = std::min(static_cast<Index>(place), n_amounts - 2);
         return values[i] + (place - i) * (values[i + 1] - values[i]);
-    }
-
-    /// The place of the least of some values, by the parabola through it and its two neighbours.
-    static double minimum(const Eigen::RowVectorXd& values, Index first, Index last)
-    {
-        Eigen::Index offset = 0;
-        values.segment(first, last - first + 1).minCoeff(&offset);
-        const auto i = static_cast<Index>(first + offset);
-        if (i == 0 || i == n_amounts - 1)
-            return i;
-        const double slope = (values[i + 1] - values[i - 1]) / 2.0;
-        const double curvature = values[i + 1] - 2.0 * values[i] + values[i - 1];
-        return curvature > 0.0 ? i - std::clamp(slope / curvature, -0.5, 0.5) : i;
     }
 
     Eigen::RowVectorXd squared_moves_;
@@ -233,8 +220,7 @@ class FilteredSample {
 
 DenoisingAmount choose(const Risks& risks, double noise)
 {
-    const double nearest =
-        risks.best_place_between(risks.best_place(least_noise * noise), risks.best_place(most_noise * noise));
+    const double nearest = risks.place_of_least_regret(least_noise * noise, most_noise * noise);
     const double ratio = largest_amount / smallest_amount;
     const double more = std::log(for_normals) / std::log(ratio) * (n_amounts - 1);
     const double place = risks.within(noise, std::min<double>(nearest + more, n_amounts - 1));

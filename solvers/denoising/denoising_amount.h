@@ -23,11 +23,12 @@ struct DenoisingAmount {
 /// Noise that is independent and of variance σ² in each coordinate has the risk
 ///     mean (n·(H X - X))² - σ² + 2 σ² tr(H) / #V
 /// along the normals n of H X, whatever the true surface is (Stein, Estimation of the Mean of a Multivariate Normal
-/// Distribution, 1981), the trace by a random vector of ±1 (Hutchinson, 1990). With σ known to some 15 % its minimum is
-/// known to lie in a range; in there t minimises mean (n·(H X - X))² / (1 - tr(H) / #V)², which needs no σ (generalised
-/// cross-validation: Craven and Wahba, Smoothing Noisy Data with Spline Functions, 1979). A little more is better for
-/// normals and hardly worse for distances. No t is taken that moves vertices by more than σ (Morozov, On the Solution
-/// of Functional Equations by the Method of Regularization, 1966).
+/// Distribution, 1981), the trace by a random vector of ±1 (Hutchinson, 1990). With σ known to some 15 % t has the
+/// least regret: the risk over the least possible one, at the worse end of that range (Savage, The Theory of
+/// Statistical Decision, 1951). Where noise is alike at neighbours, many t are nearly as good as the best: t is their
+/// mean, so that it does not jump from one to another. A little more is better for normals and hardly worse for
+/// distances. No t is taken that moves vertices by more than σ (Morozov, On the Solution of Functional Equations by the
+/// Method of Regularization, 1966).
 ///
 /// All t are found from one Chebyshev basis of L on a sample of the mesh (see take_filter_sample); nothing is
 /// factorised, and the result does not depend on how the loop is divided.

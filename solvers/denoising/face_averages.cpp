@@ -59,12 +59,22 @@ void FaceAverages::measure(const Points& positions, const Executor& exec)
         const std::size_t count = neighbours_[f].size();
         reach[f] = count > 0 ? std::sqrt(squares / static_cast<double>(count)) : 0.0;
     });
+    std::vector<float> mean_areas(areas_.size());
+    for_each(exec, n, [&](Index f) {
+        float total = areas_[f];
+        for (const Index g : neighbours_[f])
+            total += areas_[g];
+        mean_areas[f] = total / static_cast<float>(1 + neighbours_[f].size());
+    });
     for_each(exec, n, [&](Index f) {
         for (std::size_t k = neighbours_.offsets[f]; k < neighbours_.offsets[f + 1]; ++k) {
             const Index g = neighbours_.faces[k];
             const double squared = (centroids.row(f) - centroids.row(g)).squaredNorm();
             const double scale = reach[f] * reach[g];
-            near_[k] = scale > 0.0 ? areas_[g] * decay(static_cast<float>(squared / scale)) : 0.0F;
+            // Times b_f, as is the weight of the face itself, a_f.
+            near_[k] = scale > 0.0 && areas_[g] > 0.0F
+                           ? areas_[g] * (mean_areas[f] / mean_areas[g]) * decay(static_cast<float>(squared / scale))
+                           : 0.0F;
         }
     });
 }

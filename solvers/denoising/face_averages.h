@@ -26,11 +26,13 @@ struct AverageWeights {
 
 /// Averages vectors over each face and the faces that share a vertex with it. The weight of face g at face f is
 ///
-///     w_fg = a_g exp(-|c_f - c_g|² / (r_f r_g)) exp(-|n_f - n_g|² / 2σ²)
+///     w_fg = (a_g / b_g) exp(-|c_f - c_g|² / (r_f r_g)) exp(-|n_f - n_g|² / 2σ²)
 ///
-/// a is the area, c the centroid, r the root mean square distance of the neighbours' centroids, and n a guide normal,
-/// where one is given: with it this is the joint bilateral filter of normals (Zheng et al., Bilateral normal filtering
-/// for mesh denoising, 2011). Several rounds reach further. Bits do not depend on how loops are run.
+/// a is the area, b the mean area of a face and its neighbours, c the centroid, r the root mean square distance of the
+/// neighbours' centroids, and n a guide normal, where one is given. Small faces count less than the others around them,
+/// but where faces grow from row to row, as those of a globe towards its equator, means are not drawn to the larger
+/// ones: they would tilt. With a guide this is the joint bilateral filter of normals (Zheng et al., Bilateral normal
+/// filtering for mesh denoising, 2011). Several rounds reach further. Bits do not depend on how loops are run.
 class FaceAverages {
   public:
     /// Nothing is measured yet.

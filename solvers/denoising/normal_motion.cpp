@@ -21,6 +21,9 @@ constexpr double half_kept = 0.04;
 /// motion along normals folds it.
 constexpr double least_cosine = 0.7;
 constexpr double loss_of_cosine = 0.02;
+/// The cosine between a face and its wanted normal below which the face may not turn further away from it: wanted
+/// normals of slivers, whose heights noise exceeds, are themselves off by some degrees.
+constexpr double least_facing = 0.2;
 /// How far vertices that move freely spread around folded faces, in rounds.
 constexpr int freeing_rounds = 6;
 /// How often motions are halved; after that vertices stay.
@@ -134,14 +137,14 @@ void keep_facing(const PolygonMesh& mesh, const Topology& topology, const Points
 {
     const FoldedFaces faces(mesh, topology, wanted, exec);
     const std::vector<double> of_before = faces.cosines(before);
-    // It ends: a face whose vertices are all back has not turned over.
+    // It ends: a face whose vertices are all back has not turned.
     for (int round = 0;; ++round) {
         const std::vector<double> cosines = faces.cosines(positions);
         std::vector<std::uint8_t> is_folded(usize(mesh.n_faces()), 0);
         for (const Index f : folded_faces(mesh, before, positions, flipped_faces(mesh, before, positions, exec)))
             is_folded[f] = 1;
-        const std::vector<Index> turned =
-            faces.vertices_of([&](Index f) { return is_folded[f] != 0 || (cosines[f] <= 0.0 && of_before[f] > 0.0); });
+        const std::vector<Index> turned = faces.vertices_of(
+            [&](Index f) { return is_folded[f] != 0 || (cosines[f] < least_facing && cosines[f] < of_before[f]); });
         if (turned.empty())
             return;
         for (const Index v : turned)

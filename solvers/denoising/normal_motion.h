@@ -28,9 +28,9 @@ std::vector<double> edge_lengths_at_vertices(const PolygonMesh& mesh, const Topo
 Points along_normals(const PolygonMesh& mesh, const Topology& topology, const Points& before, const Points& after,
                      const Points& wanted, const Executor& exec = run_serially);
 
-/// Takes back half of the motion, and so on, of the vertices of faces that point away from their wanted normals, to
-/// which they pointed before, and of faces that have turned over against their neighbours (see folded_faces). In the
-/// end there are none. Arguments as above.
+/// Takes back half of the motion, and so on, of the vertices of faces that would turn away from their wanted normals,
+/// or nearly so, and were nearer to them before, and of faces that have turned over against their neighbours (see
+/// folded_faces). In the end there are none. Arguments as above.
 /// @param positions #V by 3; replaced.
 void keep_facing(const PolygonMesh& mesh, const Topology& topology, const Points& before, const Points& wanted,
                  Points& positions, const Executor& exec = run_serially);

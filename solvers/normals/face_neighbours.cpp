@@ -1,5 +1,9 @@
 #include "solvers/normals/face_neighbours.h"
 
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+
 #include "partition/index_lists.h"
 #include "partition/parallel_lists.h"
 
@@ -7,8 +11,58 @@ namespace seamflow {
 
 namespace {
 
+/// The fans at vertices of more than most_at_vertex faces.
+class CrowdedFans {
+  public:
+    CrowdedFans(const PolygonMesh& mesh, const Topology& topology, const Executor& exec)
+        : topology_(&topology)
+    {
+        const auto crowded = select(exec, mesh.n_vertices(), [&](Index v) {
+            return topology.corners_at(v).size() > FaceNeighbours::most_at_vertex;
+        });
+        for (const Index v : crowded)
+            for (Fan& fan : fans_at(mesh, topology, v, {}, 0)) {
+                for (std::size_t i = 0; i < fan.corners.size(); ++i)
+                    places_.push_back({fan.corners[i], fans_.size(), i});
+                fans_.push_back(std::move(fan));
+            }
+        std::ranges::sort(places_, {}, &Place::corner);
+    }
+
+    /// Appends faces that are evenly spaced in the fan of a corner, as many on one side of its face as on the other
+    /// unless the fan ends there, so that a face has another in its list if the other has it.
+    void append_spaced(Index corner, std::vector<Index>& list) const
+    {
+        const auto place = std::ranges::lower_bound(places_, corner, {}, &Place::corner);
+        const Fan& fan = fans_[place->fan];
+        const std::size_t n = fan.corners.size();
+        const std::size_t here = place->in_fan;
+        constexpr std::size_t on_a_side = FaceNeighbours::most_at_vertex / 2;
+        for (std::size_t k = 1; k <= on_a_side; ++k) {
+            const std::size_t away = k * n / FaceNeighbours::most_at_vertex;
+            if (fan.closed || here + away < n)
+                list.push_back(topology_->face_of[fan.corners[(here + away) % n]]);
+            if (fan.closed || here >= away)
+                list.push_back(topology_->face_of[fan.corners[(here + n - away) % n]]);
+        }
+    }
+
+  private:
+    struct Place {
+        Index corner;
+        std::size_t fan;
+        std::size_t in_fan;
+    };
+
+    const Topology* topology_;
+    std::vector<Fan> fans_;
+    /// By their corners, ascending.
+    std::vector<Place> places_;
+};
+
 /// The neighbours of face f, until the next call with the same list.
-void list_neighbours(const PolygonMesh& mesh, const Topology& topology, Index f, std::vector<Index>& list)
+void list_neighbours(const PolygonMesh& mesh, const Topology& topology, const CrowdedFans& crowded, Index f,
+                     std::vector<Index>& list)
 {
     list.clear();
     for (Index h = mesh.face_offsets[f]; h < mesh.face_offsets[f + 1]; ++h) {
@@ -16,6 +70,8 @@ void list_neighbours(const PolygonMesh& mesh, const Topology& topology, Index f,
         if (corners.size() <= FaceNeighbours::most_at_vertex)
             for (const Index corner : corners)
                 list.push_back(topology.face_of[corner]);
+        else
+            crowded.append_spaced(h, list);
         if (topology.twin[h] >= 0)
             list.push_back(topology.face_of[topology.twin[h]]);
     }
@@ -27,9 +83,11 @@ void list_neighbours(const PolygonMesh& mesh, const Topology& topology, Index f,
 
 FaceNeighbours make_face_neighbours(const PolygonMesh& mesh, const Topology& topology, const Executor& exec)
 {
+    const CrowdedFans crowded(mesh, topology, exec);
     FaceNeighbours neighbours;
     make_lists_in_parallel(
-        exec, mesh.n_faces(), [&](Index f, std::vector<Index>& list) { list_neighbours(mesh, topology, f, list); },
+        exec, mesh.n_faces(),
+        [&](Index f, std::vector<Index>& list) { list_neighbours(mesh, topology, crowded, f, list); },
         neighbours.offsets, neighbours.faces);
     return neighbours;
 }

@@ -10,8 +10,9 @@
 
 namespace seamflow {
 
-/// The faces around each face: those that share a vertex with it. At a vertex of more than most_at_vertex faces, only
-/// those that share an edge with it there count, so that there are at most most_at_vertex per corner.
+/// The faces around each face: those that share a vertex with it. At a vertex of more than most_at_vertex faces, such
+/// as the pole of a globe, only so many count, evenly spaced around the vertex: they are on all sides of it, whatever
+/// the valence. Together with those that share an edge there are at most most_at_vertex + 2 per corner.
 struct FaceNeighbours {
     static constexpr std::size_t most_at_vertex = 24;
 

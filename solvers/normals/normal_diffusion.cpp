@@ -28,8 +28,9 @@ constexpr double most_disagreement = 8.0;
 constexpr double clearly_less = 0.5;
 /// Shorter chords are rounding errors.
 constexpr double least_sigma = 1e-6;
-/// The most faces that noise of whole numbers leaves on one plane.
-constexpr std::size_t most_in_plane_of_noise = 16;
+/// The widest plane that noise of whole numbers leaves, twice its area over its perimeter, in lengths of its edges: a
+/// terrace is long, but narrow.
+constexpr double widest_plane_of_noise = 1.5;
 /// Where a plane differs this much less from the mean of those around it than from each, it is a part of a round shape.
 constexpr double even_bend = 0.2;
 /// Of the residual of a round, relative to that at its beginning; and the most iterations.
@@ -148,7 +149,7 @@ void NormalDiffusion::measure(const Points& positions, double time_step, const E
 
 /// The median of the chords between each face and the neighbour across an edge that is most similar to it, or the mean
 /// of these, which is more similar in round parts. Those of sharper edges do not count. Where most faces have a
-/// neighbour with the same normal, as on whole-number heights, small planes of such faces take the place of faces.
+/// neighbour with the same normal, as on whole-number heights, narrow planes of such faces take the place of faces.
 double NormalDiffusion::measure_noise(const Points& positions, const Points& normals, double edge_chord,
                                       const Executor& exec) const
 {
@@ -178,7 +179,7 @@ double NormalDiffusion::measure_noise(const Points& positions, const Points& nor
 }
 
 /// Gives all faces of a plane, faces with the same normal that share edges, the chord between it and the most similar
-/// plane around it, or the mean of these by length of edges: 0 for larger planes, and where the planes around bend as
+/// plane around it, or the mean of these by length of edges: 0 for wider planes, and where the planes around bend as
 /// those of a round shape, which noise does not make.
 /// @param chords #F: replaced, but for faces without area.
 void NormalDiffusion::spread_over_planes(const Points& positions, const Points& normals, double edge_chord,
@@ -193,19 +194,30 @@ void NormalDiffusion::spread_over_planes(const Points& positions, const Points& 
         plane.assign(1, first);
         double least = std::numeric_limits<double>::infinity();
         Point mean = Point::Zero();
+        double size = 0.0;
+        double perimeter = 0.0;
+        double edges = 0.0;
+        double n_edges = 0.0;
         for (std::size_t i = 0; i < plane.size(); ++i) {
             const Index f = plane[i];
             const auto corners = mesh_->face(f);
+            size += area(corners, positions);
             for (std::size_t k = 0; k < corners.size(); ++k) {
                 const Index g = across_[usize(mesh_->face_offsets[f]) + k];
-                if (g < 0 || areas_[g] == 0.0)
+                const Index next = corners[k + 1 < corners.size() ? k + 1 : 0];
+                const double edge = (positions.row(next) - positions.row(corners[k])).norm();
+                edges += edge;
+                n_edges += 1.0;
+                if (g < 0 || areas_[g] == 0.0) {
+                    perimeter += edge;
                     continue;
+                }
                 const double chord = (normals.row(f) - normals.row(g)).norm();
                 if (chord > least_sigma) {
+                    perimeter += edge;
                     least = std::min(least, chord);
-                    const Index next = corners[k + 1 < corners.size() ? k + 1 : 0];
                     if (chord < edge_chord)
-                        mean += (positions.row(next) - positions.row(corners[k])).norm() * normals.row(g);
+                        mean += edge * normals.row(g);
                 } else if (is_known[g] == 0) {
                     is_known[g] = 1;
                     plane.push_back(g);
@@ -214,7 +226,8 @@ void NormalDiffusion::spread_over_planes(const Points& positions, const Points& 
         }
         const double length = mean.norm();
         const double from_mean = length > 0.0 ? (normals.row(first) - mean / length).norm() : least;
-        const bool is_shape = plane.size() > most_in_plane_of_noise || from_mean < even_bend * least;
+        const bool is_wide = 2.0 * size * n_edges > widest_plane_of_noise * perimeter * edges;
+        const bool is_shape = is_wide || from_mean < even_bend * least;
         for (const Index f : plane)
             chords[f] = is_shape ? 0.0 : std::min(least, from_mean);
     }

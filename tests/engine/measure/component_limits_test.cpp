@@ -6,6 +6,7 @@
 #include "engine/measure/component_limits.h"
 #include "partition/metrics/vertex_distance.h"
 #include "partition/metrics/volume.h"
+#include "samples/meshes/meshes.h"
 #include "tests/support/flows.h"
 #include "tests/support/relative.h"
 
@@ -66,6 +67,21 @@ TEST_CASE("a component that would lose too much is given less, along straight li
 
     options.motion.limits = {.volume = 0.02};
     CHECK(same_bits(flowed(mesh, options), positions));
+}
+
+TEST_CASE("a remark says how much of its volume a component would have lost, in per cent and in units of the file")
+{
+    PolygonMesh mesh = make_box(600);
+    mesh.vertices *= std::cbrt(50.0 / volume(mesh));
+    const Topology topology = make_topology(mesh);
+    LimitedComponents limited(mesh, topology, {.volume = 0.02});
+    Points positions = mesh.vertices * std::cbrt(0.86);
+    limited.apply(positions);
+    CHECK(limited.remark().find("more than 2 % of its volume (14 %: 7 in units of the file)") != std::string::npos);
+    CHECK(limited.remark().find("--radius") != std::string::npos);
+    positions = mesh.vertices * std::cbrt(0.99);
+    limited.apply(positions);
+    CHECK(limited.remark().empty());
 }
 
 TEST_CASE("where less than a tenth would be left nothing is moved")

@@ -16,6 +16,7 @@
 #include "tests/support/flows.h"
 #include "tests/support/messages.h"
 #include "tests/support/random_meshes.h"
+#include "tests/support/test_meshes.h"
 
 using namespace seamflow;
 using test::flowed;
@@ -94,6 +95,33 @@ TEST_CASE("parts without noise keep their edges and corners, step after step")
         CHECK(report.steps.size() == 3);
         CHECK(test::count_with(report.remarks, "Nothing was smoothed") == 1);
     }
+}
+
+TEST_CASE("steps of rounded heights go, though most faces lie in planes")
+{
+    constexpr Index n = 48;
+    constexpr double radius = 38.0;
+    PolygonMesh truth = test::triangle_grid(n, n);
+    for (auto place : truth.vertices.rowwise())
+        place[2] = std::sqrt(radius * radius - std::pow(place[0] - 0.5 * n, 2) - std::pow(place[1] - 0.5 * n, 2));
+    for (const double step : {0.3, 0.5}) {
+        CAPTURE(step);
+        PolygonMesh result = truth;
+        for (auto place : result.vertices.rowwise())
+            place[2] = step * std::round(place[2] / step);
+        const double before = test::angle_to_truth(truth, result);
+        FlowOptions options = edge_options(result, 8.0);
+        options.motion.boundary = Boundary::Free;
+        mean_curvature_flow(result, options);
+        CHECK(test::angle_to_truth(truth, result) < 0.25 * before);
+    }
+}
+
+TEST_CASE("where vertices hardly move, a remark says that nothing was smoothed")
+{
+    PolygonMesh mesh = test::with_gaussian_noise(make_mesh("box", 3000), 1e-4, 1);
+    const FlowReport report = mean_curvature_flow(mesh, edge_options(mesh, 8.0));
+    CHECK(test::count_with(report.remarks, "Nothing was smoothed") == 1);
 }
 
 TEST_CASE("a flat mesh stays flat to the bit; boundaries and fixed vertices stay")

@@ -1,7 +1,10 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <numeric>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -77,7 +80,65 @@ bool is_same(const DenoisingAmount& one, const DenoisingAmount& other)
     return one.amount == other.amount && one.risk == other.risk && one.move == other.move;
 }
 
+/// The faces between the cubes of a lattice whose centres are inside a ball and those outside.
+PolygonMesh ball_of_cubes(double radius, bool as_triangles)
+{
+    const auto n = static_cast<Index>(2.0 * radius) + 5;
+    const auto is_inside = [&](const std::array<Index, 3>& cube) {
+        const Eigen::Array3d from_centre = Eigen::Array3i(cube[0], cube[1], cube[2]).cast<double>() - (radius + 2.37);
+        return from_centre.matrix().norm() < radius;
+    };
+    std::map<std::array<Index, 3>, Index> numbers;
+    PolygonMesh mesh;
+    const auto add = [&](const std::array<std::array<Index, 3>, 4>& corners) {
+        std::array<Index, 4> face{};
+        for (std::size_t k = 0; k < face.size(); ++k)
+            face[k] = numbers.try_emplace(corners[k], static_cast<Index>(numbers.size())).first->second;
+        if (!as_triangles)
+            return mesh.add_face(face);
+        mesh.add_face(std::array{face[0], face[1], face[2]});
+        mesh.add_face(std::array{face[0], face[2], face[3]});
+    };
+    for (Index i = 0; i < n; ++i)
+        for (Index j = 0; j < n; ++j)
+            for (Index k = 0; k < n; ++k)
+                for (std::size_t axis = 0; axis < 3; ++axis) {
+                    const std::array<Index, 3> here{i, j, k};
+                    std::array<Index, 3> next = here;
+                    ++next[axis];
+                    if (is_inside(here) == is_inside(next))
+                        continue;
+                    std::array<std::array<Index, 3>, 4> corners{next, next, next, next};
+                    ++corners[1][(axis + 1) % 3];
+                    ++corners[2][(axis + 1) % 3];
+                    ++corners[2][(axis + 2) % 3];
+                    ++corners[3][(axis + 2) % 3];
+                    if (is_inside(next))
+                        std::swap(corners[1], corners[3]);
+                    add(corners);
+                }
+    mesh.vertices.resize(static_cast<Index>(numbers.size()), 3);
+    for (const auto& [place, v] : numbers)
+        mesh.vertices.row(v) << place[0], place[1], place[2];
+    return mesh;
+}
+
 }  // namespace
+
+TEST_CASE("the amount does not jump between a ball of cubes of triangles and of quadrilaterals, or of another size")
+{
+    // In units of the cubes.
+    std::vector<double> reaches;
+    for (const double radius : {9.2, 12.3, 16.1})
+        for (const bool as_triangles : {false, true}) {
+            const PolygonMesh ball = ball_of_cubes(radius, as_triangles);
+            const double noise = measure_noise(ball, make_topology(ball)).deviation;
+            reaches.push_back(std::sqrt(amount_for(ball, noise).amount) * mean_edge_length(ball));
+        }
+    const auto [least, most] = std::ranges::minmax(reaches);
+    CHECK(least > 0.0);
+    CHECK(most < 1.2 * least);
+}
 
 TEST_CASE("the amount comes nearest to the true surface, and the distance left is known")
 {

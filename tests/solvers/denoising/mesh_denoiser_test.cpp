@@ -58,7 +58,49 @@ void close(PolygonMesh& mesh, std::span<const Index> rim, Lid lid)
     }
 }
 
+/// A ball whose triangles are long and thin at the poles, with all its meridians in one vertex each.
+PolygonMesh globe(Index meridians, Index parallels)
+{
+    PolygonMesh mesh;
+    mesh.vertices.resize(2 + meridians * parallels, 3);
+    mesh.vertices.row(0) << 0.0, 0.0, 1.0;
+    mesh.vertices.row(1) << 0.0, 0.0, -1.0;
+    const auto at = [&](Index i, Index k) { return Index(2 + i * meridians + k % meridians); };
+    for (Index i = 0; i < parallels; ++i)
+        for (Index k = 0; k < meridians; ++k) {
+            const double polar = std::numbers::pi * (i + 1) / (parallels + 1);
+            const double angle = 2.0 * std::numbers::pi * k / meridians;
+            mesh.vertices.row(at(i, k)) << std::sin(polar) * std::cos(angle), std::sin(polar) * std::sin(angle),
+                std::cos(polar);
+        }
+    for (Index k = 0; k < meridians; ++k) {
+        mesh.add_face(std::array{Index{0}, at(0, k), at(0, k + 1)});
+        for (Index i = 0; i + 1 < parallels; ++i) {
+            mesh.add_face(std::array{at(i, k), at(i + 1, k), at(i + 1, k + 1)});
+            mesh.add_face(std::array{at(i, k), at(i + 1, k + 1), at(i, k + 1)});
+        }
+        mesh.add_face(std::array{Index{1}, at(parallels - 1, k + 1), at(parallels - 1, k)});
+    }
+    return mesh;
+}
+
 }  // namespace
+
+TEST_CASE("noise goes from long thin triangles and from their poles, and the surface is not drawn to the larger ones")
+{
+    const PolygonMesh truth = globe(128, 63);
+    PolygonMesh noisy = truth;
+    std::mt19937 random(5);
+    std::normal_distribution<double> lengths(0.0, 0.01);
+    for (auto place : noisy.vertices.rowwise())
+        place *= 1.0 + lengths(random);
+    const Topology topology = make_topology(noisy);
+    const Points result = MeshDenoiser(noisy, topology).denoise(noisy.vertices);
+    const auto distance = [](const Points& positions) {
+        return std::sqrt((positions.rowwise().norm().array() - 1.0).square().mean());
+    };
+    CHECK(distance(result) < 0.2 * distance(noisy.vertices));
+}
 
 TEST_CASE("a flat lake, however much of a terrain it covers, and blocks without data do not hide the noise of the rest")
 {
