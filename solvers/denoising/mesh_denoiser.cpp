@@ -144,7 +144,9 @@ Points MeshDenoiser::without_noise(const Points& before, std::span<const double>
             fitted.row(v) = begun.row(v) + parts[v] * (fitted.row(v) - begun.row(v));
     });
     Points result = along_normals(*mesh_, *topology_, begun, fitted, normals, exec);
-    rims_.apply(*topology_, normals, parts, result);
+    // The rims of thinned meshes are jagged by their making.
+    if (n_thinned_ == 0)
+        rims_.apply(*topology_, normals, parts, result);
     if (edge_angle_)
         take_smoother_places({*mesh_, *topology_, begun, normals, parts}, places_.components(), *edge_angle_, result,
                              exec);
