@@ -60,6 +60,18 @@ DirectedMotion::DirectedMotion(const PolygonMesh& mesh, const Topology& topology
 {
 }
 
+template <class Seen>
+double DirectedMotion::longest_edge(Index v, const Points& positions, Seen&& seen) const
+{
+    double squared = 0.0;
+    for (const Index corner : topology_.corners_at(v))
+        for (const Index end : {topology_.next(mesh_, corner), topology_.previous(mesh_, corner)}) {
+            const Point edge = positions.row(mesh_.face_vertices[end]) - positions.row(v);
+            squared = std::max(squared, seen(edge).squaredNorm());
+        }
+    return std::sqrt(squared);
+}
+
 void DirectedMotion::project(const Points& before, Points& after, const Executor& exec) const
 {
     const Points moved = after;
@@ -90,7 +102,8 @@ void DirectedMotion::project(const Points& before, Points& after, const Executor
 double DirectedMotion::least_way(Index v, const Point& way, const Points& moved) const
 {
     const double along = way.dot(direction_);
-    const double furthest = std::max(reach_at(v, moved), (way - along * direction_).norm());
+    const double furthest =
+        std::max(longest_edge(v, moved, [](const Point& edge) { return edge; }), (way - along * direction_).norm());
     double least = std::numeric_limits<double>::infinity();
     const auto consider = [&](const Point& n) {
         const double to_plane = way_to_plane(way, direction_, n, least_cosine);
@@ -103,19 +116,12 @@ double DirectedMotion::least_way(Index v, const Point& way, const Points& moved)
     return std::isfinite(least) ? least : 0.0;
 }
 
-double DirectedMotion::reach_at(Index v, const Points& positions) const
-{
-    double squared = 0.0;
-    for (const Index corner : topology_.corners_at(v))
-        for (const Index end : {topology_.next(mesh_, corner), topology_.previous(mesh_, corner)})
-            squared = std::max(squared, (positions.row(mesh_.face_vertices[end]) - positions.row(v)).squaredNorm());
-    return std::sqrt(squared);
-}
-
 bool DirectedMotion::misses_rim(Index v, const Point& way, const Points& moved) const
 {
-    return topology_.kind[v] == VertexKind::Boundary &&
-           (way - way.dot(direction_) * direction_).norm() > reach_at(v, moved);
+    const Point aside = way - way.dot(direction_) * direction_;
+    return topology_.kind[v] == VertexKind::Boundary && aside.norm() > longest_edge(v, moved, [&](const Point& edge) {
+                                                            return Point(edge - edge.dot(direction_) * direction_);
+                                                        });
 }
 
 bool DirectedMotion::is_on_silhouette(Index v, const Points& positions) const

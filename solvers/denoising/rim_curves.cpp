@@ -26,6 +26,10 @@ constexpr int rounds_for_corners = 6;
 constexpr double shortest_edge = 0.25;
 /// How many times as wide as the largest motion a band is: faces are squeezed by a quarter at most.
 constexpr double widths_of_band = 4.0;
+/// The part of its area that a face keeps; by how much motions are shortened at once, and how often at most.
+constexpr double least_area = 0.1;
+constexpr double shortening = 0.9;
+constexpr int most_shortenings = 40;
 
 /// An edge of one face between boundary vertices.
 struct Segment {
@@ -99,6 +103,22 @@ class BandedEquations {
     Band band_;
     bool is_closed_;
 };
+
+/// One per vertex of a curve: the sum of the normals of its faces at the curve.
+Points normals_along(const RimCurve& curve, const Points& normals)
+{
+    Points sums = Points::Zero(static_cast<Eigen::Index>(curve.vertices.size()), 3);
+    for (std::size_t s = 0; s < curve.faces.size(); ++s) {
+        const std::size_t after = s + 1 < curve.vertices.size() ? s + 1 : 0;
+        for (const std::size_t end : {s, after}) {
+            const Point normal = normals.row(curve.faces[s]);
+            // Faces need not be oriented alike.
+            sums.row(static_cast<Eigen::Index>(end)) +=
+                sums.row(static_cast<Eigen::Index>(end)).dot(normal) < 0.0 ? Point(-normal) : normal;
+        }
+    }
+    return sums;
+}
 
 std::vector<Segment> segments_of(const PolygonMesh& mesh, const Topology& topology)
 {
@@ -217,16 +237,49 @@ SmoothCurve smooth_curve(const RimCurve& curve, const Points& positions, double 
 Points across_curve(const RimCurve& curve, const Points& positions, const Points& normals)
 {
     const auto n = static_cast<Index>(positions.rows());
+    const Points of_vertices = normals_along(curve, normals);
     Points across(n, 3);
     for (Index i = 0; i < n; ++i) {
         const bool has_both = curve.is_closed || (i > 0 && i + 1 < n);
         const Index from = i > 0 ? i - 1 : has_both ? n - 1 : i;
         const Index to = i + 1 < n ? i + 1 : has_both ? Index{0} : i;
         const Point along = positions.row(to) - positions.row(from);
-        const Point normal = normals.row(i);
+        const Point normal = of_vertices.row(i);
         across.row(i) = unit_or_zero(along.cross(normal));
     }
     return across;
+}
+
+void keep_areas(const PolygonMesh& mesh, const Points& positions, const Points& normals, Points& motions)
+{
+    std::vector<Index> faces;
+    for (Index f = 0; f < mesh.n_faces(); ++f)
+        if (std::ranges::any_of(mesh.face(f), [&](Index v) { return !motions.row(v).isZero(0.0); }))
+            faces.push_back(f);
+    std::vector<std::uint8_t> is_shortened(usize(mesh.n_vertices()));
+    Points moved = positions;
+    for (int round = 0; round < most_shortenings; ++round) {
+        for (const Index f : faces)
+            for (const Index v : mesh.face(f)) {
+                moved.row(v) = positions.row(v) + motions.row(v);
+                is_shortened[v] = 0;
+            }
+        for (const Index f : faces) {
+            const Point normal = normals.row(f);
+            const double before = vector_area(mesh.face(f), positions).dot(normal);
+            if (before > 0.0 && vector_area(mesh.face(f), moved).dot(normal) < least_area * before)
+                for (const Index v : mesh.face(f))
+                    is_shortened[v] = 1;
+        }
+        bool any = false;
+        for (Index v = 0; v < mesh.n_vertices(); ++v)
+            if (is_shortened[v] != 0) {
+                motions.row(v) *= shortening;
+                any = true;
+            }
+        if (!any)
+            return;
+    }
 }
 
 void spread_into_band(const PolygonMesh& mesh, const Topology& topology, const Points& positions, Points& motions)

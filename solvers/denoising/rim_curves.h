@@ -36,9 +36,16 @@ struct SmoothCurve {
 ///        they are found in a few rounds. Otherwise all are 1.
 SmoothCurve smooth_curve(const RimCurve& curve, const Points& positions, double radius, bool keeps_corners);
 
-/// @param normals one per vertex: of the surface, of any length.
-/// @returns one per vertex: of length 1, within the surface and at right angles to the curve; 0 where there is none.
+/// @param normals #F by 3: of the faces, of any length.
+/// @returns one per vertex of the curve: of length 1, within the surface and at right angles to the curve; 0 where
+/// there is none.
 Points across_curve(const RimCurve& curve, const Points& positions, const Points& normals);
+
+/// Shortens the motions of the vertices of faces that would keep less than a tenth of their areas, or turn over: near a
+/// curve, a face with two edges of the boundary has hardly any.
+/// @param normals #F by 3: of the surface, of any length. Faces that turn away from them do not matter.
+/// @param motions #V by 3; replaced.
+void keep_areas(const PolygonMesh& mesh, const Points& positions, const Points& normals, Points& motions);
 
 /// Lets the surface follow its boundary within a band: motions fall to 0 over a few times the length of the largest,
 /// and leave out what goes along the normals, so that faces keep their shapes and the surface its place.

@@ -91,22 +91,6 @@ bool is_noisy(const Distances& distances, const std::vector<double>& smoothness,
            (correlation < 0.0 && (is_on_noise || kurtosis > least_kurtosis_of_noise));
 }
 
-/// One per vertex of a curve: the sum of the normals of its faces at the curve.
-Points normals_along(const RimCurve& curve, const Points& normals)
-{
-    Points sums = Points::Zero(static_cast<Eigen::Index>(curve.vertices.size()), 3);
-    for (std::size_t s = 0; s < curve.faces.size(); ++s) {
-        const std::size_t after = s + 1 < curve.vertices.size() ? s + 1 : 0;
-        for (const std::size_t end : {s, after}) {
-            const Point normal = normals.row(curve.faces[s]);
-            // Faces need not be oriented alike.
-            sums.row(static_cast<Eigen::Index>(end)) +=
-                sums.row(static_cast<Eigen::Index>(end)).dot(normal) < 0.0 ? Point(-normal) : normal;
-        }
-    }
-    return sums;
-}
-
 double mean_length(const RimCurve& curve, const Points& positions)
 {
     double total = 0.0;
@@ -133,7 +117,7 @@ Points RimFilter::motions(const PolygonMesh& mesh, const Topology& topology, con
         const Points before = positions(curve.vertices, Eigen::all);
         const double edge = mean_length(curve, before);
         const SmoothCurve smooth = smooth_curve(curve, before, radius_in_edges * edge, true);
-        const Points across = across_curve(curve, smooth.positions, normals_along(curve, normals));
+        const Points across = across_curve(curve, smooth.positions, normals);
         const Eigen::VectorXd distances = (smooth.positions - before).cwiseProduct(across).rowwise().sum();
         double on_noise = 0.0;
         for (const Index v : curve.vertices)
@@ -145,6 +129,7 @@ Points RimFilter::motions(const PolygonMesh& mesh, const Topology& topology, con
                 motions.row(v) = distances[static_cast<Eigen::Index>(i)] * across.row(static_cast<Eigen::Index>(i));
     }
     spread_into_band(mesh, topology, positions, motions);
+    keep_areas(mesh, positions, normals, motions);
     return motions;
 }
 
