@@ -154,6 +154,9 @@ Points MeshDenoiser::without_noise(const Points& before, std::span<const double>
             if (!motions.row(v).isZero(0.0))
                 result.row(v) += strength(v) * motions.row(v);
         });
+        noise_.rim_vertices = sum(exec, mesh_->n_vertices(), [&](Index v) {
+            return topology_->kind[v] == VertexKind::Boundary && !motions.row(v).isZero(0.0) ? 1.0 : 0.0;
+        });
     }
     keep_all_facing(before, normals, result, exec);
     return result;
@@ -234,7 +237,7 @@ void MeshDenoiser::measure_noise(const Points& motions, std::span<const double> 
         },
         Sums(Sums::Zero()));
     noise_ = sums[2] > 0.0 ? SurfaceNoise{noise_by_motion * std::sqrt(sums[0] / sums[2]), std::sqrt(sums[1] / sums[2]),
-                                          sums[2] / sums[3]}
+                                          sums[2] / sums[3], 0.0}
                            : SurfaceNoise{};
 }
 
