@@ -29,6 +29,8 @@ constexpr double most_revival = 1.3;
 constexpr double least_kurtosis = 1.6;
 constexpr double least_kurtosis_of_noise = 2.2;
 constexpr double most_kurtosis = 4.2;
+/// Where the surface has noise, which may be along random directions: its part within the surface has 5.4.
+constexpr double most_kurtosis_on_noise = 8.0;
 /// The correlation of neighbours: that of stairs was -0.58 and less, of noise around -0.15, of shapes above 0.
 constexpr double most_correlation_of_stairs = -0.5;
 
@@ -85,7 +87,8 @@ bool is_noisy(const Distances& distances, const std::vector<double>& smoothness,
         return false;
     const double kurtosis = distances.kurtosis();
     const double correlation = distances.correlation(1);
-    if (kurtosis < least_kurtosis || kurtosis > most_kurtosis || distances.revival() > most_revival)
+    if (kurtosis < least_kurtosis || kurtosis > (is_on_noise ? most_kurtosis_on_noise : most_kurtosis) ||
+        distances.revival() > most_revival)
         return false;
     return correlation < most_correlation_of_stairs ||
            (correlation < 0.0 && (is_on_noise || kurtosis > least_kurtosis_of_noise));
