@@ -47,7 +47,7 @@ std::string remark_on_undefined_vertices(std::int64_t n, std::int64_t first, Lap
 std::string remark_on_unmoving_mesh(Boundary boundary)
 {
     const std::string why = "No vertex can flow: each is fixed, on the boundary, or where the mesh is not manifold.";
-    return boundary == Boundary::Free ? why : why + " A free boundary would flow.";
+    return boundary != Boundary::Fixed ? why : why + " A free boundary would flow.";
 }
 
 void remark_on_drift(const FlowOptions& options, FlowReport& report)

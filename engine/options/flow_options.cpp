@@ -34,9 +34,14 @@ StepFilter filter_of(const FlowOptions& options)
     return filter;
 }
 
+bool smooths_rims(const FlowOptions& options)
+{
+    return options.motion.boundary == Boundary::Smooth;
+}
+
 bool smooths_normals(const FlowOptions& options)
 {
-    return options.denoise || options.keep_edges.has_value();
+    return options.denoise || options.keep_edges.has_value() || smooths_rims(options);
 }
 
 bool attaches(const MotionOptions& motion)

@@ -121,6 +121,11 @@ enum class Boundary {
     /// shrinks there by about √dt a step, like a soap film without a frame. Not with Δ_P, whose one-sided rows at a
     /// boundary are unstable. Sub-meshes can share such a boundary only in converged steps, which are then chosen.
     Free,
+    /// The boundary alone moves, along the surface: each of its lines becomes a curve that bends less (see
+    /// smooth_curve), in which bumps of FlowOptions::radius are half as high, and which neither shrinks nor slides. The
+    /// surface follows within a band a few times as wide as the motion. There are no sub-meshes and no equations of the
+    /// Laplacian, as with keep_edges; not with denoise and keep_edges.
+    Smooth,
 };
 
 /// Vertices at junctions: on edges of three faces or more, where sheets of a surface meet.
@@ -436,7 +441,11 @@ StepFilter filter_of(const FlowOptions& options);
 /// Whether a sweep uses predictions of the other side of Γ.
 bool predicts(const FlowOptions& options);
 
-/// Whether steps smooth the normals of faces on the whole mesh, in place of a flow: with keep_edges or denoise.
+/// Whether steps move the boundary alone, as curves.
+bool smooths_rims(const FlowOptions& options);
+
+/// Whether steps take the whole mesh in place of a flow: with keep_edges or denoise, which smooth the normals of faces,
+/// or where they move the boundary alone.
 bool smooths_normals(const FlowOptions& options);
 
 /// Whether there is a screening term.

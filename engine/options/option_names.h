@@ -87,7 +87,8 @@ struct OptionNames<Correction> {
 
 template <>
 struct OptionNames<Boundary> {
-    static constexpr NamedOption<Boundary> list[]{{"fixed", Boundary::Fixed}, {"free", Boundary::Free}};
+    static constexpr NamedOption<Boundary> list[]{
+        {"fixed", Boundary::Fixed}, {"free", Boundary::Free}, {"smooth", Boundary::Smooth}};
 };
 
 template <>

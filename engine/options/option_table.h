@@ -94,7 +94,7 @@ auto option_table(Options& options)
                             "They are kept whatever their angle. An .obj has polylines, a .ply elements edge. With "
                             "--keep-edges or --preset cad."}),
         row(boundary, {"boundary", "--boundary", group::kept, 0,
-                       "boundary conditions: the boundary of an open surface stays, or shrinks freely [fixed]"}),
+                       "the boundary of an open surface stays, shrinks freely, or alone moves, as a curve [fixed]"}),
         row(junctions, {"junctions", "--junctions", group::kept, 0,
                         "edges of three faces or more, where sheets meet: they move with all sheets, or stay [flow]"}),
         row(fixed_vertices, {"fixed_vertices", "--fix", group::kept, numbers,

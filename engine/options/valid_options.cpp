@@ -135,7 +135,7 @@ void require_valid_constraints(const FlowOptions& options)
             "rescale, within and limits are for results whose sub-meshes are joined; keep_gaps leaves them "
             "separate");
     if (!options.motion.feature_edges.empty()) {
-        if (!smooths_normals(options))
+        if (!smooths_normals(options) || smooths_rims(options))
             throw OptionError(
                 "feature_edges are kept only with keep_edges or denoise: give the angle of edges as well");
         if (options.motion.rescale != Rescale::None || options.motion.within)
@@ -258,15 +258,21 @@ void require_valid_edges(const FlowOptions& options)
 {
     if (!smooths_normals(options))
         return;
+    if (smooths_rims(options) && (options.denoise || options.keep_edges))
+        throw OptionError("boundary is smooth, so that it alone moves: give a radius or a time step, and leave out "
+                          "keep_edges and denoise");
     std::string_view other = first_set(options, concern::equations & ~concern::sub_meshes);
     if (options.cut.subdomains > 1 || !options.cut.labels.empty())
         other = "sub-meshes";
     else if (!is_plain_flow(options))
         other = "another flow, a filter or an attachment";
     if (!other.empty())
-        throw OptionError(
-            fmt::format("{} is given, which smooths normals on the whole mesh and rules out {}: leave one of them out",
-                        options.keep_edges ? "keep_edges" : "denoise", other));
+        throw OptionError(fmt::format(
+            "{} is given, which takes the whole mesh without equations and rules out {}: leave one of them out",
+            options.keep_edges      ? "keep_edges"
+            : smooths_rims(options) ? "a smooth boundary"
+                                    : "denoise",
+            other));
 }
 
 }  // namespace

@@ -55,7 +55,7 @@ void constrain(Topology& topology, const PolygonMesh& mesh, const FlowOptions& o
     }
     if (options.motion.junctions == Junctions::Flow)
         free_junctions(mesh, topology, exec);
-    if (options.motion.boundary == Boundary::Free)
+    if (options.motion.boundary != Boundary::Fixed)
         free_boundary(topology);
     hold(topology, options.motion.fixed_vertices);
     const std::size_t n_weights = options.motion.attachment_weights.size();

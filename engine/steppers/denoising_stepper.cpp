@@ -84,7 +84,7 @@ void DenoisingStepper::save(StepMemory& memory) const
 {
     memory.positions = positions_;
     if (noise_)
-        memory.numbers = {noise_->deviation, noise_->edge, noise_->part};
+        memory.numbers = {noise_->deviation, noise_->edge, noise_->part, noise_->rim_vertices};
 }
 
 void DenoisingStepper::restore(const StepMemory& memory)
@@ -92,7 +92,7 @@ void DenoisingStepper::restore(const StepMemory& memory)
     positions_ = memory.positions;
     StepMemoryReader reader(memory);
     noise_.emplace();
-    for (double* number : {&noise_->deviation, &noise_->edge, &noise_->part})
+    for (double* number : {&noise_->deviation, &noise_->edge, &noise_->part, &noise_->rim_vertices})
         *number = reader.number();
     reader.require_end();
 }
@@ -107,6 +107,12 @@ void DenoisingStepper::report_to(FlowReport& report) const
     report.noise = {noise_->edge > 0.0 ? noise_->deviation / noise_->edge : 0.0, noise_->part};
     if (!denoiser_.spikes().empty())
         report.remarks.push_back(remark_on_spikes(denoiser_.spikes()));
+    if (noise_->rim_vertices > 0.0)
+        report.choices.push_back(fmt::format("noise or stairs of rims of {:.0f} vertices: removed; they became smooth "
+                                             "curves",
+                                             noise_->rim_vertices));
+    if (noise_->part == 0.0 && noise_->rim_vertices > 0.0)
+        return;
     if (noise_->part == 0.0) {
         report.remarks.emplace_back("No noise was found: nothing is smoothed. Use --radius to smooth anyway.");
         return;

@@ -60,6 +60,18 @@ DirectedMotion::DirectedMotion(const PolygonMesh& mesh, const Topology& topology
 {
 }
 
+template <class Seen>
+double DirectedMotion::longest_edge(Index v, const Points& positions, Seen&& seen) const
+{
+    double squared = 0.0;
+    for (const Index corner : topology_.corners_at(v))
+        for (const Index end : {topology_.next(mesh_, corner), topology_.previous(mesh_, corner)}) {
+            const Point edge = positions.row(mesh_.face_vertices[end]) - positions.row(v);
+            squared = std::max(squared, seen(edge).squaredNorm());
+        }
+    return std::sqrt(squared);
+}
+
 void DirectedMotion::project(const Points& before, Points& after, const Executor& exec) const
 {
     const Points moved = after;
@@ -75,6 +87,8 @@ void DirectedMotion::project(const Points& before, Points& after, const Executor
     const std::vector<double> distances =
         distances_from(mesh_, topology_, silhouette, std::numeric_limits<double>::infinity());
     move_each(before, after, exec, [&](Index v, const Point& way) {
+        if (misses_rim(v, way, moved))
+            return Point(Point::Zero());
         const Point n = normals_(v, moved);
         const double shorter = way_to_plane(way, direction_, n, least_cosine_at_silhouette);
         if (std::abs(direction_.dot(n)) >= least_cosine_at_silhouette || n.isZero(0.0))
@@ -87,16 +101,27 @@ void DirectedMotion::project(const Points& before, Points& after, const Executor
 
 double DirectedMotion::least_way(Index v, const Point& way, const Points& moved) const
 {
-    double least = way_to_plane(way, direction_, normals_(v, moved), least_cosine);
-    for (const Index corner : topology_.corners_at(v)) {
-        const Point n = vector_area(mesh_.face(topology_.face_of[corner]), moved).stableNormalized();
-        if (n.isZero(0.0))
-            continue;
+    const double along = way.dot(direction_);
+    const double furthest =
+        std::max(longest_edge(v, moved, [](const Point& edge) { return edge; }), (way - along * direction_).norm());
+    double least = std::numeric_limits<double>::infinity();
+    const auto consider = [&](const Point& n) {
         const double to_plane = way_to_plane(way, direction_, n, least_cosine);
-        if (std::abs(to_plane) < std::abs(least))
+        if (!n.isZero(0.0) && std::abs(to_plane - along) <= furthest && std::abs(to_plane) < std::abs(least))
             least = to_plane;
-    }
-    return least;
+    };
+    consider(normals_(v, moved));
+    for (const Index corner : topology_.corners_at(v))
+        consider(vector_area(mesh_.face(topology_.face_of[corner]), moved).stableNormalized());
+    return std::isfinite(least) ? least : 0.0;
+}
+
+bool DirectedMotion::misses_rim(Index v, const Point& way, const Points& moved) const
+{
+    const Point aside = way - way.dot(direction_) * direction_;
+    return topology_.kind[v] == VertexKind::Boundary && aside.norm() > longest_edge(v, moved, [&](const Point& edge) {
+                                                            return Point(edge - edge.dot(direction_) * direction_);
+                                                        });
 }
 
 bool DirectedMotion::is_on_silhouette(Index v, const Points& positions) const

@@ -6,6 +6,7 @@
 #include "engine/steppers/denoising_stepper.h"
 #include "engine/steppers/edge_keeping_stepper.h"
 #include "engine/steppers/explicit_stepper.h"
+#include "engine/steppers/rim_stepper.h"
 #include "engine/steppers/schur_stepper.h"
 #include "engine/steppers/sweep_stepper.h"
 
@@ -14,6 +15,8 @@ namespace seamflow {
 std::unique_ptr<Stepper> make_stepper(const PolygonMesh& mesh, const Topology& topology, const Cut& cut,
                                       const FlowOptions& options, std::vector<double> curvature, Progress& progress)
 {
+    if (smooths_rims(options))
+        return std::make_unique<RimStepper>(mesh, topology, options, progress);
     if (options.denoise)
         return std::make_unique<DenoisingStepper>(mesh, topology, options, progress);
     if (options.keep_edges)

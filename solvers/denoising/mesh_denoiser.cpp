@@ -163,10 +163,20 @@ Points MeshDenoiser::without_noise(const Points& before, std::span<const double>
             fitted.row(v) = begun.row(v) + parts[v] * (fitted.row(v) - begun.row(v));
     });
     Points result = along_normals(*mesh_, *topology_, begun, fitted, normals, exec);
-    rims_.apply(*topology_, normals, parts, result);
     if (edge_angle_)
         take_smoother_places({*mesh_, *topology_, begun, normals, parts}, places_.components(), *edge_angle_, result,
                              exec);
+    // The rims of thinned meshes are jagged by their making.
+    if (n_thinned_ == 0) {
+        const Points motions = rims_.motions(*mesh_, *topology_, normals, parts, before);
+        for_each(exec, mesh_->n_vertices(), [&](Index v) {
+            if (!motions.row(v).isZero(0.0))
+                result.row(v) += strength(v) * motions.row(v);
+        });
+        noise_.rim_vertices = sum(exec, mesh_->n_vertices(), [&](Index v) {
+            return topology_->kind[v] == VertexKind::Boundary && !motions.row(v).isZero(0.0) ? 1.0 : 0.0;
+        });
+    }
     keep_all_facing(before, normals, result, exec);
     return result;
 }
@@ -259,7 +269,7 @@ void MeshDenoiser::measure_noise(const Points& motions, std::span<const double> 
         },
         Sums(Sums::Zero()));
     noise_ = sums[2] > 0.0 ? SurfaceNoise{noise_by_motion * std::sqrt(sums[0] / sums[2]), std::sqrt(sums[1] / sums[2]),
-                                          sums[2] / sums[3]}
+                                          sums[2] / sums[3], 0.0}
                            : SurfaceNoise{};
 }
 

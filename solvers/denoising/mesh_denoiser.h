@@ -26,6 +26,8 @@ struct SurfaceNoise {
     double edge = 0.0;
     /// The fraction of vertices that have noise.
     double part = 0.0;
+    /// The number of vertices of the boundary that leave noise or stairs of their rim (see RimFilter).
+    double rim_vertices = 0.0;
 };
 
 /// Removes noise: face normals are estimated, and the vertices move to fit them, along the normals unless a face would

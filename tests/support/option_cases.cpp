@@ -162,6 +162,8 @@ const std::vector<OptionCase>& option_cases()
                  o.motion.feature_edges.push_back({mesh.face(f)[0], mesh.face(f)[1]});
          }},
         {"boundary", "free", plain([](O& o) { o.motion.boundary = Boundary::Free; })},
+        {"boundary", "smooth",
+         plain([](O& o) { o.motion.boundary = Boundary::Smooth, o.accuracy.tolerance.reset(); })},
         {"junctions", "hold", plain([](O& o) { o.motion.junctions = Junctions::Hold; })},
         {"fixed_vertices", "some",
          [](O& o, const PolygonMesh& mesh, double) { o.motion.fixed_vertices = some_vertices(mesh); }},

@@ -10,7 +10,6 @@
 #include "solvers/denoising/mixing_weights.h"
 #include "solvers/denoising/normal_motion.h"
 #include "solvers/denoising/position_filters.h"
-#include "solvers/denoising/rim_filter.h"
 #include "tests/support/denoising.h"
 #include "tests/support/relative.h"
 #include "tests/support/test_meshes.h"
@@ -229,46 +228,4 @@ TEST_CASE("of a motion only what changes faces is left, and no face turns over")
     keep_facing(mesh, topology, mesh.vertices, tilted, kept);
     for (Index f = 0; f < mesh.n_faces(); ++f)
         CHECK(vector_area(mesh.face(f), kept).dot(tilted.row(f)) > 0.0);
-}
-
-TEST_CASE("a rim loses its noise within the surface, keeps its corners, and stays where it has none")
-{
-    // A disc in a plane with a rectangle's corners at its rim: a grid.
-    const PolygonMesh truth = test::triangle_grid(60, 40);
-    const Topology topology = make_topology(truth);
-    const RimFilter filter(truth, topology);
-    Topology free = topology;
-    free_boundary(free);
-    const Points up = normals_of(truth);
-    const std::vector<double> all(usize(truth.n_vertices()), 1.0);
-    Points positions = truth.vertices;
-    filter.apply(free, up, all, positions);
-    CHECK(positions.cwiseEqual(truth.vertices).all());
-
-    const PolygonMesh noisy = test::with_gaussian_noise(truth, 0.3, 4);
-    positions = noisy.vertices;
-    positions.col(2).setZero();
-    const Points before = positions;
-    const auto distance_from_rim = [&](const Points& where) {
-        double squares = 0.0;
-        for (Index v = 0; v < truth.n_vertices(); ++v)
-            if (topology.kind[v] == VertexKind::Boundary)
-                for (int x = 0; x < 2; ++x)
-                    if (const double at_rim = truth.vertices(v, x);
-                        at_rim == truth.vertices.col(x).minCoeff() || at_rim == truth.vertices.col(x).maxCoeff())
-                        squares += std::pow(where(v, x) - at_rim, 2);
-        return std::sqrt(squares);
-    };
-    filter.apply(free, up, all, positions);
-    // Long waves stay.
-    CHECK(distance_from_rim(positions) < 0.75 * distance_from_rim(before));
-    for (Index v = 0; v < truth.n_vertices(); ++v)
-        if (topology.kind[v] != VertexKind::Boundary)
-            CHECK(positions.row(v).cwiseEqual(before.row(v)).all());
-    // Held, and without noise on the surface, it stays.
-    positions = before;
-    filter.apply(topology, up, all, positions);
-    CHECK(positions.cwiseEqual(before).all());
-    filter.apply(free, up, std::vector<double>(all.size(), 0.0), positions);
-    CHECK(positions.cwiseEqual(before).all());
 }

@@ -1,0 +1,74 @@
+#include "engine/steppers/rim_stepper.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "engine/setup/smoothed_radius.h"
+#include "partition/errors.h"
+#include "partition/vector_area.h"
+
+namespace seamflow {
+
+namespace {
+
+/// The radius whose bumps one of n steps halves: all leave 1 / (1 + (r/R)⁴)ⁿ = ½ of those of the radius R that all have
+/// together.
+double radius_of_step(const FlowOptions& options)
+{
+    const double of_all = smoothed_radius(options.time_step, std::max(options.steps, 1), filter_of(options));
+    return of_all * std::pow(std::exp2(1.0 / std::max(options.steps, 1)) - 1.0, 0.25);
+}
+
+}  // namespace
+
+RimStepper::RimStepper(const PolygonMesh& mesh, const Topology& topology, const FlowOptions& options,
+                       Progress& progress)
+    : mesh_(&mesh)
+    , topology_(&topology)
+    , curves_(find_rim_curves(mesh, topology))
+    , radius_(radius_of_step(options))
+    , step_scales_(options.motion.strength)
+    , positions_(mesh.vertices)
+    , loops_(1.0, progress)
+{
+}
+
+void RimStepper::step(const Points& before)
+{
+    assert(&before != &positions_);
+    const Executor exec = loops_.begin();
+    Points normals(mesh_->n_faces(), 3);
+    for_each(exec, mesh_->n_faces(), [&](Index f) { normals.row(f) = vector_area(mesh_->face(f), before); });
+    Points motions = Points::Zero(before.rows(), 3);
+    for (const RimCurve& curve : curves_) {
+        const Points from = before(curve.vertices, Eigen::all);
+        const Points smooth = smooth_curve(curve, from, radius_, false).positions;
+        const Points across = across_curve(curve, smooth, normals);
+        for (std::size_t i = 0; i < curve.vertices.size(); ++i) {
+            const auto row = static_cast<Eigen::Index>(i);
+            if (const Index v = curve.vertices[i]; topology_->moves(v))
+                motions.row(v) = (smooth.row(row) - from.row(row)).dot(across.row(row)) * across.row(row);
+        }
+    }
+    spread_into_band(*mesh_, *topology_, before, motions);
+    keep_areas(*mesh_, before, normals, motions);
+    positions_ = before;
+    for_each(exec, mesh_->n_vertices(), [&](Index v) {
+        if (!motions.row(v).isZero(0.0))
+            positions_.row(v) += (step_scales_.empty() ? 1.0 : step_scales_[v]) * motions.row(v);
+    });
+    loops_.end();
+    if (!positions_.allFinite())
+        throw ComputationError("the result is not finite: scale the mesh to a size nearer to 1");
+}
+
+void RimStepper::report_to(FlowReport& report) const
+{
+    if (mesh_->n_faces() > 0)
+        report.cut.sub_meshes = {{mesh_->n_faces(), mesh_->n_vertices()}};
+    if (curves_.empty())
+        report.remarks.emplace_back("The surface has no boundary: nothing moved. Leave --boundary out to smooth it.");
+}
+
+}  // namespace seamflow

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <vector>
+
+#include "engine/measure/flow_report.h"
+#include "engine/options/flow_options.h"
+#include "engine/steppers/stepper.h"
+#include "engine/tasks/progress.h"
+#include "partition/polygon_mesh.h"
+#include "partition/topology.h"
+#include "solvers/denoising/rim_curves.h"
+
+namespace seamflow {
+
+/// Takes steps in which the boundary of a surface moves alone (Boundary::Smooth): its vertices go to a smooth curve, at
+/// right angles to it and along the surface, which follows within a band.
+class RimStepper final : public Stepper {
+  public:
+    /// @param mesh, topology, progress must outlive the stepper; the twins of the topology are not needed later.
+    RimStepper(const PolygonMesh& mesh, const Topology& topology, const FlowOptions& options, Progress& progress);
+
+    /// @throws ComputationError if the result is not finite.
+    void step(const Points& before) override;
+    [[nodiscard]] const Points& positions() const override { return positions_; }
+    void set_positions(const Points& image, const SimilarityOfComponents&) override { positions_ = image; }
+    void set_vertices(std::span<const Index> vertices, const Points& to) override
+    {
+        move_rows(vertices, to, positions_);
+    }
+    void save(StepMemory& memory) const override { memory.positions = positions_; }
+    void restore(const StepMemory& memory) override { positions_ = memory.positions; }
+    /// There are no tasks.
+    void add_seconds(PhaseSeconds&) const override {}
+    /// A single step has nothing to report.
+    void report_to(StepReport&) const override {}
+    void report_to(FlowReport& report) const override;
+
+  private:
+    const PolygonMesh* mesh_;
+    const Topology* topology_;
+    std::vector<RimCurve> curves_;
+    /// Of bumps that a step halves, in units of length.
+    double radius_;
+    /// #V: the part of each displacement that vertices go; empty: 1.
+    std::vector<double> step_scales_;
+    Points positions_;
+    LoopCount loops_;
+};
+
+}  // namespace seamflow

@@ -1,0 +1,348 @@
+#include "solvers/denoising/rim_curves.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <numbers>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include "partition/index_lists.h"
+#include "partition/vector_area.h"
+#include "solvers/laplacian/geometry.h"
+
+namespace seamflow {
+
+namespace {
+
+/// Half of the weight of a bend is left where the curve turns by this much within R, in radians.
+constexpr double turn_at_corners = 0.6;
+/// Of finding corners.
+constexpr int rounds_for_corners = 6;
+/// Edges shorter than this part of the mean count as so long: what noise folds has no edges of length 0.
+constexpr double shortest_edge = 0.25;
+/// How many times as wide as the largest motion a band is: faces are squeezed by a quarter at most.
+constexpr double widths_of_band = 4.0;
+/// The part of its area that a face keeps; by how much motions are shortened at once, and how often at most.
+constexpr double least_area = 0.1;
+constexpr double shortening = 0.9;
+constexpr int most_shortenings = 40;
+
+/// An edge of one face between boundary vertices.
+struct Segment {
+    std::array<Index, 2> ends;
+    Index face;
+};
+
+/// Symmetric positive definite equations in which an unknown of a curve meets those next to it and the next but one.
+/// The unknowns of a closed curve are numbered from both of its ends in turn, so that all that meet are at most four
+/// numbers apart: the factors L D Lᵀ stay within that band.
+class BandedEquations {
+  public:
+    BandedEquations(Index n, bool is_closed)
+        : band_(Band::Zero(n, width + 1))
+        , is_closed_(is_closed)
+    {
+    }
+
+    void add(Index i, Index j, double value)
+    {
+        const Index row = std::max(number(i), number(j));
+        const Index column = std::min(number(i), number(j));
+        if (i == j)
+            band_(row, 0) += value;
+        else if (row > column)
+            band_(row, row - column) += i < j ? value : 0.0;
+    }
+
+    /// @param right_hand_side by 3, in the order of the curve.
+    Points solve(const Points& right_hand_side)
+    {
+        const auto n = static_cast<Index>(band_.rows());
+        Points x(n, 3);
+        for (Index i = 0; i < n; ++i)
+            x.row(number(i)) = right_hand_side.row(i);
+        for (Index i = 0; i < n; ++i) {
+            // l_ij d_j = a_ij - Σ l_ik d_k l_jk
+            for (Index j = std::max(Index{0}, i - width); j <= i; ++j) {
+                double value = band_(i, i - j);
+                for (Index k = std::max(Index{0}, i - width); k < j; ++k)
+                    value -= band_(i, i - k) * band_(k, 0) * band_(j, j - k);
+                band_(i, i - j) = j < i ? value / band_(j, 0) : value;
+            }
+            for (Index k = std::max(Index{0}, i - width); k < i; ++k)
+                x.row(i) -= band_(i, i - k) * x.row(k);
+        }
+        for (Index i = n - 1; i >= 0; --i) {
+            x.row(i) /= band_(i, 0);
+            for (Index k = i + 1; k <= std::min(n - 1, i + width); ++k)
+                x.row(i) -= band_(k, k - i) * x.row(k);
+        }
+        Points solution(n, 3);
+        for (Index i = 0; i < n; ++i)
+            solution.row(i) = x.row(number(i));
+        return solution;
+    }
+
+  private:
+    static constexpr Index width = 4;
+    using Band = Eigen::Matrix<double, Eigen::Dynamic, width + 1, Eigen::RowMajor>;
+
+    [[nodiscard]] Index number(Index i) const
+    {
+        const auto n = static_cast<Index>(band_.rows());
+        if (!is_closed_)
+            return i;
+        return 2 * i < n ? 2 * i : 2 * (n - i) - 1;
+    }
+
+    /// Row i has the entries (i, i), (i, i - 1) and so on.
+    Band band_;
+    bool is_closed_;
+};
+
+/// One per vertex of a curve: the sum of the normals of its faces at the curve.
+Points normals_along(const RimCurve& curve, const Points& normals)
+{
+    Points sums = Points::Zero(static_cast<Eigen::Index>(curve.vertices.size()), 3);
+    for (std::size_t s = 0; s < curve.faces.size(); ++s) {
+        const std::size_t after = s + 1 < curve.vertices.size() ? s + 1 : 0;
+        for (const std::size_t end : {s, after}) {
+            const Point normal = normals.row(curve.faces[s]);
+            // Faces need not be oriented alike.
+            sums.row(static_cast<Eigen::Index>(end)) +=
+                sums.row(static_cast<Eigen::Index>(end)).dot(normal) < 0.0 ? Point(-normal) : normal;
+        }
+    }
+    return sums;
+}
+
+std::vector<Segment> segments_of(const PolygonMesh& mesh, const Topology& topology)
+{
+    std::vector<Segment> segments;
+    const auto is_rim = [&](Index v) { return topology.kind[v] == VertexKind::Boundary; };
+    for (Index h = 0; h < mesh.n_corners(); ++h)
+        if (topology.twin[h] < 0) {
+            const Index from = mesh.face_vertices[h];
+            const Index to = mesh.face_vertices[topology.next(mesh, h)];
+            if (is_rim(from) && is_rim(to))
+                segments.push_back({{from, to}, topology.face_of[h]});
+        }
+    return segments;
+}
+
+}  // namespace
+
+std::vector<RimCurve> find_rim_curves(const PolygonMesh& mesh, const Topology& topology)
+{
+    std::vector<RimCurve> curves;
+    const std::vector<Segment> segments = segments_of(mesh, topology);
+    const auto n = static_cast<Index>(segments.size());
+    const IndexLists at_vertex = make_lists(mesh.n_vertices(), [&](auto&& enter) {
+        for (Index s = 0; s < n; ++s)
+            for (const Index v : segments[s].ends)
+                enter(v, s);
+    });
+    std::vector<std::uint8_t> is_taken(segments.size(), 0);
+    const auto follow = [&](Index start, Index first) {
+        RimCurve curve{{start}, {}, false};
+        Index v = start;
+        for (Index s = first; s >= 0;) {
+            is_taken[s] = 1;
+            curve.faces.push_back(segments[s].face);
+            v = segments[s].ends[segments[s].ends[0] == v ? 1 : 0];
+            if (v == start)
+                break;
+            curve.vertices.push_back(v);
+            const auto around = at_vertex[v];
+            const Index next = around.size() != 2 ? Index{-1} : around[around[0] == s ? 1 : 0];
+            s = next >= 0 && is_taken[next] == 0 ? next : Index{-1};
+        }
+        curve.is_closed = v == start && at_vertex[start].size() == 2 && curve.faces.size() > 2;
+        curves.push_back(std::move(curve));
+    };
+    for (const bool begins_at_ends : {true, false})
+        for (Index s = 0; s < n; ++s)
+            for (const Index v : segments[s].ends)
+                if (is_taken[s] == 0 && (!begins_at_ends || at_vertex[v].size() != 2))
+                    follow(v, s);
+    return curves;
+}
+
+SmoothCurve smooth_curve(const RimCurve& curve, const Points& positions, double radius, bool keeps_corners)
+{
+    const auto n = static_cast<Index>(positions.rows());
+    const Index n_edges = curve.is_closed ? n : n - 1;
+    const auto next = [&](Index i) { return i + 1 < n ? i + 1 : Index{0}; };
+    const auto previous = [&](Index i) { return i > 0 ? i - 1 : n - 1; };
+    Eigen::VectorXd h(n);
+    for (Index i = 0; i < n; ++i)
+        h[i] = (positions.row(next(i)) - positions.row(i)).norm();
+    const double mean = h.head(n_edges).sum() / static_cast<double>(std::max(n_edges, Index{1}));
+    SmoothCurve smooth{positions, std::vector<double>(usize(n), 1.0)};
+    constexpr Index fewest = 5;
+    if (n < fewest || !(mean > 0.0))
+        return smooth;
+    h = h.cwiseMax(shortest_edge * mean);
+    const auto is_end = [&](Index i) { return !curve.is_closed && (i == 0 || i == n - 1); };
+    const auto length_at = [&](Index i) { return is_end(i) ? h[i == 0 ? 0 : n - 2] : 0.5 * (h[previous(i)] + h[i]); };
+    const auto bend = [&](Index i) {
+        const std::array<Index, 3> at{previous(i), i, next(i)};
+        const double before = 1.0 / h[previous(i)];
+        const double after = 1.0 / h[i];
+        return std::pair(at, std::array{before, -(before + after), after});
+    };
+    const double amount = std::pow(2.0 * radius / std::numbers::pi, 4);
+    for (int round = 0; round < (keeps_corners ? rounds_for_corners : 1); ++round) {
+        // Ends stay: their equations are x = p, and what others have of them goes to the right-hand side.
+        BandedEquations equations(n, curve.is_closed);
+        Points right_hand_side(n, 3);
+        for (Index i = 0; i < n; ++i) {
+            equations.add(i, i, is_end(i) ? 1.0 : length_at(i));
+            right_hand_side.row(i) = (is_end(i) ? 1.0 : length_at(i)) * positions.row(i);
+        }
+        for (Index i = 0; i < n; ++i) {
+            if (is_end(i))
+                continue;
+            const auto [at, b] = bend(i);
+            const double weight = amount * smooth.smoothness[i] / length_at(i);
+            for (std::size_t k = 0; k < 3; ++k)
+                for (std::size_t l = 0; l < 3; ++l) {
+                    if (is_end(at[k]))
+                        continue;
+                    if (is_end(at[l]))
+                        right_hand_side.row(at[k]) -= weight * b[k] * b[l] * positions.row(at[l]);
+                    else
+                        equations.add(at[k], at[l], weight * b[k] * b[l]);
+                }
+        }
+        smooth.positions = equations.solve(right_hand_side);
+        for (Index i = 0; keeps_corners && i < n; ++i) {
+            if (is_end(i))
+                continue;
+            const auto [at, b] = bend(i);
+            Point sum = Point::Zero();
+            for (std::size_t k = 0; k < 3; ++k)
+                sum += b[k] * smooth.positions.row(at[k]);
+            const double turn = radius * sum.norm() / length_at(i) / turn_at_corners;
+            smooth.smoothness[i] = 1.0 / (1.0 + std::pow(turn, 4));
+        }
+    }
+    return smooth;
+}
+
+Points across_curve(const RimCurve& curve, const Points& positions, const Points& normals)
+{
+    const auto n = static_cast<Index>(positions.rows());
+    const Points of_vertices = normals_along(curve, normals);
+    Points across(n, 3);
+    for (Index i = 0; i < n; ++i) {
+        const bool has_both = curve.is_closed || (i > 0 && i + 1 < n);
+        const Index from = i > 0 ? i - 1 : has_both ? n - 1 : i;
+        const Index to = i + 1 < n ? i + 1 : has_both ? Index{0} : i;
+        const Point along = positions.row(to) - positions.row(from);
+        const Point normal = of_vertices.row(i);
+        across.row(i) = unit_or_zero(along.cross(normal));
+    }
+    return across;
+}
+
+void keep_areas(const PolygonMesh& mesh, const Points& positions, const Points& normals, Points& motions)
+{
+    std::vector<Index> faces;
+    for (Index f = 0; f < mesh.n_faces(); ++f)
+        if (std::ranges::any_of(mesh.face(f), [&](Index v) { return !motions.row(v).isZero(0.0); }))
+            faces.push_back(f);
+    std::vector<std::uint8_t> is_shortened(usize(mesh.n_vertices()));
+    Points moved = positions;
+    for (int round = 0; round < most_shortenings; ++round) {
+        for (const Index f : faces)
+            for (const Index v : mesh.face(f)) {
+                moved.row(v) = positions.row(v) + motions.row(v);
+                is_shortened[v] = 0;
+            }
+        for (const Index f : faces) {
+            const Point normal = normals.row(f);
+            const double before = vector_area(mesh.face(f), positions).dot(normal);
+            if (before > 0.0 && vector_area(mesh.face(f), moved).dot(normal) < least_area * before)
+                for (const Index v : mesh.face(f))
+                    is_shortened[v] = 1;
+        }
+        bool any = false;
+        for (Index v = 0; v < mesh.n_vertices(); ++v)
+            if (is_shortened[v] != 0) {
+                motions.row(v) *= shortening;
+                any = true;
+            }
+        if (!any)
+            return;
+    }
+}
+
+void spread_into_band(const PolygonMesh& mesh, const Topology& topology, const Points& positions, Points& motions)
+{
+    const auto neighbour_ends = [&](Index v, auto&& visit) {
+        for (const Index corner : topology.corners_at(v))
+            for (const Index end : {topology.next(mesh, corner), topology.previous(mesh, corner)})
+                visit(mesh.face_vertices[end]);
+    };
+    constexpr Index unreached = -1;
+    std::vector<Index> ring(usize(mesh.n_vertices()), unreached);
+    std::vector<Index> front;
+    double largest = 0.0;
+    double total = 0.0;
+    double n_edges = 0.0;
+    for (Index v = 0; v < mesh.n_vertices(); ++v)
+        if (topology.kind[v] == VertexKind::Boundary) {
+            ring[v] = 0;
+            if (motions.row(v).isZero(0.0))
+                continue;
+            front.push_back(v);
+            largest = std::max(largest, motions.row(v).norm());
+            neighbour_ends(v, [&](Index w) {
+                total += (positions.row(w) - positions.row(v)).norm();
+                n_edges += 1.0;
+            });
+        }
+    if (front.empty() || !(total > 0.0))
+        return;
+    const auto n_rings = static_cast<Index>(std::ceil(widths_of_band * largest * n_edges / total));
+    for (Index k = 1; k <= n_rings && !front.empty(); ++k) {
+        std::vector<Index> further;
+        for (const Index v : front)
+            neighbour_ends(v, [&](Index w) {
+                if (ring[w] == unreached) {
+                    ring[w] = k;
+                    further.push_back(w);
+                }
+            });
+        std::ranges::sort(further);
+        for (const Index v : further) {
+            double count = 0.0;
+            neighbour_ends(v, [&](Index w) {
+                if (ring[w] == k - 1) {
+                    motions.row(v) += motions.row(w);
+                    count += 1.0;
+                }
+            });
+            motions.row(v) /= count;
+        }
+        front.swap(further);
+    }
+    for (Index v = 0; v < mesh.n_vertices(); ++v) {
+        if (ring[v] <= 0)
+            continue;
+        Point normal = Point::Zero();
+        for (const Index corner : topology.corners_at(v))
+            normal += vector_area(mesh.face(topology.face_of[corner]), positions);
+        normal = unit_or_zero(normal);
+        const double part = topology.moves(v) ? 1.0 - static_cast<double>(ring[v]) / (n_rings + 1.0) : 0.0;
+        const Point motion = motions.row(v);
+        motions.row(v) = part * (motion - motion.dot(normal) * normal);
+    }
+}
+
+}  // namespace seamflow
