@@ -23,7 +23,7 @@ constexpr double least_cosine = 0.7;
 constexpr double loss_of_cosine = 0.02;
 /// The cosine between a face and its wanted normal below which the face may not turn further away from it: wanted
 /// normals of slivers, whose heights noise exceeds, are themselves off by some degrees.
-constexpr double least_facing = 0.2;
+constexpr double least_facing = 0.1;
 /// How far vertices that move freely spread around folded faces, in rounds.
 constexpr int freeing_rounds = 6;
 /// How often motions are halved; after that vertices stay.
@@ -143,8 +143,9 @@ void keep_facing(const PolygonMesh& mesh, const Topology& topology, const Points
         std::vector<std::uint8_t> is_folded(usize(mesh.n_faces()), 0);
         for (const Index f : folded_faces(mesh, before, positions, flipped_faces(mesh, before, positions, exec)))
             is_folded[f] = 1;
-        const std::vector<Index> turned = faces.vertices_of(
-            [&](Index f) { return is_folded[f] != 0 || (cosines[f] < least_facing && cosines[f] < of_before[f]); });
+        const std::vector<Index> turned = faces.vertices_of([&](Index f) {
+            return is_folded[f] != 0 || (of_before[f] > 0.0 && cosines[f] < std::min(least_facing, of_before[f]));
+        });
         if (turned.empty())
             return;
         for (const Index v : turned)
