@@ -21,7 +21,7 @@ constexpr double relaxation_between = 0.1;
 constexpr int relaxing_rounds_between = 5;
 constexpr int plain_rounds_between = 8;
 /// How far from a boundary normals are averaged once more, in rings of faces; and the chord of unit normals that is σ
-/// of that average (see FaceAverages). On five range scans errors there fell by 2 to 8 %.
+/// of that average (see FaceAverages). On five range scans errors there fell by 3 to 6 %.
 constexpr int rings_near_rims = 3;
 constexpr float alike_near_rims = 0.4F;
 
