@@ -66,7 +66,7 @@ MeshDenoiser::MeshDenoiser(const PolygonMesh& mesh, const Topology& topology, co
     , topology_(triangles_ ? &triangles_->topology : &topology)
     , signs_(face_signs(*mesh_, *topology_))
     , averages_(*mesh_, *topology_, exec)
-    , places_(*mesh_, *topology_, as_one)
+    , places_(*mesh_, *topology_, as_one, n_thinned)
     , rims_(*mesh_, *topology_)
     , edge_angle_(edge_angle)
     , as_one_(as_one)

@@ -11,11 +11,11 @@ struct NoiseWeights {
 };
 
 // Written by samples/training/fit_noise.py.
-inline constexpr NoiseWeights weights_of_noise{8.105F,
-                                               {0.8518F, -8.979F, -9.817F, 1.253F, 0.0F, -3.744F, -0.3592F, 1.664F}};
+inline constexpr NoiseWeights weights_of_noise{
+    7.835F, {0.7461F, -7.567F, -7.349F, 1.431F, 0.0F, -4.101F, -0.3731F, 1.721F}};
 inline constexpr NoiseWeights weights_of_alike_noise{
-    8.442F, {0.8331F, 0.0F, -3.016F, 0.5443F, -0.3834F, -1.345F, -5.887F, 0.2786F}};
+    7.595F, {0.5887F, 0.0F, -2.508F, 0.5538F, -0.5689F, -1.006F, -6.188F, 0.0F}};
 inline constexpr NoiseWeights weights_of_alike_against_independent_noise{
-    -2.048F, {-0.4613F, 9.537F, 21.59F, -1.179F, -1.454F, 7.468F, -1.519F, -3.007F}};
+    -1.61F, {-0.5427F, 6.796F, 21.17F, -1.257F, -1.665F, 7.941F, 2.081F, -3.61F}};
 
 }  // namespace seamflow

@@ -32,7 +32,8 @@ std::vector<std::uint8_t> flat_vertices(const PolygonMesh& mesh, const Topology&
 class NoisyPlaces {
   public:
     /// @param topology with twins; not needed later. @param as_one whether all components are judged as one.
-    NoisyPlaces(const PolygonMesh& mesh, const Topology& topology, bool as_one = false);
+    /// @param n_thinned how often the mesh has been thinned out.
+    NoisyPlaces(const PolygonMesh& mesh, const Topology& topology, bool as_one = false, int n_thinned = 0);
 
     /// A denoiser's result, and what it is judged by. All members refer to the same mesh.
     struct Denoised {
@@ -60,15 +61,22 @@ class NoisyPlaces {
     [[nodiscard]] const Components& components() const { return components_; }
 
   private:
+    struct Demands {
+        /// Of the places of a component that has noise, this part has evidence for it.
+        double part;
+        /// Whether noise is found at single places of other components.
+        bool finds_single_places;
+    };
+
     /// Per place: 1 where there is noise.
     /// @param evidence per place. @param sizes per component: the number of faces that are not in flat places.
-    /// @param part of the places of a component that must have evidence.
     [[nodiscard]] std::vector<std::uint8_t> decide(std::span<const Index> component_of_place,
                                                    std::span<const float> evidence, std::span<const Index> sizes,
-                                                   double part) const;
+                                                   const Demands& demands) const;
 
     /// The components of the mesh, by faces: each is judged by itself.
     Components components_;
+    int n_thinned_;
 };
 
 /// What is taken away around each of some places, for the training of the decision.
