@@ -195,17 +195,21 @@ std::vector<std::uint8_t> NoisyPlaces::decide(std::span<const Index> component_o
 NoisyPlaces::Found NoisyPlaces::find(const Denoised& denoised, const Executor& exec) const
 {
     const auto& [mesh, topology, averages, before, after, found, is_flat] = denoised;
-    const std::vector<Index> places = spread_places(topology, averages.neighbours(), before, rings_between_places);
-    const std::vector<PlaceStatistics> measured = measure_places(denoised, places, exec);
+    const std::vector<Index> spread = spread_places(topology, averages.neighbours(), before, rings_between_places);
+    const std::vector<PlaceStatistics> measured = measure_places(denoised, spread, exec);
+    // Without those where nothing can be told.
+    std::vector<Index> places;
     std::vector<Index> component_of_place;
     std::vector<float> evidence;
     std::vector<float> evidence_of_alike;
-    for (std::size_t i = 0; i < places.size(); ++i) {
+    for (std::size_t i = 0; i < spread.size(); ++i) {
+        if (measured[i].n_vertices < fewest_of_place)
+            continue;
+        places.push_back(spread[i]);
         component_of_place.push_back(
-            components_.component_of[topology.face_of[topology.corners_at(places[i]).front()]]);
-        const bool says_nothing = measured[i].n_vertices < fewest_of_place;
-        evidence.push_back(says_nothing ? 0.0F : evidence_of_noise(measured[i]));
-        evidence_of_alike.push_back(says_nothing ? 0.0F : evidence_of_alike_noise(measured[i]));
+            components_.component_of[topology.face_of[topology.corners_at(spread[i]).front()]]);
+        evidence.push_back(evidence_of_noise(measured[i]));
+        evidence_of_alike.push_back(evidence_of_alike_noise(measured[i]));
     }
     std::vector<Index> sizes;
     for (Index c = 0; c < components_.count(); ++c)
