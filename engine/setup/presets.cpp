@@ -127,9 +127,10 @@ void choose_by_noise(const PolygonMesh& mesh, const std::optional<LengthOnMesh>&
                               "smooth anyway.");
     const double t = denoising_amount(flowing, joined, *choice.noise, exec).amount;
     // Of Δ_U, dt h²/4 of whose rows of the mean of differences are t.
-    const double radius = std::min(smoothed_radius(0.25 * t * mean_edge * mean_edge, 1, {.order = denoising_order}),
-                                   largest_radius * largest_diagonal(mesh, exec));
-    if (!(radius > 0.0))
+    const double most = largest_radius * largest_diagonal(mesh, exec);
+    const double radius =
+        std::min(smoothed_radius(0.25 * t * mean_edge * mean_edge, 1, {.order = denoising_order}), most);
+    if (!(radius > 0.0) || !(*choice.noise <= most))
         return smooth_nothing(
             choice, mean_edge,
             known ? fmt::format(

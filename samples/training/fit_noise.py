@@ -5,8 +5,8 @@
     fit_noise.py fit                    writes solvers/denoising/noise_weights.h, and says which meshes are misjudged
     fit_noise.py draw PICTURE           draws the evidence of all meshes (needs matplotlib)
 
-Labels: shape (a clean surface), noise (independent at neighbouring vertices), relief (such noise on a surface with
-relief), alike (noise that is alike at neighbours, such as that of scanners). It needs numpy, and for new meshes the
+Labels: shape (a clean surface), noise (independent at neighbouring vertices, also on a surface with relief), alike
+(noise that was made alike at neighbours), scan (the noise of a scanner). It needs numpy, and for new meshes the
 program noise_features (cmake --build build --target noise_features). See noise_or_shape.md.
 """
 
@@ -26,10 +26,12 @@ AGAINST_SHAPE = np.array([1, -1, -1, 1, -1, -1, -1, 1])
 NO_SIGNS = np.zeros(8)
 # Which labels speak for each kind of noise, and which against it.
 MODELS = {
-    "weights_of_noise": (("noise", "relief"), ("shape",), AGAINST_SHAPE),
-    "weights_of_alike_noise": (("alike",), ("shape",), AGAINST_SHAPE),
-    "weights_of_alike_against_independent_noise": (("alike",), ("noise",), NO_SIGNS),
+    "weights_of_independent_noise": (("noise",), ("shape",), AGAINST_SHAPE),
+    "weights_of_alike_noise": (("alike", "scan"), ("shape",), AGAINST_SHAPE),
+    "weights_of_alike_against_independent_noise": (("alike", "scan"), ("noise",), NO_SIGNS),
 }
+# How many meshes each side counts as.
+MESHES_OF_SIDE = 100.0
 # Of the squares of weights of normalised features, relative to one mesh.
 RIDGE = 0.1
 
@@ -85,14 +87,17 @@ def signed_regression(features, is_noise, weights, signs):
 
 
 def fitted(labels, names, features):
-    """The constant and the weights of each model. All meshes count alike, and noise as much as shape."""
+    """The constant and the weights of each model. Both sides count alike, on each side all labels, and so all meshes."""
     models = {}
     for model, (yes, no, signs) in MODELS.items():
         used = np.isin(labels, yes + no)
         is_noise = np.isin(labels[used], yes)
         _, mesh, count = np.unique(names[used], return_inverse=True, return_counts=True)
         weights = 1.0 / count[mesh]
-        weights[is_noise] *= weights[~is_noise].sum() / weights[is_noise].sum()
+        for side in (yes, no):
+            for label in side:
+                of_label = labels[used] == label
+                weights[of_label] *= MESHES_OF_SIDE / (len(side) * weights[of_label].sum())
         models[model] = signed_regression(features[used], is_noise.astype(float), weights, signs)
     return models
 

@@ -10,8 +10,8 @@ namespace seamflow {
 namespace {
 
 /// Added before logarithms are taken, in edge lengths and as kurtosis.
-constexpr float least_length = 0.001F;
-constexpr float least_kurtosis = 0.5F;
+constexpr float added_to_length = 0.001F;
+constexpr float added_to_kurtosis = 0.5F;
 /// Smoothness says nothing beyond these, nor correlations below this one.
 constexpr float most_smoothness = 3.0F;
 constexpr float least_smoothness = -0.5F;
@@ -33,7 +33,7 @@ float evidence(const NoiseWeights& weights, const PlaceStatistics& place)
 
 std::array<float, noise_features.size()> features_of(const PlaceStatistics& place)
 {
-    const auto log_length = [](float length) { return std::log(length + least_length); };
+    const auto log_length = [](float length) { return std::log(length + added_to_length); };
     return {log_length(place.fine.median),
             std::max(place.fine.correlation, least_correlation),
             std::max(place.fine.revival - revival_of_noise, 0.0F),
@@ -41,12 +41,12 @@ std::array<float, noise_features.size()> features_of(const PlaceStatistics& plac
             std::clamp(place.smoothness, least_smoothness, most_smoothness),
             place.wide.correlation,
             std::max(place.wide.revival - wide_revival_of_noise, 0.0F),
-            std::log(place.wide.kurtosis + least_kurtosis)};
+            std::log(place.wide.kurtosis + added_to_kurtosis)};
 }
 
 float evidence_of_noise(const PlaceStatistics& place)
 {
-    return evidence(weights_of_noise, place);
+    return evidence(weights_of_independent_noise, place);
 }
 
 float evidence_of_alike_noise(const PlaceStatistics& place)

@@ -11,11 +11,11 @@ struct NoiseWeights {
 };
 
 // Written by samples/training/fit_noise.py.
-inline constexpr NoiseWeights weights_of_noise{
-    7.835F, {0.7461F, -7.567F, -7.349F, 1.431F, 0.0F, -4.101F, -0.3731F, 1.721F}};
+inline constexpr NoiseWeights weights_of_independent_noise{
+    7.831F, {1.205F, -10.46F, -8.36F, 0.9571F, 0.0F, -1.514F, -1.143F, 1.822F}};
 inline constexpr NoiseWeights weights_of_alike_noise{
-    7.595F, {0.5887F, 0.0F, -2.508F, 0.5538F, -0.5689F, -1.006F, -6.188F, 0.0F}};
+    8.238F, {0.6975F, 0.0F, -4.164F, 0.6127F, -0.451F, -1.551F, -4.548F, 0.06228F}};
 inline constexpr NoiseWeights weights_of_alike_against_independent_noise{
-    -1.61F, {-0.5427F, 6.796F, 21.17F, -1.257F, -1.665F, 7.941F, 2.081F, -3.61F}};
+    -2.792F, {-0.1479F, 9.791F, 10.05F, -1.812F, -1.834F, 4.583F, -0.5475F, -1.971F}};
 
 }  // namespace seamflow

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <limits>
 #include <numeric>
 
@@ -22,8 +23,8 @@ namespace {
 /// is not everywhere alike at neighbours.
 constexpr double part_with_evidence = 0.75;
 constexpr double part_with_alike_noise = 0.5;
-constexpr float clear_evidence = 2.0F;
-constexpr Index few_faces = 3000;
+constexpr float clear_evidence = 1.65F;
+constexpr Index few_faces = 2500;
 /// The evidence that outweighs that of the component. For noise: so much more than the median of the component, but no
 /// less than clear evidence, nor more than no place of a clean surface in the training data has. Against it: more than
 /// any place has where there is noise of a tenth of an edge length. Thinned surfaces, which bend more, are judged as a
@@ -33,18 +34,33 @@ constexpr float most_outweighing_evidence = 5.5F;
 constexpr float outweighing_evidence_against = -4.0F;
 /// With fewer faces nothing can be told; nor at a place with fewer vertices.
 constexpr Index fewest_faces = 200;
-constexpr Index fewest_of_place = 30;
+constexpr Index fewest_of_place = 80;
 /// Rounds of means of the low-pass filter (see PositionFilters).
 constexpr int wide_rounds = 16;
+/// Single edges that reach far do not count for more than this many medians of the edges at a vertex.
+constexpr double most_medians_of_edge = 1.5;
 /// Squared chord of normals that are equal up to rounding.
 constexpr double same_normal = 1e-12;
 /// The mean displacement around a vertex, in edge lengths, up to which it stays, and from which on it goes all the way;
 /// and the rounds over which means are taken.
 constexpr float calm = 0.002F;
 constexpr float restless = 0.005F;
-constexpr int averaging_rounds = 24;
+constexpr int displacement_rounds = 24;
 /// Rounds over which places with noise and others are blended.
-constexpr int blending_rounds = 4;
+constexpr int rounds_of_blended_places = 4;
+
+/// The median length of the edges at a vertex.
+double median_edge(const NoisyPlaces::Denoised& denoised, Index v)
+{
+    std::vector<double> lengths;
+    for (const Index w : denoised.averages.neighbours()[v])
+        lengths.push_back((denoised.before.row(w) - denoised.before.row(v)).norm());
+    if (lengths.empty())
+        return 0.0;
+    const auto middle = lengths.begin() + std::ssize(lengths) / 2;
+    std::ranges::nth_element(lengths, middle);
+    return *middle;
+}
 
 /// From 0 to 1 without a bend at either end.
 double smooth_step(double x)
@@ -142,7 +158,9 @@ std::vector<PlaceStatistics> measure_places(const NoisyPlaces::Denoised& denoise
 {
     const auto& [mesh, topology, averages, before, after, found, is_flat] = denoised;
     const Points normals = mean_normals(topology, found.normals, exec);
-    const std::vector<double> edges = edge_lengths_at_vertices(mesh, topology, before, exec);
+    std::vector<double> edges = edge_lengths_at_vertices(mesh, topology, before, exec);
+    for_each(exec, mesh.n_vertices(),
+             [&](Index v) { edges[v] = std::min(edges[v], most_medians_of_edge * median_edge(denoised, v)); });
     const Points filtered =
         PositionFilters(topology, averages.neighbours()).low_pass(before, {wide_rounds}, exec).front();
     Eigen::Matrix<float, Eigen::Dynamic, 2, Eigen::RowMajor> displacements(mesh.n_vertices(), 2);
@@ -221,13 +239,13 @@ NoisyPlaces::Found NoisyPlaces::find(const Denoised& denoised, const Executor& e
         decide(component_of_place, evidence_of_alike, sizes, {part_with_alike_noise, false});
     const std::vector<Index> nearest = nearest_of(places, averages.neighbours());
     const std::vector<double> edges = edge_lengths_at_vertices(mesh, topology, before, exec);
-    const VertexAverages::Rows displaced = means_around(denoised, averaging_rounds, exec, [&](Index v) {
+    const VertexAverages::Rows displaced = means_around(denoised, displacement_rounds, exec, [&](Index v) {
         return edges[v] > 0.0
                    ? static_cast<float>(motion_along_normal(topology, found.normals, v, after.row(v) - before.row(v)) /
                                         edges[v])
                    : 0.0F;
     });
-    const VertexAverages::Rows open = means_around(denoised, blending_rounds, exec, [&](Index v) {
+    const VertexAverages::Rows open = means_around(denoised, rounds_of_blended_places, exec, [&](Index v) {
         return nearest[v] >= 0 && has_noise[nearest[v]] != 0 ? 1.0F : 0.0F;
     });
     const Index n = mesh.n_vertices();
