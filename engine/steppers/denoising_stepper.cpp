@@ -52,6 +52,8 @@ DenoisingStepper::DenoisingStepper(const PolygonMesh& mesh, const Topology& topo
     , positions_(mesh.vertices)
     , loops_(1.0, progress)
 {
+    if (options.motion.direction.kind != MotionDirection::Kind::Any)
+        denoiser_.keep_rims();
     if (open_ && !step_scales_.empty()) {
         step_scales_.resize(usize(open_->mesh.n_vertices()));
         for (Index h = 0; h < mesh.n_corners(); ++h)

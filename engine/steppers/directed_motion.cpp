@@ -102,8 +102,11 @@ void DirectedMotion::project(const Points& before, Points& after, const Executor
 double DirectedMotion::least_way(Index v, const Point& way, const Points& moved) const
 {
     const double along = way.dot(direction_);
-    const double furthest =
-        std::max(longest_edge(v, moved, [](const Point& edge) { return edge; }), (way - along * direction_).norm());
+    // Lines beside the surface may meet its steep planes far away.
+    const double furthest = topology_.kind[v] == VertexKind::Boundary
+                                ? std::max(longest_edge(v, moved, [](const Point& edge) { return edge; }),
+                                           (way - along * direction_).norm())
+                                : std::numeric_limits<double>::infinity();
     double least = std::numeric_limits<double>::infinity();
     const auto consider = [&](const Point& n) {
         const double to_plane = way_to_plane(way, direction_, n, least_cosine);

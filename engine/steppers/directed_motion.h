@@ -22,8 +22,8 @@ class DirectedMotion {
     /// of direction d where it meets the plane through V̂ with the normal n, or where the surface is steeper than 45°
     /// the nearest of this plane and those of the faces of V̂, so that walls do not spread. So a plane stays a plane,
     /// and a height field a height field, whatever their slope. Less of the way is gone on steep parts that turn over
-    /// nearby, as seen along d: there, lines may miss the moved surface. Planes steeper than 45° are not followed
-    /// beyond the edges at V̂, and a vertex of the boundary stays if its line passes V̂ further away than these are long
+    /// nearby, as seen along d: there, lines may miss the moved surface. At the boundary, planes steeper than 45°
+    /// are not followed beyond the edges at V̂, and a vertex stays if its line passes V̂ further away than these are long
     /// as seen along d: it misses the moved surface. Without a normal, at junctions, s is that of the motion.
     /// Coordinates to which nothing is added stay bit for bit.
     /// @param before #V by 3: V. @param after in: V̂; out: V'.
@@ -36,8 +36,8 @@ class DirectedMotion {
     /// Whether the faces at a vertex are seen from both sides along the lines, or one of them edgewise.
     [[nodiscard]] bool is_on_silhouette(Index v, const Points& positions) const;
 
-    /// The shortest way along the line to the planes through V̂ of the surface at a vertex, and of the faces there; 0 if
-    /// all would lead further from V̂ than its edges are long.
+    /// The shortest way along the line to the planes through V̂ of the surface at a vertex, and of the faces there; 0 at
+    /// the boundary if all would lead further from V̂ than its edges are long.
     [[nodiscard]] double least_way(Index v, const Point& way, const Points& moved) const;
 
     /// The length of the longest edge at a vertex, as it is seen.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <span>
 
 #include "engine/setup/smoothed_radius.h"
 #include "partition/errors.h"
@@ -27,6 +28,7 @@ RimStepper::RimStepper(const PolygonMesh& mesh, const Topology& topology, const 
     : mesh_(&mesh)
     , topology_(&topology)
     , curves_(find_rim_curves(mesh, topology))
+    , vertex_normals_(mesh, topology)
     , radius_(radius_of_step(options))
     , step_scales_(options.motion.strength)
     , positions_(mesh.vertices)
@@ -39,7 +41,11 @@ void RimStepper::step(const Points& before)
     assert(&before != &positions_);
     const Executor exec = loops_.begin();
     Points normals(mesh_->n_faces(), 3);
-    for_each(exec, mesh_->n_faces(), [&](Index f) { normals.row(f) = vector_area(mesh_->face(f), before); });
+    // Those of faces without area would be rounding.
+    for_each(exec, mesh_->n_faces(), [&](Index f) {
+        const std::span<const Index> face = mesh_->face(f);
+        normals.row(f) = has_area(face, before) ? vector_area(face, before) : Point(Point::Zero());
+    });
     Points motions = Points::Zero(before.rows(), 3);
     for (const RimCurve& curve : curves_) {
         const Points from = before(curve.vertices, Eigen::all);
@@ -51,7 +57,7 @@ void RimStepper::step(const Points& before)
                 motions.row(v) = (smooth.row(row) - from.row(row)).dot(across.row(row)) * across.row(row);
         }
     }
-    spread_into_band(*mesh_, *topology_, before, motions);
+    spread_into_band(*mesh_, *topology_, curves_, vertex_normals_, before, motions);
     keep_areas(*mesh_, before, normals, motions);
     positions_ = before;
     for_each(exec, mesh_->n_vertices(), [&](Index v) {

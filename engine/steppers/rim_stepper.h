@@ -6,6 +6,7 @@
 #include "engine/options/flow_options.h"
 #include "engine/steppers/stepper.h"
 #include "engine/tasks/progress.h"
+#include "partition/metrics/vertex_normals.h"
 #include "partition/polygon_mesh.h"
 #include "partition/topology.h"
 #include "solvers/denoising/rim_curves.h"
@@ -39,6 +40,7 @@ class RimStepper final : public Stepper {
     const PolygonMesh* mesh_;
     const Topology* topology_;
     std::vector<RimCurve> curves_;
+    VertexNormals vertex_normals_;
     /// Of bumps that a step halves, in units of length.
     double radius_;
     /// #V: the part of each displacement that vertices go; empty: 1.

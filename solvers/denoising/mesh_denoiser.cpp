@@ -167,7 +167,7 @@ Points MeshDenoiser::without_noise(const Points& before, std::span<const double>
         take_smoother_places({*mesh_, *topology_, begun, normals, parts}, places_.components(), *edge_angle_, result,
                              exec);
     // The rims of thinned meshes are jagged by their making.
-    if (n_thinned_ == 0) {
+    if (n_thinned_ == 0 && !keeps_rims_) {
         const Points motions = rims_.motions(*mesh_, *topology_, normals, parts, before);
         for_each(exec, mesh_->n_vertices(), [&](Index v) {
             if (!motions.row(v).isZero(0.0))

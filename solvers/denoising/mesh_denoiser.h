@@ -48,6 +48,9 @@ class MeshDenoiser {
 
     static constexpr double default_edge_angle = 30.0;
 
+    /// Rims keep their noise: what moves them within the surface is no use where vertices move in given directions.
+    void keep_rims() { keeps_rims_ = true; }
+
     /// @param before #V by 3. @param strengths #V: the part of each displacement that vertices go; empty: 1.
     /// @returns #V by 3.
     Points denoise(const Points& before, std::span<const double> strengths = {}, const Executor& exec = run_serially);
@@ -113,6 +116,7 @@ class MeshDenoiser {
     VertexAverages averages_;
     NoisyPlaces places_;
     RimFilter rims_;
+    bool keeps_rims_ = false;
     std::optional<double> edge_angle_;
     bool as_one_;
     int n_thinned_;

@@ -31,7 +31,7 @@ constexpr double least_area = 0.1;
 constexpr double shortening = 0.9;
 constexpr int most_shortenings = 40;
 
-/// An edge of one face between boundary vertices.
+/// An edge of one face between boundary vertices, in its direction there.
 struct Segment {
     std::array<Index, 2> ends;
     Index face;
@@ -104,19 +104,23 @@ class BandedEquations {
     bool is_closed_;
 };
 
-/// One per vertex of a curve: the sum of the normals of its faces at the curve.
+/// One per vertex of a curve: the sum of the normals of its faces at the curve, which need not be oriented alike; where
+/// these have none, that of the vertices beside it.
 Points normals_along(const RimCurve& curve, const Points& normals)
 {
     Points sums = Points::Zero(static_cast<Eigen::Index>(curve.vertices.size()), 3);
     for (std::size_t s = 0; s < curve.faces.size(); ++s) {
         const std::size_t after = s + 1 < curve.vertices.size() ? s + 1 : 0;
-        for (const std::size_t end : {s, after}) {
-            const Point normal = normals.row(curve.faces[s]);
-            // Faces need not be oriented alike.
-            sums.row(static_cast<Eigen::Index>(end)) +=
-                sums.row(static_cast<Eigen::Index>(end)).dot(normal) < 0.0 ? Point(-normal) : normal;
-        }
+        for (const std::size_t end : {s, after})
+            sums.row(static_cast<Eigen::Index>(end)) += curve.senses[s] * normals.row(curve.faces[s]);
     }
+    const Points of_faces = sums;
+    const auto n = static_cast<Eigen::Index>(curve.vertices.size());
+    for (Eigen::Index i = 0; i < n; ++i)
+        if (of_faces.row(i).isZero(0.0))
+            for (const Eigen::Index beside : {i - 1, i + 1})
+                if (curve.is_closed || (beside >= 0 && beside < n))
+                    sums.row(i) += of_faces.row((beside + n) % n);
     return sums;
 }
 
@@ -134,6 +138,40 @@ std::vector<Segment> segments_of(const PolygonMesh& mesh, const Topology& topolo
     return segments;
 }
 
+/// Calls visit(w) at the other end of each edge of each face at a vertex.
+template <class Visit>
+void visit_neighbours(const PolygonMesh& mesh, const Topology& topology, Index v, Visit&& visit)
+{
+    for (const Index corner : topology.corners_at(v))
+        for (const Index end : {topology.next(mesh, corner), topology.previous(mesh, corner)})
+            visit(mesh.face_vertices[end]);
+}
+
+/// #V: how many rings of vertices follow each curve, at its vertices: as many as its own motions and edges ask for.
+std::vector<Index> rings_of_bands(const PolygonMesh& mesh, const Topology& topology, std::span<const RimCurve> curves,
+                                  const Points& positions, const Points& motions)
+{
+    std::vector<Index> n_rings(usize(mesh.n_vertices()), 0);
+    for (const RimCurve& curve : curves) {
+        double largest = 0.0;
+        double total = 0.0;
+        double n_edges = 0.0;
+        for (const Index v : curve.vertices) {
+            if (motions.row(v).isZero(0.0))
+                continue;
+            largest = std::max(largest, motions.row(v).norm());
+            visit_neighbours(mesh, topology, v, [&](Index w) {
+                total += (positions.row(w) - positions.row(v)).norm();
+                n_edges += 1.0;
+            });
+        }
+        if (total > 0.0)
+            for (const Index v : curve.vertices)
+                n_rings[v] = static_cast<Index>(std::ceil(widths_of_band * largest * n_edges / total));
+    }
+    return n_rings;
+}
+
 }  // namespace
 
 std::vector<RimCurve> find_rim_curves(const PolygonMesh& mesh, const Topology& topology)
@@ -148,12 +186,14 @@ std::vector<RimCurve> find_rim_curves(const PolygonMesh& mesh, const Topology& t
     });
     std::vector<std::uint8_t> is_taken(segments.size(), 0);
     const auto follow = [&](Index start, Index first) {
-        RimCurve curve{{start}, {}, false};
+        RimCurve curve{{start}, {}, {}, false};
         Index v = start;
         for (Index s = first; s >= 0;) {
             is_taken[s] = 1;
+            const bool is_along = segments[s].ends[0] == v;
             curve.faces.push_back(segments[s].face);
-            v = segments[s].ends[segments[s].ends[0] == v ? 1 : 0];
+            curve.senses.push_back(is_along ? 1.0 : -1.0);
+            v = segments[s].ends[is_along ? 1 : 0];
             if (v == start)
                 break;
             curve.vertices.push_back(v);
@@ -282,49 +322,36 @@ void keep_areas(const PolygonMesh& mesh, const Points& positions, const Points& 
     }
 }
 
-void spread_into_band(const PolygonMesh& mesh, const Topology& topology, const Points& positions, Points& motions)
+void spread_into_band(const PolygonMesh& mesh, const Topology& topology, std::span<const RimCurve> curves,
+                      const VertexNormals& normals, const Points& positions, Points& motions)
 {
-    const auto neighbour_ends = [&](Index v, auto&& visit) {
-        for (const Index corner : topology.corners_at(v))
-            for (const Index end : {topology.next(mesh, corner), topology.previous(mesh, corner)})
-                visit(mesh.face_vertices[end]);
-    };
     constexpr Index unreached = -1;
     std::vector<Index> ring(usize(mesh.n_vertices()), unreached);
     std::vector<Index> front;
-    double largest = 0.0;
-    double total = 0.0;
-    double n_edges = 0.0;
     for (Index v = 0; v < mesh.n_vertices(); ++v)
         if (topology.kind[v] == VertexKind::Boundary) {
             ring[v] = 0;
-            if (motions.row(v).isZero(0.0))
-                continue;
-            front.push_back(v);
-            largest = std::max(largest, motions.row(v).norm());
-            neighbour_ends(v, [&](Index w) {
-                total += (positions.row(w) - positions.row(v)).norm();
-                n_edges += 1.0;
-            });
+            if (!motions.row(v).isZero(0.0))
+                front.push_back(v);
         }
-    if (front.empty() || !(total > 0.0))
-        return;
-    const auto n_rings = static_cast<Index>(std::ceil(widths_of_band * largest * n_edges / total));
-    for (Index k = 1; k <= n_rings && !front.empty(); ++k) {
+    std::vector<Index> n_rings = rings_of_bands(mesh, topology, curves, positions, motions);
+    for (Index k = 1; !front.empty(); ++k) {
         std::vector<Index> further;
         for (const Index v : front)
-            neighbour_ends(v, [&](Index w) {
-                if (ring[w] == unreached) {
-                    ring[w] = k;
-                    further.push_back(w);
-                }
-            });
+            if (k <= n_rings[v])
+                visit_neighbours(mesh, topology, v, [&](Index w) {
+                    if (ring[w] == unreached) {
+                        ring[w] = k;
+                        further.push_back(w);
+                    }
+                });
         std::ranges::sort(further);
         for (const Index v : further) {
             double count = 0.0;
-            neighbour_ends(v, [&](Index w) {
+            visit_neighbours(mesh, topology, v, [&](Index w) {
                 if (ring[w] == k - 1) {
                     motions.row(v) += motions.row(w);
+                    n_rings[v] = std::max(n_rings[v], n_rings[w]);
                     count += 1.0;
                 }
             });
@@ -335,11 +362,8 @@ void spread_into_band(const PolygonMesh& mesh, const Topology& topology, const P
     for (Index v = 0; v < mesh.n_vertices(); ++v) {
         if (ring[v] <= 0)
             continue;
-        Point normal = Point::Zero();
-        for (const Index corner : topology.corners_at(v))
-            normal += vector_area(mesh.face(topology.face_of[corner]), positions);
-        normal = unit_or_zero(normal);
-        const double part = topology.moves(v) ? 1.0 - static_cast<double>(ring[v]) / (n_rings + 1.0) : 0.0;
+        const Point normal = normals(topology.corners_at(v), positions);
+        const double part = topology.moves(v) ? 1.0 - static_cast<double>(ring[v]) / (n_rings[v] + 1.0) : 0.0;
         const Point motion = motions.row(v);
         motions.row(v) = part * (motion - motion.dot(normal) * normal);
     }

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
+#include "partition/metrics/vertex_normals.h"
 #include "partition/polygon_mesh.h"
 #include "partition/topology.h"
 
@@ -13,6 +15,8 @@ struct RimCurve {
     std::vector<Index> vertices;
     /// The face at the edge from each vertex to the next one; of a closed curve also from the last to the first.
     std::vector<Index> faces;
+    /// One per face: 1 if the edge runs along the curve in the face, -1 if against it.
+    std::vector<double> senses;
     bool is_closed = false;
 };
 
@@ -47,10 +51,12 @@ Points across_curve(const RimCurve& curve, const Points& positions, const Points
 /// @param motions #V by 3; replaced.
 void keep_areas(const PolygonMesh& mesh, const Points& positions, const Points& normals, Points& motions);
 
-/// Lets the surface follow its boundary within a band: motions fall to 0 over a few times the length of the largest,
-/// and leave out what goes along the normals, so that faces keep their shapes and the surface its place.
-/// @param topology needs no twins. @param positions #V by 3.
-/// @param motions #V by 3: of boundary vertices, and 0 elsewhere; receives those of all. Held vertices stay.
-void spread_into_band(const PolygonMesh& mesh, const Topology& topology, const Points& positions, Points& motions);
+/// Lets the surface follow its boundary within a band: motions fall to 0 over a few times the length of the largest
+/// of their curve, and leave out what goes along the normals, so that faces keep their shapes and the surface its
+/// place.
+/// @param topology needs no twins. @param curves all that move. @param normals of the mesh. @param positions #V by 3.
+/// @param motions #V by 3: of the vertices of curves, and 0 elsewhere; receives those of all. Held vertices stay.
+void spread_into_band(const PolygonMesh& mesh, const Topology& topology, std::span<const RimCurve> curves,
+                      const VertexNormals& normals, const Points& positions, Points& motions);
 
 }  // namespace seamflow

@@ -108,6 +108,7 @@ double mean_length(const RimCurve& curve, const Points& positions)
 
 RimFilter::RimFilter(const PolygonMesh& mesh, const Topology& topology)
     : curves_(find_rim_curves(mesh, topology))
+    , vertex_normals_(mesh, topology)
 {
     std::erase_if(curves_, [](const RimCurve& curve) { return curve.vertices.size() < fewest_vertices; });
 }
@@ -131,7 +132,7 @@ Points RimFilter::motions(const PolygonMesh& mesh, const Topology& topology, con
             if (const Index v = curve.vertices[i]; topology.moves(v))
                 motions.row(v) = distances[static_cast<Eigen::Index>(i)] * across.row(static_cast<Eigen::Index>(i));
     }
-    spread_into_band(mesh, topology, positions, motions);
+    spread_into_band(mesh, topology, curves_, vertex_normals_, positions, motions);
     keep_areas(mesh, positions, normals, motions);
     return motions;
 }

@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "partition/metrics/vertex_normals.h"
 #include "partition/polygon_mesh.h"
 #include "partition/topology.h"
 #include "solvers/denoising/rim_curves.h"
@@ -14,7 +15,7 @@ namespace seamflow {
 /// stay. Curves that look made as they are stay as they are.
 class RimFilter {
   public:
-    /// @param topology with twins; not needed later.
+    /// @param mesh, topology must outlive the filter; the twins of the topology are not needed later.
     RimFilter(const PolygonMesh& mesh, const Topology& topology);
 
     /// The motions of rims that have noise, and of the surface around them (see spread_into_band); 0 elsewhere.
@@ -27,6 +28,7 @@ class RimFilter {
 
   private:
     std::vector<RimCurve> curves_;
+    VertexNormals vertex_normals_;
 };
 
 }  // namespace seamflow
