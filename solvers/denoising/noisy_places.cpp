@@ -19,18 +19,16 @@ namespace seamflow {
 namespace {
 
 /// A component has noise if this part of its places has evidence for it; a small one, whose places are few and bend
-/// more from edge to edge, if they have clear evidence, and so a surface that was thinned twice. The noise of scanners
-/// is not everywhere alike at neighbours.
+/// more from edge to edge, if they have clear evidence, and so a surface that was thinned twice.
 constexpr double part_with_evidence = 0.75;
-constexpr double part_with_alike_noise = 0.5;
 constexpr float clear_evidence = 1.65F;
 constexpr Index few_faces = 2500;
 /// The evidence that outweighs that of the component. For noise: so much more than the median of the component, but no
 /// less than clear evidence, nor more than no place of a clean surface in the training data has. Against it: more than
 /// any place has where there is noise of a tenth of an edge length. Thinned surfaces, which bend more, are judged as a
 /// whole.
-constexpr float outweighing_difference = 8.0F;
-constexpr float most_outweighing_evidence = 5.5F;
+constexpr float outweighing_difference = 9.0F;
+constexpr float most_outweighing_evidence = 6.5F;
 constexpr float outweighing_evidence_against = -4.0F;
 /// With fewer faces nothing can be told; nor at a place with fewer vertices.
 constexpr Index fewest_faces = 200;
@@ -177,7 +175,7 @@ std::vector<PlaceStatistics> measure_places(const NoisyPlaces::Denoised& denoise
 
 std::vector<std::uint8_t> NoisyPlaces::decide(std::span<const Index> component_of_place,
                                               std::span<const float> evidence, std::span<const Index> sizes,
-                                              const Demands& demands) const
+                                              bool finds_single_places) const
 {
     Lists<float> of_components = make_lists<float>(components_.count(), [&](auto&& add) {
         for (std::size_t i = 0; i < evidence.size(); ++i)
@@ -197,9 +195,9 @@ std::vector<std::uint8_t> NoisyPlaces::decide(std::span<const Index> component_o
             return *place;
         };
         const bool is_doubtful = n_thinned_ > 1 || sizes[c] < few_faces;
-        if (quantile(1.0 - demands.part) > (is_doubtful ? clear_evidence : 0.0F))
+        if (quantile(1.0 - part_with_evidence) > (is_doubtful ? clear_evidence : 0.0F))
             least[c] = outweighing_evidence_against;
-        else if (n_thinned_ > 0 || !demands.finds_single_places)
+        else if (n_thinned_ > 0 || !finds_single_places)
             least[c] = std::numeric_limits<float>::infinity();
         else
             least[c] = std::clamp(quantile(0.5) + outweighing_difference, clear_evidence, most_outweighing_evidence);
@@ -234,9 +232,8 @@ NoisyPlaces::Found NoisyPlaces::find(const Denoised& denoised, const Executor& e
         sizes.push_back(static_cast<Index>(std::ranges::count_if(components_.nodes[c], [&](Index f) {
             return std::ranges::any_of(mesh.face(f), [&](Index v) { return is_flat[v] == 0; });
         })));
-    const std::vector<std::uint8_t> has_noise = decide(component_of_place, evidence, sizes, {part_with_evidence, true});
-    const std::vector<std::uint8_t> has_alike =
-        decide(component_of_place, evidence_of_alike, sizes, {part_with_alike_noise, false});
+    const std::vector<std::uint8_t> has_noise = decide(component_of_place, evidence, sizes, true);
+    const std::vector<std::uint8_t> has_alike = decide(component_of_place, evidence_of_alike, sizes, false);
     const std::vector<Index> nearest = nearest_of(places, averages.neighbours());
     const std::vector<double> edges = edge_lengths_at_vertices(mesh, topology, before, exec);
     const VertexAverages::Rows displaced = means_around(denoised, displacement_rounds, exec, [&](Index v) {

@@ -61,18 +61,12 @@ class NoisyPlaces {
     [[nodiscard]] const Components& components() const { return components_; }
 
   private:
-    struct Demands {
-        /// Of the places of a component that has noise, this part has evidence for it.
-        double part;
-        /// Whether noise is found at single places of other components.
-        bool finds_single_places;
-    };
-
     /// Per place: 1 where there is noise.
     /// @param evidence per place. @param sizes per component: the number of faces that are not in flat places.
+    /// @param finds_single_places whether there may be noise at places of a component that has none as a whole.
     [[nodiscard]] std::vector<std::uint8_t> decide(std::span<const Index> component_of_place,
                                                    std::span<const float> evidence, std::span<const Index> sizes,
-                                                   const Demands& demands) const;
+                                                   bool finds_single_places) const;
 
     /// The components of the mesh, by faces: each is judged by itself.
     Components components_;
