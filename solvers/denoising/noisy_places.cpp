@@ -23,6 +23,8 @@ namespace {
 constexpr double part_with_evidence = 0.75;
 constexpr float clear_evidence = 1.65F;
 constexpr Index few_faces = 2500;
+/// Noise that is alike at neighbours looks more like shape where there is no other noise.
+constexpr float evidence_of_alike_noise_alone = 1.0F;
 /// The evidence that outweighs that of the component. For noise: so much more than the median of the component, but no
 /// less than clear evidence, nor more than no place of a clean surface in the training data has. Against it: more than
 /// any place has where there is noise of a tenth of an edge length. Thinned surfaces, which bend more, are judged as a
@@ -175,7 +177,7 @@ std::vector<PlaceStatistics> measure_places(const NoisyPlaces::Denoised& denoise
 
 std::vector<std::uint8_t> NoisyPlaces::decide(std::span<const Index> component_of_place,
                                               std::span<const float> evidence, std::span<const Index> sizes,
-                                              bool finds_single_places) const
+                                              bool finds_single_places, std::span<const float> least_evidence) const
 {
     Lists<float> of_components = make_lists<float>(components_.count(), [&](auto&& add) {
         for (std::size_t i = 0; i < evidence.size(); ++i)
@@ -195,7 +197,7 @@ std::vector<std::uint8_t> NoisyPlaces::decide(std::span<const Index> component_o
             return *place;
         };
         const bool is_doubtful = n_thinned_ > 1 || sizes[c] < few_faces;
-        if (quantile(1.0 - part_with_evidence) > (is_doubtful ? clear_evidence : 0.0F))
+        if (quantile(1.0 - part_with_evidence) > (is_doubtful ? clear_evidence : least_evidence[c]))
             least[c] = outweighing_evidence_against;
         else if (n_thinned_ > 0 || !finds_single_places)
             least[c] = std::numeric_limits<float>::infinity();
@@ -232,8 +234,14 @@ NoisyPlaces::Found NoisyPlaces::find(const Denoised& denoised, const Executor& e
         sizes.push_back(static_cast<Index>(std::ranges::count_if(components_.nodes[c], [&](Index f) {
             return std::ranges::any_of(mesh.face(f), [&](Index v) { return is_flat[v] == 0; });
         })));
-    const std::vector<std::uint8_t> has_noise = decide(component_of_place, evidence, sizes, true);
-    const std::vector<std::uint8_t> has_alike = decide(component_of_place, evidence_of_alike, sizes, false);
+    const std::vector<std::uint8_t> has_noise =
+        decide(component_of_place, evidence, sizes, true, std::vector(sizes.size(), 0.0F));
+    std::vector<float> least_of_alike(sizes.size(), evidence_of_alike_noise_alone);
+    for (std::size_t i = 0; i < places.size(); ++i)
+        if (has_noise[i] != 0)
+            least_of_alike[component_of_place[i]] = 0.0F;
+    const std::vector<std::uint8_t> has_alike =
+        decide(component_of_place, evidence_of_alike, sizes, false, least_of_alike);
     const std::vector<Index> nearest = nearest_of(places, averages.neighbours());
     const std::vector<double> edges = edge_lengths_at_vertices(mesh, topology, before, exec);
     const VertexAverages::Rows displaced = means_around(denoised, displacement_rounds, exec, [&](Index v) {

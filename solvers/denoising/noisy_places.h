@@ -64,9 +64,11 @@ class NoisyPlaces {
     /// Per place: 1 where there is noise.
     /// @param evidence per place. @param sizes per component: the number of faces that are not in flat places.
     /// @param finds_single_places whether there may be noise at places of a component that has none as a whole.
+    /// @param least_evidence per component: of the lower quartile of its places.
     [[nodiscard]] std::vector<std::uint8_t> decide(std::span<const Index> component_of_place,
                                                    std::span<const float> evidence, std::span<const Index> sizes,
-                                                   bool finds_single_places) const;
+                                                   bool finds_single_places,
+                                                   std::span<const float> least_evidence) const;
 
     /// The components of the mesh, by faces: each is judged by itself.
     Components components_;
