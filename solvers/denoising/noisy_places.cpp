@@ -24,7 +24,7 @@ constexpr double part_with_evidence = 0.75;
 constexpr float clear_evidence = 1.65F;
 constexpr Index few_faces = 2500;
 /// Noise that is alike at neighbours looks more like shape where there is no other noise.
-constexpr float evidence_of_alike_noise_alone = 0.5F;
+constexpr float evidence_of_alike_noise_alone = 1.0F;
 /// The evidence that outweighs that of the component. For noise: so much more than the median of the component, but no
 /// less than clear evidence, nor more than no place of a clean surface in the training data has. Against it: more than
 /// any place has where there is noise of a tenth of an edge length. Thinned surfaces, which bend more, are judged as a
