@@ -25,10 +25,9 @@ constexpr float clear_evidence = 1.65F;
 constexpr Index few_faces = 2500;
 /// Noise that is alike at neighbours looks more like shape where there is no other noise.
 constexpr float evidence_of_alike_noise_alone = 1.0F;
-/// The evidence that outweighs that of the component. For noise: so much more than the median of the component, but no
-/// less than clear evidence, nor more than no place of a clean surface in the training data has. Against it: more than
-/// any place has where there is noise of a tenth of an edge length. Thinned surfaces, which bend more, are judged as a
-/// whole.
+/// The evidence that outweighs that of the component. For noise: so much more than the median of the component, but
+/// within clear evidence and a limit above the 5.1 that places of clean surfaces in the training data reached. Against
+/// it: chosen by hand. Thinned surfaces, which bend more, are judged as a whole.
 constexpr float outweighing_difference = 9.0F;
 constexpr float most_outweighing_evidence = 6.5F;
 constexpr float outweighing_evidence_against = -4.0F;
