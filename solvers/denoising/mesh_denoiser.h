@@ -33,10 +33,11 @@ struct SurfaceNoise {
 /// Removes noise: face normals are estimated, and the vertices move to fit them, along the normals unless a face would
 /// fold; each as far as there is noise (see denoise_normals, NoisyPlaces, along_normals). Rims lose theirs within the
 /// surface. No face turns over. Noise that is alike at neighbours looks like shape. Where there is other noise as well,
-/// local fits take it first (see AlikeNoise); elsewhere it is looked for on thinned meshes, where few vertices are left,
-/// far from each other, and removed there (as Zhou and others, When AWGN-Based Denoiser Meets Real Noises, 2020, do with
-/// pictures); then what is left of it is removed as above. Polygons count as the triangles into which their diagonals
-/// cut them (see triangulate): estimates of normals are trained on triangles. Bits do not depend on how loops are run.
+/// local fits take it first (see AlikeNoise); elsewhere it is looked for on thinned meshes, where few vertices are
+/// left, far from each other, and removed there (as Zhou and others, When AWGN-Based Denoiser Meets Real Noises, 2020,
+/// do with pictures); then what is left of it is removed as above. Polygons count as the triangles into which their
+/// diagonals cut them (see triangulate): estimates of normals are trained on triangles. Bits do not depend on how loops
+/// are run.
 class MeshDenoiser {
   public:
     /// @param mesh, topology must outlive the object; the twins of the topology are not needed later.
