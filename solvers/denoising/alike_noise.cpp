@@ -125,7 +125,7 @@ AlikeNoise::AlikeNoise(const PolygonMesh& mesh, const Topology& topology, const 
             edges_[v] /= static_cast<double>(1 + averages.neighbours()[v].size());
         });
     }
-    heights_ = LocalFits(averages.neighbours(), before, normals_).heights(radii_, exec);
+    heights_ = LocalFits(averages.neighbours(), before, normals_).heights(radii, exec);
     for_each(exec, mesh.n_vertices(), [&](Index v) { heights_.row(v) /= edge_at(v); });
     find_places(exec);
     find_covariances(exec);
@@ -158,8 +158,8 @@ Points AlikeNoise::normals_of(const Points& positions, int rounds, const Executo
 
 void AlikeNoise::find_places(const Executor& exec)
 {
-    VertexAverages::Rows near(mesh_.n_faces(), n_radii_);
-    squares_.resize(mesh_.n_faces(), n_radii_);
+    VertexAverages::Rows near(mesh_.n_faces(), n_radii);
+    squares_.resize(mesh_.n_faces(), n_radii);
     for_each(exec, mesh_.n_faces(), [&](Index f) {
         near.row(f).setZero();
         for (const Index v : mesh_.face(f))
@@ -167,17 +167,17 @@ void AlikeNoise::find_places(const Executor& exec)
     });
     averages_.spread(near, squares_, 0, rounds_of_places, exec);
     std::vector<float> widest(usize(mesh_.n_faces()));
-    for_each(exec, mesh_.n_faces(), [&](Index f) { widest[f] = squares_(f, n_radii_ - 1); });
+    for_each(exec, mesh_.n_faces(), [&](Index f) { widest[f] = squares_(f, n_radii - 1); });
     const auto middle = widest.begin() + std::ssize(widest) / 2;
     std::ranges::nth_element(widest, middle);
     is_calm_.assign(edges_.size(), 0);
     for_each(exec, mesh_.n_vertices(), [&](Index v) {
         const auto corners = topology_.corners_at(v);
         is_calm_[v] = topology_.kind[v] == VertexKind::Interior && std::ranges::all_of(corners, [&](Index corner) {
-                          return squares_(topology_.face_of[corner], n_radii_ - 1) <= *middle;
+                          return squares_(topology_.face_of[corner], n_radii - 1) <= *middle;
                       });
     });
-    using Sums = Eigen::Array<double, 1, n_radii_ + 1>;
+    using Sums = Eigen::Array<double, 1, n_radii + 1>;
     const Sums sums = sum(
         exec, mesh_.n_vertices(),
         [&](Index v) {
@@ -187,14 +187,14 @@ void AlikeNoise::find_places(const Executor& exec)
             return of_vertex;
         },
         Sums(Sums::Zero()));
-    calm_squares_ = sums.head<n_radii_>() / std::max(sums[n_radii_], 1.0);
+    calm_squares_ = sums.head<n_radii>() / std::max(sums[n_radii], 1.0);
 }
 
 void AlikeNoise::find_covariances(const Executor& exec)
 {
     // Per vertex: the sums of products at the lags, and their numbers.
-    using Sums = Eigen::Array<double, 1, 2 * n_lags_>;
-    const std::size_t count = LocalFits::n_within(width_of_lags * n_lags_);
+    using Sums = Eigen::Array<double, 1, 2 * n_lags>;
+    const std::size_t count = LocalFits::n_within(width_of_lags * n_lags);
     const auto sums_over = [&](Index begin, Index end) {
         Sums sums = Sums::Zero();
         NearestVertices search;
@@ -203,11 +203,11 @@ void AlikeNoise::find_covariances(const Executor& exec)
                 continue;
             for (const auto& [squared, w] : search.find(averages_.neighbours(), before_, v, count)) {
                 const auto lag = static_cast<std::size_t>(std::sqrt(squared) / (width_of_lags * edge_at(v)) + 0.5);
-                if (is_calm_[w] == 0 || lag >= n_lags_)
+                if (is_calm_[w] == 0 || lag >= n_lags)
                     continue;
                 const auto place = static_cast<Eigen::Index>(lag);
-                sums[place] += heights_(v, n_radii_ - 1) * heights_(w, n_radii_ - 1);
-                sums[place + static_cast<Eigen::Index>(n_lags_)] += 1.0;
+                sums[place] += heights_(v, n_radii - 1) * heights_(w, n_radii - 1);
+                sums[place + static_cast<Eigen::Index>(n_lags)] += 1.0;
             }
         }
         return sums;
@@ -220,16 +220,16 @@ void AlikeNoise::find_covariances(const Executor& exec)
         total += of_block;
     std::vector<double> lags;
     std::vector<double> seen;
-    for (Eigen::Index k = 0; k < static_cast<Eigen::Index>(n_lags_); ++k)
-        if (const double number = total[k + static_cast<Eigen::Index>(n_lags_)]; number > 0.0) {
+    for (Eigen::Index k = 0; k < static_cast<Eigen::Index>(n_lags); ++k)
+        if (const double number = total[k + static_cast<Eigen::Index>(n_lags)]; number > 0.0) {
             lags.push_back(width_of_lags * static_cast<double>(k));
             seen.push_back(total[k] / number);
         }
-    const TwoNoises noise = lags.empty() ? TwoNoises{} : noise_with(LocalFits::kernel(radii_.back()), lags, seen);
-    for (std::size_t k = 0; k < n_lags_; ++k)
+    const TwoNoises noise = lags.empty() ? TwoNoises{} : noise_with(LocalFits::kernel(radii.back()), lags, seen);
+    for (std::size_t k = 0; k < n_lags; ++k)
         covariances_[static_cast<Eigen::Index>(k)] = noise.covariance(width_of_lags * static_cast<double>(k));
-    for (Eigen::Index i = 0; i < n_radii_; ++i) {
-        const LocalFits::Kernel kernel = LocalFits::kernel(radii_[static_cast<std::size_t>(i)]);
+    for (Eigen::Index i = 0; i < n_radii; ++i) {
+        const LocalFits::Kernel kernel = LocalFits::kernel(radii[static_cast<std::size_t>(i)]);
         shared_[i] = 0.0;
         for (std::size_t k = 0; k < kernel.parts.size(); ++k)
             shared_[i] += kernel.parts[k] * noise.covariance(kernel.places[k].norm());
@@ -246,7 +246,7 @@ double AlikeNoise::mean_edge() const
 
 double AlikeNoise::least_risk() const
 {
-    using Squares = Eigen::Array<double, 1, n_radii_>;
+    using Squares = Eigen::Array<double, 1, n_radii>;
     Squares squares = Squares::Zero();
     for (Index f = 0; f < mesh_.n_faces(); ++f)
         squares += squares_.row(f).cast<double>().array();
@@ -262,7 +262,7 @@ Points AlikeNoise::without(const Executor& exec) const
     if (!(variance > 0.0))
         return before_;
     Points result = before_;
-    std::vector<double> radii(edges_.size(), radii_.front());
+    std::vector<double> of_vertices(edges_.size(), radii.front());
     for_each(exec, mesh_.n_vertices(), [&](Index v) {
         const auto corners = topology_.corners_at(v);
         if (corners.empty())
@@ -276,12 +276,13 @@ Points AlikeNoise::without(const Executor& exec) const
             (1.0 - part_of_calm) / share * squares + part_of_calm * calm_squares_ + 2.0 * shared_ - variance;
         OfRadii weights = ((risks.minCoeff() - risks) / (risk_temperature * variance)).exp();
         weights /= weights.sum();
-        radii[v] = (weights * Eigen::Map<const OfRadii>(radii_.data())).sum();
+        of_vertices[v] = (weights * Eigen::Map<const OfRadii>(radii.data())).sum();
         if (topology_.fixed[v] == 0)
             result.row(v) += edge_at(v) * (weights * heights_.row(v).array()).sum() * normals_.row(v);
     });
     const Points normals = normals_of(result, 0, exec);
-    const std::vector<double> heights = LocalFits(averages_.neighbours(), result, normals).heights_within(radii, exec);
+    const std::vector<double> heights =
+        LocalFits(averages_.neighbours(), result, normals).heights_within(of_vertices, exec);
     for_each(exec, mesh_.n_vertices(), [&](Index v) {
         if (topology_.fixed[v] == 0)
             result.row(v) += heights[v] * normals.row(v);

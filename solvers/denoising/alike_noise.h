@@ -47,12 +47,12 @@ class AlikeNoise {
 
   private:
     /// In edges.
-    static constexpr std::array<double, 4> radii_{2.2, 3.1, 4.4, 6.2};
-    static constexpr auto n_radii_ = static_cast<Eigen::Index>(radii_.size());
+    static constexpr std::array<double, 4> radii{2.2, 3.1, 4.4, 6.2};
+    static constexpr auto n_radii = static_cast<Eigen::Index>(radii.size());
     /// Of distances from half an edge less to half an edge more than a multiple of half an edge.
-    static constexpr std::size_t n_lags_ = 9;
-    using OfRadii = Eigen::Array<double, 1, n_radii_>;
-    using OfLags = Eigen::Array<double, 1, n_lags_>;
+    static constexpr std::size_t n_lags = 9;
+    using OfRadii = Eigen::Array<double, 1, n_radii>;
+    using OfLags = Eigen::Array<double, 1, n_lags>;
 
     [[nodiscard]] Points normals_of(const Points& positions, int rounds, const Executor& exec) const;
     [[nodiscard]] double edge_at(Index v) const { return edges_[v] > 0.0 ? edges_[v] : 1.0; }

@@ -155,20 +155,24 @@ NoisyPlaces::NoisyPlaces(const PolygonMesh& mesh, const Topology& topology, bool
 std::vector<PlaceStatistics> measure_places(const NoisyPlaces::Denoised& denoised, std::span<const Index> places,
                                             const Executor& exec)
 {
-    const auto& [mesh, topology, averages, before, after, found, is_flat] = denoised;
+    const PolygonMesh& mesh = denoised.mesh;
+    const Topology& topology = denoised.topology;
+    const Points& before = denoised.before;
+    const Points& after = denoised.after;
+    const DenoisedNormals& found = denoised.found;
+    const IndexLists& neighbours = denoised.averages.neighbours();
     const Points normals = mean_normals(topology, found.normals, exec);
     std::vector<double> edges = edge_lengths_at_vertices(mesh, topology, before, exec);
     for_each(exec, mesh.n_vertices(),
              [&](Index v) { edges[v] = std::min(edges[v], most_medians_of_edge * median_edge(denoised, v)); });
-    const Points filtered =
-        PositionFilters(topology, averages.neighbours()).low_pass(before, {wide_rounds}, exec).front();
+    const Points filtered = PositionFilters(topology, neighbours).low_pass(before, {wide_rounds}, exec).front();
     Eigen::Matrix<float, Eigen::Dynamic, 2, Eigen::RowMajor> displacements(mesh.n_vertices(), 2);
     for_each(exec, mesh.n_vertices(), [&](Index v) {
         const double scale = edges[v] > 0.0 ? 1.0 / edges[v] : 0.0;
         displacements(v, 0) = static_cast<float>(scale * (after.row(v) - before.row(v)).dot(normals.row(v)));
         displacements(v, 1) = static_cast<float>(scale * (filtered.row(v) - before.row(v)).dot(normals.row(v)));
     });
-    const TakenAway taken{topology, averages.neighbours(), before, normals, displacements, edges, found.noise, is_flat};
+    const TakenAway taken{topology, neighbours, before, normals, displacements, edges, found.noise, denoised.is_flat};
     std::vector<PlaceStatistics> measured(places.size());
     for_each(exec, static_cast<Index>(places.size()), [&](Index i) { measured[i] = measure_place(taken, places[i]); });
     return measured;
@@ -211,8 +215,12 @@ std::vector<std::uint8_t> NoisyPlaces::decide(std::span<const Index> component_o
 
 NoisyPlaces::Found NoisyPlaces::find(const Denoised& denoised, const Executor& exec) const
 {
-    const auto& [mesh, topology, averages, before, after, found, is_flat] = denoised;
-    const std::vector<Index> spread = spread_places(topology, averages.neighbours(), before, rings_between_places);
+    const PolygonMesh& mesh = denoised.mesh;
+    const Topology& topology = denoised.topology;
+    const Points& before = denoised.before;
+    const Points& after = denoised.after;
+    const IndexLists& neighbours = denoised.averages.neighbours();
+    const std::vector<Index> spread = spread_places(topology, neighbours, before, rings_between_places);
     const std::vector<PlaceStatistics> measured = measure_places(denoised, spread, exec);
     // Without those where nothing can be told.
     std::vector<Index> places;
@@ -231,7 +239,7 @@ NoisyPlaces::Found NoisyPlaces::find(const Denoised& denoised, const Executor& e
     std::vector<Index> sizes;
     for (Index c = 0; c < components_.count(); ++c)
         sizes.push_back(static_cast<Index>(std::ranges::count_if(components_.nodes[c], [&](Index f) {
-            return std::ranges::any_of(mesh.face(f), [&](Index v) { return is_flat[v] == 0; });
+            return std::ranges::any_of(mesh.face(f), [&](Index v) { return denoised.is_flat[v] == 0; });
         })));
     const std::vector<std::uint8_t> has_noise =
         decide(component_of_place, evidence, sizes, true, std::vector(sizes.size(), 0.0F));
@@ -241,13 +249,13 @@ NoisyPlaces::Found NoisyPlaces::find(const Denoised& denoised, const Executor& e
             least_of_alike[component_of_place[i]] = 0.0F;
     const std::vector<std::uint8_t> has_alike =
         decide(component_of_place, evidence_of_alike, sizes, false, least_of_alike);
-    const std::vector<Index> nearest = nearest_of(places, averages.neighbours());
+    const std::vector<Index> nearest = nearest_of(places, neighbours);
     const std::vector<double> edges = edge_lengths_at_vertices(mesh, topology, before, exec);
     const VertexAverages::Rows displaced = means_around(denoised, displacement_rounds, exec, [&](Index v) {
-        return edges[v] > 0.0
-                   ? static_cast<float>(motion_along_normal(topology, found.normals, v, after.row(v) - before.row(v)) /
-                                        edges[v])
-                   : 0.0F;
+        return edges[v] > 0.0 ? static_cast<float>(motion_along_normal(topology, denoised.found.normals, v,
+                                                                       after.row(v) - before.row(v)) /
+                                                   edges[v])
+                              : 0.0F;
     });
     const VertexAverages::Rows open = means_around(denoised, rounds_of_blended_places, exec, [&](Index v) {
         return nearest[v] >= 0 && has_noise[nearest[v]] != 0 ? 1.0F : 0.0F;
