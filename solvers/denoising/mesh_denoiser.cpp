@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <ranges>
 
 #include <Eigen/Core>
 
@@ -33,6 +34,9 @@ constexpr double noise_by_motion = 1.045;
 constexpr int most_thinned = 2;
 constexpr Index fewest_to_thin = 3000;
 constexpr int rounds_of_thinning = 6;
+/// The evidence on a mesh thinned once that proves noise which is only possible on the whole. Of clean surfaces where
+/// it is possible, none had more than 2.5 (thinned twice: 0.9, see NoisyPlaces).
+constexpr float proof_by_thinned = 3.0F;
 /// Local fits are taken where their risk is below this part of the noise's variance.
 constexpr double most_risk = 0.95;
 
@@ -58,7 +62,7 @@ double mean_squared_edge(const PolygonMesh& mesh, const Topology& topology, Inde
 }  // namespace
 
 MeshDenoiser::MeshDenoiser(const PolygonMesh& mesh, const Topology& topology, const Executor& exec,
-                           std::optional<double> edge_angle, bool as_one, int n_thinned)
+                           std::optional<double> edge_angle, bool as_one, int n_thinned, float least_evidence)
     : triangles_(cut_polygons(mesh, topology, exec))
     , polygons_(&mesh)
     , polygon_topology_(&topology)
@@ -66,7 +70,7 @@ MeshDenoiser::MeshDenoiser(const PolygonMesh& mesh, const Topology& topology, co
     , topology_(triangles_ ? &triangles_->topology : &topology)
     , signs_(face_signs(*mesh_, *topology_))
     , averages_(*mesh_, *topology_, exec)
-    , places_(*mesh_, *topology_, as_one, n_thinned)
+    , places_(*mesh_, *topology_, as_one, n_thinned, least_evidence)
     , rims_(*mesh_, *topology_)
     , edge_angle_(edge_angle)
     , as_one_(as_one)
@@ -187,53 +191,55 @@ std::optional<Points> MeshDenoiser::without_alike_noise(const Points& before, co
     if (n_thinned_ >= most_thinned)
         return {};
     const Components& components = places_.components();
-    std::vector<std::uint8_t> is_wanted(places.is_alike.size(), 0);
+    using Alikeness = NoisyPlaces::Alikeness;
+    std::vector<Alikeness> wanted(places.alike.size(), Alikeness::None);
     for (Index c = 0; c < components.count(); ++c)
         if (components.nodes[c].size() >= usize(fewest_to_thin))
             for (const Index f : components.nodes[c])
                 for (const Index v : mesh_->face(f))
-                    is_wanted[v] = places.is_alike[v];
-    const auto is_set = [](std::uint8_t wanted) { return wanted != 0; };
-    if (std::ranges::none_of(is_wanted, is_set))
+                    wanted[v] = places.alike[v];
+    if (std::ranges::all_of(wanted, [](Alikeness one) { return one == Alikeness::None; }))
         return {};
     Points result = before;
-    std::vector<std::uint8_t> is_fitted(is_wanted.size(), 0);
-    for (std::size_t v = 0; v < is_wanted.size(); ++v)
-        is_fitted[v] = is_wanted[v] != 0 && places.parts[v] > 0.0 ? 1 : 0;
-    if (n_thinned_ == 0 && std::ranges::any_of(is_fitted, is_set)) {
+    const auto is_fitted = [&](Index v) { return wanted[v] == Alikeness::Found && places.parts[v] > 0.0; };
+    if (n_thinned_ == 0 && std::ranges::any_of(std::views::iota(Index{0}, mesh_->n_vertices()), is_fitted)) {
         const AlikeNoise noise(*mesh_, *topology_, averages_, signs_, before, exec);
         if (noise.least_risk() < most_risk) {
             const Points without = noise.without(exec);
             for_each(exec, mesh_->n_vertices(), [&](Index v) {
-                if (is_fitted[v] == 0)
+                if (!is_fitted(v))
                     return;
                 result.row(v) = without.row(v);
-                is_wanted[v] = 0;
+                wanted[v] = Alikeness::None;
             });
         }
     }
-    if (std::ranges::any_of(is_wanted, is_set))
-        remove_on_thinned(before, is_wanted, result, exec);
+    remove_on_thinned(before, wanted, Alikeness::Found, result, exec);
+    remove_on_thinned(before, wanted, Alikeness::Possible, result, exec);
     return result;
 }
 
-void MeshDenoiser::remove_on_thinned(const Points& before, std::span<const std::uint8_t> is_wanted, Points& result,
-                                     const Executor& exec) const
+void MeshDenoiser::remove_on_thinned(const Points& before, std::span<const NoisyPlaces::Alikeness> alike,
+                                     NoisyPlaces::Alikeness which, Points& result, const Executor& exec) const
 {
-    std::vector<int> n_chosen(is_wanted.size(), 0);
-    std::vector<int> n_moved(is_wanted.size(), 0);
+    if (std::ranges::find(alike, which) == alike.end())
+        return;
+    const bool needs_proof = which == NoisyPlaces::Alikeness::Possible && n_thinned_ == 0;
+    const float least_evidence = needs_proof ? proof_by_thinned : 0.0F;
+    std::vector<int> n_chosen(alike.size(), 0);
+    std::vector<int> n_moved(alike.size(), 0);
     Points sums = Points::Zero(before.rows(), 3);
     for (int round = 0; round < rounds_of_thinning; ++round) {
         const ThinnedMesh thinned =
             thin_out(*mesh_, *topology_, averages_.neighbours(), before, n_chosen, static_cast<std::uint64_t>(round));
-        MeshDenoiser denoiser(thinned.mesh, thinned.topology, exec, {}, as_one_, n_thinned_ + 1);
+        MeshDenoiser denoiser(thinned.mesh, thinned.topology, exec, {}, as_one_, n_thinned_ + 1, least_evidence);
         const Points moved = denoiser.denoise(thinned.mesh.vertices, {}, exec);
         if (round == 0 && denoiser.noise().part == 0.0)
             return;
         for (Index i = 0; i < thinned.mesh.n_vertices(); ++i) {
             const Index v = thinned.vertices[i];
             ++n_chosen[v];
-            if (is_wanted[v] == 0 || !thinned.topology.moves(i))
+            if (alike[v] != which || !thinned.topology.moves(i))
                 continue;
             ++n_moved[v];
             sums.row(v) += moved.row(i) - before.row(v);

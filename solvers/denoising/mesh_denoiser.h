@@ -43,9 +43,10 @@ class MeshDenoiser {
     /// @param mesh, topology must outlive the object; the twins of the topology are not needed later.
     /// @param edge_angle between the normals of faces, in degrees: the edges that stay where noise is small (see
     /// take_smoother_places), if that is to be used. @param as_one whether all components have noise or none.
-    /// @param n_thinned how often the mesh has been thinned out.
+    /// @param n_thinned how often the mesh has been thinned out. @param least_evidence see NoisyPlaces.
     MeshDenoiser(const PolygonMesh& mesh, const Topology& topology, const Executor& exec = run_serially,
-                 std::optional<double> edge_angle = default_edge_angle, bool as_one = false, int n_thinned = 0);
+                 std::optional<double> edge_angle = default_edge_angle, bool as_one = false, int n_thinned = 0,
+                 float least_evidence = 0.0F);
 
     static constexpr double default_edge_angle = 30.0;
 
@@ -91,9 +92,10 @@ class MeshDenoiser {
     /// shape, and on thinned meshes elsewhere. @returns #V by 3; nothing if there is no such noise.
     [[nodiscard]] std::optional<Points> without_alike_noise(const Points& before, const NoisyPlaces::Found& places,
                                                             const Executor& exec) const;
-    /// @param is_wanted #V. @param result #V by 3: where noise is found on thinned meshes, positions without it.
-    void remove_on_thinned(const Points& before, std::span<const std::uint8_t> is_wanted, Points& result,
-                           const Executor& exec) const;
+    /// @param alike #V. @param which vertices are wanted. @param result #V by 3: where noise is found on thinned
+    /// meshes, positions without it.
+    void remove_on_thinned(const Points& before, std::span<const NoisyPlaces::Alikeness> alike,
+                           NoisyPlaces::Alikeness which, Points& result, const Executor& exec) const;
     /// See keep_facing.
     void keep_all_facing(const Points& before, Points wanted, Points& positions, const Executor& exec) const;
     /// @param motions #V by 3, to the positions after. @param parts #V: 0 where there is no noise, nor where is_flat.

@@ -52,8 +52,12 @@ float evidence_of_noise(const PlaceStatistics& place)
 
 float evidence_of_alike_noise(const PlaceStatistics& place)
 {
-    return std::min(evidence(weights_of_alike_noise, place),
-                    evidence(weights_of_alike_against_independent_noise, place));
+    return evidence(weights_of_alike_noise, place);
+}
+
+float evidence_against_independent_noise(const PlaceStatistics& place)
+{
+    return evidence(weights_of_alike_against_independent_noise, place);
 }
 
 }  // namespace seamflow

@@ -18,8 +18,10 @@ std::array<float, noise_features.size()> features_of(const PlaceStatistics& plac
 /// regression on places of surfaces that are known (see samples/training/noise_or_shape.md).
 float evidence_of_noise(const PlaceStatistics& place);
 
-/// The same for noise that is alike at neighbours, as that of many scanners: against shape, and against noise that is
-/// independent at neighbours, of which the denoiser takes all. The lesser of both.
+/// The same for noise that is alike at neighbours, as that of many scanners.
 float evidence_of_alike_noise(const PlaceStatistics& place);
+
+/// Of noise that is alike at neighbours, against noise that is independent there, of which the denoiser takes all.
+float evidence_against_independent_noise(const PlaceStatistics& place);
 
 }  // namespace seamflow

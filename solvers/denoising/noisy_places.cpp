@@ -21,7 +21,6 @@ namespace {
 /// A component has noise if this part of its places has evidence for it; a small one, whose places are few and bend
 /// more from edge to edge, if they have clear evidence, and so a surface that was thinned twice.
 constexpr double part_with_evidence = 0.75;
-constexpr float clear_evidence = 1.65F;
 constexpr Index few_faces = 2500;
 /// Noise that is alike at neighbours looks more like shape where there is no other noise.
 constexpr float evidence_of_alike_noise_alone = 1.0F;
@@ -146,9 +145,11 @@ std::vector<std::uint8_t> flat_vertices(const PolygonMesh& mesh, const Topology&
     return is_flat;
 }
 
-NoisyPlaces::NoisyPlaces(const PolygonMesh& mesh, const Topology& topology, bool as_one, int n_thinned)
+NoisyPlaces::NoisyPlaces(const PolygonMesh& mesh, const Topology& topology, bool as_one, int n_thinned,
+                         float least_evidence)
     : components_(as_one ? all_together(mesh) : face_components(mesh, topology))
     , n_thinned_(n_thinned)
+    , least_evidence_(least_evidence)
 {
 }
 
@@ -180,7 +181,7 @@ std::vector<PlaceStatistics> measure_places(const NoisyPlaces::Denoised& denoise
 
 std::vector<std::uint8_t> NoisyPlaces::decide(std::span<const Index> component_of_place,
                                               std::span<const float> evidence, std::span<const Index> sizes,
-                                              bool finds_single_places, std::span<const float> least_evidence) const
+                                              float least_evidence, bool finds_single_places) const
 {
     Lists<float> of_components = make_lists<float>(components_.count(), [&](auto&& add) {
         for (std::size_t i = 0; i < evidence.size(); ++i)
@@ -200,7 +201,8 @@ std::vector<std::uint8_t> NoisyPlaces::decide(std::span<const Index> component_o
             return *place;
         };
         const bool is_doubtful = n_thinned_ > 1 || sizes[c] < few_faces;
-        if (quantile(1.0 - part_with_evidence) > (is_doubtful ? clear_evidence : least_evidence[c]))
+        if (quantile(1.0 - part_with_evidence) >
+            std::max({least_evidence, least_evidence_, is_doubtful ? clear_evidence : 0.0F}))
             least[c] = outweighing_evidence_against;
         else if (n_thinned_ > 0 || !finds_single_places)
             least[c] = std::numeric_limits<float>::infinity();
@@ -226,6 +228,7 @@ NoisyPlaces::Found NoisyPlaces::find(const Denoised& denoised, const Executor& e
     std::vector<Index> places;
     std::vector<Index> component_of_place;
     std::vector<float> evidence;
+    std::vector<float> alike_against_shape;
     std::vector<float> evidence_of_alike;
     for (std::size_t i = 0; i < spread.size(); ++i) {
         if (measured[i].n_vertices < fewest_of_place)
@@ -234,21 +237,37 @@ NoisyPlaces::Found NoisyPlaces::find(const Denoised& denoised, const Executor& e
         component_of_place.push_back(
             components_.component_of[topology.face_of[topology.corners_at(spread[i]).front()]]);
         evidence.push_back(evidence_of_noise(measured[i]));
-        evidence_of_alike.push_back(evidence_of_alike_noise(measured[i]));
+        alike_against_shape.push_back(evidence_of_alike_noise(measured[i]));
+        evidence_of_alike.push_back(
+            std::min(alike_against_shape.back(), evidence_against_independent_noise(measured[i])));
     }
     std::vector<Index> sizes;
     for (Index c = 0; c < components_.count(); ++c)
         sizes.push_back(static_cast<Index>(std::ranges::count_if(components_.nodes[c], [&](Index f) {
             return std::ranges::any_of(mesh.face(f), [&](Index v) { return denoised.is_flat[v] == 0; });
         })));
-    const std::vector<std::uint8_t> has_noise =
-        decide(component_of_place, evidence, sizes, true, std::vector(sizes.size(), 0.0F));
-    std::vector<float> least_of_alike(sizes.size(), evidence_of_alike_noise_alone);
+    const std::vector<std::uint8_t> has_noise = decide(component_of_place, evidence, sizes, 0.0F, true);
+    std::vector<std::uint8_t> has_other(sizes.size(), 0);
     for (std::size_t i = 0; i < places.size(); ++i)
         if (has_noise[i] != 0)
-            least_of_alike[component_of_place[i]] = 0.0F;
-    const std::vector<std::uint8_t> has_alike =
-        decide(component_of_place, evidence_of_alike, sizes, false, least_of_alike);
+            has_other[component_of_place[i]] = 1;
+    const std::vector<Alikeness> alike = [&] {
+        const auto decided = [&](std::span<const float> of_places, float least) {
+            return decide(component_of_place, of_places, sizes, least, false);
+        };
+        const std::vector<std::uint8_t> beside_other = decided(evidence_of_alike, 0.0F);
+        const std::vector<std::uint8_t> alone = decided(evidence_of_alike, evidence_of_alike_noise_alone);
+        const std::vector<std::uint8_t> possible = decided(alike_against_shape, 0.0F);
+        std::vector<Alikeness> result(places.size(), Alikeness::None);
+        for (std::size_t i = 0; i < places.size(); ++i)
+            if (has_other[component_of_place[i]] != 0)
+                result[i] = beside_other[i] != 0 ? Alikeness::Found : Alikeness::None;
+            else if (alone[i] != 0)
+                result[i] = Alikeness::Found;
+            else if (possible[i] != 0)
+                result[i] = Alikeness::Possible;
+        return result;
+    }();
     const std::vector<Index> nearest = nearest_of(places, neighbours);
     const std::vector<double> edges = edge_lengths_at_vertices(mesh, topology, before, exec);
     const VertexAverages::Rows displaced = means_around(denoised, displacement_rounds, exec, [&](Index v) {
@@ -261,7 +280,7 @@ NoisyPlaces::Found NoisyPlaces::find(const Denoised& denoised, const Executor& e
         return nearest[v] >= 0 && has_noise[nearest[v]] != 0 ? 1.0F : 0.0F;
     });
     const Index n = mesh.n_vertices();
-    Found result{std::vector<double>(usize(n), 0.0), std::vector<std::uint8_t>(usize(n), 0)};
+    Found result{std::vector<double>(usize(n), 0.0), std::vector<Alikeness>(usize(n), Alikeness::None)};
     for_each(exec, n, [&](Index v) {
         const auto corners = topology.corners_at(v);
         const auto count = static_cast<double>(corners.size());
@@ -269,7 +288,7 @@ NoisyPlaces::Found NoisyPlaces::find(const Denoised& denoised, const Executor& e
             const Index f = topology.face_of[corner];
             result.parts[v] += open(f, 0) * smooth_step((displaced(f, 0) - calm) / (restless - calm)) / count;
         }
-        result.is_alike[v] = nearest[v] >= 0 && has_alike[nearest[v]] != 0 ? 1 : 0;
+        result.alike[v] = nearest[v] >= 0 ? alike[nearest[v]] : Alikeness::None;
     });
     return result;
 }

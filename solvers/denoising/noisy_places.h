@@ -31,9 +31,14 @@ std::vector<std::uint8_t> flat_vertices(const PolygonMesh& mesh, const Topology&
 /// other component matters. Where vertices would hardly move there is no noise.
 class NoisyPlaces {
   public:
+    /// The evidence that components and places need where little is certain otherwise.
+    static constexpr float clear_evidence = 1.65F;
+
     /// @param topology with twins; not needed later. @param as_one whether all components are judged as one.
     /// @param n_thinned how often the mesh has been thinned out.
-    NoisyPlaces(const PolygonMesh& mesh, const Topology& topology, bool as_one = false, int n_thinned = 0);
+    /// @param least_evidence that a component needs.
+    NoisyPlaces(const PolygonMesh& mesh, const Topology& topology, bool as_one = false, int n_thinned = 0,
+                float least_evidence = 0.0F);
 
     /// A denoiser's result, and what it is judged by. All members refer to the same mesh.
     struct Denoised {
@@ -48,11 +53,19 @@ class NoisyPlaces {
         std::span<const std::uint8_t> is_flat;
     };
 
+    /// Whether there is noise that is alike at neighbours.
+    enum class Alikeness : std::uint8_t {
+        None,
+        /// It looks like it, but has to be proven on a thinned mesh.
+        Possible,
+        Found
+    };
+
     struct Found {
         /// #V: how much of its displacement each vertex should make, from 0 to 1.
         std::vector<double> parts;
-        /// #V: 1 where there is noise that is alike at neighbours, of which a denoiser cannot tell all from shape.
-        std::vector<std::uint8_t> is_alike;
+        /// #V: where there is noise that is alike at neighbours, of which a denoiser cannot tell all from shape.
+        std::vector<Alikeness> alike;
     };
 
     [[nodiscard]] Found find(const Denoised& denoised, const Executor& exec = run_serially) const;
@@ -63,16 +76,16 @@ class NoisyPlaces {
   private:
     /// Per place: 1 where there is noise.
     /// @param evidence per place. @param sizes per component: the number of faces that are not in flat places.
+    /// @param least_evidence of the lower quartile of the places of a component.
     /// @param finds_single_places whether there may be noise at places of a component that has none as a whole.
-    /// @param least_evidence per component: of the lower quartile of its places.
     [[nodiscard]] std::vector<std::uint8_t> decide(std::span<const Index> component_of_place,
                                                    std::span<const float> evidence, std::span<const Index> sizes,
-                                                   bool finds_single_places,
-                                                   std::span<const float> least_evidence) const;
+                                                   float least_evidence, bool finds_single_places) const;
 
     /// The components of the mesh, by faces: each is judged by itself.
     Components components_;
     int n_thinned_;
+    float least_evidence_;
 };
 
 /// What is taken away around each of some places, for the training of the decision.

@@ -143,7 +143,11 @@ TEST_CASE("noise that is alike at neighbours goes, from parts and curved surface
     };
     const PolygonMesh gear = make_mesh("gear", 20'000);
     const PolygonMesh sphere = make_noisy_sphere(20'000, {.amplitude = 0.1, .noise = 0.0});
-    for (const Case& one : {Case{gear, 0.1, 1, 0.3}, {gear, 0.3, 1, 0.4}, {sphere, 0.1, 1, 0.4}}) {
+    for (const Case& one : {Case{gear, 0.1, 1, 0.3},
+                            {gear, 0.3, 1, 0.4},
+                            {sphere, 0.1, 1, 0.4},
+                            {sphere, 0.3, 1, 0.25},
+                            {sphere, 0.3, 3, 0.5}}) {
         CAPTURE(one.sigma);
         CAPTURE(one.rounds);
         const PolygonMesh noisy = with_alike_noise(one.truth, one.sigma, one.rounds, 3);
