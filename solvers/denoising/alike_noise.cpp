@@ -19,6 +19,12 @@ constexpr int rounds_of_places = 30;
 constexpr double width_of_lags = 0.5;
 /// In edges: where correlations fall to exp(-1/4).
 constexpr std::array<double, 7> alike_lengths{0.35, 0.5, 0.7, 1.0, 1.4, 2.0, 2.8};
+/// The variance of alike noise over that of white noise, between which both are plausible: of five scans 0.7 to 2.4, of
+/// relief with white noise of a tenth of an edge 2.8 and more.
+constexpr double least_alike = 0.1;
+constexpr double most_alike = 2.6;
+/// Fits of more risk, relative to the variance of the noise, are not worth it.
+constexpr double most_risk = 0.95;
 /// Differences of risks, relative to the variance of the noise, at which the weight of a radius falls to 1/e.
 constexpr double risk_temperature = 0.05;
 /// Mean squares at single places are uncertain: this part of their expectation is that of the calmer half.
@@ -226,6 +232,8 @@ void AlikeNoise::find_covariances(const Executor& exec)
             seen.push_back(total[k] / number);
         }
     const TwoNoises noise = lags.empty() ? TwoNoises{} : noise_with(LocalFits::kernel(radii.back()), lags, seen);
+    is_bounded_ = noise.length < alike_lengths.back() && noise.alike > least_alike * noise.white &&
+                  noise.alike < most_alike * noise.white;
     for (std::size_t k = 0; k < n_lags; ++k)
         covariances_[static_cast<Eigen::Index>(k)] = noise.covariance(width_of_lags * static_cast<double>(k));
     for (Eigen::Index i = 0; i < n_radii; ++i) {
@@ -236,12 +244,9 @@ void AlikeNoise::find_covariances(const Executor& exec)
     }
 }
 
-double AlikeNoise::mean_edge() const
+bool AlikeNoise::is_plausible() const
 {
-    double total = 0.0;
-    for (const double edge : edges_)
-        total += edge;
-    return total / static_cast<double>(std::max(edges_.size(), std::size_t{1}));
+    return is_bounded_ && least_risk() < most_risk;
 }
 
 double AlikeNoise::least_risk() const

@@ -36,8 +36,9 @@ class AlikeNoise {
     /// The standard deviation along the normals, in lengths of the edges at each vertex.
     [[nodiscard]] double deviation() const { return std::sqrt(covariances_[0]); }
 
-    /// Of the edges, in length.
-    [[nodiscard]] double mean_edge() const;
+    /// Whether the surface has as much of it, beside white noise, as scanners leave: if there is hardly any, or far
+    /// more than white noise, or over as many edges as can be told, it is rather shape.
+    [[nodiscard]] bool is_plausible() const;
 
     /// The risk of the best fits over that of doing nothing: above 1 where they would take more than noise.
     [[nodiscard]] double least_risk() const;
@@ -78,6 +79,8 @@ class AlikeNoise {
     OfLags covariances_;
     /// The covariances of the noise and the fitted heights, in squared edges.
     OfRadii shared_;
+    /// Whether there is as much of it as can be told from white noise and from shape.
+    bool is_bounded_ = false;
 };
 
 }  // namespace seamflow

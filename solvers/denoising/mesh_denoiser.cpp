@@ -37,8 +37,6 @@ constexpr int rounds_of_thinning = 6;
 /// The evidence on a mesh thinned once that proves noise which is only possible on the whole. Of clean surfaces where
 /// it is possible, none had more than 2.5 (thinned twice: 0.9, see NoisyPlaces).
 constexpr float proof_by_thinned = 3.0F;
-/// Local fits are taken where their risk is below this part of the noise's variance.
-constexpr double most_risk = 0.95;
 
 /// The mean chord between faces and their wanted normals.
 double mean_chord(const PolygonMesh& mesh, const Points& positions, const Points& wanted, const Executor& exec)
@@ -204,15 +202,14 @@ std::optional<Points> MeshDenoiser::without_alike_noise(const Points& before, co
     const auto is_fitted = [&](Index v) { return wanted[v] == Alikeness::Found && places.parts[v] > 0.0; };
     if (n_thinned_ == 0 && std::ranges::any_of(std::views::iota(Index{0}, mesh_->n_vertices()), is_fitted)) {
         const AlikeNoise noise(*mesh_, *topology_, averages_, signs_, before, exec);
-        if (noise.least_risk() < most_risk) {
-            const Points without = noise.without(exec);
-            for_each(exec, mesh_->n_vertices(), [&](Index v) {
-                if (!is_fitted(v))
-                    return;
-                result.row(v) = without.row(v);
-                wanted[v] = Alikeness::None;
-            });
-        }
+        const std::optional<Points> without = noise.is_plausible() ? std::optional(noise.without(exec)) : std::nullopt;
+        for_each(exec, mesh_->n_vertices(), [&](Index v) {
+            if (!is_fitted(v))
+                return;
+            if (without)
+                result.row(v) = without->row(v);
+            wanted[v] = without ? Alikeness::None : Alikeness::Possible;
+        });
     }
     remove_on_thinned(before, wanted, Alikeness::Found, result, exec);
     remove_on_thinned(before, wanted, Alikeness::Possible, result, exec);

@@ -22,6 +22,10 @@ namespace {
 /// more from edge to edge, if they have clear evidence, and so a surface that was thinned twice.
 constexpr double part_with_evidence = 0.75;
 constexpr Index few_faces = 2500;
+/// Or if half of the places have so much evidence (of clean surfaces none had more than 0.8), and not more than a
+/// quarter of them as much against it.
+constexpr float evidence_of_half = 1.0F;
+constexpr float evidence_against_of_quarter = -2.5F;
 /// Noise that is alike at neighbours looks more like shape where there is no other noise.
 constexpr float evidence_of_alike_noise_alone = 1.0F;
 /// The evidence that outweighs that of the component. For noise: so much more than the median of the component, but
@@ -201,8 +205,11 @@ std::vector<std::uint8_t> NoisyPlaces::decide(std::span<const Index> component_o
             return *place;
         };
         const bool is_doubtful = n_thinned_ > 1 || sizes[c] < few_faces;
-        if (quantile(1.0 - part_with_evidence) >
-            std::max({least_evidence, least_evidence_, is_doubtful ? clear_evidence : 0.0F}))
+        const float lower = quantile(1.0 - part_with_evidence);
+        const float needed = std::max({least_evidence, least_evidence_, is_doubtful ? clear_evidence : 0.0F});
+        const bool half_has_it = needed == 0.0F && finds_single_places && lower > evidence_against_of_quarter &&
+                                 quantile(0.5) > evidence_of_half;
+        if (lower > needed || half_has_it)
             least[c] = outweighing_evidence_against;
         else if (n_thinned_ > 0 || !finds_single_places)
             least[c] = std::numeric_limits<float>::infinity();

@@ -164,8 +164,9 @@ TEST_CASE("vertices of faces that reach far go no further than others, however t
             CHECK((result - noisy.vertices).rowwise().norm().maxCoeff() < (1.0 + 5.0 * sigma) * edge);
             CHECK(squares(result, 0, m) < 1.05 * squares(noisy.vertices, 0, m));
             CHECK(squares(result, m * n, m * n + m) < 1.05 * squares(noisy.vertices, m * n, m * n + m));
-            // A little noise beside faces that reach far is not always told from them.
-            CHECK(squares(result, m, m * n) <= (sigma < 0.2 ? 1.0 : 0.4) * squares(noisy.vertices, m, m * n));
+            // Beside a fan, noise of a tenth of an edge is not told from how the surface bends.
+            if (sigma > 0.1 || lid != Lid::Fan)
+                CHECK(squares(result, m, m * n) < 0.4 * squares(noisy.vertices, m, m * n));
         }
 }
 
@@ -182,10 +183,8 @@ TEST_CASE("the noise of a mesh is measured from itself, from little to as large 
         for (const double sigma : {0.05, 0.1, 0.2, 0.4}) {
             CAPTURE(sigma);
             const SurfaceNoise noise = noise_of(with_noise(truths[i], sigma));
-            // On polygons more of a little noise stays, and where they bend more than it, it is not told from that.
+            // On polygons more of a little noise stays.
             const bool polygons = i < n_polygons;
-            if (polygons && sigma < 0.1 && noise.part == 0.0)
-                continue;
             CHECK(noise.deviation / (sigma * edge) == test::relative(1.0, !polygons ? 0.1 : sigma < 0.1 ? 0.4 : 0.15));
             CHECK(noise.edge / edge == test::relative(1.0, 0.2));
             CHECK(noise.part > 0.9);
