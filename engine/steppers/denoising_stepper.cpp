@@ -86,7 +86,9 @@ void DenoisingStepper::save(StepMemory& memory) const
 {
     memory.positions = positions_;
     if (noise_)
-        memory.numbers = {noise_->deviation, noise_->edge, noise_->part, noise_->rim_vertices};
+        memory.numbers = {noise_->deviation,      noise_->edge,           noise_->part,
+                          noise_->rim_vertices,   noise_->kept.vertices,  noise_->kept.height,
+                          noise_->kept.place.x(), noise_->kept.place.y(), noise_->kept.place.z()};
 }
 
 void DenoisingStepper::restore(const StepMemory& memory)
@@ -94,7 +96,9 @@ void DenoisingStepper::restore(const StepMemory& memory)
     positions_ = memory.positions;
     StepMemoryReader reader(memory);
     noise_.emplace();
-    for (double* number : {&noise_->deviation, &noise_->edge, &noise_->part, &noise_->rim_vertices})
+    KeptStructure& kept = noise_->kept;
+    for (double* number : {&noise_->deviation, &noise_->edge, &noise_->part, &noise_->rim_vertices, &kept.vertices,
+                           &kept.height, &kept.place.x(), &kept.place.y(), &kept.place.z()})
         *number = reader.number();
     reader.require_end();
 }
@@ -109,14 +113,21 @@ void DenoisingStepper::report_to(FlowReport& report) const
     report.noise = {noise_->edge > 0.0 ? noise_->deviation / noise_->edge : 0.0, noise_->part};
     if (!denoiser_.spikes().empty())
         report.remarks.push_back(remark_on_spikes(denoiser_.spikes()));
+    const KeptStructure& kept = noise_->kept;
+    if (kept.vertices > 0.0)
+        report.remarks.push_back(fmt::format(
+            "What looked like noise comes back like a pattern, so it stays as it is: {:.0f} vertices, which "
+            "would have moved by up to {:.3g}, most clearly at {:.6g}, {:.6g}, {:.6g}. Use --radius to "
+            "smooth it all the same.",
+            kept.vertices, kept.height, kept.place.x(), kept.place.y(), kept.place.z()));
+    const bool has_noise = noise_->part > 0.0;
     if (noise_->rim_vertices > 0.0)
         report.choices.push_back(fmt::format("noise or stairs of rims of {:.0f} vertices: removed; they became smooth "
-                                             "curves",
-                                             noise_->rim_vertices));
-    if (noise_->part == 0.0 && noise_->rim_vertices > 0.0)
-        return;
-    if (noise_->part == 0.0) {
-        report.remarks.emplace_back("No noise was found: nothing is smoothed. Use --radius to smooth anyway.");
+                                             "curves{}",
+                                             noise_->rim_vertices, has_noise ? ";" : ""));
+    if (!has_noise) {
+        if (noise_->rim_vertices == 0.0 && kept.vertices == 0.0)
+            report.remarks.emplace_back("No noise was found: nothing is smoothed. Use --radius to smooth anyway.");
         return;
     }
     std::string where;

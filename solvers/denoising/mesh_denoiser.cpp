@@ -150,6 +150,7 @@ Points MeshDenoiser::without_noise(const Points& before, std::span<const double>
         keep_all_facing(before, found.normals.normals, begun, exec);
         found = examine(begun, exec);
     }
+    const KeptStructure kept = n_thinned_ == 0 ? put_back_structure(before, begun, found, exec) : KeptStructure{};
     const Points& normals = found.normals.normals;
     std::vector<double>& parts = found.places.parts;
     Points& fitted = found.fitted;
@@ -159,6 +160,7 @@ Points MeshDenoiser::without_noise(const Points& before, std::span<const double>
             has_noise[v] = 1.0;
     });
     measure_noise(fitted - before, has_noise, found.is_flat, normals, fitted, exec);
+    noise_.kept = kept;
     for_each(exec, mesh_->n_vertices(), [&](Index v) {
         parts[v] *= strength(v);
         if (parts[v] < 1.0)
@@ -248,6 +250,36 @@ void MeshDenoiser::remove_on_thinned(const Points& before, std::span<const Noisy
     });
 }
 
+KeptStructure MeshDenoiser::put_back_structure(const Points& before, Points& begun, Findings& found,
+                                               const Executor& exec) const
+{
+    std::vector<double>& parts = found.places.parts;
+    Points after(before.rows(), 3);
+    for_each(exec, mesh_->n_vertices(),
+             [&](Index v) { after.row(v) = begun.row(v) + parts[v] * (found.fitted.row(v) - begun.row(v)); });
+    KeptStructure kept;
+    if (after == before)
+        return kept;
+    std::vector<std::uint8_t> is_kept(parts.size(), 0);
+    for (const auto& [component, place] :
+         places_.find_structure({*mesh_, *topology_, averages_, before, after, found.normals, found.is_flat}, exec)) {
+        kept.place = before.row(place);
+        for (const Index f : places_.components().nodes[component])
+            for (const Index v : mesh_->face(f))
+                is_kept[v] = 1;
+    }
+    for (Index v = 0; v < mesh_->n_vertices(); ++v) {
+        if (is_kept[v] == 0)
+            continue;
+        if (after.row(v) != before.row(v))
+            ++kept.vertices;
+        kept.height = std::max(kept.height, (after.row(v) - before.row(v)).norm());
+        begun.row(v) = before.row(v);
+        parts[v] = 0.0;
+    }
+    return kept;
+}
+
 void MeshDenoiser::keep_all_facing(const Points& before, Points wanted, Points& positions, const Executor& exec) const
 {
     for_each(exec, static_cast<Index>(signs_.size()), [&](Index f) { wanted.row(f) *= signs_[f]; });
@@ -271,8 +303,11 @@ void MeshDenoiser::measure_noise(const Points& motions, std::span<const double> 
             return Sums(motion * motion, mean_squared_edge(*polygons_, *polygon_topology_, v, after), 1.0, 1.0);
         },
         Sums(Sums::Zero()));
-    noise_ = sums[2] > 0.0 ? SurfaceNoise{noise_by_motion * std::sqrt(sums[0] / sums[2]), std::sqrt(sums[1] / sums[2]),
-                                          sums[2] / sums[3], 0.0}
+    noise_ = sums[2] > 0.0 ? SurfaceNoise{noise_by_motion * std::sqrt(sums[0] / sums[2]),
+                                          std::sqrt(sums[1] / sums[2]),
+                                          sums[2] / sums[3],
+                                          0.0,
+                                          {}}
                            : SurfaceNoise{};
 }
 

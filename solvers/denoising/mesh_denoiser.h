@@ -18,6 +18,15 @@
 
 namespace seamflow {
 
+/// What looked like noise at first, but has structure: it was put back.
+struct KeptStructure {
+    /// How many vertices have it.
+    double vertices = 0.0;
+    /// How far they would have gone at most, and where it looks most like structure: in units of length.
+    double height = 0.0;
+    Point place = Point::Zero();
+};
+
 /// The noise of a surface.
 struct SurfaceNoise {
     /// The standard deviation of the vertices along the normals, where there is noise: in units of length.
@@ -28,6 +37,7 @@ struct SurfaceNoise {
     double part = 0.0;
     /// The number of vertices of the boundary that leave noise or stairs of their rim (see RimFilter).
     double rim_vertices = 0.0;
+    KeptStructure kept;
 };
 
 /// Removes noise: face normals are estimated, and the vertices move to fit them, along the normals unless a face would
@@ -96,6 +106,10 @@ class MeshDenoiser {
     /// meshes, positions without it.
     void remove_on_thinned(const Points& before, std::span<const NoisyPlaces::Alikeness> alike,
                            NoisyPlaces::Alikeness which, Points& result, const Executor& exec) const;
+    /// Puts back what was taken where it has structure: there nothing has begun, nor will any part go.
+    /// @param begun #V by 3: without noise that is alike at neighbours.
+    [[nodiscard]] KeptStructure put_back_structure(const Points& before, Points& begun, Findings& found,
+                                                   const Executor& exec) const;
     /// See keep_facing.
     void keep_all_facing(const Points& before, Points wanted, Points& positions, const Executor& exec) const;
     /// @param motions #V by 3, to the positions after. @param parts #V: 0 where there is no noise, nor where is_flat.

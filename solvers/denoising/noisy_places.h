@@ -70,6 +70,19 @@ class NoisyPlaces {
 
     [[nodiscard]] Found find(const Denoised& denoised, const Executor& exec = run_serially) const;
 
+    /// What was taken from a component, if it looks like a pattern rather than noise.
+    struct Structure {
+        Index component;
+        /// A vertex, where it looks most like one.
+        Index place;
+    };
+
+    /// Looks again at what was taken away: noise cannot be predicted, a pattern comes back (see TakenStatistics).
+    /// Noise that is independent at neighbours is averaged out first, so that a pattern beneath it is seen.
+    /// @param taken its positions after are those that would result. @returns by component.
+    [[nodiscard]] std::vector<Structure> find_structure(const Denoised& taken,
+                                                        const Executor& exec = run_serially) const;
+
     /// Of faces.
     [[nodiscard]] const Components& components() const { return components_; }
 

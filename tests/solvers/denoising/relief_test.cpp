@@ -7,6 +7,7 @@
 #include "engine/tasks/parallel_executor.h"
 #include "partition/metrics/vertex_distance.h"
 #include "partition/metrics/vertex_normals.h"
+#include "samples/meshes/meshes.h"
 #include "solvers/denoising/mesh_denoiser.h"
 #include "tests/support/denoising.h"
 #include "tests/support/reliefs.h"
@@ -104,4 +105,37 @@ TEST_CASE(
             CHECK(outcomes[i].after < 1.02 * outcomes[i].before);
         }
     }
+}
+
+TEST_CASE("shallow relief that would go with the noise on it is put back, and where it is is known")
+{
+    int n_seen = 0;
+    for (test::ReliefKind kind : test::relief_kinds()) {
+        if (kind.name != "thread" || kind.wavelength != 8.0)
+            continue;
+        CAPTURE(kind.name);
+        ++n_seen;
+        kind.height = 0.1;
+        const test::ReliefSurface truth = test::make_relief(kind, few_vertices);
+        const PolygonMesh noisy = test::with_gaussian_noise(truth.mesh, 0.1, 3);
+        const Topology topology = make_topology(noisy);
+        MeshDenoiser denoiser(noisy, topology);
+        const Points result = denoiser.denoise(noisy.vertices);
+        CHECK(height_kept(truth, result) > 0.9);
+        const KeptStructure& kept = denoiser.noise().kept;
+        CHECK(kept.vertices > 0.8 * noisy.n_vertices());
+        CHECK(kept.height > 0.1 * mean_edge_length(noisy));
+        CHECK(kept.height < mean_edge_length(noisy));
+        CHECK((noisy.vertices.rowwise() - kept.place).rowwise().norm().minCoeff() == 0.0);
+        CHECK(denoiser.noise().part == 0.0);
+    }
+    CHECK(n_seen == 1);
+    // Of noise alone nothing is.
+    PolygonMesh ball = make_noisy_sphere(few_vertices, {.amplitude = 0.1, .noise = 0.0});
+    ball = test::with_gaussian_noise(ball, 0.2, 3);
+    const Topology topology = make_topology(ball);
+    MeshDenoiser denoiser(ball, topology);
+    denoiser.denoise(ball.vertices);
+    CHECK(denoiser.noise().kept.vertices == 0.0);
+    CHECK(denoiser.noise().part > 0.9);
 }
