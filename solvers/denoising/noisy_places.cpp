@@ -212,7 +212,7 @@ std::vector<std::uint8_t> NoisyPlaces::decide(std::span<const Index> component_o
         };
         const bool is_doubtful = n_thinned_ > 1 || sizes[c] < few_faces;
         const float lower = quantile(1.0 - part_with_evidence);
-        const float needed = std::max({least_evidence, least_evidence_, is_doubtful ? clear_evidence : 0.0F});
+        const float needed = is_doubtful ? std::max(least_evidence, clear_evidence) : least_evidence;
         const bool half_has_it = needed == 0.0F && finds_single_places && lower > evidence_against_of_quarter &&
                                  quantile(0.5) > evidence_of_half;
         if (lower > needed || half_has_it)
@@ -259,7 +259,7 @@ NoisyPlaces::Found NoisyPlaces::find(const Denoised& denoised, const Executor& e
         sizes.push_back(static_cast<Index>(std::ranges::count_if(components_.nodes[c], [&](Index f) {
             return std::ranges::any_of(mesh.face(f), [&](Index v) { return denoised.is_flat[v] == 0; });
         })));
-    const std::vector<std::uint8_t> has_noise = decide(component_of_place, evidence, sizes, 0.0F, true);
+    const std::vector<std::uint8_t> has_noise = decide(component_of_place, evidence, sizes, least_evidence_, true);
     std::vector<std::uint8_t> has_other(sizes.size(), 0);
     for (std::size_t i = 0; i < places.size(); ++i)
         if (has_noise[i] != 0)
