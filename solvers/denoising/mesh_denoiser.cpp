@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <ranges>
 
 #include <Eigen/Core>
 
@@ -201,12 +200,14 @@ std::optional<Points> MeshDenoiser::without_alike_noise(const Points& before, co
     if (std::ranges::all_of(wanted, [](Alikeness one) { return one == Alikeness::None; }))
         return {};
     Points result = before;
-    const auto is_fitted = [&](Index v) { return wanted[v] == Alikeness::Found && places.parts[v] > 0.0; };
-    if (n_thinned_ == 0 && std::ranges::any_of(std::views::iota(Index{0}, mesh_->n_vertices()), is_fitted)) {
+    std::vector<std::uint8_t> is_fitted(wanted.size(), 0);
+    for (std::size_t v = 0; v < wanted.size() && n_thinned_ == 0; ++v)
+        is_fitted[v] = wanted[v] == Alikeness::Found && places.parts[v] > 0.0 ? 1 : 0;
+    if (std::ranges::find(is_fitted, 1) != is_fitted.end()) {
         const AlikeNoise noise(*mesh_, *topology_, averages_, signs_, before, exec);
         const std::optional<Points> without = noise.is_plausible() ? std::optional(noise.without(exec)) : std::nullopt;
         for_each(exec, mesh_->n_vertices(), [&](Index v) {
-            if (!is_fitted(v))
+            if (is_fitted[v] == 0)
                 return;
             if (without)
                 result.row(v) = without->row(v);
