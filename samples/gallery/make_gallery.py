@@ -202,6 +202,22 @@ class Gallery:
         self.surface("part", "generate gear part.ply --vertices 15000 --noise 0.3", "smooth part.ply smooth.ply", -1.1,
                      0.8)
 
+    def knob(self):
+        """A knurled band around a ball, with noise along the normals."""
+        self.run("generate noisy-sphere ball.ply --vertices 20000 --amplitude 0 --noise 0")
+        ball = self.read("ball.ply")
+        x, y, z = ball.points.T
+        angle, height = 12 * np.arctan2(y, x), 10 * np.arctanh(np.clip(z, -0.9, 0.9))
+        edge = np.linalg.norm(np.diff(ball.points[ball.triangles[:, :2]], axis=1), axis=2).mean()
+        band = np.clip(8 * (0.6 - np.abs(z)), 0, 1)
+        knurl = 1.5 * band * (np.abs(np.sin(angle + height)) + np.abs(np.sin(angle - height)))
+        noise = 0.1 * np.random.default_rng(1).standard_normal(len(x))
+        ball.points *= 1 + edge * (knurl + noise)[:, None]
+        ball.write(self.folder / "knob.ply")
+        self.run("smooth knob.ply smooth.ply")
+        after = self.read("smooth.ply")
+        self.save("knob", View(ball.points, -0.9, 0.5), self.clay(ball), self.clay(after))
+
     def terrain(self):
         self.surface("terrain", "generate triangles terrain.ply --vertices 10000 --noise 0.5",
                      "smooth terrain.ply smooth.ply --preset terrain", -1.0, 0.7)
@@ -262,7 +278,7 @@ class Gallery:
 
 
 def main():
-    names = ["scan", "part", "terrain", "labels", "field", "distances", "region", "cut"]
+    names = ["scan", "part", "knob", "terrain", "labels", "field", "distances", "region", "cut"]
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("names", nargs="*", metavar="NAME", help=f"of {' '.join(names)} [all]")
     parser.add_argument("--programs", type=pathlib.Path, default=pathlib.Path("build/bin"))

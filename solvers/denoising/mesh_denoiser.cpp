@@ -36,6 +36,10 @@ constexpr int rounds_of_thinning = 6;
 /// The evidence on a mesh thinned once that proves noise which is only possible on the whole. Of clean surfaces where
 /// it is possible, none had more than 2.5 (thinned twice: 0.9, see NoisyPlaces).
 constexpr float proof_by_thinned = 3.0F;
+/// Where places are doubtful, local fits are taken if their risk is below this, and the noise above this, in edges. Of
+/// reliefs under white noise, those with so little risk had 0.1 at most.
+constexpr double clear_risk = 0.45;
+constexpr double clear_deviation = 0.15;
 
 /// The mean chord between faces and their wanted normals.
 double mean_chord(const PolygonMesh& mesh, const Points& positions, const Points& wanted, const Executor& exec)
@@ -202,21 +206,24 @@ std::optional<Points> MeshDenoiser::without_alike_noise(const Points& before, co
     Points result = before;
     std::vector<std::uint8_t> is_fitted(wanted.size(), 0);
     for (std::size_t v = 0; v < wanted.size() && n_thinned_ == 0; ++v)
-        is_fitted[v] = wanted[v] == Alikeness::Found && places.parts[v] > 0.0 ? 1 : 0;
+        is_fitted[v] =
+            (wanted[v] == Alikeness::Found || wanted[v] == Alikeness::Doubtful) && places.parts[v] > 0.0 ? 1 : 0;
     if (std::ranges::find(is_fitted, 1) != is_fitted.end()) {
         const AlikeNoise noise(*mesh_, *topology_, averages_, signs_, before, exec);
         const std::optional<Points> without = noise.is_plausible() ? std::optional(noise.without(exec)) : std::nullopt;
+        const bool is_clear = without && noise.least_risk() < clear_risk && noise.deviation() > clear_deviation;
         for_each(exec, mesh_->n_vertices(), [&](Index v) {
             if (is_fitted[v] == 0)
                 return;
-            if (without)
+            const bool is_doubtful = wanted[v] == Alikeness::Doubtful;
+            if (is_doubtful ? is_clear : without.has_value())
                 result.row(v) = without->row(v);
-            wanted[v] = without ? Alikeness::None : Alikeness::Possible;
+            wanted[v] = is_doubtful || without ? Alikeness::None : Alikeness::Possible;
         });
     }
     remove_on_thinned(before, wanted, Alikeness::Found, result, exec);
     remove_on_thinned(before, wanted, Alikeness::Possible, result, exec);
-    return result;
+    return result == before ? std::nullopt : std::optional(result);
 }
 
 void MeshDenoiser::remove_on_thinned(const Points& before, std::span<const NoisyPlaces::Alikeness> alike,

@@ -29,6 +29,8 @@ constexpr float evidence_of_half = 1.0F;
 constexpr float evidence_against_of_quarter = -2.5F;
 /// Noise that is alike at neighbours looks more like shape where there is no other noise.
 constexpr float evidence_of_alike_noise_alone = 1.0F;
+/// Beside other noise, with less evidence for it, fits must show that it is clear of shape.
+constexpr float evidence_of_doubtful_noise = -1.0F;
 /// The evidence that outweighs that of the component. For noise: so much more than the median of the component, but
 /// within clear evidence and a limit above the 5.1 that places of clean surfaces in the training data reached. Against
 /// it: chosen by hand. Thinned surfaces, which bend more, are judged as a whole.
@@ -269,12 +271,15 @@ NoisyPlaces::Found NoisyPlaces::find(const Denoised& denoised, const Executor& e
             return decide(component_of_place, of_places, sizes, least, false);
         };
         const std::vector<std::uint8_t> beside_other = decided(evidence_of_alike, 0.0F);
+        const std::vector<std::uint8_t> doubtful = decided(evidence_of_alike, evidence_of_doubtful_noise);
         const std::vector<std::uint8_t> alone = decided(evidence_of_alike, evidence_of_alike_noise_alone);
         const std::vector<std::uint8_t> possible = decided(alike_against_shape, 0.0F);
         std::vector<Alikeness> result(places.size(), Alikeness::None);
         for (std::size_t i = 0; i < places.size(); ++i)
             if (has_other[component_of_place[i]] != 0)
-                result[i] = beside_other[i] != 0 ? Alikeness::Found : Alikeness::None;
+                result[i] = beside_other[i] != 0 ? Alikeness::Found
+                            : doubtful[i] != 0   ? Alikeness::Doubtful
+                                                 : Alikeness::None;
             else if (alone[i] != 0)
                 result[i] = Alikeness::Found;
             else if (possible[i] != 0)

@@ -58,6 +58,8 @@ class NoisyPlaces {
         None,
         /// It looks like it, but has to be proven on a thinned mesh.
         Possible,
+        /// There is other noise besides, and fits have to show that it is clear of shape.
+        Doubtful,
         Found
     };
 
