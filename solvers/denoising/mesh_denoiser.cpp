@@ -28,6 +28,11 @@ constexpr double most_relaxation = 0.1;
 /// literature with noise of 0.2 to 0.47 mean edges, where it was 1.03 to 1.065.
 constexpr double noise_by_motion = 1.045;
 
+/// After much noise, one fit does not reach the wanted normals. Vertices are fitted again, at most so often, until the
+/// mean chord between faces and wanted normals is this small.
+constexpr int most_further_fits = 3;
+constexpr double near_enough = 0.025;
+
 /// How often meshes are thinned out; components of how many faces are; and how many thinned meshes there are each time:
 /// nearly all vertices are in one then, most in two. (With ten results were no nearer to the truth.)
 constexpr int most_thinned = 2;
@@ -155,6 +160,8 @@ Points MeshDenoiser::without_noise(const Points& before, std::span<const double>
     }
     const KeptStructure kept = n_thinned_ == 0 ? put_back_structure(before, begun, found, exec) : KeptStructure{};
     const Points& normals = found.normals.normals;
+    if (n_thinned_ == 0 && std::ranges::any_of(found.places.parts, [](double part) { return part > 0.0; }))
+        fit_further(normals, found.fitted, exec);
     std::vector<double>& parts = found.places.parts;
     Points& fitted = found.fitted;
     std::vector<double> has_noise = parts;
@@ -256,6 +263,16 @@ void MeshDenoiser::remove_on_thinned(const Points& before, std::span<const Noisy
         if (n_moved[v] > 0)
             result.row(v) += sums.row(v) / static_cast<double>(n_moved[v]);
     });
+}
+
+void MeshDenoiser::fit_further(const Points& normals, Points& fitted, const Executor& exec) const
+{
+    for (int fit = 0; fit < most_further_fits; ++fit) {
+        const double chord = mean_chord(*mesh_, fitted, normals, exec);
+        if (chord <= near_enough)
+            return;
+        fit_vertices(*mesh_, *topology_, {}, {normals, std::min(most_relaxation, chord)}, fitted, exec);
+    }
 }
 
 KeptStructure MeshDenoiser::put_back_structure(const Points& before, Points& begun, Findings& found,

@@ -106,6 +106,8 @@ class MeshDenoiser {
     /// meshes, positions without it.
     void remove_on_thinned(const Points& before, std::span<const NoisyPlaces::Alikeness> alike,
                            NoisyPlaces::Alikeness which, Points& result, const Executor& exec) const;
+    /// Fits vertices to normals again where one fit was not enough. @param normals #F by 3. @param fitted #V by 3.
+    void fit_further(const Points& normals, Points& fitted, const Executor& exec) const;
     /// Puts back what was taken where it has structure: there nothing has begun, nor will any part go.
     /// @param begun #V by 3: without noise that is alike at neighbours.
     [[nodiscard]] KeptStructure put_back_structure(const Points& before, Points& begun, Findings& found,
