@@ -181,7 +181,8 @@ TEST_CASE("labels and other whole numbers are averaged and rounded with a remark
     REQUIRE(w.smooth("in.ply out.ply --fields label,half,red --fwhm 10% --report report.json") == 0);
     const auto texts = [&] {
         std::vector<std::string> list;
-        for (const auto& remark : w.json("report.json")["remarks"])
+        const test::Json report = w.json("report.json");
+        for (const auto& remark : report["remarks"])
             list.push_back(remark["text"]);
         return list;
     };
