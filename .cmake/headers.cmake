@@ -48,6 +48,7 @@ set(SEAMFLOW_HEADERS
     partition/metrics/vertex_normals.h
     partition/openmesh.h
     partition/polygon_mesh.h
+    partition/remark.h
     partition/topology.h
     partition/vector_area.h
     partition/version.h

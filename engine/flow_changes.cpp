@@ -58,8 +58,9 @@ void FlowRun::attach(std::span<const Index> vertices, std::span<const double> we
 {
     const std::vector<Index> flowing = require_changeable("attach", vertices, true);
     if (!attaches(options().motion))
-        throw OptionError("only a flow with an attachment has weights to change between steps: set attachment or "
-                          "attachment_weights");
+        throw OptionError(
+            Wording{"only a flow with an attachment has weights to change between steps: set <attachment> or "
+                    "<attachment_weights>"});
     if (weights.size() != vertices.size())
         throw OptionError(
             fmt::format("{} vertices have {} attachment weights: give one for each", vertices.size(), weights.size()));

@@ -132,9 +132,10 @@ Flow::Flow(PolygonMesh& mesh, const FlowOptions& options, StepObserver on_step, 
     own.radius.reset();
     own.uniform_edge = uniform_edge_of(options, mesh);
     if (control_.resume != nullptr && control_.resume->n_steps() > options.steps)
-        throw OptionError(fmt::format("steps is {}, but the state to resume from is already after step {}: ask for at "
-                                      "least as many, or start over",
-                                      options.steps, control_.resume->n_steps()));
+        throw OptionError(
+            Wording{fmt::format("<steps> is {}, but the state to resume from is already after step {}: ask for at "
+                                "least as many, or start over",
+                                options.steps, control_.resume->n_steps())});
     session_ = std::make_unique<Session>(mesh, std::move(own), control_, static_cast<bool>(on_step_), report_);
 }
 

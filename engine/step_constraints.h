@@ -1,7 +1,6 @@
 #pragma once
 
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "engine/measure/component_limits.h"
@@ -11,6 +10,7 @@
 #include "engine/steppers/directed_motion.h"
 #include "engine/steppers/vanishing_components.h"
 #include "engine/tasks/parallel_executor.h"
+#include "partition/remark.h"
 
 namespace seamflow {
 
@@ -70,10 +70,12 @@ struct StepConstraints {
     }
 
     /// On components that lose too much; limits have their own. And on those that cannot be scaled back.
-    [[nodiscard]] std::vector<std::string> remarks() const
+    [[nodiscard]] std::vector<Remark> remarks() const
     {
-        std::vector<std::string> all{limited ? limited->remark() : vanishing.remark(), rescaling.remark()};
-        std::erase(all, "");
+        std::vector<Remark> all;
+        for (const auto& remark : {limited ? limited->remark() : vanishing.remark(), rescaling.remark()})
+            if (remark)
+                all.push_back(*remark);
         return all;
     }
 

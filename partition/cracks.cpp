@@ -103,13 +103,17 @@ std::optional<Cracks> find_cracks(const PolygonMesh& mesh, const Topology& topol
     return cracks;
 }
 
-std::string remark_on_cracks(const Cracks& cracks)
+Remark remark_on_cracks(const Cracks& cracks)
 {
-    return fmt::format(
-        "{} boundary vertices lie within {:.2g} of others, but not on them, as along cracks: --weld {:g} "
-        "joins {} of boundary edges there.",
-        cracks.n_vertices, cracks.width, cracks.weld_distance,
-        cracks.n_edges == 1 ? "1 pair" : fmt::format("{} pairs", cracks.n_edges));
+    return {"cracks",
+            {{"vertices", cracks.n_vertices},
+             {"width", cracks.width},
+             {"weld", cracks.weld_distance},
+             {"pairs of edges", cracks.n_edges}},
+            {fmt::format("{} boundary vertices lie within {:.2g} of others, but not on them, as along cracks: "
+                         "<weld {:g}> joins {} of boundary edges there.",
+                         cracks.n_vertices, cracks.width, cracks.weld_distance,
+                         cracks.n_edges == 1 ? "1 pair" : fmt::format("{} pairs", cracks.n_edges))}};
 }
 
 }  // namespace seamflow

@@ -1,10 +1,10 @@
 #pragma once
 
 #include <optional>
-#include <string>
 
 #include "partition/executor.h"
 #include "partition/polygon_mesh.h"
+#include "partition/remark.h"
 #include "partition/topology.h"
 
 namespace seamflow {
@@ -25,7 +25,7 @@ struct Cracks {
 std::optional<Cracks> find_cracks(const PolygonMesh& mesh, const Topology& topology,
                                   const Executor& exec = run_serially);
 
-/// A sentence for the user.
-std::string remark_on_cracks(const Cracks& cracks);
+/// What joins them.
+Remark remark_on_cracks(const Cracks& cracks);
 
 }  // namespace seamflow

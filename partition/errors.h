@@ -1,20 +1,46 @@
 #pragma once
 
 #include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "partition/remark.h"
 
 namespace seamflow {
 
+/// An error whose message may name options. what() has the library's names of them.
+template <class Standard>
+class ErrorOnOptions : public Standard {
+  public:
+    explicit ErrorOnOptions(const std::string& text)
+        : ErrorOnOptions(unmarked(text))
+    {
+    }
+
+    explicit ErrorOnOptions(Wording wording)
+        : Standard(sentence(wording))
+        , wording_(std::move(wording))
+    {
+    }
+
+    /// For callers that have other names.
+    [[nodiscard]] const Wording& wording() const { return wording_; }
+
+  private:
+    Wording wording_;
+};
+
 /// A mesh, a label file or any other data that cannot be used as it is. The message names the file and the line,
 /// or the element, and says what to do. The programs answer it with exit status 3.
-class InputError : public std::runtime_error {
+class InputError : public ErrorOnOptions<std::runtime_error> {
   public:
-    using std::runtime_error::runtime_error;
+    using ErrorOnOptions::ErrorOnOptions;
 };
 
 /// An option outside its limits (a time step of zero, say). The programs answer it with exit status 2.
-class OptionError : public std::invalid_argument {
+class OptionError : public ErrorOnOptions<std::invalid_argument> {
   public:
-    using std::invalid_argument::invalid_argument;
+    using ErrorOnOptions::ErrorOnOptions;
 };
 
 /// What a flow needs at once does not fit into its memory limit.

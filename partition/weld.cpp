@@ -308,26 +308,31 @@ std::optional<Weld> weld(const PolygonMesh& mesh, const Topology& topology, doub
     return welding.take();
 }
 
-std::string remark_on_seams(Index n_vertices, Index n_edges, std::int64_t n_of_mesh, double distance, double apart)
+std::optional<Remark> remark_on_seams(Index n_vertices, Index n_edges, std::int64_t n_of_mesh, double distance,
+                                      double apart)
 {
+    const Remark::Numbers numbers{{"vertices", n_vertices}, {"pairs of edges", n_edges}, {"distance", distance}};
+    if (n_vertices == 0 && distance == 0.0)
+        return {};
     if (n_vertices == 0)
-        return distance > 0.0
-                   ? fmt::format("--weld has joined no vertices: no seam has pairs of boundary edges within {:.3g} of "
-                                 "each other, or they are nearer to further ones, too.",
-                                 distance)
-                   : "";
+        return Remark(
+            "seams", numbers,
+            {fmt::format("<weld> has joined no vertices: no seam has pairs of boundary edges within {:.3g} of "
+                         "each other, or they are nearer to further ones, too.",
+                         distance)});
     // Copies at equal places, but for rounding, are meant to be one: all vertices may be such.
     constexpr double copies_apart = 0.01;
     const bool are_many = apart > copies_apart && std::int64_t{10} * n_vertices >= n_of_mesh;
     const std::string warning =
-        are_many ? fmt::format(", and {:.0f}% of all: if so many are no copies of others, make --weld smaller",
+        are_many ? fmt::format(", and {:.0f}% of all: if so many are no copies of others, make <weld> smaller",
                                100.0 * n_vertices / static_cast<double>(n_of_mesh))
                  : "";
-    return fmt::format("{} vertices along seams, where {} of boundary edges lie {}, flowed as one; they are still "
-                       "separate vertices{}.",
-                       n_vertices, n_edges == 1 ? "1 pair" : fmt::format("{} pairs", n_edges),
-                       distance > 0.0 ? fmt::format("within {:.3g} of each other", distance) : "on each other",
-                       warning);
+    return Remark("seams", numbers,
+                  {fmt::format("{} vertices along seams, where {} of boundary edges lie {}, flowed as one; they are "
+                               "still separate vertices{}.",
+                               n_vertices, n_edges == 1 ? "1 pair" : fmt::format("{} pairs", n_edges),
+                               distance > 0.0 ? fmt::format("within {:.3g} of each other", distance) : "on each other",
+                               warning)});
 }
 
 }  // namespace seamflow

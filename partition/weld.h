@@ -2,11 +2,11 @@
 
 #include <cstdint>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "partition/executor.h"
 #include "partition/polygon_mesh.h"
+#include "partition/remark.h"
 #include "partition/topology.h"
 
 namespace seamflow {
@@ -37,11 +37,12 @@ struct Weld {
 std::optional<Weld> weld(const PolygonMesh& mesh, const Topology& topology, double distance,
                          const Executor& exec = run_serially);
 
-/// A sentence for the user about joined seams; empty where none are joined and places had to be equal. If they are
+/// On joined seams; nothing where none are joined and places had to be equal. If they are
 /// further apart than cracks are, and hold a tenth of all vertices or more, it is a warning: the distance may be too
 /// large.
 /// @param n_vertices, n_edges see Weld. @param n_of_mesh all vertices. @param distance see weld. @param apart how far
 /// vertices went to be joined, at most, in mean edge lengths.
-std::string remark_on_seams(Index n_vertices, Index n_edges, std::int64_t n_of_mesh, double distance, double apart);
+std::optional<Remark> remark_on_seams(Index n_vertices, Index n_edges, std::int64_t n_of_mesh, double distance,
+                                      double apart);
 
 }  // namespace seamflow

@@ -226,19 +226,19 @@ FlowReport extend(const PolygonMesh& mesh, FieldGroup& group, const FlowOptions&
 }
 
 /// Adds what was reported on filling, in so far as the steps before have not said it: its choices are nobody's concern.
-void add_filling(const FlowReport& of_fill, FlowReport& of_group, std::vector<std::string>& remarks)
+void add_filling(const FlowReport& of_fill, FlowReport& of_group, std::vector<Remark>& remarks)
 {
     FlowReport counted = of_fill;
     counted.choices.clear();
     add_up(counted, of_group);
-    for (const std::string& remark : of_fill.remarks)
+    for (const Remark& remark : of_fill.remarks)
         if (std::ranges::find(of_group.remarks, remark) == of_group.remarks.end())
-            remarks.push_back("Filling: " + remark);
+            remarks.push_back({remark.kind, remark.numbers, {"Filling: " + remark.wording.text}});
 }
 
 /// Says by how much the width that was asked for was missed.
 void remark_on_width(double wanted, std::optional<double> reached, const PolygonMesh& surface, int steps,
-                     std::vector<std::string>& remarks)
+                     std::vector<Remark>& remarks)
 {
     if (reached && std::abs(*reached - wanted) <= most_missed_width * wanted)
         return;
@@ -247,19 +247,26 @@ void remark_on_width(double wanted, std::optional<double> reached, const Polygon
         reason = "it is less than four mean edge lengths, too narrow for this mesh";
     else if (steps < enough_steps)
         reason = "more steps come nearer";
-    remarks.push_back(fmt::format("A width of {:.3g} was asked for, {}: {}.", wanted,
-                                  reached ? fmt::format("{:.3g} was reached", *reached) : "none can be measured",
-                                  reason));
+    Remark::Numbers numbers{{"asked", wanted}};
+    if (reached)
+        numbers.emplace_back("reached", *reached);
+    remarks.push_back(
+        {"missed width",
+         numbers,
+         {fmt::format("A width of {:.3g} was asked for, {}: {}.", wanted,
+                      reached ? fmt::format("{:.3g} was reached", *reached) : "none can be measured", reason)}});
 }
 
 /// Says how many vertices of a column are without data at the end.
-void remark_on_unfilled(const Eigen::VectorXd& filled, std::vector<std::string>& remarks)
+void remark_on_unfilled(const Eigen::VectorXd& filled, std::vector<Remark>& remarks)
 {
     if (const auto n = filled.array().isNaN().count(); n > 0)
-        remarks.push_back(fmt::format("Filling: {} {} without data, because faces connect {} with no vertex that has "
-                                      "any.",
-                                      counted(static_cast<std::uint64_t>(n), "vertex", "vertices"),
-                                      n == 1 ? "stays" : "stay", n == 1 ? "it" : "them"));
+        remarks.push_back({"not filled",
+                           {{"vertices", n}},
+                           {fmt::format("Filling: {} {} without data, because faces connect {} with no vertex that has "
+                                        "any.",
+                                        counted(static_cast<std::uint64_t>(n), "vertex", "vertices"),
+                                        n == 1 ? "stays" : "stay", n == 1 ? "it" : "them")}});
 }
 
 /// Takes steps with the columns of a group.
@@ -306,7 +313,7 @@ FieldReport diffuse(const PolygonMesh& mesh, Eigen::MatrixXd& fields, const Flow
     if (field_options.keep_edges)
         own_control.ranks = nullptr;
     std::vector<FieldGroup> groups = group_columns(fields);
-    std::vector<std::vector<std::string>> remarks;
+    std::vector<std::vector<Remark>> remarks;
     // #V: whether a column lacks data there, or has got some.
     std::vector<std::uint8_t> lacking(usize(mesh.n_vertices()), 0);
     std::vector<std::uint8_t> filled = lacking;
@@ -332,8 +339,10 @@ FieldReport diffuse(const PolygonMesh& mesh, Eigen::MatrixXd& fields, const Flow
             keep_within(ranges, group, results, exec);
         FlowReport of_group = flow.report();
         if (is_whole)
-            of_group.choices.emplace_back("The whole mesh is solved at once by one factorisation: that is fastest for "
-                                          "so many columns.");
+            of_group.choices.push_back(
+                {"approach",
+                 {},
+                 {"The whole mesh is solved at once by one factorisation: that is fastest for so many columns."}});
         if (measures)
             report.fwhm = measure_width(flow, surface, *field_options.fwhm, options.steps, of_group);
         remarks.push_back(of_group.remarks);

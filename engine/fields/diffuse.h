@@ -1,7 +1,6 @@
 #pragma once
 
 #include <optional>
-#include <string>
 #include <vector>
 
 #include <Eigen/Core>
@@ -11,6 +10,7 @@
 #include "engine/options/flow_control.h"
 #include "engine/options/flow_options.h"
 #include "partition/polygon_mesh.h"
+#include "partition/remark.h"
 
 namespace seamflow {
 
@@ -27,8 +27,8 @@ struct FieldReport {
     /// How many vertices have no data in one column at least; and to how many of them the extension has given some.
     Index without_data = 0;
     Index filled = 0;
-    /// Sentences for the user.
-    std::vector<std::string> remarks;
+    /// For the user: those of the flow.
+    std::vector<Remark> remarks;
 };
 
 /// Lets fields on a surface diffuse by its heat equation, (M + dt K) Xᵏ⁺¹ = M Xᵏ in each step; the surface stays. The

@@ -146,9 +146,10 @@ void add_up(const FlowReport& before, FlowReport& report)
     report.seconds.cut += before.seconds.cut;
     report.seconds.analyse += before.seconds.analyse;
     report.seconds.step += before.seconds.step;
-    std::vector<std::string> choices = before.choices;
-    for (const std::string& choice : report.choices)
-        add_once(choices, choice);
+    std::vector<Remark> choices = before.choices;
+    for (const Remark& choice : report.choices)
+        if (std::ranges::find(choices, choice) == choices.end())
+            choices.push_back(choice);
     report.choices = std::move(choices);
 }
 
@@ -173,14 +174,13 @@ std::string about(const std::vector<Eigen::Index>& columns, std::span<const std:
 
 }  // namespace
 
-std::vector<std::string> remarks_on(std::span<const FieldGroup> groups,
-                                    std::span<const std::vector<std::string>> of_groups,
-                                    std::span<const std::string> names)
+std::vector<Remark> remarks_on(std::span<const FieldGroup> groups, std::span<const std::vector<Remark>> of_groups,
+                               std::span<const std::string> names)
 {
-    std::vector<std::string> seen;
-    std::vector<std::string> remarks;
-    for (const std::vector<std::string>& of_group : of_groups)
-        for (const std::string& remark : of_group) {
+    std::vector<Remark> seen;
+    std::vector<Remark> remarks;
+    for (const std::vector<Remark>& of_group : of_groups)
+        for (const Remark& remark : of_group) {
             if (std::ranges::find(seen, remark) != seen.end())
                 continue;
             seen.push_back(remark);
@@ -193,7 +193,9 @@ std::vector<std::string> remarks_on(std::span<const FieldGroup> groups,
                     columns.insert(columns.end(), groups[g].columns.begin(), groups[g].columns.end());
             }
             std::ranges::sort(columns);
-            remarks.push_back(is_on_all ? remark : about(columns, names) + remark);
+            remarks.push_back(remark);
+            if (!is_on_all)
+                remarks.back().wording.text.insert(0, unmarked(about(columns, names)).text);
         }
     return remarks;
 }

@@ -11,6 +11,7 @@
 #include "engine/measure/flow_report.h"
 #include "partition/executor.h"
 #include "partition/polygon_mesh.h"
+#include "partition/remark.h"
 #include "solvers/laplacian/laplacian.h"
 
 /// Fields that diffuse, column by column.
@@ -79,15 +80,14 @@ void keep_within(std::span<const ValueRange> ranges, const FieldGroup& group, Ei
 /// How many times the steps of the flow are taken: once for each three columns.
 int n_blocks(Eigen::Index n_columns);
 
-/// Adds what was reported on columns before, except remarks: sentences on choices once each, in their order. Steps that
+/// Adds what was reported on columns before, except remarks: choices once each, in their order. Steps that
 /// miss their tolerance are those of the columns that miss it most often.
 void add_up(const FlowReport& before, FlowReport& report);
 
 /// The remarks of all groups, once each, in their order. One that other groups are without begins with the columns that
 /// it is about.
 /// @param of_groups one list for each group. @param names see FieldOptions.
-std::vector<std::string> remarks_on(std::span<const FieldGroup> groups,
-                                    std::span<const std::vector<std::string>> of_groups,
-                                    std::span<const std::string> names);
+std::vector<Remark> remarks_on(std::span<const FieldGroup> groups, std::span<const std::vector<Remark>> of_groups,
+                               std::span<const std::string> names);
 
 }  // namespace seamflow

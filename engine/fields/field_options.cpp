@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "engine/options/option_names.h"
+#include "engine/options/option_rules.h"
 #include "engine/options/option_table.h"
 #include "partition/errors.h"
 #include "solvers/laplacian/laplacian.h"
@@ -24,40 +25,66 @@ double fwhm_for_time(double time)
     return std::sqrt(16.0 * std::numbers::ln2 * time);
 }
 
+namespace {
+
+struct FlowOfFields {
+    const FlowOptions& flow;
+    const FieldOptions& fields;
+};
+
+using FieldRule = OptionRule<FlowOfFields>;
+
+bool moves(const MotionOptions& motion)
+{
+    return attaches(motion) || motion.rescale != Rescale::None || motion.within || motion.limits.exist();
+}
+
+bool has_place_or_line(const MotionOptions& motion)
+{
+    return !motion.strength.empty() || motion.direction.kind != MotionDirection::Kind::Any;
+}
+
+constexpr std::string_view by_sweeps =
+    "the steps of fields are solved exactly, and not by sweeps over sub-meshes: leave what concerns sweeps out";
+
+constexpr FieldRule field_rules[]{
+    {[](const FlowOfFields& o, const AskedOptions&) { return !is_symmetric(o.fields.laplacian); }, 0,
+     "fields diffuse by a symmetric matrix, which the Laplacian {laplacian} does not have: use {symmetric}"},
+    {[](const FlowOfFields& o, const AskedOptions&) { return o.flow.flow == FlowEquation::Conformalized; }, 0,
+     "fields diffuse on a surface that stays, which the conformalized flow is not for: leave the flow out"},
+    {[](const FlowOfFields& o, const AskedOptions&) { return o.flow.accuracy.approach == Approach::Sweep; }, 0,
+     by_sweeps},
+    {[](const FlowOfFields&, const AskedOptions&) { return true; }, concern::sweeps, by_sweeps},
+    {[](const FlowOfFields& o, const AskedOptions&) { return moves(o.flow.motion); }, 0,
+     "fields diffuse on a surface that stays: leave attachments, rescale, within and limits out"},
+    {[](const FlowOfFields& o, const AskedOptions&) { return has_place_or_line(o.flow.motion); }, 0,
+     "fields diffuse on a surface that stays: leave strength and direction out"},
+    {[](const FlowOfFields& o, const AskedOptions&) { return o.flow.keep_edges.has_value(); }, 0,
+     "<keep_edges> is about the angles of a surface, which stays while fields diffuse: leave it out"},
+    {[](const FlowOfFields& o, const AskedOptions&) { return o.flow.report.reference; }, 0,
+     "the steps of fields are solved exactly, so that there is nothing to compare with: leave <reference> out"},
+    {[](const FlowOfFields& o, const AskedOptions&) {
+         return o.fields.fwhm && (o.flow.time_step != 0.0 || o.flow.radius);
+     },
+     0, "<fwhm> and <time_step> or <radius> both say how much is smoothed: leave one of them out"},
+};
+
+}  // namespace
+
 void require_for_fields(const FlowOptions& options, const FieldOptions& of_fields)
 {
-    const auto refuse = [](std::string_view what, std::string_view remedy) {
-        throw OptionError(fmt::format("{}: leave {} out", what, remedy));
-    };
     if (options.laplacian != FlowOptions().laplacian && options.laplacian != of_fields.laplacian)
         throw OptionError(fmt::format("the Laplacian of a flow is {}, but fields have one of their own, which is {}: "
                                       "choose it in FieldOptions",
                                       name_of(options.laplacian), name_of(of_fields.laplacian)));
-    if (!is_symmetric(of_fields.laplacian))
-        throw OptionError(fmt::format("fields diffuse by a symmetric matrix, which the Laplacian {} does not have: use "
-                                      "{}",
-                                      name_of(of_fields.laplacian), names_of_symmetric_laplacians()));
-    if (options.flow == FlowEquation::Conformalized)
-        refuse("fields diffuse on a surface that stays, which the conformalized flow is not for", "the flow");
-    if (options.accuracy.approach == Approach::Sweep || !first_set(options, concern::sweeps).empty())
-        refuse("the steps of fields are solved exactly, and not by sweeps over sub-meshes", "what concerns sweeps");
-    const MotionOptions& motion = options.motion;
-    if (attaches(motion) || motion.rescale != Rescale::None || motion.within || motion.limits.exist())
-        refuse("fields diffuse on a surface that stays", "attachments, rescale, within and limits");
-    if (!motion.strength.empty() || motion.direction.kind != MotionDirection::Kind::Any)
-        refuse("fields diffuse on a surface that stays", "strength and direction");
-    if (options.keep_edges)
-        refuse("keep_edges is about the angles of a surface, which stays while fields diffuse", "it");
-    if (options.report.reference)
-        refuse("the steps of fields are solved exactly, so that there is nothing to compare with", "reference");
     const auto require_positive = [](const std::optional<double>& value, const char* name, const char* what) {
         if (value && !(*value > 0.0 && std::isfinite(*value)))
             throw OptionError(fmt::format("{} is {}, but must be positive and finite ({})", name, *value, what));
     };
     require_positive(of_fields.fwhm, "fwhm", "a length");
     require_positive(of_fields.keep_edges, "the difference of fields to keep", "in the unit of the fields");
-    if (of_fields.fwhm && (options.time_step != 0.0 || options.radius))
-        throw OptionError("fwhm and time_step or radius both say how much is smoothed: leave one of them out");
+    require_none_broken<FlowOfFields>(field_rules, {options, of_fields}, {.laplacian = of_fields.laplacian},
+                                      changed_options(options));
 }
 
 FlowOptions flow_for_fields(const FlowOptions& options, const FieldOptions& of_fields)

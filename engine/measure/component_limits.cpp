@@ -152,7 +152,7 @@ std::string LimitedComponents::largest_loss() const
                        100.0 * largest.fraction, largest.volume);
 }
 
-std::string LimitedComponents::remark() const
+std::optional<Remark> LimitedComponents::remark() const
 {
     const auto n_held = std::ranges::count(factors_, 0.0);
     const auto n_less = std::ranges::count_if(factors_, [](double factor) { return factor > 0.0 && factor < 1.0; });
@@ -167,13 +167,13 @@ std::string LimitedComponents::remark() const
                                          std::isfinite(limits_.move) ? "more than its noise, or " : "",
                                          100.0 * limits_.volume, largest_loss());
     if (n_less > 0)
-        text = fmt::format("{} {}: less was taken off there. --radius smooths as much as it says.", components(n_less),
+        text = fmt::format("{} {}: less was taken off there. <radius> smooths as much as it says.", components(n_less),
                            loss);
     if (n_held > 0)
         text += fmt::format("{}{} {}, however little was taken off, and stayed as it was: say how much to smooth with "
-                            "--radius.",
+                            "<radius>.",
                             text.empty() ? "" : " ", components(n_held), loss);
-    return text;
+    return Remark("limited loss", {{"moved less", n_less}, {"stayed", n_held}, {"of", components_.count()}}, {text});
 }
 
 }  // namespace seamflow

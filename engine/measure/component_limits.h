@@ -1,12 +1,14 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "engine/options/flow_options.h"
 #include "partition/connected_components.h"
 #include "partition/metrics/vertex_normals.h"
+#include "partition/remark.h"
 #include "partition/topology.h"
 
 namespace seamflow {
@@ -25,8 +27,8 @@ class LimitedComponents {
     /// @param positions #V by 3.
     void apply(Points& positions);
 
-    /// A sentence about the last result; empty where no component had lost too much.
-    [[nodiscard]] std::string remark() const;
+    /// On the last result; nothing where no component had lost too much.
+    [[nodiscard]] std::optional<Remark> remark() const;
 
   private:
     /// Of volume, beyond the limit: in length³, and as a fraction of it. 0: within.

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "engine/options/flow_options.h"
@@ -14,6 +13,7 @@
 #include "partition/metrics/length_statistics.h"
 #include "partition/metrics/vertex_distance.h"
 #include "partition/polygon_mesh.h"
+#include "partition/remark.h"
 
 namespace seamflow {
 
@@ -199,10 +199,10 @@ struct FlowReport {
     std::optional<PolygonMesh> separated;
     /// With ReportOptions::record_schedule, of a flow in backward Euler steps.
     std::optional<Schedule> schedule;
-    /// How steps are taken and why, where that was left open; a sentence each.
-    std::vector<std::string> choices;
-    /// Remarks for the user, a sentence each: a number of sub-meshes that was changed, vertices held fixed, and so on.
-    std::vector<std::string> remarks;
+    /// How steps are taken and why, where that was left open.
+    std::vector<Remark> choices;
+    /// For the user: a number of sub-meshes that was changed, vertices held fixed, and so on.
+    std::vector<Remark> remarks;
 };
 
 struct FlowState;

@@ -1,32 +1,31 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
 #include <string_view>
 
 #include "engine/measure/flow_report.h"
 #include "engine/options/flow_options.h"
-#include "partition/polygon_mesh.h"
+#include "partition/remark.h"
 
 namespace seamflow {
 
 /// On faces that took no part in the flow.
 /// @param n at least 1.
-std::string remark_on_repeated_faces(std::int64_t n);
+Remark remark_on_repeated_faces(std::int64_t n);
 
 /// On vertices that are held.
 /// @param remedy when those at junctions would move, as in "In converged steps"; empty: it is not said.
-std::string remark_on_non_manifold_vertices(std::int64_t n, std::string_view remedy = {});
+Remark remark_on_non_manifold_vertices(std::int64_t n, std::string_view remedy = {});
 
 /// On vertices that move where sheets meet.
-std::string remark_on_junctions(std::int64_t n, Laplacian laplacian);
+Remark remark_on_junctions(std::int64_t n, Laplacian laplacian);
 
 /// On vertices that are held where the Laplacian is not defined.
 /// @param first the lowest of them.
-std::string remark_on_undefined_vertices(std::int64_t n, std::int64_t first, Laplacian laplacian);
+Remark remark_on_undefined_vertices(std::int64_t n, std::int64_t first, Laplacian laplacian);
 
 /// On a mesh none of whose vertices can move.
-std::string remark_on_unmoving_mesh(Boundary boundary);
+Remark remark_on_unmoving_mesh(Boundary boundary);
 
 /// Adds what the estimate after the last step means for the user, if it means anything.
 void remark_on_drift(const FlowOptions& options, FlowReport& report);

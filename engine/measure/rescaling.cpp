@@ -21,13 +21,13 @@ void require_movable(const Topology& topology, Index n_vertices)
     const auto held = select(run_in_parallel, n_vertices,
                              [&](Index v) { return !topology.moves(v) && topology.kind[v] != VertexKind::Isolated; });
     if (!held.empty())
-        throw InputError(fmt::format(
+        throw InputError(Wording{fmt::format(
             "rescaling moves every vertex, but {} {} held fixed, vertex {} (numbered from 0) among them, {}; or leave "
-            "rescaling out and use the low-pass filter (--filter low-pass), which hardly shrinks large features",
+            "rescaling out and use the low-pass filter (<filter low-pass>), which hardly shrinks large features",
             held.size(), held.size() == 1 ? "is" : "are", held.front(),
             topology.kind[held.front()] == VertexKind::Boundary
-                ? "which is on the boundary: let the boundary move (--boundary free)"
-                : "where the mesh is not manifold or degenerate: mend it"));
+                ? "which is on the boundary: let the boundary move (<boundary free>)"
+                : "where the mesh is not manifold or degenerate: mend it")});
 }
 
 void require_closed(const PolygonMesh& mesh, const Topology& topology)
@@ -43,11 +43,11 @@ void require_closed(const PolygonMesh& mesh, const Topology& topology)
     const std::string edge = fmt::format("the edge from vertex {} to {} of face {}", starts_at(h),
                                          starts_at(topology.next(mesh, h)), topology.face_of[h]);
     if (topology.twin[h] < 0)
-        throw InputError(fmt::format(
+        throw InputError(Wording{fmt::format(
             "only a closed surface has a volume to keep, but {} lies on the boundary, or has "
-            "three faces or more: close the mesh, keep its area instead (--rescale area), or use the low-pass filter "
-            "(--filter low-pass), which hardly shrinks large features",
-            edge));
+            "three faces or more: close the mesh, keep its area instead (<rescale area>), or use the low-pass filter "
+            "(<filter low-pass>), which hardly shrinks large features",
+            edge)});
     throw InputError(fmt::format("the volume needs consistently oriented faces, but those at {} are not: orient the "
                                  "mesh, or keep its area instead",
                                  edge));
@@ -154,13 +154,15 @@ SimilarityOfComponents Rescaling::apply(Points& positions)
     return all;
 }
 
-std::string Rescaling::remark() const
+std::optional<Remark> Rescaling::remark() const
 {
     if (n_left_ == 0)
         return {};
-    return fmt::format("{} of {} components {} not scaled back: {} no {} above rounding, at first or in the end.",
-                       n_left_, components_.count(), n_left_ == 1 ? "was" : "were",
-                       n_left_ == 1 ? "it has" : "they have", kind_ == Rescale::Area ? "area" : "volume");
+    return Remark("not rescaled", {{"components", n_left_}, {"of", components_.count()}},
+                  {fmt::format("{} of {} components {} not scaled back: {} no {} above rounding, at first or in the "
+                               "end.",
+                               n_left_, components_.count(), n_left_ == 1 ? "was" : "were",
+                               n_left_ == 1 ? "it has" : "they have", kind_ == Rescale::Area ? "area" : "volume")});
 }
 
 }  // namespace seamflow

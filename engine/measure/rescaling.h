@@ -1,11 +1,12 @@
 #pragma once
 
+#include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "engine/options/flow_options.h"
 #include "partition/polygon_mesh.h"
+#include "partition/remark.h"
 #include "partition/surface_components.h"
 #include "partition/topology.h"
 #include "partition/vector_area.h"
@@ -57,8 +58,8 @@ class Rescaling {
     /// @throws ComputationError if too little is left of every component.
     SimilarityOfComponents apply(Points& positions);
 
-    /// A sentence on components that the last call left as they were; empty if there were none.
-    [[nodiscard]] std::string remark() const;
+    /// On components that the last call left as they were; nothing if there were none.
+    [[nodiscard]] std::optional<Remark> remark() const;
 
   private:
     /// A component as a whole.

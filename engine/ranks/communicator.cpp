@@ -35,9 +35,9 @@ WorkOutcome outcome_of(Work&& work)
     } catch (const Interruption& error) {
         return {Kind::Interrupted, error.what()};
     } catch (const InputError& error) {
-        return {Kind::InputError, error.what()};
+        return {Kind::InputError, error.wording().text};
     } catch (const OptionError& error) {
-        return {Kind::OptionError, error.what()};
+        return {Kind::OptionError, error.wording().text};
     } catch (const ComputationError& error) {
         return {Kind::ComputationError, error.what()};
     } catch (const OutputError& error) {
@@ -57,9 +57,9 @@ WorkOutcome outcome_of(Work&& work)
 {
     switch (kind) {
     case Kind::InputError:
-        throw InputError(message);
+        throw InputError(Wording{message});
     case Kind::OptionError:
-        throw OptionError(message);
+        throw OptionError(Wording{message});
     case Kind::OutputError:
         throw OutputError(message);
     case Kind::Cancelled:

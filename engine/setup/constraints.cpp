@@ -29,7 +29,7 @@ void require_manifold(const Topology& topology)
 
 /// Holds vertices without strength.
 void hold_still(Topology& topology, const PolygonMesh& mesh, const std::vector<double>& strength,
-                std::vector<std::string>& remarks)
+                std::vector<Remark>& remarks)
 {
     if (strength.empty())
         return;
@@ -41,13 +41,14 @@ void hold_still(Topology& topology, const PolygonMesh& mesh, const std::vector<d
         if (is_still(strength[v]))
             topology.fixed[v] = 1;
     if (std::ranges::all_of(strength, is_still))
-        remarks.emplace_back("The region is empty: no vertex has a strength above 0, and nothing moves.");
+        remarks.push_back(
+            {"empty region", {}, {"The region is empty: no vertex has a strength above 0, and nothing moves."}});
 }
 
 }  // namespace
 
 void constrain(Topology& topology, const PolygonMesh& mesh, const FlowOptions& options, bool has_lengths,
-               const Executor& exec, std::vector<std::string>& remarks)
+               const Executor& exec, std::vector<Remark>& remarks)
 {
     if (options.motion.strict) {
         require_manifold(topology);
@@ -84,8 +85,9 @@ std::vector<Index> moving_rim(const PolygonMesh& mesh, const Topology& topology)
 void require_boundary_unshared(const Topology& topology, std::span<const Index> labels, std::span<const Index> vertices)
 {
     if (std::ranges::any_of(vertices, [&](Index v) { return is_on_interface(topology, labels, v); }))
-        throw OptionError("boundary is free and shared by several sub-meshes, which need converged steps: leave out "
-                          "the conditions and parameters of sweeps, or use one sub-mesh");
+        throw OptionError(
+            Wording{"<boundary> is free and shared by several sub-meshes, which need converged steps: leave "
+                    "out the conditions and parameters of sweeps, or use one sub-mesh"});
 }
 
 }  // namespace seamflow

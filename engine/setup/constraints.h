@@ -1,11 +1,11 @@
 #pragma once
 
 #include <span>
-#include <string>
 #include <vector>
 
 #include "engine/options/flow_options.h"
 #include "partition/polygon_mesh.h"
+#include "partition/remark.h"
 #include "partition/topology.h"
 
 namespace seamflow {
@@ -14,12 +14,12 @@ namespace seamflow {
 /// which the flow is not defined.
 /// @param topology of the mesh, as make_topology makes it.
 /// @param has_lengths whether all edges are known to have a length that is a normal double.
-/// @param remarks gets a sentence about those.
+/// @param remarks gets one on those.
 /// @throws InputError for a number in MotionOptions::fixed_vertices that is not a vertex; if there are not as many
 ///         attachment weights or strengths as vertices; with MotionOptions::strict, naming the first vertex, edge or
 ///         face at which the flow is not defined; also without it if the flow is defined nowhere.
 void constrain(Topology& topology, const PolygonMesh& mesh, const FlowOptions& options, bool has_lengths,
-               const Executor& exec, std::vector<std::string>& remarks);
+               const Executor& exec, std::vector<Remark>& remarks);
 
 /// The vertices on the boundary or at junctions that move.
 std::vector<Index> moving_rim(const PolygonMesh& mesh, const Topology& topology);

@@ -248,8 +248,8 @@ void FlowingMesh::complete(FlowReport& report) const
         bring_back(*report.separated);
     if (!copies_.empty())
         report.mesh.moved_with = first_;
-    if (!remark_on_seams_.empty())
-        report.remarks.push_back(remark_on_seams_);
+    if (remark_on_seams_)
+        report.remarks.push_back(*remark_on_seams_);
     if (number_.empty())
         return;
     report.mesh.faces += given_->n_faces() - mesh().n_faces();

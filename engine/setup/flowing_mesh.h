@@ -2,12 +2,12 @@
 
 #include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "engine/measure/flow_report.h"
 #include "engine/options/flow_options.h"
 #include "partition/polygon_mesh.h"
+#include "partition/remark.h"
 #include "partition/topology.h"
 #include "solvers/laplacian/laplacian.h"
 
@@ -141,7 +141,7 @@ class FlowingMesh {
     std::vector<Index> first_;
     std::vector<Index> copies_;
     std::vector<Apart> apart_;
-    std::string remark_on_seams_;
+    std::optional<Remark> remark_on_seams_;
     /// Per face of the given mesh: its number, or that of the face that it repeats, among those that are left; -1 where
     /// nothing moves. Empty if none is left out.
     std::vector<Index> number_;

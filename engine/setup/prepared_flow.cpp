@@ -38,9 +38,9 @@ std::uint64_t require_sound(const PolygonMesh& mesh, const FlowOptions& options,
     return identity;
 }
 
-/// @param choices gets a sentence if the number of sub-meshes is chosen.
+/// @param choices gets one if the number of sub-meshes is chosen.
 Cut make_cut(const PolygonMesh& mesh, const MeshSize& size, const Topology& topology, const FlowOptions& options,
-             const Executor& exec, const Alongside& alongside, std::vector<std::string>& choices)
+             const Executor& exec, const Alongside& alongside, std::vector<Remark>& choices)
 {
     if (smooths_normals(options) || options.scheme == Scheme::ExplicitEuler ||
         takes_whole_mesh(options.accuracy.approach))
@@ -51,7 +51,7 @@ Cut make_cut(const PolygonMesh& mesh, const MeshSize& size, const Topology& topo
         return cut_into(mesh, topology, options.cut.subdomains, exec, alongside);
     const SubdomainChoice choice =
         choose_subdomains(size, options.time_step, needs_of(options.laplacian, options.accuracy.tolerance.has_value()));
-    choices.push_back(choice.reason + ".");
+    choices.push_back({"sub-meshes", {{"sub-meshes", choice.count}}, {choice.reason + "."}});
     return cut_into(mesh, topology, choice.count, exec, alongside);
 }
 
@@ -75,7 +75,9 @@ void examine(PreparedFlow& prepared, FlowingMesh& mesh, Progress& progress)
     if (flows_alone(options) && strength.size() == usize(mesh.mesh().n_vertices()) &&
         mesh.leave_out_still_faces(strength, traits_of(options.laplacian).reach))
         prepared.choices.push_back(
-            fmt::format("Only the {} faces around the region flow, and are measured.", mesh.mesh().n_faces()));
+            {"region alone",
+             {{"faces", mesh.mesh().n_faces()}},
+             {fmt::format("Only the {} faces around the region flow, and are measured.", mesh.mesh().n_faces())}});
     const auto look = [&] {
         // Part of the topology is made by one thread.
         run_both([&] { topology = make_topology(mesh.mesh(), progress.exec()); },
@@ -112,9 +114,10 @@ void examine(PreparedFlow& prepared, FlowingMesh& mesh, Progress& progress)
             prepared.stiffness = std::move(surface->stiffness);
             // The factors of other filters are below 0 or above 1 for some modes.
             prepared.choices.push_back(
-                fmt::format("Edges opposite to obtuse angles are flipped within the surface, so "
-                            "that {}.",
-                            filter_of(options).is_plain() ? "values stay in their range" : "no weight is below 0"));
+                {"flipped edges",
+                 {},
+                 {fmt::format("Edges opposite to obtuse angles are flipped within the surface, so that {}.",
+                              filter_of(options).is_plain() ? "values stay in their range" : "no weight is below 0")}});
             look();
             constrain_it();
         }
@@ -124,6 +127,14 @@ void examine(PreparedFlow& prepared, FlowingMesh& mesh, Progress& progress)
         prepared.remarks.push_back(remark_on_unmoving_mesh(cracks ? Boundary::Free : options.motion.boundary));
     if (cracks)
         prepared.remarks.push_back(remark_on_cracks(*cracks));
+}
+
+Remark choice_of(const ApproachChoice& choice)
+{
+    Remark::Numbers numbers;
+    if (choice.tolerance)
+        numbers.emplace_back("tolerance", *choice.tolerance);
+    return {"approach", numbers, {choice.reason}};
 }
 
 /// METIS has one thread: the others measure in the meantime; if it has nothing to do, measuring comes afterwards.
@@ -169,7 +180,7 @@ std::unique_ptr<PreparedFlow> prepare(FlowingMesh& mesh, FlowOptions given, bool
     if (options.resources.memory_limit && resume == nullptr && control.ranks == nullptr)
         prepared->without_factors = choose_without_factors(prepared->size, options);
     if (prepared->without_factors) {
-        prepared->choices_without_factors = {prepared->without_factors->reason};
+        prepared->choices_without_factors = {choice_of(*prepared->without_factors)};
         std::ranges::copy(prepared->choices, std::back_inserter(prepared->choices_without_factors));
     }
     const ApproachChoice choice = choose_approach(mesh.mesh(), topology, prepared->size, prepared->options,
@@ -181,14 +192,14 @@ std::unique_ptr<PreparedFlow> prepare(FlowingMesh& mesh, FlowOptions given, bool
         prepared->costs = choice.size;
     progress.count();
     cut_and_measure(*prepared, mesh.mesh(), progress);
-    std::vector<std::string>& remarks = prepared->remarks;
+    std::vector<Remark>& remarks = prepared->remarks;
     remarks.insert(remarks.begin(), prepared->cut.remarks.begin(), prepared->cut.remarks.end());
     // A single sub-mesh is solved exactly either way.
     if (prepared->cut.n_parts == 1 && accuracy.approach == Approach::Converged && !choice.reason.empty()) {
         accuracy.approach = Approach::Undecomposed;
         accuracy.tolerance.reset();
     } else if (!choice.reason.empty()) {
-        prepared->choices.insert(prepared->choices.begin(), choice.reason);
+        prepared->choices.insert(prepared->choices.begin(), choice_of(choice));
     }
     if (!accuracy.tolerance && options.scheme == Scheme::BackwardEuler)
         require_boundary_unshared(topology, prepared->cut.labels, moving_rim(mesh.mesh(), topology));
@@ -239,9 +250,11 @@ void report_to(const PreparedFlow& prepared, const FlowingMesh& mesh, FlowReport
         const double width = width_in_diffusion_lengths(prepared.size.area, prepared.cut.n_parts, options.time_step);
         if (width < needs_of_sweeps.width)
             report.remarks.push_back(
-                fmt::format("The sub-meshes are narrow compared with √dt ({:.2f} √dt on average, 10 is good): the "
-                            "result may drift from the undecomposed flow; use fewer sub-meshes.",
-                            width));
+                {"narrow sub-meshes",
+                 {{"width in √dt", width}},
+                 {fmt::format("The sub-meshes are narrow compared with √dt ({:.2f} √dt on average, 10 is good): the "
+                              "result may drift from the undecomposed flow; use fewer sub-meshes.",
+                              width)}});
     }
 }
 

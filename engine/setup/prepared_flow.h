@@ -17,6 +17,7 @@
 #include "engine/state/flow_state.h"
 #include "engine/tasks/progress.h"
 #include "partition/cut/cut.h"
+#include "partition/remark.h"
 #include "partition/topology.h"
 #include "solvers/laplacian/given_stiffness.h"
 
@@ -32,7 +33,7 @@ struct PreparedFlow {
     /// What replaces steps whose factors do not fit into the memory limit; empty: nothing does.
     std::optional<ApproachChoice> without_factors;
     /// Takes the place of `choices` where `without_factors` is taken.
-    std::vector<std::string> choices_without_factors;
+    std::vector<Remark> choices_without_factors;
     /// Checksum of the mesh and the given options, by which a checkpoint is recognised. 0 if it is not needed.
     std::uint64_t identity = 0;
     MeshSize size;
@@ -51,9 +52,9 @@ struct PreparedFlow {
     /// Refers to the topology; empty without ReportOptions::measures.
     std::optional<DisplacementMeter> meter;
     /// Why sub-meshes and steps were chosen as they were.
-    std::vector<std::string> choices;
+    std::vector<Remark> choices;
     /// About the mesh and the cut.
-    std::vector<std::string> remarks;
+    std::vector<Remark> remarks;
 };
 
 /// Checks a mesh and decides how it is to flow: which faces and vertices take part, whether steps are converged, which

@@ -75,14 +75,15 @@ double require_step(double time_step)
 {
     if (std::isnormal(time_step))
         return time_step;
-    throw InputError("has no size to measure --time-step-edges by; use --time-step");
+    throw InputError(Wording{"has no size to measure noise by; use <time_step>"});
 }
 
-void smooth_nothing(PresetChoice& choice, double mean_edge, std::string remark)
+void smooth_nothing(PresetChoice& choice, double mean_edge, std::string_view why)
 {
     choice.options.steps = 0;
     choice.options.time_step = std::isnormal(mean_edge * mean_edge) ? mean_edge * mean_edge : 1.0;
-    choice.remark = std::move(remark);
+    choice.remark.emplace("nothing smoothed", Remark::Numbers{{"noise", *choice.noise}},
+                          Wording{fmt::format("{}: nothing is smoothed. Use <radius> to smooth anyway.", why)});
 }
 
 /// Puts spikes among their neighbours, so that they count neither as noise nor as shape. The flow is to hold them, and
@@ -122,9 +123,7 @@ void choose_by_noise(const PolygonMesh& mesh, const std::optional<LengthOnMesh>&
     const double diagonal = box_of_faces(mesh, exec).diagonal();
     choice.noise = known ? length_of(*known, diagonal) : measure_noise(flowing, joined, exec).deviation;
     if (*choice.noise == 0.0)
-        return smooth_nothing(choice, mean_edge,
-                              "No noise can be told from the shape of the mesh: nothing is smoothed. Use --radius to "
-                              "smooth anyway.");
+        return smooth_nothing(choice, mean_edge, "No noise can be told from the shape of the mesh");
     const double t = denoising_amount(flowing, joined, *choice.noise, exec).amount;
     // Of Δ_U, dt h²/4 of whose rows of the mean of differences are t.
     const double most = largest_radius * largest_diagonal(mesh, exec);
@@ -133,12 +132,11 @@ void choose_by_noise(const PolygonMesh& mesh, const std::optional<LengthOnMesh>&
     if (!(radius > 0.0) || !(*choice.noise <= most))
         return smooth_nothing(
             choice, mean_edge,
-            known ? fmt::format(
-                        "With noise of {:.3g}, no amount is expected to bring the mesh nearer to the true surface: "
-                        "nothing is smoothed. Use --radius to smooth anyway.",
-                        *choice.noise)
+            known ? fmt::format("With noise of {:.3g}, no amount is expected to bring the mesh nearer to the true "
+                                "surface",
+                                *choice.noise)
                   : "The noise of the mesh cannot be told from its shape well enough for smoothing to bring it nearer "
-                    "to the true surface: nothing is smoothed. Use --radius to smooth anyway.");
+                    "to the true surface");
     const double edges = time_step_for_radius(radius, std::max(choice.options.steps, 1), filter_of(choice.options)) /
                          (mean_edge * mean_edge);
     choice.options.time_step = require_step(rounded(edges) * mean_edge * mean_edge);
@@ -169,11 +167,11 @@ double length_of(const LengthOnMesh& length, double diagonal)
 double attachment_of(const LengthOnMesh& length, double diagonal)
 {
     if (length.of_diagonal && !std::isnormal(diagonal))
-        throw InputError("has no size to measure --attach by; use a length");
+        throw InputError(Wording{"has no size to measure <attachment> by; use a length"});
     const double radius = length_of(length, diagonal);
     const double weight = 1.0 / (radius * radius);
     if (!std::isnormal(weight))
-        throw OptionError("--attach is too small or too large: 1/R² is beyond what a double can hold");
+        throw OptionError(Wording{"<attachment> is too small or too large: 1/R² is beyond what a double can hold"});
     return weight;
 }
 

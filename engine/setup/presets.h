@@ -2,12 +2,12 @@
 
 #include <optional>
 #include <span>
-#include <string>
 #include <string_view>
 
 #include "engine/options/flow_options.h"
 #include "partition/executor.h"
 #include "partition/polygon_mesh.h"
+#include "partition/remark.h"
 
 namespace seamflow {
 
@@ -66,8 +66,8 @@ struct PresetChoice {
     FlowOptions options;
     /// As measured from the mesh, or given, in length, if the amount follows from it.
     std::optional<double> noise = {};
-    /// A sentence where nothing is smoothed; else empty.
-    std::string remark = {};
+    /// Where nothing is smoothed: why.
+    std::optional<Remark> remark = {};
 };
 
 /// The options of a preset for a mesh, to be changed at will and given to mean_curvature_flow. A preset that denoises

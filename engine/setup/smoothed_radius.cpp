@@ -54,7 +54,7 @@ double time_step_of(const FlowOptions& options, const PolygonMesh& mesh)
     try {
         return time_step_for_radius(*options.radius, options.steps, diagonal, filter_of(options));
     } catch (const InputError& error) {
-        throw InputError(std::string("the mesh ") + error.what());
+        throw InputError(Wording{"the mesh " + error.wording().text});
     }
 }
 

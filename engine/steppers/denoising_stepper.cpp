@@ -115,27 +115,38 @@ void DenoisingStepper::report_to(FlowReport& report) const
         report.remarks.push_back(remark_on_spikes(denoiser_.spikes()));
     const KeptStructure& kept = noise_->kept;
     if (kept.vertices > 0.0)
-        report.remarks.push_back(fmt::format(
-            "What looked like noise comes back like a pattern, so it stays as it is: {:.0f} vertices, which "
-            "would have moved by up to {:.3g}, most clearly at {:.6g}, {:.6g}, {:.6g}. Use --radius to "
-            "smooth it all the same.",
-            kept.vertices, kept.height, kept.place.x(), kept.place.y(), kept.place.z()));
+        report.remarks.push_back(
+            {"pattern kept",
+             {{"vertices", kept.vertices},
+              {"height", kept.height},
+              {"x", kept.place.x()},
+              {"y", kept.place.y()},
+              {"z", kept.place.z()}},
+             {fmt::format("What looked like noise comes back like a pattern, so it stays as it is: {:.0f} vertices, "
+                          "which would have moved by up to {:.3g}, most clearly at {:.6g}, {:.6g}, {:.6g}. Use "
+                          "<radius> to smooth it all the same.",
+                          kept.vertices, kept.height, kept.place.x(), kept.place.y(), kept.place.z())}});
     const bool has_noise = noise_->part > 0.0;
     if (noise_->rim_vertices > 0.0)
-        report.choices.push_back(fmt::format("noise or stairs of rims of {:.0f} vertices: removed; they became smooth "
-                                             "curves{}",
-                                             noise_->rim_vertices, has_noise ? ";" : ""));
+        report.choices.push_back(
+            {"smooth rims",
+             {{"vertices", noise_->rim_vertices}},
+             {fmt::format("noise or stairs of rims of {:.0f} vertices: removed; they became smooth curves{}",
+                          noise_->rim_vertices, has_noise ? ";" : "")}});
     if (!has_noise) {
         if (noise_->rim_vertices == 0.0 && kept.vertices == 0.0)
-            report.remarks.emplace_back("No noise was found: nothing is smoothed. Use --radius to smooth anyway.");
+            report.remarks.push_back(
+                {"no noise", {}, {"No noise was found: nothing is smoothed. Use <radius> to smooth anyway."}});
         return;
     }
     std::string where;
     if (noise_->part < 1.0 - small_part)
         where = fmt::format(" on {:.0f}% of the vertices, none on the others", 100.0 * noise_->part);
-    report.choices.push_back(fmt::format("noise of {:.2g} edge lengths{}: removed; edges and details that it does not "
-                                         "explain were kept",
-                                         report.noise->deviation, where));
+    report.choices.push_back(
+        {"noise",
+         {{"edge lengths", report.noise->deviation}, {"part", noise_->part}},
+         {fmt::format("noise of {:.2g} edge lengths{}: removed; edges and details that it does not explain were kept",
+                      report.noise->deviation, where)}});
 }
 
 }  // namespace seamflow

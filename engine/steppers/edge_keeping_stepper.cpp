@@ -91,17 +91,21 @@ void EdgeKeepingStepper::report_to(FlowReport& report) const
     report.cut.sub_meshes = {{mesh_->n_faces(), mesh_->n_vertices()}};
     if (furthest_ < next_to_nothing)
         report.remarks.push_back(
-            fmt::format("Nothing was smoothed: most faces lie in planes that meet in edges sharper than {:g}°, which "
-                        "were kept (vertices moved by up to {:.1g} mean edge lengths in a step). If these are noise, "
-                        "as in heights of whole numbers, give a larger angle, or leave out the amount, so that it "
-                        "follows from the noise.",
-                        angle_, furthest_));
+            {"all edges kept",
+             {{"degrees", angle_}, {"mean edge lengths", furthest_}},
+             {fmt::format("Nothing was smoothed: most faces lie in planes that meet in edges sharper than {:g}°, which "
+                          "were kept (vertices moved by up to {:.1g} mean edge lengths in a step). If these are noise, "
+                          "as in heights of whole numbers, give a larger angle, or leave out the amount, so that it "
+                          "follows from the noise.",
+                          angle_, furthest_)}});
     else
         report.remarks.push_back(
-            fmt::format("Edges sharper than {:g}° were kept, and face normals smoothed between them, "
-                        "as much as was asked for, whether there is noise or not: vertices moved "
-                        "by up to {:.2g} mean edge lengths in a step.",
-                        angle_, furthest_));
+            {"edges kept",
+             {{"degrees", angle_}, {"mean edge lengths", furthest_}},
+             {fmt::format("Edges sharper than {:g}° were kept, and face normals smoothed between them, as much as was "
+                          "asked for, whether there is noise or not: vertices moved by up to {:.2g} mean edge lengths "
+                          "in a step.",
+                          angle_, furthest_)}});
 }
 
 }  // namespace seamflow

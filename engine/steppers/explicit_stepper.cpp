@@ -70,10 +70,11 @@ void ExplicitStepper::require_stable(const Points& positions)
         return;
     first_limit_ = limit;
     if (time_step_ > limit)
-        throw OptionError(fmt::format("time_step is {:.17g}, but must be at most {:.17g} (length²), the square of the "
-                                      "shortest edge, for explicit Euler steps to be stable: use a smaller one, or "
-                                      "backward Euler steps",
-                                      time_step_, limit));
+        throw OptionError(
+            Wording{fmt::format("<time_step> is {:.17g}, but must be at most {:.17g} (length²), the square of the "
+                                "shortest edge, for explicit Euler steps to be stable: use a smaller one, or "
+                                "backward Euler steps",
+                                time_step_, limit)});
 }
 
 void ExplicitStepper::step(const Points& before)
@@ -111,11 +112,15 @@ void ExplicitStepper::report_to(FlowReport& report) const
         return;
     report.cut.sub_meshes = {{mesh_->n_faces(), mesh_->n_vertices()}};
     if (time_step_ > smallest_limit_)
-        report.remarks.push_back("Edges have shrunk so far that the time step is above the square of the shortest one: "
-                                 "explicit Euler steps may no longer be stable.");
+        report.remarks.push_back({"unstable",
+                                  {{"time step", time_step_}, {"limit", smallest_limit_}},
+                                  {"Edges have shrunk so far that the time step is above the square of the shortest "
+                                   "one: explicit Euler steps may no longer be stable."}});
     else if (time_step_ > safe_part * first_limit_)
-        report.remarks.push_back("The time step is above a quarter of the square of the shortest edge: explicit Euler "
-                                 "steps may not be stable.");
+        report.remarks.push_back({"unstable",
+                                  {{"time step", time_step_}, {"limit", first_limit_}},
+                                  {"The time step is above a quarter of the square of the shortest edge: explicit "
+                                   "Euler steps may not be stable."}});
 }
 
 }  // namespace seamflow

@@ -79,9 +79,10 @@ KeptFactors choose_kept_factors(std::span<const std::size_t> factors, std::optio
             break;
     }
     if (n_whole < 0)
-        throw MemoryLimitError("memory_limit is " + std::to_string(*limit) + " bytes, but one factorisation can take " +
-                               std::to_string(factors[order.front()]) +
-                               ": raise it, use more sub-meshes, or if the flow allows it sweeps (Approach::Sweep)");
+        throw MemoryLimitError(
+            Wording{"<memory_limit> is " + std::to_string(*limit) + " bytes, but one factorisation can take " +
+                    std::to_string(factors[order.front()]) +
+                    ": raise it, use more sub-meshes, or if the flow allows it sweeps (<approach sweep>)"});
     return keep_first(factors, order, n_whole, n_places);
 }
 

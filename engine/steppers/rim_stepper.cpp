@@ -74,7 +74,8 @@ void RimStepper::report_to(FlowReport& report) const
     if (mesh_->n_faces() > 0)
         report.cut.sub_meshes = {{mesh_->n_faces(), mesh_->n_vertices()}};
     if (curves_.empty())
-        report.remarks.emplace_back("The surface has no boundary: nothing moved. Leave --boundary out to smooth it.");
+        report.remarks.push_back(
+            {"no boundary", {}, {"The surface has no boundary: nothing moved. Leave <boundary> out to smooth it."}});
 }
 
 }  // namespace seamflow

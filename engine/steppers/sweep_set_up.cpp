@@ -118,10 +118,10 @@ void SweepStepper::choose_factor_window(const FlowOptions& options)
         return;
     const std::size_t places = *options.resources.memory_limit / largest;
     if (places < usize(least))
-        throw MemoryLimitError("memory_limit is " + std::to_string(*options.resources.memory_limit) +
-                               " bytes, but the " + std::to_string(least) +
-                               " factorisations that a step needs at once take " +
-                               std::to_string(usize(least) * largest) + ": raise it, or use more sub-meshes");
+        throw MemoryLimitError(Wording{"<memory_limit> is " + std::to_string(*options.resources.memory_limit) +
+                                       " bytes, but the " + std::to_string(least) +
+                                       " factorisations that a step needs at once take " +
+                                       std::to_string(usize(least) * largest) + ": raise it, or use more sub-meshes"});
     resize(static_cast<Index>(std::min(usize(enough), places)));
 }
 

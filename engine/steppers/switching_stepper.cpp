@@ -126,14 +126,18 @@ void SwitchingStepper::report_to(FlowReport& report) const
         factors_->add_seconds(report.seconds);
     if (first_with_factors_ > 0)
         report.choices.push_back(
-            fmt::format("From step {} on, conjugate gradients began with the solution by one factorisation: they had "
-                        "come to need more and more iterations.",
-                        first_with_factors_));
+            {"factorised from a step on",
+             {{"step", first_with_factors_}},
+             {fmt::format("From step {} on, conjugate gradients began with the solution by one factorisation: they had "
+                          "come to need more and more iterations.",
+                          first_with_factors_)}});
     if (failed_ > 0)
         report.choices.push_back(
-            fmt::format("In step {} there was none, because edges have shrunk to nothing or memory "
-                        "is too small: conjugate gradients went on without it.",
-                        failed_));
+            {"no factorisation",
+             {{"step", failed_}},
+             {fmt::format("In step {} there was none, because edges have shrunk to nothing or memory is too small: "
+                          "conjugate gradients went on without it.",
+                          failed_)}});
 }
 
 }  // namespace seamflow

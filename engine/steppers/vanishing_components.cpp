@@ -230,14 +230,15 @@ void VanishingComponents::bring_back(std::span<const Index> vertices, const Pose
                                             : Point(before.row(v) + shift);
 }
 
-std::string VanishingComponents::remark() const
+std::optional<Remark> VanishingComponents::remark() const
 {
     if (most_ == 0)
         return {};
-    return fmt::format("{} so small compared with the amount that a point is left of {}: less smoothing keeps {}, and "
-                       "the rest of the surface continued.",
-                       most_ == 1 ? "1 component is" : fmt::format("{} components are", most_),
-                       most_ == 1 ? "it" : "each", most_ == 1 ? "it" : "them");
+    return Remark("vanished", {{"components", most_}},
+                  {fmt::format("{} so small compared with the amount that a point is left of {}: less smoothing keeps "
+                               "{}, and the rest of the surface continued.",
+                               most_ == 1 ? "1 component is" : fmt::format("{} components are", most_),
+                               most_ == 1 ? "it" : "each", most_ == 1 ? "it" : "them")});
 }
 
 }  // namespace seamflow

@@ -2,13 +2,13 @@
 
 #include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "engine/options/flow_options.h"
 #include "engine/steppers/stepper.h"
 #include "partition/index_lists.h"
 #include "partition/polygon_mesh.h"
+#include "partition/remark.h"
 #include "partition/topology.h"
 
 namespace seamflow {
@@ -32,8 +32,8 @@ class VanishingComponents {
     void attach(std::span<const Index> vertices, std::span<const double> weights);
     void set_reference_vertices(std::span<const Index> vertices, const Points& to);
 
-    /// A sentence on components that were so small; empty if there were none.
-    [[nodiscard]] std::string remark() const;
+    /// On components that were so small; nothing if there were none.
+    [[nodiscard]] std::optional<Remark> remark() const;
 
   private:
     /// How a component is brought to where the step is taken.

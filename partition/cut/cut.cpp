@@ -1,6 +1,7 @@
 #include "partition/cut/cut.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -57,8 +58,8 @@ Index sensible_parts(std::int64_t n_faces, Index k)
     return static_cast<Index>(std::clamp<std::int64_t>(n_faces / min_faces_per_part, 1, k));
 }
 
-/// Why a mesh was not cut into k parts. @returns a sentence; empty if it was.
-std::string remark_on_number(std::int64_t n_faces, Index k, Index n_parts, Index n_components)
+/// Why a mesh was not cut into k parts. @returns nothing if it was.
+std::optional<Remark> remark_on_number(std::int64_t n_faces, Index k, Index n_parts, Index n_components)
 {
     if (n_parts == k)
         return {};
@@ -69,22 +70,31 @@ std::string remark_on_number(std::int64_t n_faces, Index k, Index n_parts, Index
     else if (sensible_parts(n_faces, k) < k)
         reason = fmt::format("its {} are too few for so many: a part should have about {} faces or more",
                              number_of(n_faces, "face"), min_faces_per_part);
-    return fmt::format("The mesh was cut into {} instead of {}, because {}.", number_of(n_parts, "part"), k, reason);
+    return Remark(
+        "number of parts", {{"parts", n_parts}, {"asked", k}},
+        {fmt::format("The mesh was cut into {} instead of {}, because {}.", number_of(n_parts, "part"), k, reason)});
 }
 
-/// Remarks on labels that were given, one sentence each.
+/// Remarks on labels that were given.
 /// @param n_given different labels, the largest being `largest`.
-std::vector<std::string> remarks_on_labels(Index n_given, Index largest, std::int64_t repaired_faces, Index n_parts)
+std::vector<Remark> remarks_on_labels(Index n_given, Index largest, std::int64_t repaired_faces, Index n_parts)
 {
-    std::vector<std::string> remarks;
+    std::vector<Remark> remarks;
     if (n_given > 0 && largest >= n_given)
         remarks.push_back(
-            fmt::format("The labels had gaps and were renumbered from 0 to {} in the same order.", n_given - 1));
+            {"gaps in labels",
+             {{"labels", n_given}},
+             {fmt::format("The labels had gaps and were renumbered from 0 to {} in the same order.", n_given - 1)}});
     if (repaired_faces > 0)
-        remarks.push_back(number_of(repaired_faces, "face") +
-                          " had to change parts so that every part is connected and a manifold with boundary.");
+        remarks.push_back({"repaired parts",
+                           {{"faces", repaired_faces}},
+                           {number_of(repaired_faces, "face") +
+                            " had to change parts so that every part is connected and a manifold with boundary."}});
     if (n_parts != n_given)
-        remarks.push_back(fmt::format("The labels name {}; now there are {}.", number_of(n_given, "part"), n_parts));
+        remarks.push_back(
+            {"number of parts",
+             {{"parts", n_parts}, {"asked", n_given}},
+             {fmt::format("The labels name {}; now there are {}.", number_of(n_given, "part"), n_parts)}});
     return remarks;
 }
 
@@ -123,8 +133,8 @@ Cut cut_into(const PolygonMesh& mesh, const Topology& topology, Index k, const E
         cut.repaired_faces = repair_within_components(mesh, topology, cut.labels, exec);
     }
     cut.n_parts = count_parts(cut.labels);
-    if (std::string remark = remark_on_number(mesh.n_faces(), k, cut.n_parts, components.count()); !remark.empty())
-        cut.remarks.push_back(std::move(remark));
+    if (const auto remark = remark_on_number(mesh.n_faces(), k, cut.n_parts, components.count()))
+        cut.remarks.push_back(*remark);
     return cut;
 }
 

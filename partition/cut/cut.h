@@ -3,11 +3,11 @@
 #include <cstdint>
 #include <functional>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "partition/executor.h"
 #include "partition/polygon_mesh.h"
+#include "partition/remark.h"
 #include "partition/topology.h"
 
 namespace seamflow {
@@ -21,8 +21,8 @@ struct Cut {
     Index n_parts = 0;
     /// How many faces had to be moved to other parts to make every part a manifold.
     Index repaired_faces = 0;
-    /// What the user should know about the cut, one sentence each.
-    std::vector<std::string> remarks;
+    /// What the user should know about the cut.
+    std::vector<Remark> remarks;
 };
 
 /// Runs the serial part of a cut. A caller with further threads and work that does not need the cut can do both at

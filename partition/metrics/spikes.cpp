@@ -180,15 +180,17 @@ Points without_spikes(const PolygonMesh& mesh, const Topology& topology, const s
     return filled;
 }
 
-std::string remark_on_spikes(const std::vector<Spike>& spikes)
+Remark remark_on_spikes(const std::vector<Spike>& spikes)
 {
     const Spike& farthest = *std::ranges::max_element(spikes, {}, &Spike::distance);
     const bool is_one = spikes.size() == 1;
     const std::string who =
         is_one ? fmt::format("Vertex {} (numbered from 0) is", farthest.vertex)
                : fmt::format("{} vertices are spikes: vertex {} (numbered from 0) is", spikes.size(), farthest.vertex);
-    return fmt::format("{} {:.0f} edges away from its neighbours; remove {}, or give {} the right position.", who,
-                       farthest.distance, is_one ? "it" : "them", is_one ? "it" : "them");
+    return {"spikes",
+            {{"vertices", spikes.size()}, {"farthest", farthest.vertex}, {"edges away", farthest.distance}},
+            {fmt::format("{} {:.0f} edges away from its neighbours; remove {}, or give {} the right position.", who,
+                         farthest.distance, is_one ? "it" : "them", is_one ? "it" : "them")}};
 }
 
 }  // namespace seamflow

@@ -5,6 +5,7 @@
 
 #include "partition/executor.h"
 #include "partition/polygon_mesh.h"
+#include "partition/remark.h"
 #include "partition/topology.h"
 
 namespace seamflow {
@@ -38,8 +39,8 @@ std::vector<Spike> spikes_at_needles(const PolygonMesh& mesh, const Points& posi
 Points without_spikes(const PolygonMesh& mesh, const Topology& topology, const std::vector<Spike>& spikes,
                       const Points& positions);
 
-/// A sentence about them for the user.
+/// Names the farthest of them.
 /// @param spikes at least one.
-std::string remark_on_spikes(const std::vector<Spike>& spikes);
+Remark remark_on_spikes(const std::vector<Spike>& spikes);
 
 }  // namespace seamflow

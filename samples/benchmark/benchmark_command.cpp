@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/options/option_rules.h"
 #include "engine/options/valid_options.h"
 #include "partition/errors.h"
 #include "samples/command/command_line.h"
@@ -139,9 +140,6 @@ void settle_k_harmonic(const CLI::App& app, std::string_view orders, BenchmarkCo
     Laplacian& laplacian = command.flow.laplacian;
     if (app.count("--laplacian") == 0)
         laplacian = Laplacian::AlexaWardetzky;
-    if (laplacian == Laplacian::Fujiwara)
-        throw OptionError("--k-harmonic takes a Laplacian with areas for masses: alexa-wardetzky or "
-                          "virtual-refinement");
 }
 
 /// A single value replaces an axis.
@@ -156,11 +154,27 @@ void settle_grid(const CLI::App& app, BenchmarkCommand& command)
         command.time_steps_edges = {1.0, 5.0, 50.0, 500.0};
     if (app.count("--steps") == 0)
         command.steps = {1, 3, 10};
-    if (command.vertices < smallest_of_grid)
-        throw OptionError(fmt::format("--grid begins with {} vertices; --vertices is the largest number and must be "
-                                      "no less",
-                                      smallest_of_grid));
 }
+
+bool takes_turns(const BenchmarkCommand& c)
+{
+    return c.mode == BenchmarkMode::Grid || c.mode == BenchmarkMode::WholeRun;
+}
+
+constexpr OptionRule<BenchmarkCommand> rules[]{
+    {[](const BenchmarkCommand& c, const AskedOptions&) {
+         return c.mode == BenchmarkMode::KHarmonic && c.flow.laplacian == Laplacian::Fujiwara;
+     },
+     0, "--k-harmonic takes a Laplacian with areas for masses: alexa-wardetzky or virtual-refinement"},
+    {[](const BenchmarkCommand& c, const AskedOptions&) {
+         return c.mode == BenchmarkMode::Grid && c.vertices < smallest_of_grid;
+     },
+     0, "--grid begins with 10000 vertices; --vertices is the largest number and must be no less"},
+    {[](const BenchmarkCommand& c, const AskedOptions& asked) { return asked.has("--turns") && !takes_turns(c); }, 0,
+     "--turns belongs to --grid and --whole-run"},
+    {[](const BenchmarkCommand& c, const AskedOptions&) { return c.vertices > most_vertices; }, 0,
+     "--vertices must be at most 100000000"},
+};
 
 /// Settles what follows from the options that were given.
 void settle(const CLI::App& app, const Words& words, BenchmarkCommand& command)
@@ -178,16 +192,13 @@ void settle(const CLI::App& app, const Words& words, BenchmarkCommand& command)
         settle_k_harmonic(app, words.orders, command);
     if (is_given("--grid"))
         settle_grid(app, command);
-    const bool takes_turns = command.mode == BenchmarkMode::Grid || command.mode == BenchmarkMode::WholeRun;
-    if (is_given("--turns") && !takes_turns)
-        throw OptionError("--turns belongs to --grid and --whole-run");
-    if (!takes_turns)
+    const AskedOptions asked{[&](std::string_view option) { return app.count(std::string(option)) > 0; }, {}};
+    require_none_broken<BenchmarkCommand>(rules, command, flow, asked);
+    if (!takes_turns(command))
         command.turns = 1;
     const char* const usual_peers = command.mode == BenchmarkMode::WholeRun ? "cholmod,cg" : "all";
     command.peers = peers_named(!words.peers.empty() ? words.peers : usual_peers);
     require_valid(flow);
-    if (command.vertices > most_vertices)
-        throw OptionError("--vertices must be at most " + std::to_string(most_vertices));
     if (!command.json.empty())
         require_writable(command.json);
     if (flow.resources.threads == 0)

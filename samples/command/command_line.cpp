@@ -72,6 +72,16 @@ Limits positive()
     return {.least = 0.0, .above_least = true};
 }
 
+namespace {
+
+/// @param what the rest of a sentence on the text: "is not …".
+[[noreturn]] void refuse(std::string_view text, std::string_view what)
+{
+    throw OptionError(fmt::format("\"{}\" {}", text, what));
+}
+
+}  // namespace
+
 double parse_real(std::string_view text, const Limits& limits)
 {
     double value = 0.0;
@@ -79,7 +89,7 @@ double parse_real(std::string_view text, const Limits& limits)
     const auto [rest, error] = std::from_chars(text.data(), end, value);
     if (error == std::errc() && rest == end && std::isfinite(value) && limits.hold(value))
         return value;
-    throw OptionError(fmt::format("\"{}\" is not {}", text, described(limits)));
+    refuse(text, "is not " + described(limits));
 }
 
 long long parse_integer(std::string_view text, long long least, long long most)
@@ -89,7 +99,7 @@ long long parse_integer(std::string_view text, long long least, long long most)
     const auto [rest, error] = std::from_chars(text.data(), end, value);
     if (error == std::errc() && rest == end && value >= least && value <= most)
         return value;
-    throw OptionError(fmt::format("\"{}\" is not a whole number from {} to {}", text, least, most));
+    refuse(text, fmt::format("is not a whole number from {} to {}", least, most));
 }
 
 std::size_t parse_bytes(std::string_view text)
@@ -103,9 +113,8 @@ std::size_t parse_bytes(std::string_view text)
     const bool number = error == std::errc() && rest == end && unit;
     const double bytes = number ? value * *unit : 0.0;
     if (!(bytes >= 1.0 && bytes <= most))
-        throw OptionError("\"" + std::string(text) +
-                          "\" is not a number of bytes from 1 to 2^60: give one, alone or with K, M, G, T (powers of "
-                          "1000) or KiB, MiB, GiB, TiB (of 1024)");
+        refuse(text, "is not a number of bytes from 1 to 2^60: give one, alone or with K, M, G, T (powers of "
+                     "1000) or KiB, MiB, GiB, TiB (of 1024)");
     return static_cast<std::size_t>(bytes);
 }
 
@@ -117,8 +126,7 @@ LengthOnMesh parse_length(std::string_view text)
             return {parse_real(text, positive()), false};
         return {parse_real(text.substr(0, text.size() - 1), positive()) / 100.0, true};
     } catch (const OptionError&) {
-        throw OptionError("\"" + std::string(text) +
-                          "\" is neither a positive length (0.5) nor a part of the bounding box's diagonal (2%)");
+        refuse(text, "is neither a positive length (0.5) nor a part of the bounding box's diagonal (2%)");
     }
 }
 
@@ -143,7 +151,7 @@ MotionDirection parse_direction(std::string_view text)
             return direction;
     } catch (const OptionError&) {
     }
-    throw OptionError("\"" + std::string(text) + "\" is neither x, y, z nor normal, nor a vector like 0,0.5,1");
+    refuse(text, "is neither x, y, z nor normal, nor a vector like 0,0.5,1");
 }
 
 CheckpointPeriod parse_checkpoint_period(std::string_view text)
@@ -159,8 +167,7 @@ CheckpointPeriod parse_checkpoint_period(std::string_view text)
                 return {.seconds = seconds * parse_real(number, {0.0, 1e9})};
     } catch (const OptionError&) {
     }
-    throw OptionError("\"" + std::string(text) +
-                      "\" is neither a number of steps from 1 nor a time: give one with s, min or h");
+    refuse(text, "is neither a number of steps from 1 nor a time: give one with s, min or h");
 }
 
 namespace {

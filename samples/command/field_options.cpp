@@ -1,5 +1,8 @@
 #include "samples/command/field_options.h"
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
 #include <string>
 #include <string_view>
 
@@ -21,6 +24,18 @@ void refuse(std::string_view given, const char* with, const char* reason)
         throw OptionError(fmt::format("{} cannot be combined with {}: {}", with, given, reason));
 }
 
+std::ptrdiff_t n_amounts(const AskedOptions& asked)
+{
+    return std::ranges::count_if(std::array{"--fwhm", "--radius", "--time-step", "--time-step-edges"}, asked.has);
+}
+
+constexpr OptionRule<SmoothCommand> rules_of_field_amounts[]{
+    {[](const SmoothCommand&, const AskedOptions& asked) { return n_amounts(asked) == 0; }, 0,
+     "--fields needs an amount: give --fwhm, --radius, --time-step or --time-step-edges"},
+    {[](const SmoothCommand&, const AskedOptions& asked) { return n_amounts(asked) > 1; }, 0,
+     "--fwhm, --radius, --time-step and --time-step-edges all say how much to smooth: give one of them"},
+};
+
 /// The first option about what diffuses that was given.
 std::string_view first_of_diffusion(const CLI::App& app)
 {
@@ -37,17 +52,10 @@ void require_fields(const CLI::App& app, SmoothCommand& command)
 {
     const char* const by = command.fields.names.empty() ? "--from" : "--fields";
     refuse(first_given(app, concern::motion), by, "the surface stays");
-    if (app.count("--out-dir") > 0)
-        throw OptionError(fmt::format("{} cannot be combined with --out-dir: fields diffuse on one mesh", by));
+    refuse(first_given(app, {"--out-dir"}), by, "fields diffuse on one mesh");
     if (command.fields.names.empty())
         return refuse(first_of_diffusion(app), by, "it concerns what diffuses, and distances do not");
-    const std::size_t n_amounts =
-        app.count("--fwhm") + app.count("--radius") + app.count("--time-step") + app.count("--time-step-edges");
-    if (n_amounts != 1)
-        throw OptionError(n_amounts == 0 ? "--fields needs an amount: give --fwhm, --radius, --time-step or "
-                                           "--time-step-edges"
-                                         : "--fwhm, --radius, --time-step and --time-step-edges all say how much to "
-                                           "smooth: give one of them");
+    require_none_broken<SmoothCommand>(rules_of_field_amounts, command, command.options, given_options(app, command));
     if (command.fields.fwhm && app.count("--steps") == 0)
         command.options.steps = steps_of_fwhm;
     if (app.count("--laplacian") == 0)

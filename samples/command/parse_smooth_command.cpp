@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/options/option_rules.h"
 #include "partition/errors.h"
 #include "partition/formats/mesh_io.h"
 #include "partition/io/input_file.h"
@@ -44,15 +45,21 @@ std::filesystem::path region_file(const SmoothCommand& command)
     return {};
 }
 
-/// The most files that --every-step may write.
-constexpr int most_files = 100'000;
+constexpr OptionRule<SmoothCommand> rules_of_files[]{
+    {[](const SmoothCommand& c, const AskedOptions&) { return c.every_step && c.options.steps > 100'000; }, 0,
+     "--every-step writes at most 100000 files: give fewer --steps"},
+    {[](const SmoothCommand& c, const AskedOptions&) {
+         return is_standard_stream(c.report) && is_standard_stream(c.output);
+     },
+     0, "OUTPUT and --report are both -: name a file for one of them"},
+    {[](const SmoothCommand& c, const AskedOptions&) { return c.edges_from_file && is_input_stream(c.input); }, 0,
+     "--edges-from-file reads INPUT a second time: name a file instead of -"},
+};
 
 /// Also keeps every result except OUTPUT from replacing one of the inputs.
 void require_usable_files(const SmoothCommand& command)
 {
-    if (command.every_step && command.options.steps > most_files)
-        throw OptionError(fmt::format("--every-step would write {} files; at most {} are allowed",
-                                      command.options.steps, most_files));
+    require_none_broken<SmoothCommand>(rules_of_files, command, command.options, {});
     std::vector<std::filesystem::path> results;
     for (int step = 1; command.every_step && step <= command.options.steps; ++step)
         results.push_back(command.every_step->path(step));
@@ -60,12 +67,8 @@ void require_usable_files(const SmoothCommand& command)
         if (!path.empty())
             results.push_back(path);
     require_files(results);
-    if (is_standard_stream(command.report) && is_standard_stream(command.output))
-        throw OptionError("OUTPUT and --report are both -: name a file for one of them");
     if (!command.report.empty() && !is_standard_stream(command.report))
         results.push_back(command.report);
-    if (command.edges_from_file && is_input_stream(command.input))
-        throw OptionError("--edges-from-file reads INPUT a second time: name a file instead of -");
     const std::vector<std::filesystem::path> further{command.labels,         command.fix,         command.edges,
                                                      command.attach_weights, command.fields.from, region_file(command)};
     require_files(further);

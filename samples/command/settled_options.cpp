@@ -1,87 +1,138 @@
 #include "samples/command/settled_options.h"
 
+#include <filesystem>
 #include <string>
 #include <string_view>
-#include <utility>
 
 #include <fmt/format.h>
 
+#include "engine/options/option_rules.h"
 #include "partition/errors.h"
 #include "partition/formats/mesh_io.h"
 #include "samples/command/presets.h"
 #include "samples/command/smooth_options.h"
 #include "samples/process/cpu_quota.h"
+#include "samples/process/option_words.h"
 
 namespace seamflow {
 
 namespace {
 
-/// Refuses options that mean nothing to steps that keep edges.
-void require_room_for_edges(const CLI::App& app, const SmoothCommand& command)
+using Command = SmoothCommand;
+using Asked = AskedOptions;
+using Rule = OptionRule<SmoothCommand>;
+
+bool has_amount(const Asked& asked)
 {
-    const std::string other = first_given(app, concern::equations);
-    if (smooths_normals(command.options) && !other.empty())
-        throw OptionError(fmt::format("{} is about the equations of mean curvature flow, but {} smooths face normals "
-                                      "on the whole mesh: leave one of them out",
-                                      other, command.options.denoise ? "--preset " + command.preset : "--keep-edges"));
+    return !asked.first(concern::amount).empty();
 }
 
-/// @param of_sweeps an option for sweeps; may be empty.
-void require_consistent_approach(const CLI::App& app, const SmoothCommand& command, const std::string& of_sweeps)
+bool is_ply(const std::filesystem::path& path)
 {
-    const Approach approach = command.options.accuracy.approach;
-    if (app.count("--approach") == 0 || approach == Approach::Automatic || approach == Approach::Decomposed)
-        return;
-    const std::string name = fmt::format("--approach {}", option_name(approach));
-    if (approach == Approach::Sweep && command.options.accuracy.tolerance)
-        throw OptionError("--converge takes converged steps, but " + name + " takes sweeps: leave one of them out");
-    if (approach != Approach::Sweep && !of_sweeps.empty())
-        throw OptionError(of_sweeps + " is about sweeps, but " + name + " takes none: leave one of them out");
-    const std::string of_sub_meshes = first_given(
-        app, approach == Approach::ConjugateGradients ? concern::sub_meshes | concern::factors : concern::sub_meshes);
-    if (takes_whole_mesh(approach) && !of_sub_meshes.empty())
-        throw OptionError(of_sub_meshes + " is about sub-meshes, but " + name +
-                          " takes the whole mesh: leave one of them out");
+    return format_of(path) == FileFormat::Ply;
 }
 
-/// What takes sweeps: an option that is about them, or the approach; empty if nothing does.
-/// @param of_sweeps see require_consistent_approach.
-std::string reason_for_sweeps(const CLI::App& app, const SmoothCommand& command, const std::string& of_sweeps)
+bool shows_tasks(const Command& c)
 {
-    const AccuracyOptions& accuracy = command.options.accuracy;
-    if (!of_sweeps.empty() || accuracy.approach != Approach::Sweep || accuracy.tolerance)
-        return of_sweeps;
-    return app.count("--approach") > 0 ? "--approach sweep" : "--converge never";
+    return !c.trace.empty() || !c.task_graph.empty();
 }
 
-/// Options that would have no effect are a mistake of the user's.
-void require_effective(const CLI::App& app, const SmoothCommand& command)
+/// Rules of the command line alone (see require_compatible) that hold before a preset has chosen anything.
+constexpr Rule rules_of_amounts[]{
+    {[](const Command& c, const Asked& asked) {
+         return !c.fields.exists() && asked.has("time_step") + asked.has("--time-step-edges") + asked.has("radius") > 1;
+     },
+     0, "<time_step>, --time-step-edges and <radius> all say how much to smooth: give one of them"},
+    {[](const Command& c, const Asked&) { return !c.fields.exists() && c.noise; }, concern::amount,
+     "--noise sets how much a preset smooths, and <{other}> does so too: give one of them"},
+    {[](const Command& c, const Asked& asked) { return !c.fields.exists() && c.preset.empty() && !has_amount(asked); },
+     concern::method,
+     "<{other}> cannot be combined with a preset: say how much to smooth with --time-step, --time-step-edges or "
+     "--radius"},
+    {[](const Command& c, const Asked&) { return !c.fields.exists() && !c.preset.empty(); }, concern::method,
+     "<{other}> and --preset exclude each other: say how much to smooth with --time-step, --time-step-edges or "
+     "--radius, and leave the preset out"},
+    {[](const Command& c, const Asked& asked) {
+         return asked.has("--transmission") && c.options.interface.transmission == Transmission::Predicted &&
+                (asked.has("--p") || asked.has("--p-rule") || asked.has("--p-edge"));
+     },
+     0, "--p, --p-rule and --p-edge are for the derivatives of the paper; --transmission predicted has none"},
+};
+
+/// The others: mostly options that would have no effect, which are a mistake of the user's.
+constexpr Rule rules_of_effects[]{
+    {[](const Command& c, const Asked& asked) {
+         const FlowOptions& o = c.options;
+         const bool is_whole = smooths_normals(o) || takes_whole_mesh(o.accuracy.approach);
+         return (is_whole && (asked.has("--parts") || shows_tasks(c))) ||
+                (o.scheme == Scheme::ExplicitEuler && shows_tasks(c));
+     },
+     0,
+     "--parts shows the sub-meshes, --trace and --task-graph show their tasks, but steps of the whole mesh have none: "
+     "leave them out"},
+    {[](const Command& c, const Asked&) { return c.options.accuracy.tolerance.has_value(); }, concern::sweeps,
+     "<{other}> is about sweeps, but --converge takes converged steps: leave one of them out"},
+    {[](const Command& c, const Asked& asked) {
+         return asked.has("--approach") && c.options.accuracy.approach == Approach::Sweep &&
+                c.options.accuracy.tolerance;
+     },
+     0, "--converge takes converged steps, but --approach sweep takes sweeps: leave one of them out"},
+    {[](const Command& c, const Asked&) { return c.options.accuracy.approach == Approach::Converged; }, concern::sweeps,
+     "<{other}> is about sweeps, but --approach converged takes none: leave one of them out"},
+    {[](const Command& c, const Asked& asked) {
+         return asked.has("--converge") && c.options.accuracy.approach == Approach::Sweep;
+     },
+     concern::converged_steps, "<{other}> is for converged steps, but --converge never takes none"},
+    {[](const Command&, const Asked& asked) {
+         return asked.has("--p") && (asked.has("--p-rule") || asked.has("--p-edge"));
+     },
+     0, "--p-rule and --p-edge are about p*, but --p sets p itself: leave one of them out"},
+    {[](const Command& c, const Asked& asked) { return asked.has("--fix-property") && !is_ply(c.fix); }, 0,
+     "--fix-property is for a .ply file; that of --fix has vertex numbers"},
+    {[](const Command& c, const Asked& asked) { return asked.has("--region-property") && !is_ply(c.region); }, 0,
+     "--region-property is for a .ply file; --region has vertex numbers, or is a property itself"},
+    {[](const Command& c, const Asked& asked) { return asked.has("--attach-property") && !is_ply(c.attach_weights); },
+     0, "--attach-property is for a .ply file; that of --attach-weights has one number per line"},
+    {[](const Command& c, const Asked& asked) {
+         return asked.has("--overlap") && c.options.interface.conditions != Conditions::Schwarz;
+     },
+     0, "--overlap is for --conditions schwarz; other sub-meshes do not overlap"},
+    {[](const Command& c, const Asked& asked) {
+         return asked.has("--transmission") && c.options.interface.conditions != Conditions::AdaptedRobin;
+     },
+     0, "--transmission is for --conditions adapted-robin; others have one way only"},
+    {[](const Command& c, const Asked& asked) {
+         return asked.has("--paper") && c.options.interface.sweep != FlowOptions::plain().interface.sweep;
+     },
+     0, "--paper sweeps in the same order in every step; --sweep alternating contradicts it"},
+    {[](const Command& c, const Asked& asked) {
+         return asked.has("--paper") && c.options.interface.transmission != FlowOptions::plain().interface.transmission;
+     },
+     0, "--paper keeps to the derivatives of the paper; --transmission predicted contradicts it"},
+    {[](const Command& c, const Asked& asked) {
+         return asked.has("--factorisation") && c.options.scheme == Scheme::ExplicitEuler &&
+                !c.options.report.reference;
+     },
+     0, "--factorisation is for backward Euler steps; --scheme explicit solves no equations"},
+};
+
+/// Checks the rules of the library, too, and names options as they were given.
+void require_consistent(const CLI::App& app, const SmoothCommand& command)
 {
-    const std::string of_sweeps = first_given(app, concern::sweeps);
-    if (command.options.accuracy.tolerance && !of_sweeps.empty())
-        throw OptionError(of_sweeps + " is about sweeps, but --converge takes converged steps: leave one of them out");
-    const std::string sweeps = reason_for_sweeps(app, command, of_sweeps);
-    if (command.options.flow == FlowEquation::Linear && !sweeps.empty())
-        throw OptionError(sweeps + " is about sweeps, but --flow linear takes none: leave one of them out");
-    if (!command.region.empty() && !sweeps.empty())
-        throw OptionError(fmt::format("--region is given, whose steps are converged or undecomposed, but {} is for "
-                                      "sweeps: leave one of them out",
-                                      sweeps));
-    require_consistent_approach(app, command, of_sweeps);
-    if (app.count("--converge") > 0 && command.options.accuracy.approach == Approach::Sweep)
-        if (const std::string of_converged = first_given(app, concern::converged_steps); !of_converged.empty())
-            throw OptionError(of_converged + " is for converged steps, but --converge never takes none");
-    if (app.count("--p") > 0)
-        if (const std::string rule = first_given(app, {"--p-rule", "--p-edge"}); !rule.empty())
-            throw OptionError(rule + " is about p*, but --p sets p itself: leave one of them out");
-    if (app.count("--fix-property") > 0 && format_of(command.fix) != FileFormat::Ply)
-        throw OptionError("--fix-property is for a .ply file; " + command.fix.string() + " has vertex numbers");
-    if (app.count("--region-property") > 0 && format_of(command.region) != FileFormat::Ply)
-        throw OptionError("--region-property is for a .ply file; " + command.region.string() +
-                          " has vertex numbers, or is a property itself");
-    if (app.count("--attach-property") > 0 && format_of(command.attach_weights) != FileFormat::Ply)
-        throw OptionError("--attach-property is for a .ply file; " + command.attach_weights.string() +
-                          " has one number per line");
+    const AskedOptions asked = given_options(app, command);
+    require_none_broken<Command>(rules_of_effects, command, command.options, asked);
+    try {
+        require_compatible(command.options, asked);
+    } catch (const OptionError& error) {
+        throw OptionError(sentence(error.wording(), [&](std::string_view option, std::string_view value) {
+            if (option == "denoise" && !command.preset.empty())
+                return "--preset " + command.preset;
+            if (option == "feature_edges" && command.edges_from_file)
+                return std::string("--edges-from-file");
+            const bool is_implied = option == "approach" && value == "sweep" && app.count("--approach") == 0;
+            return is_implied ? std::string("--converge never") : option_of_program(option, value);
+        }));
+    }
 }
 
 bool names_edges(const CLI::App& app)
@@ -134,19 +185,9 @@ void apply_preset(const CLI::App& app, SmoothCommand& command)
     // Amounts of fields are checked with them.
     if (command.fields.exists())
         return;
-    const std::string amount = first_given(app, concern::amount);
-    const bool has_amount = !amount.empty();
-    if (app.count("--time-step") + app.count("--time-step-edges") + app.count("--radius") > 1)
-        throw OptionError("--time-step, --time-step-edges and --radius all say how much to smooth: give one of them");
-    if (has_amount && command.noise)
-        throw OptionError("--noise sets how much a preset smooths, and " + amount + " does so too: give one of them");
-    if (command.preset.empty() && has_amount)
+    const bool is_amount_given = !first_given(app, concern::amount).empty();
+    if (command.preset.empty() && is_amount_given)
         return;
-    if (const std::string other = first_given(app, concern::method); !other.empty())
-        throw OptionError(
-            fmt::format("{} {}: say how much to smooth with --time-step, --time-step-edges or --radius{}", other,
-                        command.preset.empty() ? "cannot be combined with a preset" : "and --preset exclude each other",
-                        command.preset.empty() ? "" : ", and leave the preset out"));
     if (command.preset.empty())
         command.preset = default_preset(app);
     const PresetTraits& preset = preset_of(command.preset);
@@ -155,7 +196,7 @@ void apply_preset(const CLI::App& app, SmoothCommand& command)
                           (preset.denoise ? " finds out itself how much there is at each place"
                                           : " smooths as much whatever the noise"));
     std::string left_out;
-    const bool denoise = preset.denoise && !has_amount && (preset.keep_edges || !wants_equation(app));
+    const bool denoise = preset.denoise && !is_amount_given && (preset.keep_edges || !wants_equation(app));
     for (const PresetOption& option : options_of(preset, denoise)) {
         if (is_said(app, command, option.name)) {
             if (app.count(std::string(option.name)) == 0 && !is_symmetric(command.options.laplacian))
@@ -169,71 +210,31 @@ void apply_preset(const CLI::App& app, SmoothCommand& command)
     if (!left_out.empty())
         command.remarks.push_back(fmt::format("--preset {} leaves out {}, which --laplacian {} does not support.",
                                               command.preset, left_out, name_of(command.options.laplacian)));
-    command.chooses_amount = !has_amount;
+    command.chooses_amount = !is_amount_given;
 }
 
 /// Options for the derivatives of the paper alone select these.
 void take_derivatives(const CLI::App& app, InterfaceOptions& interface)
 {
-    const std::string option = first_given(app, {"--p", "--p-rule", "--p-edge"});
-    if (option.empty())
-        return;
-    if (app.count("--transmission") > 0 && interface.transmission == Transmission::Predicted)
-        throw OptionError(option + " is for the derivatives of the paper; --transmission predicted has none");
-    interface.transmission = Transmission::Derivative;
-}
-
-void require_consistent(const CLI::App& app, const SmoothCommand& command)
-{
-    require_room_for_edges(app, command);
-    require_effective(app, command);
-    if (app.count("--overlap") > 0 && command.options.interface.conditions != Conditions::Schwarz)
-        throw OptionError("--overlap is for --conditions schwarz; other sub-meshes do not overlap");
-    if (command.options.interface.conditions == Conditions::Schwarz &&
-        command.options.interface.sweep == Sweep::Alternating)
-        throw OptionError(
-            "--conditions schwarz sweeps in the same order in every step; --sweep alternating contradicts "
-            "it");
-    if (command.options.interface.conditions == Conditions::Schwarz && command.options.interface.p)
-        throw OptionError("--p is for the Robin and Ventcell conditions; schwarz has no Robin parameter");
-    if (has_tangential_derivative(command.options.interface.conditions) && !command.options.interface.q)
-        throw OptionError("--conditions " + std::string(option_name(command.options.interface.conditions)) +
-                          " needs --q, the Ventcell parameter (see (20) to (25) of the paper)");
-    if (app.count("--transmission") > 0 && command.options.interface.conditions != Conditions::AdaptedRobin)
-        throw OptionError("--transmission is for --conditions adapted-robin; others have one way only");
-    if (app.count("--paper") > 0 && command.options.interface.sweep != FlowOptions::plain().interface.sweep)
-        throw OptionError("--paper sweeps in the same order in every step; --sweep alternating contradicts it");
-    if (app.count("--paper") > 0 &&
-        command.options.interface.transmission != FlowOptions::plain().interface.transmission)
-        throw OptionError("--paper keeps to the derivatives of the paper; --transmission predicted contradicts it");
-    if (command.options.motion.rescale != Rescale::None && !command.fix.empty())
-        throw OptionError("--rescale moves every vertex, but --fix holds some: leave --rescale out; --filter low-pass, "
-                          "which hardly shrinks large features, lets them stay");
-    for (const auto& [option, path] : {std::pair{"--trace", command.trace}, {"--task-graph", command.task_graph}})
-        if (!path.empty() && command.options.scheme == Scheme::ExplicitEuler)
-            throw OptionError(
-                std::string(option).append(" shows the tasks of the sub-meshes; --scheme explicit has none"));
-    if (app.count("--factorisation") > 0 && command.options.scheme == Scheme::ExplicitEuler &&
-        !command.options.report.reference)
-        throw OptionError("--factorisation is for backward Euler steps; --scheme explicit solves no equations");
+    if (!first_given(app, {"--p", "--p-rule", "--p-edge"}).empty())
+        interface.transmission = Transmission::Derivative;
 }
 
 }  // namespace
 
 void settle(const CLI::App& app, SmoothCommand& command)
 {
+    require_none_broken<Command>(rules_of_amounts, command, command.options, given_options(app, command));
     take_derivatives(app, command.options.interface);
     command.chooses_threads = command.options.resources.threads == 0;
     if (command.chooses_threads)
         command.options.resources.threads = threads_within_quota();
     apply_preset(app, command);
-    if (names_edges(app) && !smooths_normals(command.options))
-        throw OptionError(first_given(app, {"--edges", "--edges-from-file"}) +
-                          " names edges to keep: give --preset cad, or --keep-edges with an angle, as well");
     command.limits_iterations = app.count("--converge-iterations") > 0;
     if (app.count("--approach") == 0 && !first_given(app, concern::implies_sweeps).empty())
         command.options.accuracy.approach = Approach::Sweep;
-    if (command.options.accuracy.approach == Approach::Automatic && !first_given(app, concern::sub_meshes).empty())
+    if (command.options.accuracy.approach == Approach::Automatic && !smooths_normals(command.options) &&
+        !first_given(app, concern::sub_meshes).empty())
         command.options.accuracy.approach = Approach::Decomposed;
     require_consistent(app, command);
     if (app.count("--conditions") > 0 && app.count("--paper") == 0 &&

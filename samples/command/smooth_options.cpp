@@ -15,6 +15,7 @@
 #include "samples/command/command_line.h"
 #include "samples/command/flow_choices.h"
 #include "samples/command/presets.h"
+#include "samples/process/option_words.h"
 
 namespace seamflow {
 
@@ -333,6 +334,23 @@ std::string first_given(const CLI::App& app, unsigned concerns)
         if ((one.concerns & concerns) != 0 && app.count(std::string(one.option)) > 0)
             return std::string(one.option);
     return {};
+}
+
+AskedOptions given_options(const CLI::App& app, const SmoothCommand& command)
+{
+    const auto has = [&](std::string_view option) {
+        const std::string name = option_of_program(option, "");
+        return (app.get_option_no_throw(name) != nullptr && app.count(name) > 0) ||
+               (option == "feature_edges" && command.edges_from_file) || (option == "attachment" && command.attach) ||
+               changed_options(command.options).has(option);
+    };
+    const auto first = [&](unsigned concerns) {
+        for (const OptionTraits& one : smooth_options())
+            if ((one.concerns & concerns) != 0 && app.count(std::string(one.option)) > 0)
+                return std::string(one.field.empty() ? one.option : one.field);
+        return std::string();
+    };
+    return {has, first};
 }
 
 std::string smooth_examples()

@@ -7,6 +7,7 @@
 
 #include <CLI/App.hpp>
 
+#include "engine/options/option_rules.h"
 #include "engine/options/option_traits.h"
 #include "samples/command/smooth_command.h"
 
@@ -24,6 +25,9 @@ std::string first_given(const CLI::App& app, std::initializer_list<std::string_v
 
 /// The same for options with one of these concerns.
 std::string first_given(const CLI::App& app, unsigned concerns);
+
+/// Which options were given, or chosen by a preset. Both arguments must outlive the result.
+AskedOptions given_options(const CLI::App& app, const SmoothCommand& command);
 
 /// Three command lines that show what `smooth` is for, as --help prints them.
 std::string smooth_examples();

@@ -1,7 +1,6 @@
 #include "samples/command/tile_options.h"
 
 #include <algorithm>
-#include <array>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -20,51 +19,44 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Refusal {
-    const char* option;
-    const char* reason;
+using Rule = OptionRule<SmoothCommand>;
+
+constexpr auto always = [](const SmoothCommand&, const AskedOptions&) { return true; };
+
+constexpr Rule rules_of_tiles[]{
+    {[](const SmoothCommand&, const AskedOptions& asked) { return asked.has("--preset"); }, 0,
+     "--out-dir cannot be combined with --preset: it may measure the whole surface; give its options instead"},
+    {[](const SmoothCommand&, const AskedOptions& asked) { return asked.has("--noise"); }, 0,
+     "--out-dir cannot be combined with --noise: it measures the whole surface; give --time-step, --time-step-edges or "
+     "--radius"},
+    {[](const SmoothCommand&, const AskedOptions& asked) { return asked.has("--strict"); }, 0,
+     "--out-dir cannot be combined with --strict: faces are missing where a file ends; inspect lists what is wrong "
+     "with "
+     "one"},
+    {[](const SmoothCommand&, const AskedOptions& asked) { return asked.has("--keep-gaps"); }, 0,
+     "--out-dir cannot be combined with --keep-gaps: each result has the form of its input"},
+    {[](const SmoothCommand&, const AskedOptions& asked) { return asked.has("--checkpoint"); }, 0,
+     "--out-dir cannot be combined with --checkpoint: such a run keeps its own state in that folder, and the same "
+     "command resumes"},
+    {always, concern::whole_surface, "--out-dir cannot be combined with <{other}>: it needs the whole surface at once"},
+    {always, concern::numbers, "--out-dir cannot be combined with <{other}>: it numbers vertices or faces of one mesh"},
+    {always, concern::one_mesh, "--out-dir cannot be combined with <{other}>: it shows the steps of one mesh"},
+    {[](const SmoothCommand&, const AskedOptions& asked) { return asked.first(concern::amount).empty(); }, 0,
+     "--out-dir needs an amount, because no preset can measure all files at once: give --time-step, --time-step-edges "
+     "or --radius"},
+    {[](const SmoothCommand& c, const AskedOptions&) { return c.options.steps == 0; }, 0,
+     "--out-dir takes at least one step, but --steps is 0"},
+    {[](const SmoothCommand& c, const AskedOptions& asked) { return c.options.steps > 1 && asked.has("--attach"); }, 0,
+     "--out-dir supports --attach with one step only: further ones start from their own positions"},
+    {[](const SmoothCommand& c, const AskedOptions& asked) { return c.options.steps > 1 && asked.has("--within"); }, 0,
+     "--out-dir supports --within with one step only: further ones start from their own positions"},
+    {[](const SmoothCommand& c, const AskedOptions& asked) { return c.options.steps > 1 && asked.has("--flow"); }, 0,
+     "--out-dir supports --flow with one step only: further ones start from their own positions"},
 };
-
-/// Those for which none of the reasons below is right.
-constexpr std::array refusals = {
-    Refusal{"--preset", "it may measure the whole surface; give its options instead"},
-    Refusal{"--noise", "it measures the whole surface; give --time-step, --time-step-edges or --radius"},
-    Refusal{"--strict", "faces are missing where a file ends; inspect lists what is wrong with one"},
-    Refusal{"--keep-gaps", "each result has the form of its input"},
-    Refusal{"--checkpoint", "such a run keeps its own state in that folder, and the same command resumes"},
-};
-
-/// Why options that concern this are refused.
-constexpr std::array<std::pair<unsigned, const char*>, 3> reasons = {
-    {{concern::whole_surface, "it needs the whole surface at once"},
-     {concern::numbers, "it numbers vertices or faces of one mesh"},
-     {concern::one_mesh, "it shows the steps of one mesh"}}};
-
-/// Options that refer to the first positions, which further steps do not have.
-constexpr std::array<const char*, 3> of_first_positions = {"--attach", "--within", "--flow"};
-
-void refuse(std::string_view option, const char* reason)
-{
-    if (!option.empty())
-        throw OptionError(fmt::format("--out-dir cannot be combined with {}: {}", option, reason));
-}
 
 void require_options(const CLI::App& app, const SmoothCommand& command)
 {
-    for (const auto& [option, reason] : refusals)
-        refuse(first_given(app, {option}), reason);
-    for (const auto& [concerns, reason] : reasons)
-        refuse(first_given(app, concerns), reason);
-    if (first_given(app, concern::amount).empty())
-        throw OptionError("--out-dir needs an amount, because no preset can measure all files at once: give "
-                          "--time-step, --time-step-edges or --radius");
-    if (command.options.steps == 0)
-        throw OptionError("--out-dir takes at least one step, but --steps is 0");
-    for (const char* const option : of_first_positions)
-        if (app.count(option) > 0 && command.options.steps > 1)
-            throw OptionError(fmt::format("--out-dir supports {} with one step only: further ones start from their "
-                                          "own positions",
-                                          option));
+    require_none_broken<SmoothCommand>(rules_of_tiles, command, command.options, given_options(app, command));
 }
 
 void require_inputs(const SmoothCommand& command)

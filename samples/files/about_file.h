@@ -13,7 +13,7 @@ auto about_file(const std::filesystem::path& path, Action&& action)
     try {
         return action();
     } catch (const InputError& error) {
-        throw InputError(path.string() + ": " + error.what());
+        throw InputError(Wording{unmarked(path.string() + ": ").text + error.wording().text});
     }
 }
 

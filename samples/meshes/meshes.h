@@ -15,7 +15,7 @@
 /// - run in time and memory linear in that number,
 /// - give manifold meshes of simple faces, oriented alike, without vertices that no face uses,
 /// - give the same mesh for the same arguments everywhere, up to the last bits of the platform's sin and cos,
-/// - throw OptionError for an argument outside its limits.
+/// - refuse an argument outside its limits by an OptionError.
 namespace seamflow {
 
 /// The surface z = amplitude · cos(2π waves x) · cos(2π waves y) over the unit square.

@@ -25,9 +25,9 @@ Failure current_failure()
     try {
         throw;
     } catch (const OptionError& error) {
-        return {ExitStatus::WrongUsage, in_words_of_options(error.what())};
+        return {ExitStatus::WrongUsage, sentence(error.wording(), option_of_program)};
     } catch (const InputError& error) {
-        return {ExitStatus::UnusableInput, error.what()};
+        return {ExitStatus::UnusableInput, sentence(error.wording(), option_of_program)};
     } catch (const OutputError& error) {
         return {ExitStatus::OutputNotWritten, error.what()};
     } catch (const std::bad_alloc&) {

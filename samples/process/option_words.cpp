@@ -1,20 +1,14 @@
 #include "samples/process/option_words.h"
 
+#include <algorithm>
 #include <cctype>
 
 #include "engine/options/option_table.h"
+#include "partition/remark.h"
 
 namespace seamflow {
 
 namespace {
-
-struct Exchange {
-    std::string_view from;
-    std::string_view to;
-};
-
-/// Values of fields.
-constexpr Exchange named_values[] = {{"Approach::Sweep", "--approach sweep"}, {"Filter::LowPass", "--filter low-pass"}};
 
 bool is_of_word(char c)
 {
@@ -22,42 +16,19 @@ bool is_of_word(char c)
            std::string_view("_-./:").find(c) != std::string_view::npos;
 }
 
-/// Whether text[begin, end) is not part of a longer name, for instance of a file. A colon, a full stop or a blank may
-/// follow.
-bool stands_alone(std::string_view text, std::size_t begin, std::size_t end)
-{
-    if (begin > 0 && is_of_word(text[begin - 1]))
-        return false;
-    if (end == text.size() || !is_of_word(text[end]))
-        return true;
-    return (text[end] == ':' || text[end] == '.') && (end + 1 == text.size() || text[end + 1] == ' ');
-}
-
-/// Only where it stands alone.
-void exchange(std::string& text, std::string_view word, std::string_view option)
-{
-    for (auto at = text.find(word); at != std::string::npos; at = text.find(word, at + 1))
-        if (stands_alone(text, at, at + word.size()))
-            text.replace(at, word.size(), option);
-}
-
 }  // namespace
 
-std::string in_words_of_options(std::string_view message)
+std::string option_of_program(std::string_view option, std::string_view value)
 {
-    const std::string_view first = message.substr(0, message.find(' '));
-    std::string text(message);
-    for (const OptionTraits& known : all_options()) {
-        if (known.option.empty())
-            continue;
-        if (known.field == first)
-            text.replace(0, first.size(), known.option);
-        if (known.field.find('_') != std::string_view::npos)
-            exchange(text, known.field, known.option);
-    }
-    for (const auto& [value, option] : named_values)
-        exchange(text, value, option);
-    return text;
+    if (option == "denoise")
+        return "--preset automatic";
+    const auto known = std::ranges::find(all_options(), option, &OptionTraits::field);
+    std::string name(option);
+    if (known != all_options().end() && !known->option.empty())
+        name = known->option;
+    else if (known == all_options().end() && !option.starts_with("--"))
+        std::ranges::replace(name.insert(0, "--"), '_', '-');
+    return option_of_library(name, value);
 }
 
 std::string in_words_of_keywords(std::string_view message)

@@ -6,9 +6,10 @@
 /// The library refers to settings by fields of FlowOptions, the command line by options, Python by keywords.
 namespace seamflow {
 
-/// Replaces fields in a message of the library by the options that set them: "memory_limit is 3" becomes
-/// "--memory-limit is 3". A field of one word is only recognised where the message begins with it.
-std::string in_words_of_options(std::string_view message);
+/// How command lines write an option of the library: "--radius", "--boundary free".
+/// @param option a field of FlowOptions, or an option that has the same name on command lines. @param value may be
+/// empty.
+std::string option_of_program(std::string_view option, std::string_view value);
 
 /// Replaces options in a message by keywords: "--time-step-edges" becomes "time_step_edges".
 std::string in_words_of_keywords(std::string_view message);

@@ -240,9 +240,17 @@ py::tuple diffuse_arrays(const Array<double>& positions, const Array<Integer>& c
     const FieldReport report = run_interruptibly(work, py::none());
     py::array_t<double> result({fields.shape(0), fields.shape(1)});
     Eigen::Map<Rows>(result.mutable_data(), fields.shape(0), fields.shape(1)) = values;
-    std::vector<std::string> remarks = report.remarks;
-    for (std::string& remark : remarks)
-        remark = in_words_of_keywords(remark);
+    py::list remarks;
+    for (const Remark& remark : report.remarks) {
+        py::dict numbers;
+        for (const auto& [name, value] : remark.numbers)
+            numbers[py::str(name)] = value;
+        py::dict one;
+        one["kind"] = remark.kind;
+        one["numbers"] = numbers;
+        one["text"] = in_words_of_keywords(sentence(remark, option_of_program));
+        remarks.append(one);
+    }
     return py::make_tuple(result, report.fwhm, report.without_data, report.filled, report.flow.time_step, remarks,
                           report.flow.convergence.steps_short_of_tolerance);
 }
@@ -315,9 +323,9 @@ void translate(std::exception_ptr exception)
     try {
         std::rethrow_exception(std::move(exception));
     } catch (const InputError& error) {
-        PyErr_SetString(PyExc_ValueError, error.what());
+        PyErr_SetString(PyExc_ValueError, in_words_of_keywords(sentence(error.wording(), option_of_program)).c_str());
     } catch (const OptionError& error) {
-        PyErr_SetString(PyExc_ValueError, in_words_of_keywords(in_words_of_options(error.what())).c_str());
+        PyErr_SetString(PyExc_ValueError, in_words_of_keywords(sentence(error.wording(), option_of_program)).c_str());
     }
 }
 

@@ -31,7 +31,7 @@ for name in ("before", "after"):
     surface = report["surface"][name]
     print(f"{name:7} area {surface['area']:.3f}, roughness {surface['roughness_rms']:.2f}°")
 for remark in report["remarks"]:
-    print(remark)
+    print(remark["text"])
 
 try:
     import matplotlib

@@ -18,7 +18,7 @@ FlowCall::FlowCall(SmoothCommand command, PolygonMesh mesh, const FlowControl& c
     try {
         begin(control);
     } catch (const InputError& error) {
-        throw InputError(std::string("mesh: ").append(error.what()));
+        throw InputError(Wording{"mesh: " + error.wording().text});
     }
 }
 
@@ -65,8 +65,8 @@ FlowResult FlowCall::result()
     record_.surface = change_->measure(mesh_, report.mesh, command_.self_intersections, workers.exec());
     remark_on_loss(command_.options, record_.surface, report.remarks);
     remark_on_folds(command_.options, record_.surface, report.remarks);
-    for (std::string& remark : report.remarks)
-        remark = in_words_of_keywords(remark);
+    for (Remark& remark : report.remarks)
+        remark.wording = unmarked(in_words_of_keywords(sentence(remark, option_of_program)));
     record_.seconds = watch_.seconds();
     FlowResult result{.positions = mesh_.vertices,
                       .labels = {},

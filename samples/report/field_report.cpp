@@ -100,13 +100,10 @@ void print_field_amount(std::ostream& out, const MeshScale& scale, const FlowOpt
 void print_fields(std::ostream& out, const RunRecord& run, const FieldSummary& summary)
 {
     const FieldReport& report = summary.report;
-    for (std::size_t i = 0; i < report.flow.choices.size(); ++i)
-        out << (i == 0 ? "chosen     " : " ") << report.flow.choices[i]
-            << (i + 1 == report.flow.choices.size() ? "\n" : "");
+    print_choices(out, report.flow.choices);
     out << fmt::format("{}; {:.4g} MB\n", time_of(run, report.flow.seconds),
                        static_cast<double>(peak_memory_of(run)) / 1e6);
-    for (const std::string& remark : report.remarks)
-        out << "remark     " << remark << '\n';
+    print_remarks(out, report.remarks);
     if (report.without_data > 0)
         out << fmt::format("no data    at {}{}\n",
                            counted(static_cast<std::uint64_t>(report.without_data), "vertex", "vertices"),
@@ -152,8 +149,8 @@ std::string field_report_json(const RunRecord& run, const FlowOptions& options, 
                        {"step", phases.step},
                        {"write", run.write_seconds},
                        {"total", run.seconds}};
-    json["choices"] = report.flow.choices;
-    json["remarks"] = report.remarks;
+    json["choices"] = remarks_json(report.flow.choices);
+    json["remarks"] = remarks_json(report.remarks);
     add_ranks(json, run.ranks);
     return text_of(json);
 }

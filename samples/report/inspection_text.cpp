@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include "samples/process/option_words.h"
+
 namespace seamflow {
 
 namespace {
@@ -133,7 +135,8 @@ void print_inspection(std::ostream& out, const std::string& file, const FaultLog
                   found.orientable ? "smooth does not mind; normals that it writes do"
                                    : "smooth does not mind; no orientation fits all faces, as on a Möbius band");
     if (found.cracks)
-        printer.print((remark_on_cracks(*found.cracks) + " It is an option of smooth.").c_str());
+        printer.print(
+            (sentence(remark_on_cracks(*found.cracks), option_of_program) + " It is an option of smooth.").c_str());
     printer.print(found.defects.spikes, "vertices far from all of their neighbours",
                   "remove them, or give them the right positions; without an amount smooth holds them");
     printer.print(

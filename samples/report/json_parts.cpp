@@ -6,6 +6,7 @@
 #include <fmt/chrono.h>
 
 #include "partition/version.h"
+#include "samples/process/option_words.h"
 
 namespace seamflow {
 
@@ -72,6 +73,18 @@ ReportJson look_json(const SurfaceLook& look)
     }
     if (look.self_intersections)
         json["self_intersections"] = *look.self_intersections;
+    return json;
+}
+
+ReportJson remarks_json(const std::vector<Remark>& remarks)
+{
+    ReportJson json = ReportJson::array();
+    for (const Remark& remark : remarks) {
+        ReportJson numbers = ReportJson::object();
+        for (const auto& [name, value] : remark.numbers)
+            numbers[name] = json_number(value);
+        json.push_back({{"kind", remark.kind}, {"numbers", numbers}, {"text", sentence(remark, option_of_program)}});
+    }
     return json;
 }
 

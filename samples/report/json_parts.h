@@ -14,7 +14,7 @@
 namespace seamflow {
 
 /// Must be raised whenever a key of a report is removed or changes its meaning.
-inline constexpr int report_schema = 2;
+inline constexpr int report_schema = 3;
 
 using ReportJson = nlohmann::ordered_json;
 
@@ -39,6 +39,9 @@ void add_ranks(ReportJson& json, const std::vector<RankRecord>& ranks);
 
 /// Area, volume, volumes of cells, if there are any, roughness and, where they were counted, crossing faces.
 ReportJson look_json(const SurfaceLook& look);
+
+/// Of each: kind, numbers by name, and text in the words of programs.
+ReportJson remarks_json(const std::vector<Remark>& remarks);
 
 /// The text of a report. Names of files need not be valid UTF-8, but JSON must be.
 std::string text_of(const ReportJson& json);

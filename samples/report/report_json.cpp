@@ -184,8 +184,8 @@ std::string smooth_report_json(const RunRecord& run, const FlowOptions& options,
     if (report.displacement)
         json["displacement"] = total_json(*report.displacement, run.scale.mean_edge);
     json["surface"] = surface_json(run);
-    json["choices"] = report.choices;
-    json["remarks"] = report.remarks;
+    json["choices"] = remarks_json(report.choices);
+    json["remarks"] = remarks_json(report.remarks);
     json["peak_memory_bytes"] = peak_memory_of(run);
     json["page_faults"] = page_faults();
     add_ranks(json, run.ranks);

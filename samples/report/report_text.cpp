@@ -10,6 +10,7 @@
 
 #include "engine/options/option_names.h"
 #include "partition/io/input_position.h"
+#include "samples/process/option_words.h"
 #include "samples/report/smoothing_request.h"
 
 namespace seamflow {
@@ -232,15 +233,26 @@ std::string time_of(const RunRecord& run, const PhaseSeconds& phases)
                        std::max(rest, 0.0));
 }
 
+void print_choices(std::ostream& out, const std::vector<Remark>& choices)
+{
+    for (std::size_t i = 0; i < choices.size(); ++i)
+        out << (i == 0 ? "chosen     " : " ") << sentence(choices[i], option_of_program)
+            << (i + 1 == choices.size() ? "\n" : "");
+}
+
+void print_remarks(std::ostream& out, const std::vector<Remark>& remarks)
+{
+    for (const Remark& remark : remarks)
+        out << "remark     " << sentence(remark, option_of_program) << '\n';
+}
+
 void print_result(std::ostream& out, const RunRecord& run, const FlowReport& report)
 {
-    for (std::size_t i = 0; i < report.choices.size(); ++i)
-        out << (i == 0 ? "chosen     " : " ") << report.choices[i] << (i + 1 == report.choices.size() ? "\n" : "");
+    print_choices(out, report.choices);
     out << fmt::format(
         "{}; {}, {} MB{}\n", time_of(run, report.seconds), counted(report.resources.threads, "thread", "threads"),
         digits(static_cast<double>(peak_memory_of(run)) / 1e6, 4), run.ranks.size() > 1 ? " of a rank at most" : "");
-    for (const std::string& remark : report.remarks)
-        out << "remark     " << remark << '\n';
+    print_remarks(out, report.remarks);
     if (!report.steps.empty() && report.steps.back().distance) {
         out << "distance   ";
         print_distance_to_reference(out, report.steps.back());

@@ -38,6 +38,12 @@ void print_ranks(std::ostream& out, const RunRecord& run, int n_ranks);
 /// How long the parts of a run took, which add up to the whole: "time       1.2 s: read 0.1, …".
 std::string time_of(const RunRecord& run, const PhaseSeconds& phases);
 
+/// Prints how steps are taken, in a line.
+void print_choices(std::ostream& out, const std::vector<Remark>& choices);
+
+/// Prints a line for each remark.
+void print_remarks(std::ostream& out, const std::vector<Remark>& remarks);
+
 /// Prints choices with reasons, remarks, time and memory, where the result is, and how it differs from the input.
 void print_result(std::ostream& out, const RunRecord& run, const FlowReport& report);
 

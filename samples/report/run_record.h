@@ -23,8 +23,8 @@ struct RunRecord {
     MeshScale scale = {};
     /// Its noise in mean edge lengths, if the amount follows from it.
     std::optional<double> noise = {};
-    /// Remarks to print before those of the flow, one sentence each.
-    std::vector<std::string> remarks = {};
+    /// Remarks to print before those of the flow.
+    std::vector<Remark> remarks = {};
     /// Wall-clock time for reading all inputs and for writing all results, except for report and trace.
     double read_seconds = 0.0;
     double write_seconds = 0.0;

@@ -83,7 +83,7 @@ void complete_options(SmoothCommand& command, const MeshFile& file, const FaultL
 
 /// A sentence on numbers that may be names of things: few different whole ones, whatever their type. Of two neighbours
 /// rounding makes no third, and 0 and 1 may be shares.
-void remark_on_labels(const FileFields& fields, std::vector<std::string>& remarks)
+void remark_on_labels(const FileFields& fields, std::vector<Remark>& remarks)
 {
     constexpr std::size_t most_labels = 32;
     constexpr Eigen::Index least_vertices_of_each = 10;

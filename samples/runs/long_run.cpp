@@ -11,6 +11,7 @@
 #include "partition/errors.h"
 #include "partition/io/input_file.h"
 #include "samples/files/mesh_results.h"
+#include "samples/process/option_words.h"
 #include "samples/runs/smoothing_run.h"
 
 namespace seamflow {
@@ -42,7 +43,7 @@ LongRun::LongRun(const SmoothCommand& command, const MeshFile& file, Interruptio
             if (!command.amount.radius)
                 throw;
             throw OptionError(
-                std::string(error.what()) +
+                sentence(error.wording(), option_of_program) +
                 " (--radius is divided among the steps: to continue with more of them, give --time-step)");
         }
     }

@@ -31,11 +31,11 @@ void choose_amount(SmoothCommand& command, const PolygonMesh& mesh, const Execut
     const PresetTraits& preset = preset_of(command.preset);
     choose_amount(preset, mesh, command.noise, choice, exec);
     command.options = std::move(choice.options);
-    if (!choice.remark.empty())
-        run.remarks.push_back(choice.remark);
+    if (choice.remark)
+        run.remarks.push_back(*choice.remark);
     if (choice.noise)
         run.noise = run.scale.mean_edge > 0.0 ? *choice.noise / run.scale.mean_edge : 0.0;
-    if (!choice.remark.empty())
+    if (choice.remark)
         command.chosen = "nothing is smoothed";
     else if (preset.radius)
         command.chosen += amount_of(preset);
@@ -52,7 +52,7 @@ RunRecord begin_record(const SmoothCommand& command)
             .output = command.output.string(),
             .arguments = command.arguments,
             .preset = command.preset,
-            .remarks = command.remarks};
+            .remarks = {command.remarks.begin(), command.remarks.end()}};
 }
 
 std::vector<double> read_region(const SmoothCommand& command, Index n_vertices)
@@ -116,7 +116,7 @@ std::string remark_on_far_vertices(const std::vector<Index>& vertices)
 }  // namespace
 
 void remark_on_vertices(const PolygonMesh& mesh, const MeshScale& scale, const Executor& exec,
-                        std::vector<std::string>& remarks)
+                        std::vector<Remark>& remarks)
 {
     if (const std::vector<Index> far = far_from_faces(mesh, scale.unused_vertices, exec); !far.empty())
         remarks.push_back(remark_on_far_vertices(far));
@@ -143,7 +143,7 @@ void resolve_amount(SmoothCommand& command, const PolygonMesh& mesh, const Execu
 namespace {
 
 void remark_on_lost_cells(const std::vector<double>& before, const std::vector<double>& after,
-                          std::vector<std::string>& remarks)
+                          std::vector<Remark>& remarks)
 {
     constexpr double much = 0.2;
     std::size_t n_small = 0;
@@ -189,7 +189,7 @@ std::string remedies_of_loss(const FlowOptions& options, const SurfaceChange& ch
 
 }  // namespace
 
-void remark_on_loss(const FlowOptions& options, const SurfaceChange& change, std::vector<std::string>& remarks)
+void remark_on_loss(const FlowOptions& options, const SurfaceChange& change, std::vector<Remark>& remarks)
 {
     if (options.motion.rescale != Rescale::None)
         return;
@@ -216,7 +216,7 @@ void remark_on_loss(const FlowOptions& options, const SurfaceChange& change, std
                                       change.before.volume && change.after.volume ? "volume" : "area", remedies));
 }
 
-void remark_on_folds(const FlowOptions& options, const SurfaceChange& change, std::vector<std::string>& remarks)
+void remark_on_folds(const FlowOptions& options, const SurfaceChange& change, std::vector<Remark>& remarks)
 {
     if (change.overlaps > 0)
         remarks.push_back(
@@ -235,7 +235,7 @@ void remark_on_folds(const FlowOptions& options, const SurfaceChange& change, st
         what += fmt::format("{}{} of faces cross{} now that did not before", what.empty() ? "" : ", and ",
                             n == 1 ? "1 pair" : fmt::format("{} pairs", n), n == 1 ? "es" : "");
     if (!what.empty())
-        remarks.push_back(
+        remarks.emplace_back(
             what + ": smooth less, or pass " +
             (options.motion.within ? "a smaller --within." : "--within with a length below that of the edges there."));
 }

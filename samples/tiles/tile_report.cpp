@@ -7,6 +7,7 @@
 
 #include "engine/ranks/peak_memory.h"
 #include "partition/io/input_position.h"
+#include "samples/process/option_words.h"
 #include "samples/report/report_text.h"
 #include "samples/runs/smoothing_run.h"
 
@@ -51,9 +52,9 @@ void TileReport::add_step(const FlowReport& report, const std::filesystem::path&
         return;
     out_ << fmt::format("step {} of {}  {}: {:.3f} s", step, command_.options.steps, tile.string(),
                         report.seconds.total);
-    for (const auto& sentences : {report.choices, report.remarks})
-        for (const std::string& sentence : sentences)
-            out_ << "  " << sentence;
+    for (const auto& remarks : {report.choices, report.remarks})
+        for (const Remark& remark : remarks)
+            out_ << "  " << sentence(remark, option_of_program);
     out_ << std::endl;
 }
 
@@ -61,7 +62,7 @@ void TileReport::add_remark(const std::filesystem::path& tile, const std::string
 {
     const std::size_t begin = remark.find(tile.string());
     const std::string rest = begin == std::string::npos ? remark : remark.substr(begin + tile.string().size());
-    const auto same = std::ranges::find(remarks_, rest, &Remark::rest);
+    const auto same = std::ranges::find(remarks_, rest, &RemarkOnFiles::rest);
     if (same != remarks_.end())
         ++same->n_files;
     else
@@ -80,7 +81,7 @@ void TileReport::print_result(double seconds, int threads, const MeshScale& scal
     out_ << fmt::format("time       {:.3g} s; {}, {:.4g} MB\n", seconds,
                         counted(static_cast<std::uint64_t>(threads), "thread", "threads"),
                         static_cast<double>(peak_memory_bytes()) / 1e6);
-    for (const Remark& one : remarks_)
+    for (const RemarkOnFiles& one : remarks_)
         out_ << "remark     " << one.text
              << (one.n_files == 1 ? "" : fmt::format(" (so it is with {} files in all)", one.n_files)) << '\n';
     if (has_remarks_on_steps_ && !command_.verbose)

@@ -49,7 +49,7 @@ class TileReport {
     [[nodiscard]] ExitStatus status() const;
 
   private:
-    struct Remark {
+    struct RemarkOnFiles {
         /// Of the first file, and without its name.
         std::string text;
         std::string rest;
@@ -58,7 +58,7 @@ class TileReport {
 
     const SmoothCommand& command_;
     std::ostream& out_;
-    std::vector<Remark> remarks_;
+    std::vector<RemarkOnFiles> remarks_;
     bool has_remarks_on_steps_ = false;
     LengthSums moved_;
     std::uint64_t n_written_ = 0;

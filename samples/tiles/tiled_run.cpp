@@ -40,7 +40,7 @@ void with_name_of(const std::filesystem::path& path, Work&& work)
     try {
         work();
     } catch (const InputError& error) {
-        throw InputError(path.string() + ": " + error.what());
+        throw InputError(Wording{unmarked(path.string() + ": ").text + error.wording().text});
     } catch (const ComputationError& error) {
         throw ComputationError(path.string() + ": " + error.what());
     }

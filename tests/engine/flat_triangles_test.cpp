@@ -75,7 +75,7 @@ struct MovedTorus {
     /// In mean edge lengths.
     double largest_motion;
     Points positions;
-    std::vector<std::string> remarks;
+    std::vector<Remark> remarks;
 };
 
 MovedTorus moved_torus(PolygonMesh mesh, const FlowOptions& options)

@@ -143,7 +143,7 @@ TEST_CASE("non-manifold meshes flow, with their non-manifold vertices fixed, and
         for (Index v = 0; v < mesh.n_vertices(); ++v)
             if (topology.kind[v] == VertexKind::NonManifold)
                 CHECK(mesh.vertices.row(v) == before.row(v));
-        const std::string remark = remark_on_non_manifold_vertices(report.mesh.non_manifold_vertices);
+        const Remark remark = remark_on_non_manifold_vertices(report.mesh.non_manifold_vertices);
         CHECK(std::ranges::count(report.remarks, remark) == (report.mesh.non_manifold_vertices > 0 ? 1 : 0));
     }
 }

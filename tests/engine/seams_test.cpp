@@ -186,8 +186,8 @@ TEST_CASE("a distance that joins a tenth of all vertices is warned of, unless th
         PolygonMesh mesh = parts;
         FlowOptions options = in_sub_meshes();
         options.motion.weld = distance;
-        for (const std::string& remark : mean_curvature_flow(mesh, options).remarks)
-            if (remark.find("along seams") != std::string::npos || remark.starts_with("--weld has joined no vertices"))
+        for (const std::string& remark : sentences(mean_curvature_flow(mesh, options).remarks))
+            if (remark.find("along seams") != std::string::npos || remark.starts_with("weld has joined no vertices"))
                 return remark;
         return std::string();
     };
@@ -199,17 +199,21 @@ TEST_CASE("a distance that joins a tenth of all vertices is warned of, unless th
         parts.vertices.row(v) += Point(1e-5, 0.0, -1e-5);
     CHECK(
         remarks(1e-4).starts_with(count + " pairs of boundary edges lie within 0.0001 of each other, flowed as one; "));
-    CHECK(remarks(1e-4).find("make --weld smaller") == std::string::npos);
+    CHECK(remarks(1e-4).find("make weld smaller") == std::string::npos);
     for (Index v = whole.n_vertices(); v < parts.n_vertices(); ++v)
         parts.vertices.row(v) += Point(2e-3, 0.0, 0.0);
     REQUIRE(20 * n_seam >= parts.n_vertices());
-    CHECK(remarks(5e-3).find("make --weld smaller") != std::string::npos);
+    CHECK(remarks(5e-3).find("make weld smaller") != std::string::npos);
     // All is within reach of all.
-    CHECK(remarks(100.0).starts_with("--weld has joined no vertices: no seam has pairs of boundary edges within 100 "));
-    CHECK(remark_on_seams(0, 0, 1000, 0.0, 0.0).empty());
-    CHECK(remark_on_seams(99, 1, 1000, 0.1, 0.1).find("--weld") == std::string::npos);
-    CHECK(remark_on_seams(100, 1, 1000, 0.1, 0.1).find(", and 10% of all: ") != std::string::npos);
-    CHECK(remark_on_seams(1000, 900, 1000, 0.1, 0.001).find("--weld") == std::string::npos);
+    CHECK(remarks(100.0).starts_with("weld has joined no vertices: no seam has pairs of boundary edges within 100 "));
+    CHECK_FALSE(remark_on_seams(0, 0, 1000, 0.0, 0.0));
+    const auto remark = [](Index n_vertices, Index n_edges, double apart) {
+        return sentence(remark_on_seams(n_vertices, n_edges, 1000, 0.1, apart).value(), [](auto, auto) { return "W"; });
+    };
+    CHECK(remark(99, 1, 0.1).find("W") == std::string::npos);
+    CHECK(remark(100, 1, 0.1).find(", and 10% of all: ") != std::string::npos);
+    CHECK(remark(100, 1, 0.1).find(" make W smaller") != std::string::npos);
+    CHECK(remark(1000, 900, 0.001).find("W") == std::string::npos);
 }
 
 TEST_CASE("sub-meshes that are written as they are keep seams, and what an observer sees has all vertices")

@@ -52,7 +52,7 @@ TEST_CASE("cracks are found, and the distance that is proposed closes them")
             REQUIRE(welded);
             CHECK(welded->n_edges == cracks->n_edges);
             CHECK_FALSE(find_cracks(welded->mesh, welded->topology));
-            CHECK(remark_on_cracks(*cracks).find("--weld ") != std::string::npos);
+            CHECK(sentence(remark_on_cracks(*cracks)).find(": weld ") != std::string::npos);
         }
     }
 }

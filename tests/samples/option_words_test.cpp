@@ -2,26 +2,27 @@
 
 #include <doctest/doctest.h>
 
+#include "partition/remark.h"
 #include "samples/process/option_words.h"
 
 using namespace seamflow;
 
-TEST_CASE("fields become options, where they are what a message is about and where nothing else is called so")
+TEST_CASE("command lines have names of their own for what the library calls otherwise")
 {
-    CHECK(in_words_of_options("memory_limit is 3, but must be at least 4") ==
-          "--memory-limit is 3, but must be at least 4");
-    CHECK(in_words_of_options("tolerance is 2, but must be below 1") == "--converge is 2, but must be below 1");
-    CHECK(in_words_of_options("p is -1: leave p out") == "--p is -1: leave p out");
-    CHECK(in_words_of_options("raise it, or use sweeps (Approach::Sweep)") ==
-          "raise it, or use sweeps (--approach sweep)");
-    CHECK(
-        in_words_of_options("rescale moves every vertex, but fixed_vertices are to stay; Filter::LowPass lets them") ==
-        "--rescale moves every vertex, but --fix are to stay; --filter low-pass lets them");
-    CHECK(in_words_of_options("attachment_weights: too few") == "--attach-weights: too few");
-    for (const char* text : {"my_time_step.obj: cannot be read", "memory_limits are other things", "a/keep_edges/b",
-                             "a/keep_edges is missing", "my_time_step 3", "keep_edges.txt is missing",
-                             "the flow is slow", "", "precisely p"})
-        CHECK(in_words_of_options(text) == text);
+    const auto said = [](const char* text) { return sentence(Wording{text}, option_of_program); };
+    CHECK(said("<memory_limit> is 3, but must be at least 4") == "--memory-limit is 3, but must be at least 4");
+    CHECK(said("<tolerance> is 2, but must be below 1") == "--converge is 2, but must be below 1");
+    CHECK(said("<p> is -1: leave <p> out") == "--p is -1: leave --p out");
+    CHECK(said("raise it, or use sweeps (<approach sweep>)") == "raise it, or use sweeps (--approach sweep)");
+    CHECK(said("<rescale> moves every vertex, but <fixed_vertices> holds some; <filter low-pass> lets them") ==
+          "--rescale moves every vertex, but --fix holds some; --filter low-pass lets them");
+    CHECK(said("<attachment_weights>: too few") == "--attach-weights: too few");
+    CHECK(said("<denoise>, <preset cad>, <fwhm> and <--parts>") ==
+          "--preset automatic, --preset cad, --fwhm and --parts");
+    // It is no option of programs.
+    CHECK(said("<largest_update> is 0") == "largest_update is 0");
+    for (const char* text : {"time_step.obj: cannot be read", "keep_edges is missing", "the flow is slow", ""})
+        CHECK(said(text) == text);
 }
 
 TEST_CASE("options become keywords")

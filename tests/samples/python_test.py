@@ -462,7 +462,7 @@ class Seams(unittest.TestCase):
         expected, _ = seamflow.smooth(np.array(CUBE, float), SIDES, radius=0.5)
         # Vertices are numbered otherwise.
         np.testing.assert_allclose(joined, expected[np.array(SIDES).ravel()], rtol=1e-12)
-        self.assertIn("24 vertices along seams", " ".join(report["remarks"]))
+        self.assertIn("24 vertices along seams", " ".join(remark["text"] for remark in report["remarks"]))
         apart, _ = seamflow.smooth(V, F, radius=0.5, weld="never")
         np.testing.assert_array_equal(apart, V)
         V[0] += 1e-6

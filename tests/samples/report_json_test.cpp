@@ -81,22 +81,24 @@ TEST_CASE("a report is valid JSON whatever happened")
     report.cut.sub_meshes = {{.p = std::numeric_limits<double>::infinity()}};
     RunRecord run;
     run.input = "\xff.obj";
-    report.choices = {"a choice"};
-    report.remarks = {"a \"remark\"\n"};
+    report.choices = {std::string("a choice")};
+    report.remarks = {{"a kind", {{"height", 0.5}}, {"a \"remark\"\n on <radius 3>"}}};
     run.surface.after = {
         .area = std::numeric_limits<double>::infinity(), .volume = 2.0, .roughness = Roughness{3.0, 4.0}};
     run.surface.moved = {.mean = 1.0, .rms = 2.0, .max = 3.0};
     const Json json = Json::parse(smooth_report_json(run, FlowOptions{}, report));
     CHECK(json["time_step"].is_null());
     CHECK(json["p"][0].is_null());
-    CHECK(json["choices"][0] == "a choice");
+    CHECK(json["choices"][0]["text"] == "a choice");
     CHECK(json["surface"]["before"]["volume"].is_null());
     CHECK(json["surface"]["after"]["area"].is_null());
     CHECK(json["surface"]["after"]["volume"] == 2.0);
     CHECK(json["surface"]["after"]["roughness_percentile_95"] == 4.0);
     CHECK(json["surface"]["moved_max_absolute"] == 3.0);
 
-    CHECK(json["remarks"][0] == "a \"remark\"\n");
+    CHECK(json["remarks"][0]["text"] == "a \"remark\"\n on --radius 3");
+    CHECK(json["remarks"][0]["kind"] == "a kind");
+    CHECK(json["remarks"][0]["numbers"]["height"] == 0.5);
     Comparison comparison;
     comparison.vertex_distance.emplace();
     const Json without_edges = Json::parse(compare_report_json(comparison));
@@ -158,7 +160,7 @@ TEST_CASE("reports say by which version they were made, when, and which keys the
     for (const std::string& text :
          {smooth_report_json(RunRecord{}, FlowOptions{}, FlowReport{}), smooth_failure_json(RunRecord{}, Failure{})}) {
         const Json json = Json::parse(text);
-        CHECK(json["schema"] == 2);
+        CHECK(json["schema"] == 3);
         CHECK(json["version"] == std::string(version));
         const std::string date = json["date"];
         REQUIRE(date.size() == 20);

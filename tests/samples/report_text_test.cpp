@@ -30,8 +30,8 @@ TEST_CASE("what a run prints at the end: choices, time, remarks, and what the re
                    .after = {.area = 3.0, .volume = 1.5, .roughness = Roughness{6.5, 9.0}},
                    .moved = {.mean = 0.1, .rms = 0.2, .max = 1.0}};
     FlowReport report;
-    report.choices = {"This.", "That."};
-    report.remarks = {"Mind the gap."};
+    report.choices = {std::string("This."), std::string("That.")};
+    report.remarks = {{"gap", {}, {"Mind the <weld never>."}}};
     report.resources.threads = 2;
     report.steps.resize(1);
     report.steps.back().estimated_v_max = 0.03;
@@ -41,9 +41,10 @@ TEST_CASE("what a run prints at the end: choices, time, remarks, and what the re
     CHECK(printed.find("chosen     This. That.\ntime       1.25 s: read ") == 0);
     CHECK(printed.find("2 threads") != std::string::npos);
     CHECK(
-        printed.find("\nremark     Mind the gap.\nresult     b.obj: moved 0.2 mean edge lengths on average, 2 at most; "
-                     "roughness 12 -> 6.5 degrees, area 4 -> 3, volume 2 -> 1.5; by estimate 0.03 mean edge lengths "
-                     "at most from the undecomposed flow\n") != std::string::npos);
+        printed.find(
+            "\nremark     Mind the --weld never.\nresult     b.obj: moved 0.2 mean edge lengths on average, 2 at most; "
+            "roughness 12 -> 6.5 degrees, area 4 -> 3, volume 2 -> 1.5; by estimate 0.03 mean edge lengths "
+            "at most from the undecomposed flow\n") != std::string::npos);
     CHECK(printed.find("distance") == std::string::npos);
 
     run.surface.after.volume.reset();

@@ -76,9 +76,9 @@ TEST_CASE("a loss of much of the volume is remarked on, or of most of the area w
         FlowOptions options;
         options.motion.rescale = rescale;
         options.filter = filter;
-        std::vector<std::string> remarks;
+        std::vector<Remark> remarks;
         remark_on_loss(options, change, remarks);
-        return remarks.empty() ? std::string() : remarks.front();
+        return remarks.empty() ? std::string() : sentence(remarks.front());
     };
     CHECK(remark(0.75, 0.9).find("lost 25% of its volume") != std::string::npos);
     CHECK(remark(0.85, 0.3).empty());
@@ -89,11 +89,11 @@ TEST_CASE("a loss of much of the volume is remarked on, or of most of the area w
     of_cells.after.area = 0.25;
     of_cells.before.cell_volumes = {0.1};
     of_cells.after.cell_volumes = {0.01};
-    std::vector<std::string> remarks;
+    std::vector<Remark> remarks;
     remark_on_loss({}, of_cells, remarks);
     REQUIRE(remarks.size() == 2);
-    CHECK(remarks[0].starts_with("The only cell has lost more than 20% of its volume"));
-    CHECK(remarks[1].find("lost 75% of its area") != std::string::npos);
+    CHECK(sentence(remarks[0]).starts_with("The only cell has lost more than 20% of its volume"));
+    CHECK(sentence(remarks[1]).find("lost 75% of its area") != std::string::npos);
     CHECK(remark({}, 0.25, Rescale::Area).empty());
     // What the user has asked for already is no advice.
     CHECK(remark(0.75, 0.9).find("--filter low-pass") != std::string::npos);
@@ -142,16 +142,16 @@ TEST_CASE("what one of several bodies has lost is remarked on, however small it 
     const SurfaceChange change = meter.measure(both, {}, false, run_serially);
     REQUIRE(change.before.bodies.size() == 2);
     CHECK(*change.after.bodies[1].volume == relative(*change.before.bodies[1].volume / 8.0, 1e-5));
-    std::vector<std::string> remarks;
+    std::vector<Remark> remarks;
     remark_on_loss({}, change, remarks);
     REQUIRE(remarks.size() == 1);
-    CHECK(remarks[0].starts_with("1 of 2 components has lost much, up to 8"));
-    CHECK(remarks[0].find("--rescale volume scales each component back") != std::string::npos);
+    CHECK(sentence(remarks[0]).starts_with("1 of 2 components has lost much, up to 8"));
+    CHECK(sentence(remarks[0]).find("--rescale volume scales each component back") != std::string::npos);
     FlowOptions held;
     held.motion.fixed_vertices = {0};
     remarks.clear();
     remark_on_loss(held, change, remarks);
-    CHECK(remarks[0].find("--rescale") == std::string::npos);
+    CHECK(sentence(remarks[0]).find("--rescale") == std::string::npos);
 }
 
 TEST_CASE("volumes of cells are left out where sheets with different faces lie on each other, with a remark")
@@ -162,20 +162,20 @@ TEST_CASE("volumes of cells are left out where sheets with different faces lie o
         MeshReport report;
         report.junction_vertices = 20;
         const SurfaceChange change = meter.measure(mesh, report, false, run_serially);
-        std::vector<std::string> remarks;
+        std::vector<Remark> remarks;
         remark_on_folds({}, change, remarks);
         CHECK(change.before.cell_volumes.size() == change.after.cell_volumes.size());
         return std::pair(change.before.cell_volumes.size(), remarks);
     };
-    CHECK(volumes_and_remarks() == std::pair(std::size_t{2}, std::vector<std::string>{}));
+    CHECK(volumes_and_remarks() == std::pair(std::size_t{2}, std::vector<Remark>{}));
     // The half of a quad on that quad.
     const auto quad = mesh.face(0);
     mesh.add_face(std::array{quad[0], quad[1], quad[2]});
     const auto [n_cells, remarks] = volumes_and_remarks();
     CHECK(n_cells == 0);
     REQUIRE(remarks.size() == 1);
-    CHECK(
-        remarks[0].starts_with("Sheets lie on each other with different faces, at 2 edges: the volumes of cells are "));
+    CHECK(sentence(remarks[0])
+              .starts_with("Sheets lie on each other with different faces, at 2 edges: the volumes of cells are "));
 }
 
 TEST_CASE("a mesh without faces has no surface")
@@ -194,9 +194,9 @@ TEST_CASE("a mesh without faces has no surface")
 TEST_CASE("faces that fold over and cross are told of, and those that noise had turned are not")
 {
     const auto remark = [](const SurfaceChange& change) {
-        std::vector<std::string> remarks;
+        std::vector<Remark> remarks;
         remark_on_folds({}, change, remarks);
-        return remarks.empty() ? std::string() : remarks.front();
+        return remarks.empty() ? std::string() : sentence(remarks.front());
     };
     PolygonMesh mesh = triangle_grid(6, 6);
     const Points flat = mesh.vertices;

@@ -73,7 +73,7 @@ std::optional<UndecomposedStep> undecomposed_step(const PolygonMesh& mesh, const
     const Point offset = origin_offset(mesh);
     PolygonMesh given = mesh;
     FlowingMesh flowing(given);
-    std::vector<std::string> remarks;
+    std::vector<Remark> remarks;
     Topology topology = make_topology(flowing.mesh());
     FlowOptions of_joined = options;
     if (!need_of_junctions(options).empty())

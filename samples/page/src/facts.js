@@ -169,7 +169,7 @@ export function showFacts(section, mesh, flow) {
     for (const [name, text] of rows(report))
         list.append(element("dt", {}, name), element("dd", {}, text));
     const remarks = element("ul");
-    for (const remark of [...report.choices, ...report.remarks, flow.remark, ...mesh.remarks].filter((text, k, all) => text && all.indexOf(text) === k))
+    for (const remark of [...[...report.choices, ...report.remarks].map(({ text }) => text), flow.remark, ...mesh.remarks].filter((text, k, all) => text && all.indexOf(text) === k))
         remarks.append(element("li", {}, remark));
     section.replaceChildren(element("h2", {}, "Run"), list);
     if (remarks.childElementCount > 0)

@@ -330,7 +330,7 @@ TEST_CASE("what is said of fields on sheets that meet, on a fixed boundary and a
         Eigen::MatrixXd fields = Eigen::MatrixXd::Random(mesh.n_vertices(), 2);
         const FieldReport report = diffuse(mesh, fields, of_flow, of_fields);
         CHECK_FALSE(report.remarks.empty());
-        for (const std::string& remark : report.remarks) {
+        for (const std::string& remark : test::sentences(report.remarks)) {
             CAPTURE(remark);
             CHECK(remark.find("mov") == std::string::npos);
         }
@@ -344,11 +344,14 @@ TEST_CASE("what is said of fields on sheets that meet, on a fixed boundary and a
 TEST_CASE("columns with data at different vertices: what is said of any is said once")
 {
     FlowReport first;
-    first.choices = {"a", "b"};
+    const auto named = [](const std::vector<std::string>& list) {
+        return std::vector<Remark>(list.begin(), list.end());
+    };
+    first.choices = named({"a", "b"});
     FlowReport second;
-    second.choices = {"c", "a"};
+    second.choices = named({"c", "a"});
     add_up(first, second);
-    CHECK(second.choices == std::vector<std::string>{"a", "b", "c"});
+    CHECK(second.choices == named({"a", "b", "c"}));
     // The steps of the group that misses its tolerance most often.
     first.convergence.steps_short_of_tolerance = 3;
     second.convergence.steps_stagnated = 2;
@@ -357,12 +360,12 @@ TEST_CASE("columns with data at different vertices: what is said of any is said 
     CHECK(second.convergence.steps_stagnated == 2);
     using Sentences = std::vector<std::string>;
     const std::vector<FieldGroup> groups{{{0, 3}, {}}, {{1}, {}}, {{2, 4, 5, 6, 7}, {}}};
-    const std::vector<Sentences> of_groups{{"r"}, {"s", "r"}, {"r", "t", "t"}};
-    CHECK(remarks_on(groups, of_groups, {}) ==
+    const std::vector<std::vector<Remark>> of_groups{named({"r"}), named({"s", "r"}), named({"r", "t", "t"})};
+    CHECK(test::sentences(remarks_on(groups, of_groups, {})) ==
           Sentences{"r", "For column 1 (numbered from 0): s", "For columns 2, 4, 5, 6 and 7 (numbered from 0): t"});
     const std::vector<FieldGroup> two{{{0, 2, 4, 5, 6, 7}, {}}, {{1, 3}, {}}};
     const Sentences names{"a", "b", "c", "d", "e", "f", "g", "h\n"};
-    CHECK(remarks_on(two, std::vector<Sentences>{{"r"}, {"s"}}, names) ==
+    CHECK(test::sentences(remarks_on(two, std::vector{named({"r"}), named({"s"})}, names)) ==
           Sentences{"For 'a', 'c', 'e', 'f' and 2 others: r", "For 'b' and 'd': s"});
     CHECK(remarks_on({}, {}, names).empty());
 }
@@ -379,7 +382,7 @@ TEST_CASE("columns that cannot flow are named where others flow")
                 fields(v, c) = no_data;
     }
     const auto remarks = [&](const FieldOptions& of_fields, Eigen::MatrixXd of) {
-        return diffuse(mesh, of, {.time_step = 0.1}, of_fields).remarks;
+        return test::sentences(diffuse(mesh, of, {.time_step = 0.1}, of_fields).remarks);
     };
     const std::string sentence =
         "No vertex can flow: each is fixed, on the boundary, or where the mesh is not manifold. A free boundary would "
@@ -401,7 +404,7 @@ TEST_CASE("what is said of filling says so, and once")
         Eigen::MatrixXd filled = fields;
         return diffuse(plates, filled, options, {.fill = true});
     };
-    const std::string first = report_of({.time_step = 0.1}).remarks.at(0);
+    const std::string first = sentence(report_of({.time_step = 0.1}).remarks.at(0));
     CHECK(first.starts_with("Filling: "));
     CHECK(first.find("on edges of three faces or more flow with all of these faces.") != std::string::npos);
     // A vertex away from where sheets meet lacks data: both flows say the same of these.

@@ -43,7 +43,7 @@ TEST_CASE("a remark tells why the width that a diffusion reaches is far from tha
     const auto remarks_at = [&](double fwhm, int steps) {
         Eigen::MatrixXd fields = Eigen::MatrixXd::Zero(mesh.n_vertices(), 1);
         const FieldReport report = diffuse(mesh, fields, {.steps = steps}, {.fwhm = fwhm});
-        return report.remarks.empty() ? std::string() : report.remarks.front();
+        return report.remarks.empty() ? std::string() : sentence(report.remarks.front());
     };
     CHECK(remarks_at(8.0 * edge, 10).empty());
     CHECK(remarks_at(8.0 * edge, 1).find("more steps come nearer") != std::string::npos);

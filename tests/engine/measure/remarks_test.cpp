@@ -71,13 +71,13 @@ TEST_CASE("a tolerance that was missed is remarked on, with what does not help")
     CHECK(report.remarks.empty());
     report.convergence.steps_short_of_tolerance = 1;
     remark_on_missed_tolerance(1000, report);
-    CHECK(report.remarks.back() == "The tolerance was not reached in 1 step with 1000 iterations at most.");
+    CHECK(sentence(report.remarks.back()) == "The tolerance was not reached in 1 step with 1000 iterations at most.");
     report.convergence.steps_short_of_tolerance = 3;
     remark_on_missed_tolerance(5, report);
-    CHECK(report.remarks.back() == "The tolerance was not reached in 3 steps with 5 iterations at most.");
+    CHECK(sentence(report.remarks.back()) == "The tolerance was not reached in 3 steps with 5 iterations at most.");
     report.convergence.steps_stagnated = 2;
     remark_on_missed_tolerance(1000, report);
-    CHECK(report.remarks.back() ==
+    CHECK(sentence(report.remarks.back()) ==
           "The tolerance was not reached in 3 steps with 1000 iterations at most; in 2 of them "
           "more would not have helped.");
 }

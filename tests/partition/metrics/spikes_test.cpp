@@ -44,7 +44,8 @@ TEST_CASE("a vertex far from its neighbours is a spike, on triangles and on poly
             REQUIRE(spikes.size() == 1);
             CHECK(spikes[0].vertex == v);
             CHECK(spikes[0].distance > 1000.0);
-            CHECK(remark_on_spikes(spikes).starts_with("Vertex " + std::to_string(v) + " (numbered from 0) is "));
+            CHECK(sentence(remark_on_spikes(spikes))
+                      .starts_with("Vertex " + std::to_string(v) + " (numbered from 0) is "));
             // The mean edge is that of the others.
             CHECK(mean_edge_length(mesh) == test::relative(edge, 0.02));
         }

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace seamflow {
+
+/// Sentences for users, in which options are marked, so that each caller reads them by its own names: <radius>, or
+/// <boundary free> for an option and a value. A mark has the library's name of the option: that of a field of the
+/// options, or of a parameter. << stands for a < that marks nothing.
+struct Wording {
+    std::string text;
+
+    friend bool operator==(const Wording&, const Wording&) = default;
+};
+
+/// How a caller writes an option.
+/// @param option the library's name. @param value empty: the option alone.
+using OptionWriter = std::function<std::string(std::string_view option, std::string_view value)>;
+
+/// The library's own name, and the value after a blank.
+std::string option_of_library(std::string_view option, std::string_view value);
+
+/// The wording in the words of a caller.
+std::string sentence(const Wording& wording, const OptionWriter& write = option_of_library);
+
+/// A message without marks.
+Wording unmarked(std::string_view text);
+
+/// What a user should know about a result or how it was made: a kind and its numbers, for programs, and what to tell
+/// the user about them.
+struct Remark {
+    using Numbers = std::vector<std::pair<std::string, double>>;
+
+    Remark(std::string kind_of_remark, Numbers numbers_of_it, Wording wording_of_it);
+
+    /// Of kind "other", without numbers and marks.
+    Remark(const std::string& text);
+
+    /// One or two words, like "collapse" or "missed tolerance"; the same kind has the same numbers.
+    std::string kind;
+    /// By name, in the order of the message.
+    Numbers numbers;
+    Wording wording;
+
+    /// @returns nothing where the kind has no such number.
+    [[nodiscard]] std::optional<double> number(std::string_view name) const;
+
+    friend bool operator==(const Remark&, const Remark&) = default;
+};
+
+/// The remark in the words of a caller.
+inline std::string sentence(const Remark& remark, const OptionWriter& write = option_of_library)
+{
+    return sentence(remark.wording, write);
+}
+
+}  // namespace seamflow
