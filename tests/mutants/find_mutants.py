@@ -291,7 +291,7 @@ def pick(mutants, first, second):
 
 def choose_mutants(root, paths, seed, count):
     """`count` mutants, or as many as there are, sorted. No two are on one line. A file is chosen by its size."""
-    weights = [(root / path).stat().st_size for path in paths]
+    weights = [(root / path).stat().st_size + 1 for path in paths]
     early = {place for place, _, _ in itertools.islice(draws(weights, seed), count)}
     with ProcessPoolExecutor() as pool:
         left = dict(zip(early, pool.map(find_mutants, itertools.repeat(root), [paths[e] for e in early])))

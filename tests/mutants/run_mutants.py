@@ -1,11 +1,9 @@
 """Makes mutants, builds all of them into one copy of the tree, and counts those that the tests notice; see run.sh."""
 
 import argparse
-import contextlib
 import json
 import os
 import re
-import resource
 import shutil
 import signal
 import subprocess
@@ -123,20 +121,12 @@ def list_tests(pattern):
 
 def passes(test, seconds, **environment):
     """Whether a test ends well within so many seconds."""
-    def limit():
-        resource.setrlimit(resource.RLIMIT_DATA, (MOST_BYTES, resource.getrlimit(resource.RLIMIT_DATA)[1]))
     environment |= dict(e.split("=", 1) for e in test.properties.get("ENVIRONMENT", []))
-    process = subprocess.Popen(test.command, cwd=test.properties["WORKING_DIRECTORY"], env=os.environ | environment,
-                               stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
-                               start_new_session=True, preexec_fn=limit)
-    try:
-        return process.wait(seconds) in (0, test.properties.get("SKIP_RETURN_CODE"))
-    except subprocess.TimeoutExpired:
-        return False
-    finally:
-        with contextlib.suppress(ProcessLookupError):
-            os.killpg(process.pid, signal.SIGKILL)
-        process.wait()
+    limits = ["prlimit", f"--data={MOST_BYTES}", "timeout", "--signal=KILL", str(seconds)]
+    ended = subprocess.run(limits + test.command, cwd=test.properties["WORKING_DIRECTORY"],
+                           env=os.environ | environment, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+                           stderr=subprocess.DEVNULL, check=False)
+    return ended.returncode in (0, test.properties.get("SKIP_RETURN_CODE"))
 
 
 def note_reached(test, longest):
@@ -165,7 +155,7 @@ def judge(built, tests, longest):
     verdicts = {}
     with ThreadPoolExecutor(os.cpu_count()) as pool, REACHED.open("w", encoding="utf-8") as record:
         for test, passed in zip(tests, pool.map(lambda t: note_reached(t, longest), tests)):
-            print(test.name, f"{test.seconds:.1f} s", *sorted(test.reached), file=record)
+            print(test.name, f"{test.seconds:.1f} s", *sorted(test.reached), file=record, flush=True)
             if not passed:
                 print(f"{test.name} fails without a mutant, or takes too long, and is left out.", flush=True)
         for number, verdict in zip(built, pool.map(lambda n: verdict_on(n, tests), built)):
@@ -218,6 +208,7 @@ def report(n_made, built, verdicts, least):
 
 
 def main():
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
     arguments = parsed_arguments()
     made = dict(enumerate(choose_mutants(ROOT, source_files(arguments.files), arguments.seed, arguments.count)))
     if arguments.list:
