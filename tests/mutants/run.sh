@@ -9,10 +9,10 @@
 # are named. Operators: comparison, logic (&& for ||), condition (always true or false), sign, off by one, wrong
 # neighbour, swapped arguments, left-out call, forgotten update. A mutant that does not compile does not count.
 #
-# Of each mutant, the tests that reach it run, the fastest first, until one fails. Tests that take more than --longest
-# seconds are left out, and those of the programs without --programs. The output ends with the mutants that no test
-# notices. The exit status is 0 if at least --least percent are noticed. build-mutants/build/reached.txt lists which
-# test reaches which mutants.
+# Of each mutant, the tests that reach it run until one fails: that of its source first, then the fastest. Tests that
+# take more than --longest seconds are left out, and those of the programs without --programs. The output ends with the
+# mutants that no test notices. The exit status is 0 if at least --least percent are noticed.
+# build-mutants/build/reached.txt lists which test reaches which mutants.
 
 set -euo pipefail
 # shellcheck source=samples/common/setup.sh

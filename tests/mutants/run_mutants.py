@@ -141,9 +141,10 @@ def note_reached(test, longest):
     return passed
 
 
-def verdict_on(number, tests):
-    """Runs the tests that reach a mutant, the fastest first, until one fails."""
-    reaching = sorted((t for t in tests if number in t.reached), key=lambda t: t.seconds)
+def verdict_on(number, mutant, tests):
+    """Runs the tests that reach a mutant until one fails: the one of its source first, then the fastest."""
+    own = f".{Path(mutant.path).stem}_test"
+    reaching = sorted((t for t in tests if number in t.reached), key=lambda t: (not t.name.endswith(own), t.seconds))
     for test in reaching:
         if not passes(test, 20 + 10 * test.seconds, SEAMFLOW_MUTANT=str(number)):
             return f"noticed by {test.name}"
@@ -157,8 +158,9 @@ def judge(built, tests, longest):
         for test, passed in zip(tests, pool.map(lambda t: note_reached(t, longest), tests)):
             print(test.name, f"{test.seconds:.1f} s", *sorted(test.reached), file=record, flush=True)
             if not passed:
-                print(f"{test.name} fails without a mutant, or takes too long, and is left out.", flush=True)
-        for number, verdict in zip(built, pool.map(lambda n: verdict_on(n, tests), built)):
+                reason = "takes too long" if test.seconds >= longest else "fails without a mutant"
+                print(f"{test.name} {reason}, and is left out.", flush=True)
+        for number, verdict in zip(built, pool.map(lambda n: verdict_on(n, built[n], tests), built)):
             verdicts[number] = verdict
             print(f"{built[number]}: {verdict}", flush=True)
     return verdicts
