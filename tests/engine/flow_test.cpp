@@ -117,7 +117,7 @@ TEST_CASE("after a failure a flow has its last complete step, and takes no furth
 
 TEST_CASE("a flow refuses fields that are not for it, with what is wrong, and leaves them")
 {
-    PolygonMesh mesh = make_quads(25);
+    PolygonMesh mesh = make_quads(400);
     const Eigen::MatrixXd ones = Eigen::MatrixXd::Ones(mesh.n_vertices(), 2);
     FlowOptions options{.time_step = 1e-3};
     Flow moving(mesh, options);
