@@ -63,7 +63,7 @@ case "$preset" in
 asan | tsan) more+=("${sanitizer_packages[@]}") ;;
 *) more+=("${python_packages[@]}") ;;
 esac
-install_packages doxygen patch "${more[@]}"
+install_packages doxygen python3-clang "${more[@]}"
 build "$preset" "${targets[@]}"
 if ((all)); then
     more=(--build-config All)
