@@ -94,7 +94,7 @@ FileFields read_fields(const MeshSource& source, std::span<const std::string> na
 ///
 /// @param fields finite, except that floats and new properties may be NaN.
 /// @returns remarks; also for numbers beyond the range of their type.
-/// @throws OutputError also for a field for which the format has no place, with what to do instead.
+/// @throws OutputError also for a field that the format cannot hold, with a remedy.
 /// @throws InputError also naming the line where a colour is missing.
 std::vector<std::string> write_mesh_like(const MeshSource& source, const std::filesystem::path& path,
                                          const PolygonMesh& mesh, const FileFields& fields,
