@@ -32,8 +32,7 @@ class Flow {
     /// Takes n steps; the mesh moves with each.
     /// @param n at least 0.
     /// @throws as mean_curvature_flow; the positions are then those of the last complete step, and any further call
-    /// throws
-    ///         ComputationError.
+    ///         throws ComputationError.
     void step(int n = 1);
 
     /// The following functions change the flow between steps. The next step uses the change; only the sub-meshes that

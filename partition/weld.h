@@ -33,8 +33,7 @@ struct Weld {
 /// a non-manifold vertex. Linear in the size of the mesh; takes hardly any time if the mesh has no boundary.
 /// @param mesh valid, but coordinates need not be finite. @param topology of `mesh`.
 /// @param distance within which positions count as equal, in units of length; at least 0, and small compared with
-/// edges:
-///        positions this near to more than a few others are not joined. 0: coordinates must be equal.
+///        edges: positions this near to more than a few others are not joined. 0: coordinates must be equal.
 /// @returns nothing if nothing is joined.
 std::optional<Weld> weld(const PolygonMesh& mesh, const Topology& topology, double distance,
                          const Executor& exec = run_serially);

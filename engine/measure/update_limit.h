@@ -14,8 +14,7 @@ class UpdateLimit {
   public:
     /// @param mesh in its state before the first step; must outlive the limit.
     /// @param diagonals the largest displacement of a vertex in one step, in diagonals of the present bounding box of
-    /// the
-    ///        faces (see AccuracyOptions::largest_update).
+    ///        the faces (see AccuracyOptions::largest_update).
     UpdateLimit(const PolygonMesh& mesh, double diagonals);
 
     /// Checks one step.

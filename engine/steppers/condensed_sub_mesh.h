@@ -52,8 +52,7 @@ class CondensedSubMesh {
     [[nodiscard]] NeumannSystem& system() { return *system_; }
 
     /// @param memory for factors. @param is_kept whether the factor lives from condensation to back substitution;
-    /// otherwise it is recomputed
-    ///        whenever it is needed, with the same bits.
+    ///        otherwise it is recomputed whenever it is needed, with the same bits.
     void use_memory(FactorMemory& memory, bool is_kept);
     [[nodiscard]] bool is_kept() const { return is_kept_; }
 

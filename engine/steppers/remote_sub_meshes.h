@@ -50,8 +50,7 @@ class RemoteSubMeshes {
 
     /// Exchanges with the other ranks which rows to send; all ranks call this together, once.
     /// @param sweeps the plans of the sweeps. @param further per sub-mesh, local indices of vertices whose positions
-    /// and
-    ///        solutions are needed besides those that sweeps read; or empty.
+    ///        and solutions are needed besides those that sweeps read; or empty.
     virtual void connect(const Decomposition& decomposition, std::span<const SweepPlan> sweeps,
                          std::span<const std::vector<Index>> further) = 0;
 

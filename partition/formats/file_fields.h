@@ -49,8 +49,7 @@ struct FileFields {
 /// Rounds the values of fields that were read as write_mesh_like does: whole numbers to the nearest within their range,
 /// others to single precision if the file has them in that precision. Reading the written file gives these numbers.
 /// @param extremes n by columns: the least and the largest value of each column in the whole file are among the rows.
-/// If
-///        single precision cannot hold them, values are written as doubles.
+///        If single precision cannot hold them, values are written as doubles.
 void round_as_written(FileFields& fields, const Eigen::MatrixXd& extremes, const Executor& exec);
 
 /// The names of fields, each once, with nx, ny, nz for `normal`, and red, green, blue for `colour` or `color`.

@@ -24,8 +24,7 @@ namespace seamflow {
 class ErrorEquation {
   public:
     /// @param decomposition, ranks must outlive this. Sub-meshes do not overlap. Sub-meshes of other ranks are
-    /// fragments
-    ///        (see decompose_part); with fragments, the Laplacian is not Δ_P.
+    ///        fragments (see decompose_part); with fragments, the Laplacian is not Δ_P.
     ErrorEquation(const Decomposition& decomposition, const PolygonMesh& mesh, const Topology& topology,
                   const ScaledLaplacian& laplacian, InterfaceRanks& ranks, const Executor& exec = run_serially);
 

@@ -26,8 +26,7 @@ class WholeRows {
 
     /// Measures all residuals; all ranks call this together. Allocates no memory if there is one rank.
     /// @param before, after #V by 3: Vᵏ, and Vᵏ⁺¹ as solved, at the vertices of own faces and of faces that share an
-    /// edge
-    ///        with one.
+    ///        edge with one.
     /// @param time_step dt, in length².
     void measure(const PolygonMesh& mesh, const Topology& topology, const Points& before, const Points& after,
                  double time_step, const Executor& exec);

@@ -38,8 +38,7 @@ class SubMeshSystem {
     /// Assembles the equations for Vᵏ.
     /// @param positions #local by 3, the halo included: Vᵏ.
     /// @param other_side #local by 3: Vᵏ of the sub-meshes beyond Γ, on Γ and in the halo. The same as `positions`
-    /// unless
-    ///        every sub-mesh has its own copy of Γ.
+    ///        unless every sub-mesh has its own copy of Γ.
     /// @param time_step dt, in length².
     /// @param p Robin parameter, in 1/length.
     /// @param roles one per vertex of Γ.

@@ -25,8 +25,7 @@ enum class SymmetricRows {
 class SymmetricSystem final : public SubMeshSystem {
   public:
     /// @param parts with a symmetric Laplacian; with SymmetricRows::Transmission, Alexa-Wardetzky and only triangles
-    /// among
-    ///        the faces that touch Γ. The factorisation is not Umfpack.
+    ///        among the faces that touch Γ. The factorisation is not Umfpack.
     SymmetricSystem(const SystemParts& parts, SymmetricRows rows, SolverWorkspace& workspace);
 
     Assembled assemble(const Points& positions, const Points& other_side, double time_step, double p,

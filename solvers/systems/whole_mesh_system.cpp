@@ -238,8 +238,7 @@ double WholeMeshSystem::farthest_move(const Executor& exec) const
 /// The sum of the further updates, if they keep decreasing at the rate of this pass. After a pass too short to show a
 /// rate: the previous estimate, scaled like the residual.
 /// @param length unit of the updates. @param before_pass, left the residual before and after the pass, as fractions of
-/// the
-///        first residual.
+///        the first residual.
 double WholeMeshSystem::distance_after(const BlockRowMatrix::Result& pass, double length, double before_pass,
                                        double left, double distance_before)
 {
