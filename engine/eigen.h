@@ -39,7 +39,8 @@ requires std::integral<typename Faces::Scalar>
     return flow_into(vertices, to_polygon_mesh(vertices, faces), options, on_step, control);
 }
 
-/// The same for faces of any number of sides.
+/// Smooths a mesh of faces with any numbers of sides: see mean_curvature_flow for a matrix of faces.
+/// @param vertices #V by 3, in any storage order; its rows are moved.
 /// @param face_offsets #F + 1; the vertices of face f are face_vertices[face_offsets[f]] to
 ///        face_vertices[face_offsets[f + 1] - 1].
 /// @param face_vertices one entry per corner of every face, in order around the face.

@@ -12,11 +12,11 @@
 
 namespace seamflow {
 
-/// The flow of mean_curvature_flow, taken step by step, by programs that look at each result before they go on. Between
-/// steps it keeps the cut, the analyses of sub-meshes, and what else the next step can use: a step of the linear flow
-/// after the first is one solution with the factors of the first. After FlowOptions::steps steps the positions are
-/// those of mean_curvature_flow, bit for bit. While a flow exists, the BLAS of the process runs single-threaded (see
-/// Workers).
+/// The flow of mean_curvature_flow, taken step by step by programs that look at each result before they continue.
+/// Between steps it keeps the cut, the analyses of sub-meshes, and all data that the next step can use: a step of the
+/// linear flow after the first is one solution with the factors of the first. After FlowOptions::steps steps the
+/// positions are those of mean_curvature_flow, bit for bit. While a flow exists, the BLAS of the process runs
+/// single-threaded (see Workers).
 class Flow {
   public:
     /// Checks the mesh and sets up.
@@ -29,29 +29,30 @@ class Flow {
     Flow& operator=(const Flow&) = delete;
     ~Flow();
 
-    /// Takes steps; the mesh moves with each.
+    /// Takes n steps; the mesh moves with each.
     /// @param n at least 0.
-    /// @throws as mean_curvature_flow; the positions are then those of the last complete step, and no further one can
-    ///         be taken: ComputationError.
+    /// @throws as mean_curvature_flow; the positions are then those of the last complete step, and any further call
+    ///         throws ComputationError.
     void step(int n = 1);
 
-    /// Changes between steps: the next one takes them up, and only the sub-meshes that have such vertices are made
-    /// anew. A flow that was changed has no state to resume from. Vertices joined along seams change together. Besides
-    /// what is said below, all throw OptionError for flows with a reference, rescale, within or limits, and, `move` of
-    /// mean curvature flows aside, for those that take sweeps, conjugate gradients or UMFPACK's factors (begin a new
-    /// Flow from the positions instead); InputError for vertices that do not exist; ComputationError after a failure.
+    /// The following functions change the flow between steps. The next step uses the change; only the sub-meshes that
+    /// have the changed vertices are made anew. A changed flow has no state to resume from. Vertices joined along seams
+    /// change together. All functions throw OptionError for flows with a reference, rescale, within or limits, and,
+    /// except `move` of mean curvature flows, for flows that take sweeps, conjugate gradients or UMFPACK's factors
+    /// (begin a new Flow from the positions instead); InputError for vertices that do not exist; ComputationError after
+    /// a failure.
 
-    /// Holds vertices where they are.
+    /// Fixes vertices at their positions.
     void hold(std::span<const Index> vertices);
 
-    /// Lets vertices move again that were held since the flow began.
-    /// @throws OptionError for vertices that were fixed before.
+    /// Lets vertices move again that were fixed since the flow began.
+    /// @throws OptionError for vertices that were fixed when the flow began.
     void release(std::span<const Index> vertices);
 
-    /// Puts vertices elsewhere, fixed ones, too. What linear and conformalized flows keep of V⁰ is then as if the flow
-    /// had begun with them there.
+    /// Moves vertices to given positions, also fixed vertices. V⁰ of linear and conformalized flows changes as if the
+    /// flow had begun with the vertices there.
     /// @param to #vertices by 3.
-    /// @throws InputError where one would have an edge without length or a face without area.
+    /// @throws InputError if a vertex would get an edge without length or a face without area.
     void move(std::span<const Index> vertices, const Points& to);
 
     /// Changes the weights of an attachment.
@@ -59,25 +60,27 @@ class Flow {
     /// @throws OptionError for flows without an attachment.
     void attach(std::span<const Index> vertices, std::span<const double> weights);
 
-    /// Applies steps to data on the surface in place of its positions, which stay: n backward Euler steps of the heat
-    /// equation, (M + dt K) Xᵏ⁺¹ = M Xᵏ, with the factorisation of the first step. See also diffuse, which is easier.
-    /// @param fields #V by any number of columns, finite. Vertices that are held keep their values. Those that are
-    ///        joined along seams begin with their mean.
+    /// Applies n steps to data on the surface in place of its positions, which do not change: n backward Euler steps of
+    /// the heat equation, (M + dt K) Xᵏ⁺¹ = M Xᵏ, with the factorisation of the first step. See also the function
+    /// diffuse, which is easier to use.
+    /// @param fields #V by any number of columns, finite. Fixed vertices keep their values. Vertices joined along seams
+    ///        begin with their mean.
     /// @throws OptionError for flows that are not linear; InputError for another number of rows, or numbers that are
     ///         not finite; as step.
     void diffuse(Eigen::Ref<Eigen::MatrixXd> fields, int n = 1);
 
-    /// Lets further steps of `diffuse` keep edges of fields: K of each face (Δ_F and Δ_U: each edge) counts
-    /// 1 / (1 + (d / difference)²), where d is the largest distance between the rows of two of its vertices (Perona and
-    /// Malik, Scale-Space and Edge Detection Using Anisotropic Diffusion, 1990). K is factorised anew.
+    /// Makes further steps of `diffuse` keep edges of fields: K of each face (of each edge for Δ_F and Δ_U) is
+    /// multiplied by 1 / (1 + (d / difference)²), where d is the largest distance between the rows of two of its
+    /// vertices (Perona and Malik, Scale-Space and Edge Detection Using Anisotropic Diffusion, 1990). K is factorised
+    /// anew.
     /// @param fields #V by any number of columns, finite. @param difference positive.
     /// @throws OptionError for conjugate gradients, and as diffuse.
     void keep_field_edges(const Eigen::Ref<const Eigen::MatrixXd>& fields, double difference);
 
-    /// How many steps were taken, those before the state to resume from included.
+    /// The number of steps taken, including the steps before the state that the flow was resumed from.
     [[nodiscard]] int n_steps() const { return static_cast<int>(report_.steps.size()); }
 
-    /// On all steps so far. After a failure its ConvergenceReport may count the step that failed.
+    /// The report on all steps so far. After a failure, its ConvergenceReport may count the failed step.
     [[nodiscard]] FlowReport report() const;
 
   private:

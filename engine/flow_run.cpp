@@ -37,7 +37,7 @@ void named(const std::string& name, Body&& body)
     }
 }
 
-/// Approximately that of all faces: good enough for an estimate.
+/// The mean edge length of a sample of faces: good enough for an estimate.
 double sampled_mean_edge(const PolygonMesh& mesh, const Points& positions)
 {
     constexpr Index sample_size = 50'000;
@@ -54,7 +54,8 @@ double sampled_mean_edge(const PolygonMesh& mesh, const Points& positions)
     return all[0] / all[1];
 }
 
-/// @param estimate in units of length; emptied if the edges have no length to measure by.
+/// Converts an estimate to mean edge lengths.
+/// @param estimate in units of length; emptied if no edge has a length.
 void in_mean_edges(std::optional<double>& estimate, const PolygonMesh& mesh, const Points& positions)
 {
     if (!estimate || *estimate == 0.0)
@@ -75,12 +76,13 @@ void require_positions(const StepMemory& memory, const PolygonMesh& mesh)
 
 }  // namespace
 
-/// Where the parts of the steps begin and end within a whole flow, which ends with the steps that were expected,
-/// however many follow. All steps take equally long; a step is divided as the time of the previous one was.
+/// Where the phases of the steps begin and end within a whole flow, as fractions. The whole ends with the expected
+/// number of steps, however many follow. All steps are assumed to take equally long; a step is divided in the ratios of
+/// the previous one.
 class FlowRun::StepFractions {
   public:
     /// @param begin the fraction of the whole that is done before the first step.
-    /// @param steps the number of steps.
+    /// @param steps the expected number of steps.
     StepFractions(double begin, int steps, bool with_reference)
         : begin_(begin)
         , length_((1.0 - begin) / steps)
@@ -90,16 +92,16 @@ class FlowRun::StepFractions {
     }
 
     /// Fractions of the whole: the beginning of the step, the end of its tasks, the beginning of its reference step,
-    /// and its end.
+    /// and the end of the step.
     [[nodiscard]] double begin() const { return std::min(begin_ + n_done_ * length_, 1.0); }
     [[nodiscard]] double end_of_tasks() const { return std::min(begin() + tasks_ * length_, 1.0); }
     [[nodiscard]] double begin_of_reference() const { return end() - reference_ * length_; }
     [[nodiscard]] double end() const { return std::min(begin_ + (n_done_ + 1) * length_, 1.0); }
 
-    /// That of the step, from 1.
+    /// The number of the present step, from 1.
     [[nodiscard]] int number() const { return n_done_ + 1; }
 
-    /// Continues with the next step.
+    /// Records the times of a step and continues with the next step.
     void end_step(double task_seconds, double measuring_seconds, double reference_seconds)
     {
         ++n_done_;
@@ -145,16 +147,16 @@ FlowRun::FlowRun(FlowingMesh& mesh, std::unique_ptr<PreparedFlow> prepared, Prog
 
 FlowRun::~FlowRun() = default;
 
-/// Frees what steps and measures do not need.
+/// Frees those members of the topology that neither steps nor measurements need.
 void FlowRun::free_topology()
 {
     Topology& topology = prepared_->topology;
-    // Mean curvature is measured across edges, except for that of Δ_P.
+    // Mean curvature needs twins, except that of Δ_P.
     if (traits_of(options().laplacian).reach == Reach::TwoRings)
         return;
     topology.twin = std::vector<Index>();
     topology.junctions = std::vector<JunctionLink>();
-    // Steps of sub-meshes do not use the whole mesh.
+    // Steps in sub-meshes do not use the topology of the whole mesh.
     const bool is_whole = smooths_normals(options()) || options().scheme == Scheme::ExplicitEuler ||
                           takes_whole_mesh(options().accuracy.approach);
     const bool needs_normals = options().motion.direction.kind != MotionDirection::Kind::Any;
@@ -190,7 +192,7 @@ void FlowRun::make_steppers()
     }
 }
 
-/// As the options ask for, or as ranks share it.
+/// Makes the stepper that the options ask for, or one that shares the steps among ranks.
 void FlowRun::make_stepper_of_flow()
 {
     const PolygonMesh& mesh = mesh_.mesh();
@@ -250,7 +252,7 @@ void FlowRun::diffuse(Points& data, int n, DataSteps steps)
 
 bool FlowRun::diffuse_further(Eigen::Ref<Eigen::MatrixXd> fields, int n)
 {
-    // Few at a time, so that progress is seen.
+    // The columns of a call: few, so that progress is reported between calls.
     constexpr Eigen::Index at_once = 192;
     if (!stepper_->can_take_columns())
         return false;
@@ -308,7 +310,7 @@ void FlowRun::compare_with_reference(int step, StepReport& of_step)
     of_step.surface_distance = surface_distance(undecomposed, decomposed, run_in_parallel);
 }
 
-/// An observer sees everything where the given mesh lies.
+/// Notifies the observer, with all positions at the location of the given mesh.
 void FlowRun::notify_observer(const StepObserver& on_step, int step, const StepReport& of_step,
                               const Points* undecomposed) const
 {
@@ -353,7 +355,7 @@ void FlowRun::take_step(const StepObserver& on_step)
     of_step.seconds = watch.lap();
     stepper_->report_to(of_step);
     in_mean_edges(of_step.estimated_v_max, mesh, stepper_->positions());
-    // Scaling could hide that vertices have been thrown away, or shrink what is left too much.
+    // Checked before scaling, which could hide that a vertex was thrown away, or shrink the rest too much.
     named(name, [&] {
         constraints_->limit->require(before, stepper_->positions(), report_.cut.labels);
         constraints_->rescale(*stepper_);
@@ -369,13 +371,13 @@ void FlowRun::take_step(const StepObserver& on_step)
         undecomposed_ = reference_->positions();
         named(name + " of the undecomposed flow", [&] { constraints_->make_result(undecomposed_); });
     }
-    // What is measured adds up: only of complete steps.
+    // Measurements are sums over steps: only complete steps are added.
     watch.lap();
     measure(after, of_step);
     measuring += watch.lap();
     fractions_->end_step(of_step.seconds, measuring, of_step.reference_seconds.value_or(0.0));
 
-    // Memory is allocated first: the mesh moves only when nothing but the observer can still fail.
+    // Memory is allocated first: the mesh moves only after everything except the observer has succeeded.
     report_.steps.push_back(of_step);
     report_.seconds.step += of_step.seconds;
     report_.seconds.total += of_step.seconds + measuring;
@@ -386,7 +388,7 @@ void FlowRun::take_step(const StepObserver& on_step)
 
 void FlowRun::complete(FlowReport& report) const
 {
-    // It is about positions, which flows of fields do not move.
+    // These remarks concern positions, which flows of fields do not move.
     if (!report_.steps.empty())
         std::ranges::copy(constraints_->remarks(), std::back_inserter(report.remarks));
     remark_on_drift(options(), report);

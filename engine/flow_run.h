@@ -18,7 +18,7 @@ namespace seamflow {
 
 struct StepConstraints;
 
-/// Takes the steps of a prepared flow, measures each, and reports it.
+/// Takes the steps of a prepared flow, and measures and reports each.
 class FlowRun {
   public:
     /// Makes the stepper, and that of the undecomposed flow if it is asked for.
@@ -36,21 +36,22 @@ class FlowRun {
     /// @throws ComputationError naming the step; Cancelled. Afterwards no further step can be taken.
     void take_step(const StepObserver& on_step);
 
-    /// What Flow offers between steps, for vertices of the given mesh. The mesh moves at once.
-    /// @throws OptionError where it is not possible; InputError for vertices that do not exist.
-    void hold(std::span<const Index> vertices, bool is_held);
+    /// The functions of Flow between steps, for vertices of the given mesh. The mesh moves at once.
+    /// @throws OptionError if the flow does not allow the change; InputError for vertices that do not exist.
+    void set_fixed(std::span<const Index> vertices, bool is_fixed);
     void attach(std::span<const Index> vertices, std::span<const double> weights);
     void move(std::span<const Index> vertices, const Points& to);
 
-    /// Applies n steps to data in place of positions, which stay (see Flow::diffuse).
+    /// Applies n steps to data in place of positions, which do not change (see Flow::diffuse).
     /// @param data #V by 3, in the order of the given mesh.
     void diffuse(Points& data, int n, DataSteps steps);
 
-    /// The same with further columns, if many can be taken at once. @returns whether they were.
+    /// Applies n steps to further columns of data, if the stepper can take many columns at once. @returns whether it
+    /// did.
     bool diffuse_further(Eigen::Ref<Eigen::MatrixXd> fields, int n);
 
-    /// Weighs K from now on by differences of data (see Stepper::weigh).
-    /// @throws OptionError where the steps do not support it.
+    /// Weighs K by differences of data, from now on (see Stepper::weigh).
+    /// @throws OptionError if the steps do not support it.
     void weigh(const std::function<double(Index v, Index w)>& squared_difference);
 
     /// Completes the report, or a copy of it, on the flow as a whole.
@@ -77,24 +78,24 @@ class FlowRun {
     std::unique_ptr<PreparedFlow> prepared_;
     Progress& progress_;
     FlowReport& report_;
-    /// The fraction of the whole call before the first step.
+    /// The fraction of the whole call that setup takes.
     double setup_;
     double curvature_before_;
     std::unique_ptr<Stepper> stepper_;
-    /// Of the undecomposed flow, with ReportOptions::reference.
+    /// The stepper of the undecomposed flow, with ReportOptions::reference.
     std::unique_ptr<Stepper> reference_;
-    /// Before the first step (see box_of_faces).
+    /// The size of the surface before the first step (see box_of_faces).
     double extent_before_;
     const FlowState* resume_;
-    /// Null where one process takes all steps.
+    /// Null if one process takes all steps.
     RankGroup* ranks_;
-    /// Between steps, so that the options no longer describe the flow.
+    /// Whether the flow was changed between steps, so that the options no longer describe it.
     bool was_changed_ = false;
-    /// #V: those held between steps.
-    std::vector<std::uint8_t> is_held_;
+    /// #V: 1 for vertices that were fixed between steps.
+    std::vector<std::uint8_t> is_fixed_;
     std::unique_ptr<StepConstraints> constraints_;
     std::unique_ptr<StepFractions> fractions_;
-    /// #V by 3. The flow continues from its own positions: empty if they are its results, too.
+    /// #V by 3: the positions from which the flow continues; empty if they are also its results.
     Points of_flow_ = Points(0, 3);
     Points result_ = Points(0, 3);
     Points undecomposed_ = Points(0, 3);

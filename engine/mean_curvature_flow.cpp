@@ -23,7 +23,7 @@ namespace seamflow {
 
 namespace {
 
-/// Setup takes about as long as so many steps.
+/// The fraction of the call that setup takes: about as long as this many steps.
 double fraction_of_setup(const FlowOptions& options, const FlowState* resume)
 {
     const bool is_simple = options.scheme == Scheme::ExplicitEuler || smooths_normals(options);
@@ -34,7 +34,7 @@ double fraction_of_setup(const FlowOptions& options, const FlowState* resume)
 
 }  // namespace
 
-/// What a flow works with, on its threads.
+/// A flow with everything that it works with, on its own threads.
 class Flow::Session {
   public:
     Session(PolygonMesh& mesh, FlowOptions options, const FlowControl& control, bool is_observed, FlowReport& report)
@@ -47,7 +47,7 @@ class Flow::Session {
     Session(const Session&) = delete;
     Session& operator=(const Session&) = delete;
 
-    /// Where they were made, since each thread has memory of its own.
+    /// Destroyed on the threads on which the members were made, because each thread has memory of its own.
     ~Session()
     {
         workers_.execute([&] { run_.reset(); });
@@ -62,7 +62,7 @@ class Flow::Session {
         try {
             workers_.execute([&] { action(*run_); });
         } catch (const OptionError&) {
-            // What cannot be is refused before anything changes.
+            // Options that cannot be used are refused before anything changes.
             has_failed_ = false;
             throw;
         } catch (const InputError&) {
@@ -148,12 +148,12 @@ void Flow::step(int n)
 
 void Flow::hold(std::span<const Index> vertices)
 {
-    session_->change([&](FlowRun& run) { run.hold(vertices, true); });
+    session_->change([&](FlowRun& run) { run.set_fixed(vertices, true); });
 }
 
 void Flow::release(std::span<const Index> vertices)
 {
-    session_->change([&](FlowRun& run) { run.hold(vertices, false); });
+    session_->change([&](FlowRun& run) { run.set_fixed(vertices, false); });
 }
 
 void Flow::move(std::span<const Index> vertices, const Points& to)
@@ -166,7 +166,7 @@ void Flow::attach(std::span<const Index> vertices, std::span<const double> weigh
     session_->change([&](FlowRun& run) { run.attach(vertices, weights); });
 }
 
-/// @throws OptionError, InputError.
+/// @throws OptionError if the flow is not linear; InputError if the fields cannot be used.
 void Flow::require_fields(const Eigen::Ref<const Eigen::MatrixXd>& fields) const
 {
     if (!is_linear_)
@@ -204,7 +204,7 @@ void Flow::keep_field_edges(const Eigen::Ref<const Eigen::MatrixXd>& fields, dou
     require_fields(fields);
     if (!(difference > 0.0))
         throw OptionError(fmt::format("the difference of fields to keep is {}, but must be positive", difference));
-    // A copy by rows: those of two vertices are compared.
+    // A copy by rows, because the rows of two vertices are compared.
     const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> rows = fields / difference;
     session_->change(
         [&](FlowRun& run) { run.weigh([&](Index v, Index w) { return (rows.row(v) - rows.row(w)).squaredNorm(); }); });

@@ -11,9 +11,9 @@ namespace seamflow {
 ///
 /// \f[ (I + dt\, \Delta(V^n))\, V^{n+1} = V^n , \f]
 ///
-/// decomposed into sub-meshes, or explicit ones (see Scheme). Without options, noise is removed instead, as much as
-/// there is (see FlowOptions::denoise). Vertices without faces and, unless
-/// MotionOptions::boundary is free, boundary vertices stay where they are, bit for bit.
+/// decomposed into sub-meshes, or explicit steps (see Scheme). Without options, it removes as much noise as there is
+/// instead (see FlowOptions::denoise). Vertices without faces and, unless MotionOptions::boundary is free, boundary
+/// vertices do not move, bit for bit.
 /// @param mesh its positions are moved; after an exception they are those of the last complete step. The running flow
 ///        owns the mesh.
 /// @param on_step called after each step.
@@ -22,7 +22,7 @@ namespace seamflow {
 /// @throws InputError for a mesh or labels that cannot be used, OptionError for options outside their limits, both for
 ///         a state to resume from that belongs to another flow; ComputationError, naming step and sub-mesh, for a
 ///         system that is singular, a result that is not finite or beyond AccuracyOptions::largest_update, and for a
-///         failure of METIS; Cancelled where control.stop was requested and work was left; std::bad_alloc.
+///         failure of METIS; Cancelled if control.stop was requested and work was left; std::bad_alloc.
 FlowReport mean_curvature_flow(PolygonMesh& mesh, const FlowOptions& options = FlowOptions::denoising(),
                                const StepObserver& on_step = {}, const FlowControl& control = {});
 

@@ -6,9 +6,9 @@
 namespace seamflow {
 
 /// Smooths an OpenMesh mesh: see mean_curvature_flow for a PolygonMesh. Points are computed in double precision,
-/// whatever the mesh's scalar type, and rounded once at the end. The mesh's other properties (also normals) stay as
-/// they are. Locked vertices and MotionOptions::fixed_vertices stay; so do, if any vertex is selected, all unselected
-/// ones (see held_by_status).
+/// whatever the mesh's scalar type, and rounded once at the end. The mesh's other properties (also normals) do not
+/// change. Locked vertices and MotionOptions::fixed_vertices do not move; if any vertex is selected, unselected
+/// vertices do not move either (see held_by_status).
 template <OpenMeshMesh Mesh>
 FlowReport mean_curvature_flow(Mesh& mesh, const FlowOptions& options = FlowOptions::denoising(),
                                const StepObserver& on_step = {}, const FlowControl& control = {})

@@ -14,7 +14,8 @@
 
 namespace seamflow {
 
-/// The tools that take and check steps, and make results from their positions.
+/// The objects that change the positions of a step: the constraints that it obeys, and the maps from its positions to a
+/// result.
 struct StepConstraints {
     StepConstraints(const PolygonMesh& mesh, const Topology& topology, const FlowOptions& options)
         : is_scaled(options.motion.rescale != Rescale::None && options.flow == FlowEquation::Conformalized)
@@ -32,10 +33,10 @@ struct StepConstraints {
             bound.emplace(mesh, topology, *options.motion.within);
     }
 
-    /// Whether results differ from the positions that the flow continues from.
+    /// Whether results differ from the positions from which the flow continues.
     [[nodiscard]] bool has_results_apart() const { return is_scaled_apart || bound || limited; }
 
-    /// Makes a result of positions of the flow.
+    /// Turns positions of the flow into a result.
     void make_result(Points& positions)
     {
         if (is_scaled_apart)
@@ -48,8 +49,8 @@ struct StepConstraints {
             directed_->straighten(mesh_->vertices, positions, run_in_parallel);
     }
 
-    /// Leaves of a step only the motion along the lines that the options ask for.
-    /// @param before #V by 3: where the step began.
+    /// Reduces the motion of a step to the lines that the options ask for.
+    /// @param before #V by 3: the positions at the beginning of the step.
     void direct(Stepper& stepper, const Points& before) const
     {
         if (!directed_)
@@ -59,7 +60,7 @@ struct StepConstraints {
         stepper.set_positions(directed, {});
     }
 
-    /// Rescales the surface that the next step begins with, where steps begin with results.
+    /// Rescales the positions with which the next step begins, if steps begin with results.
     void rescale(Stepper& stepper)
     {
         if (!is_scaled)
@@ -69,7 +70,7 @@ struct StepConstraints {
         stepper.set_positions(rescaled, similarity);
     }
 
-    /// On components that lose too much; limits have their own. And on those that cannot be scaled back.
+    /// Remarks on components that lose too much, and on components that cannot be scaled back.
     [[nodiscard]] std::vector<Remark> remarks() const
     {
         std::vector<Remark> all;
@@ -79,8 +80,9 @@ struct StepConstraints {
         return all;
     }
 
-    /// Whether a step begins with the rescaled result of the previous one, not with that itself. The weights of the
-    /// conformalized flow do not depend on the size of the surface: it becomes a sphere instead of vanishing.
+    /// Whether a step begins with the rescaled result of the previous step, and not with its unscaled positions. The
+    /// weights of the conformalized flow do not depend on the size of the surface: it becomes a sphere instead of
+    /// vanishing.
     bool is_scaled;
     bool is_scaled_apart;
     Rescaling rescaling;

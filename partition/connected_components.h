@@ -56,18 +56,20 @@ Components connected_components(Index n_nodes, ForEachNeighbour&& for_each_neigh
     return found;
 }
 
-/// At an edge of more faces, only those that follow each other are neighbours: pairs of all would be quadratic.
+/// The most faces at an edge that are all neighbours of each other. At an edge of more faces, only consecutive ones are
+/// neighbours: the number of all pairs is quadratic.
 inline constexpr Index most_mutual_neighbours = 16;
 
-/// Calls visit with the half-edges of other faces at half-edge h of a junction (see free_junctions) that are neighbours
-/// of its face: all of them, or of more than most_mutual_neighbours faces, the next and the previous one.
+/// Calls visit with those half-edges of other faces at half-edge h of a junction (see free_junctions) whose faces are
+/// neighbours of h's face: with all half-edges there, or, at more than most_mutual_neighbours faces, with the next and
+/// the previous one.
 template <class Visit>
 void for_each_at_junction(const Topology& topology, Index h, Visit&& visit)
 {
-    const Index place = topology.place_at_junction(h);
-    if (place < 0)
+    const Index index = topology.junction_index(h);
+    if (index < 0)
         return;
-    const JunctionLink& link = topology.junctions[place];
+    const JunctionLink& link = topology.junctions[index];
     visit(link.next);
     if (link.n_faces > most_mutual_neighbours)
         visit(link.previous);
@@ -76,8 +78,8 @@ void for_each_at_junction(const Topology& topology, Index h, Visit&& visit)
             visit(other);
 }
 
-/// Calls visit(half-edge, face across it) for the half-edges of face f that have a twin, and for further faces at those
-/// of a junction.
+/// Calls visit(half-edge, neighbouring face) for the half-edges of face f that have a twin, and for those at a junction
+/// with each neighbour there.
 template <class Visit>
 void for_each_neighbour(const PolygonMesh& mesh, const Topology& topology, Index f, Visit&& visit)
 {

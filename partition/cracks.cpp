@@ -16,9 +16,9 @@ namespace seamflow {
 
 namespace {
 
-/// Boundary vertices are near each other within this fraction of the median boundary edge.
+/// Two boundary vertices are near each other if their distance is within this fraction of the median boundary edge.
 constexpr double near_in_edges = 0.01;
-/// Corners of several faces at one place are further apart than the nearest two.
+/// The corners of several faces that were one point are further apart than the two nearest of them, by this factor.
 constexpr double apart_in_widths = 2.0;
 
 double median_boundary_edge(const PolygonMesh& mesh, const Topology& topology, const Executor& exec)
@@ -35,10 +35,10 @@ double median_boundary_edge(const PolygonMesh& mesh, const Topology& topology, c
     return *middle;
 }
 
-/// For each point the distance of the nearest one at another place; infinite beyond `reach`.
+/// For each point the distance to the nearest point at another position; infinite if that is beyond `reach`.
 std::vector<double> distances_of_nearest(const std::vector<Point>& points, double reach, const Executor& exec)
 {
-    // More than this within a cell are no corners of one place.
+    // If a cell has more points than this, they are not corners of one point.
     constexpr Index most_in_cell = 64;
     constexpr int n_around = 27;
     const auto cell_at = [&](const Point& p) {
@@ -67,7 +67,7 @@ std::vector<double> distances_of_nearest(const std::vector<Point>& points, doubl
     return nearest;
 }
 
-/// To one digit.
+/// Rounds up to one digit.
 double rounded_up(double value)
 {
     const double unit = std::pow(10.0, std::floor(std::log10(value)));

@@ -9,18 +9,19 @@
 
 namespace seamflow {
 
-/// Places where a surface is open by a small fraction of an edge, as where each facet was transformed and rounded by
-/// itself.
+/// Gaps of a small fraction of an edge in a surface, as between facets that were each transformed and rounded
+/// separately.
 struct Cracks {
-    /// Vertices on the boundary near another one that is at another place, and the largest distance of such a vertex
-    /// from the nearest other.
+    /// The number of vertices on the boundary that are near another one at a different position, and the largest
+    /// distance of such a vertex from the nearest other.
     Index n_vertices = 0;
     double width = 0.0;
-    /// A distance for weld, and how many pairs of boundary edges it joins then.
+    /// A distance for weld that closes the gaps, and the number of pairs of boundary edges that it joins.
     double weld_distance = 0.0;
     Index n_edges = 0;
 };
 
+/// Finds gaps.
 /// @param topology of `mesh`. @returns nothing if no boundary vertices are near others, or if no distance joins them.
 std::optional<Cracks> find_cracks(const PolygonMesh& mesh, const Topology& topology,
                                   const Executor& exec = run_serially);

@@ -10,8 +10,8 @@
 
 namespace seamflow {
 
-/// The numbers 0 … n - 1 in sets that are joined (union-find). Several threads may join at once: which sets there are
-/// in the end, and what represents them, does not depend on the order.
+/// The numbers 0 … n - 1 in sets that are joined (union-find). Several threads may join sets at once: the final sets
+/// and their representatives do not depend on the order.
 class DisjointSets {
   public:
     /// At first each number is a set of its own.
@@ -31,7 +31,7 @@ class DisjointSets {
             exec, n_, [&](Index i) { return next_of(i) == i ? 1 : 0; }, Index{0});
     }
 
-    /// The lowest number of the set that i is in; while sets are joined, one that is in it.
+    /// The lowest number of the set that contains i; while sets are being joined, a number of that set.
     Index find(Index i)
     {
         for (;;) {
@@ -39,7 +39,7 @@ class DisjointSets {
             const Index after = next_of(next);
             if (next == after)
                 return next;
-            // Halves the path. Another thread may have done better.
+            // Halves the path. If another thread has changed the link, its change is kept.
             link(i).compare_exchange_weak(next, after, std::memory_order_relaxed);
             i = after;
         }
@@ -47,7 +47,7 @@ class DisjointSets {
 
     void join(Index a, Index b)
     {
-        // As of most pairs that are in one set already.
+        // Most pairs are in one set already.
         if (next_of(a) == next_of(b))
             return;
         for (;;) {
@@ -57,14 +57,14 @@ class DisjointSets {
                 return;
             if (a < b)
                 std::swap(a, b);
-            // Unless another thread has joined the set of a to a lower one.
+            // Succeeds unless another thread has joined the set of a to a lower one.
             Index expected = a;
             if (link(a).compare_exchange_strong(expected, b, std::memory_order_relaxed))
                 return;
         }
     }
 
-    /// For each number the lowest of its set.
+    /// For each number, the lowest number of its set.
     std::vector<Index> all_lowest(const Executor& exec)
     {
         auto lowest = large_vector<Index>(usize(n_));
@@ -72,8 +72,8 @@ class DisjointSets {
         return lowest;
     }
 
-    /// For each number the place of its set, the sets being in the order of their lowest numbers, and how many there
-    /// are.
+    /// For each number, the number of its set, the sets being numbered in the order of their lowest numbers; and the
+    /// number of sets.
     std::pair<std::vector<Index>, Index> numbered(const Executor& exec)
     {
         const std::vector<Index> lowest = select(exec, size(), [&](Index i) { return next_of(i) == i; });
@@ -92,7 +92,7 @@ class DisjointSets {
     [[nodiscard]] Index next_of(Index i) const { return link(i).load(std::memory_order_relaxed); }
 
     Index n_;
-    /// Another number of the set, lower than the own one; the lowest has itself.
+    /// A lower number of the same set; for the lowest, itself.
     std::unique_ptr<Index[]> towards_lowest_;
 };
 

@@ -18,7 +18,7 @@ void require_vertex_shape(Eigen::Index rows, Eigen::Index columns);
 /// Throws an InputError unless `faces` has at least three columns, or no rows, and no more corners than fit an Index.
 void require_face_shape(Eigen::Index rows, Eigen::Index columns);
 
-/// The mesh of a matrix of positions and flat arrays of faces.
+/// Makes a mesh from a matrix of positions and flat arrays of faces.
 /// @param vertices #V by 3, in any storage order, of any scalar.
 /// @param face_offsets, face_vertices as in PolygonMesh.
 /// @throws InputError for a matrix of another shape. Array content is checked later (see require_valid).
@@ -34,7 +34,7 @@ PolygonMesh to_polygon_mesh(const Eigen::MatrixBase<Vertices>& vertices, std::sp
     return mesh;
 }
 
-/// The mesh of a matrix of positions and a matrix of faces that all have the same number of sides.
+/// Makes a mesh from a matrix of positions and a matrix of faces that all have the same number of sides.
 /// @param vertices #V by 3, in any storage order, of any scalar.
 /// @param faces #F by 3 for triangles, #F by 4 for quads, #F by n: the vertices of a face in order, from 0; of any
 ///        integer type.

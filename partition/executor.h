@@ -10,12 +10,12 @@
 
 namespace seamflow {
 
-/// The part of a loop over the indices begin to end - 1.
+/// The body of a loop, for the indices begin to end - 1.
 using RangeBody = std::function<void(Index begin, Index end)>;
 
-/// How loops over 0 … n - 1 are run: a caller with threads passes one that uses them. It runs the body for ranges that
-/// together cover every index once, in any order and perhaps several at a time, and returns when all are done. The
-/// result of a loop never depends on how it is divided.
+/// Runs loops over 0 … n - 1: a caller with threads passes an executor that uses them. The executor runs the body for
+/// ranges that together cover every index once, in any order and perhaps several at a time, and returns when all are
+/// done. The result of a loop never depends on how it is divided.
 using Executor = std::function<void(Index n, const RangeBody& body)>;
 
 /// Runs the loop as one range in the thread of the caller.
@@ -49,8 +49,8 @@ void for_each_block(const Executor& exec, Index n, Body&& body)
     });
 }
 
-/// Calls add(total, i) for each i from 0 to n - 1, from an empty total per block, and join(total, part) to combine the
-/// blocks, always in the same order.
+/// Calls add(total, i) for each i from 0 to n - 1, beginning with an empty total for each block, and join(total, part)
+/// to combine the totals of blocks, always in the same order.
 template <class Total, class Add, class Join>
 Total reduce(const Executor& exec, Index n, const Total& empty, Add&& add, Join&& join)
 {

@@ -27,7 +27,7 @@ struct Lists {
         return std::span<const Value>(values).subspan(begin, usize(offsets[i + 1]) - begin);
     }
 
-    /// Appends a list that has been pushed onto `values` entry by entry.
+    /// Ends a list whose entries have been pushed onto `values`.
     void close() { offsets.push_back(static_cast<Index>(values.size())); }
 
     /// Releases the memory reserved for further lists.
@@ -63,7 +63,7 @@ struct IndexListsView {
     }
 };
 
-/// Sorts entries into lists, in the order in which they come: a counting sort.
+/// Makes lists from entries, each list in the order of the entries: a counting sort.
 /// @param for_each_entry called twice with a function that it calls with the list and the value of every entry, in the
 ///        same order both times.
 template <class Value = Index, class ForEachEntry>
@@ -71,7 +71,8 @@ Lists<Value> make_lists(Index n_lists, ForEachEntry&& for_each_entry)
 {
     Lists<Value> lists;
     auto& offsets = lists.offsets;
-    // The begin of each list is stored one place later and advances to its end, which is the begin of the next.
+    // The beginning of each list is stored at the next index and advances to the list's end, which is the beginning of
+    // the next list.
     offsets = large_vector<Index>(usize(n_lists) + 2);
     for_each_entry([&](Index list, const Value&) { ++offsets[list + 2]; });
     std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
@@ -89,19 +90,19 @@ void sort_unique(std::vector<Value>& values)
     values.erase(std::unique(values.begin(), values.end()), values.end());
 }
 
-/// The position of a value among ascending ones, or where to insert it.
+/// The index of a value among ascending values, or the index at which to insert it.
 template <class Ascending, class Value>
 Index place_in(const Ascending& ascending, const Value& value)
 {
     return static_cast<Index>(std::ranges::lower_bound(ascending, value) - std::ranges::begin(ascending));
 }
 
-/// Position of a value among ascending ones, or -1.
+/// The index of a value among ascending values; -1 if it is not among them.
 template <class Ascending, class Value>
-Index position_in(const Ascending& ascending, const Value& value)
+Index find_in(const Ascending& ascending, const Value& value)
 {
-    const Index place = place_in(ascending, value);
-    return std::cmp_less(place, std::size(ascending)) && ascending[place] == value ? place : -1;
+    const Index index = place_in(ascending, value);
+    return std::cmp_less(index, std::size(ascending)) && ascending[index] == value ? index : -1;
 }
 
 }  // namespace seamflow

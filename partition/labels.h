@@ -6,7 +6,7 @@
 #include "partition/executor.h"
 #include "partition/topology.h"
 
-/// The labels of faces, which give the part of a cut each belongs to.
+/// The labels of faces: the number of the part of a cut to which each face belongs.
 namespace seamflow {
 
 /// Renumbers labels, all of them at least 0, to 0, 1, 2 … without gaps, keeping their order.

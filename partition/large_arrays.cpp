@@ -13,7 +13,8 @@ void prefer_large_pages(void* memory, std::size_t n_bytes)
     constexpr std::size_t large_page = std::size_t{1} << 21;
     if (n_bytes < large_page)
         return;
-    // With the whole of the small pages that it shares with its neighbours, so that no large page is lost between two.
+    // The array includes the whole of the small pages that it shares with its neighbours, so that no large page is lost
+    // between two arrays.
     const auto page = static_cast<std::uintptr_t>(::sysconf(_SC_PAGESIZE));
     const std::uintptr_t begin = reinterpret_cast<std::uintptr_t>(memory) / page * page;
     const std::uintptr_t end = (reinterpret_cast<std::uintptr_t>(memory) + n_bytes + page - 1) / page * page;

@@ -6,12 +6,12 @@
 
 namespace seamflow {
 
-/// Asks the system for large pages for memory that has not been touched yet. It may ignore this, and does nothing for
-/// less than such a page. To touch memory in small pages for the first time takes longer than to copy it, and large
-/// pages are found faster later on. Neighbouring arrays may share a large page.
+/// Asks the system for large pages for memory that has not been touched yet. The system may ignore this, and does
+/// nothing for memory smaller than such a page. Touching memory in small pages for the first time takes longer than
+/// copying it, and large pages are faster to look up later. Neighbouring arrays may share a large page.
 void prefer_large_pages(void* memory, std::size_t n_bytes);
 
-/// Makes room for n values, in large pages where the system has them.
+/// Reserves memory for n values, in large pages where the system has them.
 template <class Value>
 void reserve_large(std::vector<Value>& values, std::size_t n)
 {
@@ -31,7 +31,7 @@ std::vector<Value> large_vector(std::size_t n, const Value& value = Value())
     return values;
 }
 
-/// Gives a matrix of Eigen another size, in large pages where the system has them; all entries are still to be set.
+/// Resizes a matrix of Eigen, in large pages where the system has them; no entry is initialised.
 template <class Matrix>
 void resize_large(Matrix& matrix, std::ptrdiff_t rows, std::ptrdiff_t columns)
 {
@@ -41,8 +41,8 @@ void resize_large(Matrix& matrix, std::ptrdiff_t rows, std::ptrdiff_t columns)
     prefer_large_pages(matrix.data(), static_cast<std::size_t>(matrix.size()) * sizeof(typename Matrix::Scalar));
 }
 
-/// n values that are still to be set, in large pages where the system has them: touched by the threads that fill them,
-/// not by the one that allocates them.
+/// Memory for n uninitialised values, in large pages where the system has them, touched first by the threads that fill
+/// it.
 template <class Value>
 std::unique_ptr<Value[]> uninitialised(std::size_t n)
 {

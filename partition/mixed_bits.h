@@ -4,8 +4,9 @@
 
 namespace seamflow {
 
-/// A number in which every bit depends on all bits of the given one, each number from one alone: the mixing function of
-/// SplitMix64 (Steele, Lea and Flood, Fast Splittable Pseudorandom Number Generators, 2014). 0 stays 0.
+/// Mixes the bits of a number: every bit of the result depends on all bits of the number, and different numbers have
+/// different results. The mixing function of SplitMix64 (Steele, Lea and Flood, Fast Splittable Pseudorandom Number
+/// Generators, 2014). 0 stays 0.
 inline std::uint64_t mixed(std::uint64_t bits)
 {
     bits = (bits ^ (bits >> 30U)) * 0xbf58476d1ce4e5b9U;

@@ -52,9 +52,9 @@ PolygonMesh to_polygon_mesh(const Mesh& source)
     return mesh;
 }
 
-/// The vertices of an OpenMesh mesh that its status bits hold fixed, as OpenMesh's own smoothers interpret them: locked
-/// ones and, if any vertex is selected, all that are not. Numbered like the rows of to_polygon_mesh. Empty if the mesh
-/// has no vertex status.
+/// The vertices of an OpenMesh mesh that its status bits fix, with the meaning that OpenMesh's own smoothers give them:
+/// locked vertices and, if any vertex is selected, all unselected ones. Numbered like the rows of to_polygon_mesh.
+/// Empty if the mesh has no vertex status.
 template <OpenMeshMesh Mesh>
 std::vector<Index> held_by_status(const Mesh& mesh)
 {
@@ -75,7 +75,7 @@ std::vector<Index> held_by_status(const Mesh& mesh)
     return held;
 }
 
-/// Gives the vertices of an OpenMesh mesh new positions.
+/// Sets the positions of the vertices of an OpenMesh mesh.
 /// @param positions one row per vertex that is not marked as deleted, in the mesh's order; rounded to the mesh's own
 /// scalar.
 template <OpenMeshMesh Mesh>

@@ -26,29 +26,29 @@ class BasicPointNumbers {
     {
     }
 
-    /// Makes room for so many points.
+    /// Reserves memory for n points.
     void reserve(std::size_t n);
 
-    /// The number of a point, a new one if it has none.
+    /// The number of a point; a new number if the point has none.
     Index operator()(const Place& point);
 
-    /// The number of a point, or -1.
+    /// The number of a point; -1 if it has none.
     [[nodiscard]] Index find(const Place& point) const { return slots_[slot_of(slots_, points_, point)]; }
 
-    /// Equal for equal points.
+    /// A hash, equal for equal points.
     [[nodiscard]] static std::uint64_t hash_of(const Place& point);
 
-    /// By their numbers.
+    /// The points, in the order of their numbers.
     [[nodiscard]] const std::vector<Place>& points() const { return points_; }
 
-    /// The same; no more points can be numbered.
+    /// Moves out the points; no more points can be numbered.
     [[nodiscard]] std::vector<Place> take_points() { return std::move(points_); }
 
-    /// For each of some points, the first that equals it.
+    /// For each of some points, the index of the first that equals it.
     [[nodiscard]] static std::vector<Index> first_equal(std::span<const Place> points);
 
   private:
-    /// The slot that holds the number of this point, or the free one where it belongs.
+    /// The slot with the number of a point, or the free slot for it.
     [[nodiscard]] static std::size_t slot_of(std::span<const Index> slots, std::span<const Place> points,
                                              const Place& point);
     void resize(std::size_t n_slots);
@@ -60,7 +60,8 @@ class BasicPointNumbers {
 
 using PointNumbers = BasicPointNumbers<double>;
 
-/// Mixes the bits of the coordinates, zeros positive: multiplication carries them up, the shifts bring them down again.
+/// Mixes the bits of the coordinates, with positive zeros: multiplication carries bits up, shifts carry them down
+/// again.
 template <class Real>
 std::uint64_t BasicPointNumbers<Real>::hash_of(const Place& point)
 {

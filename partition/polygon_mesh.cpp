@@ -25,7 +25,7 @@ void require_valid_offsets(const PolygonMesh& mesh)
                         mesh.n_corners()));
 }
 
-/// Whether a face has no vertex twice.
+/// Whether no vertex occurs twice in a face.
 bool are_different(std::span<const Index> corners)
 {
     constexpr std::size_t many = 16;
@@ -87,7 +87,7 @@ std::vector<std::uint8_t> used_by_faces(const PolygonMesh& mesh, const Executor&
 {
     std::vector<std::uint8_t> is_used(usize(mesh.n_vertices()), 0);
     for_each(exec, mesh.n_corners(), [&](Index corner) {
-        // Written once: threads would wait for each other's lines of memory.
+        // Written only once, because threads would wait for each other's cache lines.
         const std::atomic_ref mark(is_used[mesh.face_vertices[corner]]);
         if (mark.load(std::memory_order_relaxed) == 0)
             mark.store(1, std::memory_order_relaxed);

@@ -48,11 +48,11 @@ struct PolygonMesh {
 /// @throws InputError naming the first offending face or vertex (numbered from 0).
 void require_valid(const PolygonMesh& mesh, const Executor& exec = run_serially);
 
-/// #V: 1 for each vertex that a face uses, 0 for the others.
+/// #V: 1 for each vertex that a face uses, 0 for other vertices.
 /// @pre every vertex named by a face exists.
 std::vector<std::uint8_t> used_by_faces(const PolygonMesh& mesh, const Executor& exec = run_serially);
 
-/// #V by 3, in large pages where the system has them; the positions are still to be set.
+/// #V by 3, uninitialised, in large pages where the system has them.
 Points uninitialised_points(Index n);
 
 /// Copies `from` to `to`.

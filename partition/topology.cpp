@@ -18,7 +18,7 @@ namespace seamflow {
 
 namespace {
 
-/// Marks an edge of three or more faces in `twin` until the vertices are classified.
+/// In `twin`, until the vertices are classified: marks an edge of three or more faces.
 constexpr Index non_manifold_edge = -2;
 
 void list_corners(const PolygonMesh& mesh, Topology& topology)
@@ -31,7 +31,7 @@ void list_corners(const PolygonMesh& mesh, Topology& topology)
     topology.vertex_corners = std::move(corners.values);
 }
 
-/// One half-edge at a vertex, by the vertex at its other end.
+/// A half-edge at a vertex, with the vertex at its other end.
 struct Spoke {
     Index neighbour;
     Index halfedge;
@@ -50,7 +50,7 @@ void list_spokes(const PolygonMesh& mesh, const Topology& topology, Index v, Ind
     std::sort(spokes.begin(), spokes.end());
 }
 
-/// Calls action with the spokes of each edge.
+/// Calls action with the spokes of each edge at the vertex.
 template <class Action>
 void for_each_edge(std::span<const Spoke> spokes, Action&& action)
 {
@@ -87,7 +87,7 @@ std::array<Index, 2> spokes_of(const PolygonMesh& mesh, const Topology& topology
     return {corner, topology.previous(mesh, corner)};
 }
 
-/// The corner at v of the face that half-edge h, which begins or ends at v, belongs to.
+/// The corner at v of the face of half-edge h, which begins or ends at v.
 Index corner_at(const PolygonMesh& mesh, const Topology& topology, Index h, Index v)
 {
     return mesh.face_vertices[h] == v ? h : topology.next(mesh, h);
@@ -143,7 +143,7 @@ VertexKind classify(const PolygonMesh& mesh, const Topology& topology, Index v)
     return lowest == -1 ? VertexKind::Boundary : VertexKind::NonManifold;
 }
 
-/// The common number of corners of all faces; 0 if they differ, or if there are none.
+/// The number of corners of every face; 0 if the numbers differ, or if there are no faces.
 Index common_degree(const PolygonMesh& mesh)
 {
     if (mesh.n_faces() == 0)
@@ -210,7 +210,7 @@ void free_boundary(Topology& topology)
             topology.fixed[v] = 0;
 }
 
-Index Topology::place_at_junction(Index h) const
+Index Topology::junction_index(Index h) const
 {
     const auto found = std::ranges::lower_bound(junctions, h, {}, &JunctionLink::halfedge);
     return found != junctions.end() && found->halfedge == h ? static_cast<Index>(found - junctions.begin()) : -1;
@@ -218,8 +218,8 @@ Index Topology::place_at_junction(Index h) const
 
 Index Topology::next_at_junction(Index h) const
 {
-    const Index place = place_at_junction(h);
-    return place < 0 ? h : junctions[place].next;
+    const Index index = junction_index(h);
+    return index < 0 ? h : junctions[index].next;
 }
 
 void free_junctions(const PolygonMesh& mesh, Topology& topology, const Executor& exec)
@@ -258,7 +258,7 @@ std::vector<Index> neighbours_of(const PolygonMesh& mesh, const Topology& topolo
     return neighbours;
 }
 
-void hold(Topology& topology, std::span<const Index> vertices)
+void fix_vertices(Topology& topology, std::span<const Index> vertices)
 {
     const auto n_vertices = static_cast<Index>(topology.fixed.size());
     for (const Index v : vertices) {
@@ -306,7 +306,7 @@ std::vector<Fan> fans_at(const PolygonMesh& mesh, const Topology& topology, Inde
         if (!fan.closed) {
             const auto n_forwards = std::ssize(fan.corners);
             first = walk(mesh, topology, v, corners[i], spokes[1], belongs, append);
-            // Those of the second walk, reversed, precede those of the first.
+            // The corners of the second walk, reversed, precede those of the first.
             std::reverse(fan.corners.begin() + n_forwards, fan.corners.end());
             std::rotate(fan.corners.begin(), fan.corners.begin() + n_forwards, fan.corners.end());
         }

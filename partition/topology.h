@@ -10,21 +10,21 @@
 
 namespace seamflow {
 
-/// Where a vertex lies in its mesh.
+/// The position of a vertex in its mesh.
 enum class VertexKind : std::uint8_t {
-    /// Its faces form one closed fan.
+    /// The faces of the vertex form one closed fan.
     Interior,
-    /// On an edge of one face.
+    /// The vertex is on an edge of one face.
     Boundary,
-    /// On an edge of three or more faces, or its faces form several fans, none of them open.
+    /// The vertex is on an edge of three or more faces, or its faces form several fans, none of them open.
     NonManifold,
-    /// On edges of three or more faces, but of no single one, after free_junctions.
+    /// The vertex is on edges of three or more faces, but on no edge of one face; only after free_junctions.
     Junction,
-    /// No faces.
+    /// The vertex has no faces.
     Isolated,
 };
 
-/// The face of every half-edge. If all faces have equally many corners, it is computed, not stored.
+/// The face of every half-edge. If all faces have equally many corners, it is computed and not stored.
 class FaceOfHalfedge {
   public:
     FaceOfHalfedge() = default;
@@ -59,51 +59,51 @@ class FaceOfHalfedge {
     /// A half-edge divided by the degree is its product with `multiplier_`, shifted right by `shift_`.
     std::uint64_t multiplier_ = 0;
     int shift_ = 0;
-    /// One entry per half-edge if the numbers of corners differ.
+    /// One entry per half-edge, if the numbers of corners differ.
     std::vector<Index> faces_;
 };
 
-/// A half-edge at an edge of three faces or more, between two others there: each is followed by the next higher one,
-/// the highest by the lowest.
+/// A half-edge at an edge of three or more faces, with the previous and the next half-edge at that edge: half-edges
+/// follow each other in ascending order, and the highest is followed by the lowest.
 struct JunctionLink {
     Index halfedge;
     Index next;
     Index previous;
-    /// How many faces share the edge.
+    /// The number of faces that share the edge.
     Index n_faces;
 };
 
-/// How the faces of a mesh are connected. Half-edge h runs from corner h to the next corner of the same face, so that
+/// The connectivity of the faces of a mesh. Half-edge h runs from corner h to the next corner of the same face, so that
 /// half-edges are numbered like `face_vertices`. Orientation does not matter: an edge pairs its two half-edges whether
-/// they run in opposite directions or in the same one, so that a Möbius band is a valid mesh.
+/// they run in opposite directions or in the same direction, so that a Möbius band is a valid mesh.
 struct Topology {
-    /// One entry per half-edge: the half-edge of the other face at the same edge, or -1 on an edge of one face, or of
+    /// One entry per half-edge: the half-edge of the other face at the same edge; -1 at an edge of one face, or of
     /// three or more.
     std::vector<Index> twin;
     FaceOfHalfedge face_of;
     /// #V + 1; the corners at vertex v are vertex_corners[vertex_offsets[v]] and so on, in ascending order.
     std::vector<Index> vertex_offsets;
     std::vector<Index> vertex_corners;
-    /// #V.
+    /// #V: the kind of each vertex.
     std::vector<VertexKind> kind;
-    /// #V: 1 where a flow does not move the vertex. Initially 1 except at interior vertices; see free_boundary,
-    /// free_junctions and hold.
+    /// #V: 1 for vertices that a flow does not move. Initially 1 except at interior vertices; see free_boundary,
+    /// free_junctions and fix_vertices.
     std::vector<std::uint8_t> fixed;
-    /// Every half-edge of a junction, ascending; empty before free_junctions. Faces that meet there are then connected.
+    /// Every half-edge at a junction, ascending; empty before free_junctions. Faces that meet there are then connected.
     std::vector<JunctionLink> junctions;
-    /// Whether the half-edges of every pair run in opposite directions.
+    /// Whether the two half-edges of every pair run in opposite directions.
     bool oriented = true;
 
     /// Whether a flow moves vertex v.
     [[nodiscard]] bool moves(Index v) const { return fixed[v] == 0; }
 
-    /// The place of half-edge h in `junctions`, or -1 if it is at none. Logarithmic in their number.
-    [[nodiscard]] Index place_at_junction(Index h) const;
+    /// The index of half-edge h in `junctions`; -1 if h is at no junction. Logarithmic in the number of junctions.
+    [[nodiscard]] Index junction_index(Index h) const;
 
     /// The half-edge that follows h at a junction (see JunctionLink); h itself elsewhere.
     [[nodiscard]] Index next_at_junction(Index h) const;
 
-    /// The corners (each one in its own face) at vertex v.
+    /// The corners at vertex v, one in each of its faces.
     [[nodiscard]] std::span<const Index> corners_at(Index v) const
     {
         const std::size_t begin = usize(vertex_offsets[v]);
@@ -131,31 +131,33 @@ inline double edge_length(const PolygonMesh& mesh, const Topology& topology, Ind
 /// Lets the vertices of kind Boundary move.
 void free_boundary(Topology& topology);
 
-/// Lets vertices at junctions, the edges of three faces or more, move: they become of kind Junction, or where such an
-/// edge ends on the boundary, of kind Boundary. Where merely several fans touch, vertices stay held, because that is
-/// usually a defect. Faces at junctions become connected (see Topology::junctions). To be called before free_boundary.
+/// Lets vertices at junctions, the edges of three faces or more, move: they become of kind Junction, or, where such an
+/// edge ends on the boundary, of kind Boundary. Vertices at which several fans merely touch stay fixed, because these
+/// are usually a defect. Faces at junctions become connected (see Topology::junctions). To be called before
+/// free_boundary.
 void free_junctions(const PolygonMesh& mesh, Topology& topology, const Executor& exec = run_serially);
 
 /// The vertices that share an edge with v, ascending.
 std::vector<Index> neighbours_of(const PolygonMesh& mesh, const Topology& topology, Index v);
 
-/// Holds these vertices where they are, whatever their kind.
+/// Fixes these vertices, whatever their kind.
 /// @param vertices in any order, repetitions are allowed.
 /// @throws InputError naming the first number out of range.
-void hold(Topology& topology, std::span<const Index> vertices);
+void fix_vertices(Topology& topology, std::span<const Index> vertices);
 
-/// A run of faces around a vertex, each sharing an edge at the vertex with the next.
+/// A run of faces around a vertex, in which each face shares an edge at the vertex with the next face.
 struct Fan {
     /// One corner at the vertex per face, in order around the vertex.
     std::vector<Index> corners;
-    /// The neighbours of the vertex along the fan's first and last edge; the same one if the fan is closed.
+    /// The neighbours of the vertex along the first and the last edge of the fan; the same neighbour if the fan is
+    /// closed.
     Index first = -1;
     Index last = -1;
     bool closed = false;
 };
 
-/// Fan::first and Fan::last, without the list, of the fan at v that its corner `start` lies in, made of faces with the
-/// same label as that corner's face.
+/// Fan::first and Fan::last, without the list, of the fan at v that contains corner `start`, made of faces with the
+/// label of that corner's face.
 /// @param start the lowest corner of the fan. @param labels #F.
 std::pair<Index, Index> ends_of_fan(const PolygonMesh& mesh, const Topology& topology, Index start,
                                     std::span<const Index> labels);

@@ -17,7 +17,7 @@ namespace seamflow {
 
 namespace {
 
-/// Calls `visit` for half of the cells around one: for each pair of neighbours, from one of both.
+/// Calls `visit` for half of the cells around a cell: for each pair of neighbouring cells, from one of the two.
 template <class Visit>
 void for_half_of_neighbours(const PointNumbers::Place& cell, Visit&& visit)
 {
@@ -27,10 +27,10 @@ void for_half_of_neighbours(const PointNumbers::Place& cell, Visit&& visit)
 }
 
 /// Joins points that are near each other, directly or through others.
-/// @returns for each the lowest of those that it is joined with.
+/// @returns for each point the lowest point with which it is joined.
 std::vector<Index> join_near(const std::vector<PointNumbers::Place>& points, double distance)
 {
-    // More than this within a cell are not copies of each other.
+    // If a cell has more points than this, they are not duplicates of each other.
     constexpr Index most_copies = 64;
     PointNumbers cells;
     const IndexLists in_cell = [&] {
@@ -118,8 +118,8 @@ class Rims {
         }
     }
 
-    /// Whether the faces of two half-edges of opposite directions lie on each other, judging by their adjacent edges:
-    /// the sheets of a leaf that has two.
+    /// Whether the faces of two half-edges of opposite directions lie on each other, judging by their adjacent edges,
+    /// like the two sheets of a leaf.
     [[nodiscard]] bool lie_on_each_other(Index h, Index other) const
     {
         const auto after = [&](Index one) { return end(topology_.next(mesh_, one)); };
@@ -135,7 +135,7 @@ class Rims {
     const PolygonMesh& mesh_;
     const Topology& topology_;
     double distance_;
-    /// Those of the boundary, ascending, and the places of their starts and ends.
+    /// The half-edges of the boundary, ascending; and the numbers of the positions of their starts and ends.
     std::vector<Index> halfedges_;
     std::vector<std::array<Index, 2>> places_;
     Index n_places_ = 0;
@@ -183,15 +183,15 @@ class Welding {
         join();
     }
 
-    /// Gives up pairs that would make the mesh worse. Giving up a pair makes nothing else worse: it opens fans of
-    /// faces, and brings no edges together.
+    /// Gives up pairs that would make the mesh worse. Giving up a pair makes nothing else worse, because it opens fans
+    /// of faces, and brings no edges together.
     void mend()
     {
         give_up(twice_in_faces());
         if (pairs_.empty())
             return;
         topology_ = make_topology(welded_, exec_);
-        std::vector<std::uint8_t> is_bad(first_.size(), 0);
+        std::vector<std::uint8_t> is_bad(representative_.size(), 0);
         for_each(exec_, mesh_.n_vertices(),
                  [&](Index v) { is_bad[v] = topology_.kind[v] == VertexKind::NonManifold ? 1 : 0; });
         if (give_up(is_bad) && !pairs_.empty())
@@ -208,22 +208,23 @@ class Welding {
             sets.join(rims_.start(h), rims_.end(other));
             sets.join(rims_.end(h), rims_.start(other));
         }
-        first_ = sets.all_lowest(exec_);
+        representative_ = sets.all_lowest(exec_);
         welded_.face_offsets = mesh_.face_offsets;
         welded_.face_vertices.resize(mesh_.face_vertices.size());
-        for_each(exec_, mesh_.n_corners(), [&](Index h) { welded_.face_vertices[h] = first_[mesh_.face_vertices[h]]; });
-        // Topology ignores positions.
+        for_each(exec_, mesh_.n_corners(),
+                 [&](Index h) { welded_.face_vertices[h] = representative_[mesh_.face_vertices[h]]; });
+        // The topology does not depend on positions.
         welded_.vertices.resize(mesh_.n_vertices(), 3);
     }
 
-    /// #V: 1 for each vertex that a face would have twice.
+    /// #V: 1 for each vertex that would occur twice in a face.
     [[nodiscard]] std::vector<std::uint8_t> twice_in_faces() const
     {
         const auto faces = select(exec_, mesh_.n_faces(), [&](Index f) {
-            const auto is_joined = [&](Index v) { return first_[v] != v; };
+            const auto is_joined = [&](Index v) { return representative_[v] != v; };
             return std::ranges::any_of(mesh_.face(f), is_joined);
         });
-        std::vector<std::uint8_t> is_twice(first_.size(), 0);
+        std::vector<std::uint8_t> is_twice(representative_.size(), 0);
         std::vector<Index> corners;
         for (const Index f : faces) {
             corners.assign(welded_.face(f).begin(), welded_.face(f).end());
@@ -235,11 +236,12 @@ class Welding {
     }
 
     /// Gives up the pairs that end at bad vertices.
-    /// @param is_bad #V, by the first of the joined vertices. @returns whether there were any.
+    /// @param is_bad #V, by representatives. @returns whether there were any.
     bool give_up(const std::vector<std::uint8_t>& is_bad)
     {
         const auto ends_badly = [&](const std::array<Index, 2>& pair) {
-            return is_bad[first_[rims_.start(pair[0])]] != 0 || is_bad[first_[rims_.end(pair[0])]] != 0;
+            return is_bad[representative_[rims_.start(pair[0])]] != 0 ||
+                   is_bad[representative_[rims_.end(pair[0])]] != 0;
         };
         if (std::erase_if(pairs_, ends_badly) == 0)
             return false;
@@ -251,30 +253,30 @@ class Welding {
     const Rims& rims_;
     const Executor& exec_;
     std::vector<std::array<Index, 2>> pairs_;
-    std::vector<Index> first_;
+    std::vector<Index> representative_;
     PolygonMesh welded_;
     Topology topology_;
 };
 
-/// Moves joined vertices to the middle of their positions.
-/// @returns the number of vertices joined.
-Index place_in_middle(const std::vector<Index>& first, Points& positions)
+/// Moves representatives to the mean of the positions that were merged.
+/// @returns the number of vertices that were merged with others.
+Index move_to_means(const std::vector<Index>& representative, Points& positions)
 {
-    const auto n = static_cast<Index>(first.size());
+    const auto n = static_cast<Index>(representative.size());
     std::vector<Index> copies;
     std::vector<Index> has_copies;
     for (Index v = 0; v < n; ++v)
-        if (first[v] != v) {
+        if (representative[v] != v) {
             copies.push_back(v);
-            has_copies.push_back(first[v]);
+            has_copies.push_back(representative[v]);
         }
     sort_unique(has_copies);
-    // The middle of equal positions is exactly the same.
+    // The mean of equal positions is exactly the same position.
     Points offsets = Points::Zero(std::ssize(has_copies), 3);
     std::vector<int> counts(has_copies.size(), 1);
     for (const Index v : copies) {
-        const auto i = place_in(has_copies, first[v]);
-        offsets.row(i) += positions.row(v) - positions.row(first[v]);
+        const auto i = place_in(has_copies, representative[v]);
+        offsets.row(i) += positions.row(v) - positions.row(representative[v]);
         ++counts[static_cast<std::size_t>(i)];
     }
     for (std::size_t i = 0; i < has_copies.size(); ++i)
@@ -287,10 +289,10 @@ std::optional<Weld> Welding::take()
     if (pairs_.empty())
         return {};
     copy(exec_, mesh_.vertices, welded_.vertices);
-    const Index n_vertices = place_in_middle(first_, welded_.vertices);
+    const Index n_vertices = move_to_means(representative_, welded_.vertices);
     return Weld{.mesh = std::move(welded_),
                 .topology = std::move(topology_),
-                .first = std::move(first_),
+                .representative = std::move(representative_),
                 .n_vertices = n_vertices,
                 .n_edges = static_cast<Index>(pairs_.size())};
 }
@@ -320,7 +322,8 @@ std::optional<Remark> remark_on_seams(Index n_vertices, Index n_edges, std::int6
             {fmt::format("<weld> has joined no vertices: no seam has pairs of boundary edges within {:.3g} of "
                          "each other, or they are nearer to further ones, too.",
                          distance)});
-    // Copies at equal places, but for rounding, are meant to be one: all vertices may be such.
+    // The largest distance of duplicates, in edges, that is rounding: such vertices are meant to be one, even if all
+    // vertices of a mesh are duplicates.
     constexpr double copies_apart = 0.01;
     const bool are_many = apart > copies_apart && std::int64_t{10} * n_vertices >= n_of_mesh;
     const std::string warning =

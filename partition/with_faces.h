@@ -6,7 +6,7 @@
 
 namespace seamflow {
 
-/// The same vertices, and the faces for which keeps(f) holds.
+/// The mesh with the same vertices, and only the faces f for which keeps(f) is true.
 PolygonMesh with_faces(const PolygonMesh& mesh, const std::function<bool(Index f)>& keeps);
 
 }  // namespace seamflow

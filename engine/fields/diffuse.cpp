@@ -30,17 +30,19 @@ namespace seamflow {
 
 namespace {
 
-/// Of one step in squared diagonals of the bounding box, after which what holds values alone decides.
+/// The time of one step, in squared diagonals of the bounding box, after which X fulfils K X = 0 but for rounding, so
+/// that only the vertices with data determine it.
 constexpr double time_to_rest = 1e6;
 
-/// The part of a width by which that which was reached may differ without a remark.
+/// The fraction of the wanted width by which the width that was reached may differ without a remark.
 constexpr double most_missed_width = 0.25;
-/// Kernels of fewer edges are too narrow for a mesh, and with fewer steps they are no Gaussians.
+/// Kernels narrower than this many edges are too narrow for a mesh; and with fewer steps than this a kernel is not like
+/// a Gaussian.
 constexpr double narrowest_width = 4.0;
 constexpr int enough_steps = 10;
 
-/// The same vertices, and the faces whose vertices all have data, but for faces without area; their labels, if there
-/// are any.
+/// A mesh with the same vertices, and the faces whose vertices all have data, without faces that have no area; and the
+/// labels of these faces, if there are labels.
 PolygonMesh surface_of(const PolygonMesh& mesh, const FieldGroup& group, Laplacian laplacian,
                        std::vector<Index>& labels)
 {
@@ -56,7 +58,8 @@ PolygonMesh surface_of(const PolygonMesh& mesh, const FieldGroup& group, Laplaci
     return surface;
 }
 
-/// Vertices that are joined along seams (see weld) with others that have data get the mean of these.
+/// Gives vertices without data that are joined along seams (see weld) with vertices that have data the mean of these
+/// data.
 class SeamsOfFields {
   public:
     SeamsOfFields(const PolygonMesh& mesh, const MotionOptions& motion)
@@ -73,25 +76,26 @@ class SeamsOfFields {
         const std::vector<std::uint8_t> lacked = group.lacks;
         std::vector<Index> n(lacked.size(), 0);
         for (std::size_t v = 0; v < lacked.size(); ++v)
-            n[usize(weld_->first[v])] += lacked[v] == 0 ? 1 : 0;
+            n[usize(weld_->representative[v])] += lacked[v] == 0 ? 1 : 0;
         for (const Eigen::Index c : group.columns) {
             std::vector<double> sums(lacked.size(), 0.0);
             for (std::size_t v = 0; v < lacked.size(); ++v)
                 if (lacked[v] == 0)
-                    sums[usize(weld_->first[v])] += fields(static_cast<Eigen::Index>(v), c);
+                    sums[usize(weld_->representative[v])] += fields(static_cast<Eigen::Index>(v), c);
             for (std::size_t v = 0; v < lacked.size(); ++v)
-                if (const std::size_t first = usize(weld_->first[v]); lacked[v] != 0 && n[first] > 0) {
-                    fields(static_cast<Eigen::Index>(v), c) = sums[first] / n[first];
+                if (const std::size_t representative = usize(weld_->representative[v]);
+                    lacked[v] != 0 && n[representative] > 0) {
+                    fields(static_cast<Eigen::Index>(v), c) = sums[representative] / n[representative];
                     group.lacks[v] = 0;
                 }
         }
     }
 
-    /// Whether a vertex is connected with one that has data, by faces.
+    /// Whether a vertex is connected by faces with a vertex that has data.
     [[nodiscard]] std::vector<std::uint8_t> reached_from_data(const FieldGroup& group, const Executor& exec) const
     {
         const SurfaceComponents components = surface_components(weld_ ? weld_->mesh : mesh_, exec);
-        const auto component_of = [&](Index v) { return components.of_vertex[weld_ ? weld_->first[v] : v]; };
+        const auto component_of = [&](Index v) { return components.of_vertex[weld_ ? weld_->representative[v] : v]; };
         std::vector<std::uint8_t> has_data(usize(components.count()), 0);
         std::vector<std::uint8_t> reached(group.lacks.size(), 0);
         for (Index v = 0; v < mesh_.n_vertices(); ++v)
@@ -111,31 +115,32 @@ class SeamsOfFields {
     std::optional<Weld> weld_;
 };
 
-/// The faces over which data are extended: not those of vertices without data that would be held, and so would act as
-/// data, because they have no row or because sheets merely touch there.
+/// The faces over which data are extended. Faces are left out at vertices without data that would be fixed, because
+/// they have no row in the Laplacian or because sheets merely touch there: they would act like vertices with data.
 PolygonMesh surface_for_extension(const PolygonMesh& mesh, const FieldGroup& group, Laplacian laplacian)
 {
     const PolygonMesh sound = with_faces(mesh, [&](Index f) { return !is_unusable(mesh, f, laplacian); });
     Topology topology = make_topology(sound);
     free_junctions(sound, topology, run_serially);
     free_boundary(topology);
-    std::vector<std::uint8_t> is_held(usize(mesh.n_vertices()), 0);
+    std::vector<std::uint8_t> is_fixed(usize(mesh.n_vertices()), 0);
     for (const Index v : vertices_without_row(sound, topology, laplacian))
-        is_held[v] = group.lacks[v];
+        is_fixed[v] = group.lacks[v];
     for (Index v = 0; v < mesh.n_vertices(); ++v)
         if (topology.kind[v] == VertexKind::NonManifold)
-            is_held[v] = group.lacks[v];
+            is_fixed[v] = group.lacks[v];
     return with_faces(
-        sound, [&](Index f) { return std::ranges::none_of(sound.face(f), [&](Index v) { return is_held[v] != 0; }); });
+        sound, [&](Index f) { return std::ranges::none_of(sound.face(f), [&](Index v) { return is_fixed[v] != 0; }); });
 }
 
-/// So many solutions at least pay for a factorisation of the whole surface, with which many columns are solved for at a
-/// time (measured: see samples/benchmark/speed.md), up to so many vertices, whose factor takes about 1 GB.
+/// The number of solutions from which on one factorisation of the whole surface pays, with which many columns are
+/// solved for at a time (measured: see samples/benchmark/speed.md); and the most vertices for which this is done, whose
+/// factor takes about 1 GB.
 constexpr Eigen::Index enough_solutions = 64;
 constexpr Index most_vertices_of_factor = 1'500'000;
 
-/// Chooses how many columns are solved for, where that is left to us.
-/// @param n_solutions with one factorisation.
+/// Chooses how many columns are solved for at a time, if the options leave it open.
+/// @param n_solutions the number of solutions with one factorisation.
 /// @returns whether the whole surface is factorised.
 bool choose_for_columns(const PolygonMesh& surface, Eigen::Index n_solutions, const FlowControl& control,
                         FlowOptions& options)
@@ -150,7 +155,7 @@ bool choose_for_columns(const PolygonMesh& surface, Eigen::Index n_solutions, co
     return true;
 }
 
-/// In large pages where the system has them.
+/// A copy in large pages, where the system has them.
 Eigen::MatrixXd copy_of(const Eigen::MatrixXd& fields, const Executor& exec)
 {
     Eigen::MatrixXd copy;
@@ -173,8 +178,8 @@ Eigen::RowVectorXd means_of(const Eigen::MatrixXd& fields, const FieldGroup& gro
     return means;
 }
 
-/// The harmonic extension, as what a long step makes of it.
-/// @param filled #V: gets 1 where there are data now. @returns the report of that step.
+/// Computes the harmonic extension by one long step.
+/// @param filled #V: receives 1 at vertices that got data. @returns the report of that step.
 FlowReport extend(const PolygonMesh& mesh, FieldGroup& group, const FlowOptions& options, const FlowControl& control,
                   const Executor& exec, Eigen::MatrixXd& fields, std::vector<std::uint8_t>& filled)
 {
@@ -198,7 +203,7 @@ FlowReport extend(const PolygonMesh& mesh, FieldGroup& group, const FlowOptions&
     for (Index v = 0; v < mesh.n_vertices(); ++v)
         if (group.lacks[v] == 0 || reached[v] == 0)
             own.motion.fixed_vertices.push_back(v);
-    // Far from 0, M would pull towards it.
+    // The means are subtracted first, because M pulls towards 0.
     const Eigen::RowVectorXd means = means_of(fields, group);
     choose_for_columns(surface, std::ssize(group.columns), control, own);
     Flow flow(surface, own, {}, control);
@@ -225,7 +230,8 @@ FlowReport extend(const PolygonMesh& mesh, FieldGroup& group, const FlowOptions&
     return flow.report();
 }
 
-/// Adds what was reported on filling, in so far as the steps before have not said it: its choices are nobody's concern.
+/// Adds the report on filling to the report on the steps, without repeating its remarks. The choices made for filling
+/// are not reported.
 void add_filling(const FlowReport& of_fill, FlowReport& of_group, std::vector<Remark>& remarks)
 {
     FlowReport counted = of_fill;
@@ -236,7 +242,7 @@ void add_filling(const FlowReport& of_fill, FlowReport& of_group, std::vector<Re
             remarks.push_back({remark.kind, remark.numbers, {"Filling: " + remark.wording.text}});
 }
 
-/// Says by how much the width that was asked for was missed.
+/// Adds a remark if the width that was reached is far from the wanted one.
 void remark_on_width(double wanted, std::optional<double> reached, const PolygonMesh& surface, int steps,
                      std::vector<Remark>& remarks)
 {
@@ -257,7 +263,7 @@ void remark_on_width(double wanted, std::optional<double> reached, const Polygon
                       reached ? fmt::format("{:.3g} was reached", *reached) : "none can be measured", reason)}});
 }
 
-/// Says how many vertices of a column are without data at the end.
+/// Adds a remark on the vertices of a column that have no data at the end.
 void remark_on_unfilled(const Eigen::VectorXd& filled, std::vector<Remark>& remarks)
 {
     if (const auto n = filled.array().isNaN().count(); n > 0)
@@ -269,7 +275,7 @@ void remark_on_unfilled(const Eigen::VectorXd& filled, std::vector<Remark>& rema
                                         n == 1 ? "stays" : "stay", n == 1 ? "it" : "them")}});
 }
 
-/// Takes steps with the columns of a group.
+/// Takes steps with the columns of a group, once for each block of columns.
 void take_steps(Flow& flow, const FieldOptions& field_options, int steps, ScaledFields& scaled)
 {
     if (!field_options.keep_edges)
@@ -280,9 +286,9 @@ void take_steps(Flow& flow, const FieldOptions& field_options, int steps, Scaled
     }
 }
 
-/// Measures the width that noise gets by the same steps, which are none of the fields.
+/// Measures the width of the kernel by the same steps on white noise, which do not count as steps of the fields.
 /// @param wanted in length. @param of_group gets a remark, and the time.
-/// @returns nothing where it cannot be measured.
+/// @returns nothing if the width cannot be measured.
 std::optional<double> measure_width(Flow& flow, const PolygonMesh& surface, double wanted, int steps,
                                     FlowReport& of_group)
 {
@@ -308,13 +314,13 @@ FieldReport diffuse(const PolygonMesh& mesh, Eigen::MatrixXd& fields, const Flow
     FlowOptions of_flow = flow_for_fields(options, field_options);
     of_flow.time_step = time_step_of(of_flow, mesh);
     of_flow.radius.reset();
-    // Where edges are kept, K changes between steps.
+    // With keep_edges, K changes between steps.
     FlowControl own_control = control;
     if (field_options.keep_edges)
         own_control.ranks = nullptr;
     std::vector<FieldGroup> groups = group_columns(fields);
     std::vector<std::vector<Remark>> remarks;
-    // #V: whether a column lacks data there, or has got some.
+    // #V: 1 at vertices where some column has no data before; and at vertices where some column got data.
     std::vector<std::uint8_t> lacking(usize(mesh.n_vertices()), 0);
     std::vector<std::uint8_t> filled = lacking;
     for (FieldGroup& group : groups) {

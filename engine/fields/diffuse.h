@@ -14,33 +14,35 @@
 
 namespace seamflow {
 
-/// What diffuse did.
+/// The report of diffuse.
 struct FieldReport {
-    /// Of the flow; its steps count all columns. Columns whose data are at different vertices have flows of their own:
-    /// its remarks and choices are those of all these, once each; a remark on some columns names them. Those on filling
-    /// say so.
+    /// The report of the flow. Its steps count for all columns. Columns with data at different vertices have flows of
+    /// their own: the remarks and choices are those of all flows, each once. A remark on some columns names them, and a
+    /// remark on filling says so.
     FlowReport flow;
-    /// With FieldOptions::fwhm: the width that was reached, in length, as white noise at the vertices shows that has
-    /// diffused in the same way: from the variances of values and of their differences along edges (Forman and others,
-    /// Improved Assessment of Significant Activation in Functional Magnetic Resonance Imaging, 1995).
+    /// With FieldOptions::fwhm: the width that was reached, in length. It is measured on white noise that diffused in
+    /// the same way, from the variances of values and of their differences along edges (Forman and others, Improved
+    /// Assessment of Significant Activation in Functional Magnetic Resonance Imaging, 1995).
     std::optional<double> fwhm = {};
-    /// How many vertices have no data in one column at least; and to how many of them the extension has given some.
+    /// The number of vertices that have no data in at least one column; and the number of these that the extension has
+    /// given data.
     Index without_data = 0;
     Index filled = 0;
     /// For the user: those of the flow.
     std::vector<Remark> remarks;
 };
 
-/// Lets fields on a surface diffuse by its heat equation, (M + dt K) Xᵏ⁺¹ = M Xᵏ in each step; the surface stays. The
-/// matrix is factorised once for all steps and columns, but for FieldOptions::keep_edges. The integral Σ M X of each
-/// column stays, with a free boundary and without fixed vertices. With a plain filter no value leaves the range that
-/// its column has at first: weights of K are at least 0 (see FieldOptions::weights; those of Δ_F and Δ_U always are).
+/// Lets fields on a surface diffuse by its heat equation, (M + dt K) Xᵏ⁺¹ = M Xᵏ in each step; the surface does not
+/// move. The matrix is factorised once for all steps and columns, except with FieldOptions::keep_edges. The integral Σ
+/// M X of each column is constant, with a free boundary and without fixed vertices. With a plain filter no value leaves
+/// the range that its column has before the first step: weights of K are at least 0 (see FieldOptions::weights; those
+/// of Δ_F and Δ_U always are).
 /// @param fields #V by n: values at the vertices; NaN is no data. Vertices without data take no part: the surface of a
-///        column is that of the faces whose vertices all have data, but for faces without area. Vertices that are
-///        fixed, have no such face, or no row in the Laplacian, keep their values; those joined along seams get one
+///        column consists of the faces whose vertices all have data, without faces that have no area. Vertices that are
+///        fixed, have no such face, or no row in the Laplacian, keep their values; vertices joined along seams get one
 ///        value.
-/// @param options of the flow: amount, steps, sub-meshes, threads. AccuracyOptions::tolerance is 1e-8 where it is left
-///        open. MotionOptions::boundary does not count; a Laplacian that is chosen here is that of field_options, too.
+/// @param options of the flow: amount, steps, sub-meshes, threads. AccuracyOptions::tolerance is 1e-8 if it is not set.
+///        MotionOptions::boundary is ignored; a Laplacian that is set here replaces that of field_options.
 /// @throws InputError for a mesh or fields that cannot be used: another number of rows, infinite values; OptionError
 ///         for options that fields do not have: sweeps, explicit steps, an attachment, limits, rescaling; as
 ///         mean_curvature_flow. The fields are then unchanged.

@@ -9,21 +9,25 @@
 /// Bounds of the distances along a surface from some vertices, each #V.
 namespace seamflow {
 
-/// Distances along edges, which are too long, by the algorithm of Dijkstra.
+/// Distances along edges, found by Dijkstra's algorithm. They are upper bounds.
 struct EdgePaths {
-    /// #V: infinite where no path leads; and the vertex from which the path comes, or -1.
+    /// #V: the distance, infinite where no path leads; and the source vertex of the path, or -1.
     std::vector<double> length;
     std::vector<Index> from;
 };
 
-/// @param from vertices of the mesh.
+/// @param from the source vertices.
 EdgePaths paths_along_edges(const PolygonMesh& mesh, const Topology& topology, std::span<const Index> from);
 
-/// Straight distances from the vertices of whose faces some are: to the nearest of these. Infinite elsewhere.
+/// #V: for vertices that have a face with a source, the straight distance to the nearest source in their faces;
+/// infinite elsewhere.
+/// @param from the source vertices.
 std::vector<double> straight_within_faces(const PolygonMesh& mesh, const Topology& topology,
                                           std::span<const Index> from);
 
-/// The straight distance of each vertex to the nearest of some, which is too short; 0 if they are very many.
+/// #V: the straight distance of each vertex to the nearest source, which is a lower bound; 0 if there are very many
+/// sources.
+/// @param from the source vertices.
 std::vector<double> straight_distances(const PolygonMesh& mesh, std::span<const Index> from);
 
 }  // namespace seamflow

@@ -76,7 +76,7 @@ std::vector<ValueRange> ranges_of(const Eigen::MatrixXd& fields, const FieldGrou
 
 namespace {
 
-/// Of the units, so that these and their inverses are normal numbers.
+/// The least exponent of a unit, so that units and their inverses are normal numbers.
 constexpr int least_exponent = -1021;
 constexpr int largest_exponent = 1022;
 
@@ -89,7 +89,7 @@ ScaledFields::ScaledFields(Eigen::MatrixXd values, const FieldGroup& group, std:
 {
     for_each(exec, static_cast<Index>(values_.cols()), [&](Index c) {
         const auto [least, most] = ranges[c];
-        // Halved, even the spread of the largest numbers is one.
+        // Halved first, because the difference of the largest numbers would overflow.
         const double half = 0.5 * most - 0.5 * least;
         units_[c] = half > 0.0 && std::isfinite(half)
                         ? std::ldexp(1.0, std::clamp(std::ilogb(half) + 1 - std::ilogb(std::sqrt(time_step)),
@@ -139,7 +139,7 @@ int n_blocks(Eigen::Index n_columns)
 
 void add_up(const FlowReport& before, FlowReport& report)
 {
-    // Other columns take the same steps.
+    // The columns added before took the same steps.
     ConvergenceReport& all = report.convergence;
     all.steps_short_of_tolerance = std::max(all.steps_short_of_tolerance, before.convergence.steps_short_of_tolerance);
     all.steps_stagnated = std::max(all.steps_stagnated, before.convergence.steps_stagnated);
@@ -155,7 +155,7 @@ void add_up(const FlowReport& before, FlowReport& report)
 
 namespace {
 
-/// As "For 'a', 'b' and 'c': ".
+/// The beginning of a remark on some columns: "For 'a', 'b' and 'c': ".
 std::string about(const std::vector<Eigen::Index>& columns, std::span<const std::string> names)
 {
     constexpr std::size_t most = 4;

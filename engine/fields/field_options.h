@@ -8,10 +8,10 @@
 
 namespace seamflow {
 
-/// AccuracyOptions::tolerance of fields where it is left open.
+/// AccuracyOptions::tolerance of fields if it is not set.
 inline constexpr double default_field_tolerance = 1e-8;
 
-/// What concerns fields alone.
+/// The options that only fields have.
 struct FieldOptions {
     /// The amount of all steps together, in place of FlowOptions::time_step and radius: the full width at half maximum
     /// of the Gaussian kernel of the heat equation at the time t = FWHM² / (16 ln 2) of all steps, in length. Backward
@@ -20,31 +20,32 @@ struct FieldOptions {
     /// Keeps edges of the fields: differences well above this diffuse little (see Flow::keep_field_edges). All columns
     /// count together, as one vector per vertex. K is factorised in each step. Not with conjugate gradients.
     std::optional<double> keep_edges = {};
-    /// Gives vertices without data, after all steps, the harmonic extension of the others: K X = 0 there.
+    /// Gives vertices without data, after all steps, the harmonic extension of the data: K X = 0 there.
     bool fill = false;
-    /// In place of FlowOptions::laplacian: a symmetric one. M⁻¹ K of Δ_A and Δ_B is the Laplace-Beltrami operator on
-    /// any faces, so that time and width of a kernel mean what they say. Those of Δ_F and Δ_U depend on the faces: on
-    /// regular triangles Δ_F smooths √1.5 times as wide.
+    /// Used in place of FlowOptions::laplacian; must be symmetric. M⁻¹ K of Δ_A and Δ_B is the Laplace-Beltrami
+    /// operator on any faces, so that times and widths of kernels are exact. M⁻¹ K of Δ_F and Δ_U depends on the faces:
+    /// on regular triangles Δ_F smooths √1.5 times as wide.
     Laplacian laplacian = Laplacian::VirtualRefinement;
-    /// In place of FlowOptions::weights: AtLeastZero, also in faces with keep_edges, or those of the Laplacian, with
-    /// which values may leave their range beside obtuse angles.
+    /// Used in place of FlowOptions::weights: AtLeastZero, also in faces with keep_edges, or the weights of the
+    /// Laplacian, with which values can leave their range beside obtuse angles.
     Weights weights = Weights::AtLeastZero;
-    /// Free: no heat flows across the boundary. Fixed: values there stay, bit for bit.
+    /// Free: no heat flows across the boundary. Fixed: values at the boundary do not change, bit for bit.
     Boundary boundary = Boundary::Free;
-    /// Of the columns, for remarks; empty: they are called by their numbers, from 0.
+    /// The names of the columns, for remarks; empty: columns are called by their numbers, from 0.
     std::vector<std::string> names = {};
 };
 
-/// The time of a kernel of that width, FWHM² / (16 ln 2), in length².
+/// The time, in length², after which the Gaussian kernel has this full width at half maximum, in length: FWHM² / (16 ln
+/// 2).
 double time_for_fwhm(double fwhm);
 
-/// Its inverse: the full width at half maximum, in length, after a time in length².
+/// The full width at half maximum, in length, of the kernel after a time in length²: inverse of time_for_fwhm.
 double fwhm_for_time(double time);
 
 /// @throws OptionError for options that fields do not have.
 void require_for_fields(const FlowOptions& options, const FieldOptions& of_fields);
 
-/// The options of the flow that is applied to fields. A time step that follows from FieldOptions::fwhm is set.
+/// The options of the flow that is applied to fields, with the time step that follows from FieldOptions::fwhm.
 FlowOptions flow_for_fields(const FlowOptions& options, const FieldOptions& of_fields);
 
 }  // namespace seamflow

@@ -37,7 +37,8 @@ void require_sources(Index n_vertices, std::span<const Index> from)
                                          v, n_vertices));
 }
 
-/// Calls action(v, w, length) for the edges of all faces, in units of 4: halved twice, even the largest are numbers.
+/// Calls action(v, w, length) for the edges of all faces. Lengths are in units of 4, so that those between the largest
+/// coordinates do not overflow.
 template <class Action>
 void for_each_edge(const PolygonMesh& mesh, Action&& action)
 {
@@ -50,7 +51,7 @@ void for_each_edge(const PolygonMesh& mesh, Action&& action)
     }
 }
 
-/// A power of two near the median of the edges that have a length; 1 where there are none.
+/// A power of two near the median length of the edges that have a length; 1 if no edge has one.
 double median_unit(const PolygonMesh& mesh)
 {
     std::vector<double> lengths;
@@ -65,7 +66,8 @@ double median_unit(const PolygonMesh& mesh)
     return 4.0 * power_of_two_near(*median);
 }
 
-/// Vertices without faces may be so far away that no number says where.
+/// A copy in these units. Vertices without faces are at 0, because they can be so far away that their coordinates
+/// overflow.
 PolygonMesh in_units(const PolygonMesh& mesh, double unit)
 {
     PolygonMesh scaled = mesh;
@@ -76,7 +78,8 @@ PolygonMesh in_units(const PolygonMesh& mesh, double unit)
     return scaled;
 }
 
-/// @throws InputError naming the vertex whose distance to its nearest neighbour is the farthest from the median edge.
+/// Refuses a surface whose lengths of edges differ too much.
+/// @throws InputError naming the vertex whose distance to its nearest neighbour differs most from the median edge.
 [[noreturn]] void refuse_uneven(const PolygonMesh& surface)
 {
     struct Nearest {
@@ -100,7 +103,8 @@ PolygonMesh in_units(const PolygonMesh& mesh, double unit)
                                  worst->distance > unit ? "remove it, or move it to the others" : "merge them"));
 }
 
-/// @throws InputError
+/// Converts a distance to units of length.
+/// @throws InputError if it overflows.
 double in_unit(double distance, double unit)
 {
     if (std::isfinite(distance) && std::isinf(distance * unit))
@@ -110,7 +114,7 @@ double in_unit(double distance, double unit)
 
 }  // namespace
 
-/// The surface near whose median edge 1 is the unit of length, so that squares of lengths neither overflow nor vanish.
+/// The surface in units in which the median edge is about 1, so that squares of lengths neither overflow nor vanish.
 class Geodesics::Surface {
   public:
     explicit Surface(const PolygonMesh& mesh)
@@ -154,7 +158,7 @@ class Geodesics::Surface {
   private:
     [[nodiscard]] const PolygonMesh& surface() const { return flowing_.mesh(); }
 
-    /// In each part of the surface that has sources.
+    /// Measures the distances by the heat method, in each component of the surface that has sources.
     void measure_by_heat(std::span<const Index> sources, const Progress& progress, Eigen::VectorXd& distance)
     {
         std::vector<Index> with_sources;
@@ -180,10 +184,10 @@ class Geodesics::Surface {
     PolygonMesh given_;
     FlowingMesh flowing_;
     Topology topology_;
-    /// Without faces that have no area.
+    /// The mesh without faces that have no area.
     PolygonMesh sound_;
     SurfaceComponents components_;
-    /// Of each component, once it is asked for.
+    /// Per component: its heat method, once it has been asked for; null before.
     std::vector<std::unique_ptr<HeatMethod>> parts_;
 };
 

@@ -23,17 +23,18 @@ namespace seamflow {
 
 namespace {
 
-/// Heat is e^-r at the distance r √dt. Beyond this r it would vanish among the smallest numbers.
+/// The largest distance r √dt to which heat diffuses: e^-r would vanish beyond it.
 constexpr double most_diffusion_lengths = 400.0;
 
-/// √dt in mean edge lengths: less makes the directions depend on those of edges, more smooths over ridges and bends
-/// the directions at the boundary.
+/// √dt in mean edge lengths. With less, the directions depend on those of edges; with more, heat smooths over ridges
+/// and is bent at the boundary.
 constexpr double edges_of_diffusion = 1.0;
 
-/// After this time, in squared diagonals, K alone decides.
+/// The time of the step that finds the distance, in squared diagonals. M does not matter after it, so that the step
+/// solves with K.
 constexpr double squared_diagonals_to_rest_of_distance = 1e4;
 
-/// Some faces of a surface, with their vertices alone, the first of which is the origin.
+/// Some faces of a surface, with the vertices of these faces only. The first vertex is the origin.
 PolygonMesh part_of(const PolygonMesh& surface, std::span<const Index> faces, std::vector<Index>& vertices)
 {
     for (const Index f : faces)
@@ -53,8 +54,7 @@ PolygonMesh part_of(const PolygonMesh& surface, std::span<const Index> faces, st
     return part;
 }
 
-/// The direction, of length 1, in which a linear function on a triangle decreases; 0 where there is none, or the
-/// function is not known.
+/// The unit vector along which a linear function on a triangle decreases; 0 if there is none, or if a value is unknown.
 Point descent(const std::array<Point, 3>& corners, const std::array<double, 3>& values)
 {
     const Point normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
@@ -65,7 +65,7 @@ Point descent(const std::array<Point, 3>& corners, const std::array<double, 3>& 
     return length > 0.0 && std::isfinite(length) ? Point(-gradient / length) : Point::Zero();
 }
 
-/// |t| X · ∇ of the hat function of each corner of a triangle.
+/// |t| X · ∇ of the hat function of each corner of a triangle t, X being the direction.
 std::array<double, 3> flux(const std::array<Point, 3>& corners, const Point& direction)
 {
     const Point normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
@@ -76,8 +76,8 @@ std::array<double, 3> flux(const std::array<Point, 3>& corners, const Point& dir
     return result;
 }
 
-/// ∫ X · ∇φ for the hat functions φ of the corners of a face, X the direction in which heat decreases. That is where
-/// its logarithm does, which is nearly linear: the error is a fifth of that with the heat itself on regular meshes.
+/// Adds ∫ X · ∇φ for the hat functions φ of the corners of a face, X being the direction in which heat decreases. It is
+/// computed from the logarithm of the heat, which is nearly linear: on regular meshes this has a fifth of the error.
 /// @param heat #V: its logarithm.
 void add_fluxes(std::span<const Index> face, const Points& positions, const Eigen::VectorXd& heat,
                 std::span<double> of_corners)
@@ -107,7 +107,7 @@ void add_fluxes(std::span<const Index> face, const Points& positions, const Eige
         of_corners[k] += x.weight(k) * to_virtual;
 }
 
-/// M⁻¹ ∫ X · ∇φ of every vertex.
+/// #V: M⁻¹ ∫ X · ∇φ.
 /// @param heat #V: its logarithm.
 Eigen::VectorXd divergence(const PolygonMesh& mesh, const Topology& topology, const Eigen::VectorXd& heat)
 {
@@ -131,8 +131,9 @@ Eigen::VectorXd divergence(const PolygonMesh& mesh, const Topology& topology, co
     return result;
 }
 
-/// Shifts the function so that it is, on average, the straight distance a few edges from where it is measured from:
-/// there it is nearly exact, while right there the direction of the gradient means nothing.
+/// Adds a constant to the distances so that, at vertices a few edges from the sources, they agree on average with the
+/// straight distances, which are nearly exact there. At the sources themselves the direction of the gradient is
+/// undefined.
 void measure_from(const PolygonMesh& mesh, const EdgePaths& paths, double edge, Eigen::VectorXd& distance)
 {
     constexpr double most_edges = 3.5;
@@ -146,23 +147,23 @@ void measure_from(const PolygonMesh& mesh, const EdgePaths& paths, double edge, 
     distance.array() -= sum / std::max(n, 1.0);
 }
 
-/// Lets all vertices have equations but for those without a row.
+/// Releases all vertices that have a row in the Laplacian.
 void free_all(const PolygonMesh& mesh, Topology& topology, const Executor& exec)
 {
     for (std::size_t v = 0; v < topology.kind.size(); ++v)
         topology.fixed[v] = topology.kind[v] == VertexKind::Isolated ? 1 : 0;
-    hold(topology, vertices_without_row(mesh, topology, Laplacian::VirtualRefinement, exec));
+    fix_vertices(topology, vertices_without_row(mesh, topology, Laplacian::VirtualRefinement, exec));
 }
 
-/// The same with those at the boundary held, except for sources.
-Topology with_held_boundary(Topology topology, std::span<const Index> from)
+/// A topology with the vertices at the boundary fixed, except for sources.
+Topology with_fixed_boundary(Topology topology, std::span<const Index> from)
 {
-    const std::vector<std::uint8_t> held = topology.fixed;
+    const std::vector<std::uint8_t> fixed_before = topology.fixed;
     for (std::size_t v = 0; v < topology.kind.size(); ++v)
         if (topology.kind[v] == VertexKind::Boundary)
             topology.fixed[v] = 1;
     for (const Index v : from)
-        topology.fixed[v] = held[v];
+        topology.fixed[v] = fixed_before[v];
     return topology;
 }
 
@@ -221,11 +222,11 @@ Eigen::VectorXd HeatMethod::logarithm_of_heat(std::span<const Index> from, const
     Eigen::VectorXd heat = insulated_->solve(sources, length * length, progress);
     const auto is_on_boundary = [&](Index v) { return topology_.kind[v] == VertexKind::Boundary; };
     if (std::ranges::any_of(from, is_on_boundary)) {
-        heat += HeatEquation(mesh_, with_held_boundary(topology_, from), progress.exec())
+        heat += HeatEquation(mesh_, with_fixed_boundary(topology_, from), progress.exec())
                     .solve(sources, length * length, progress);
     } else if (std::ranges::find(topology_.kind, VertexKind::Boundary) != topology_.kind.end()) {
         if (!cooled_)
-            cooled_.emplace(mesh_, with_held_boundary(topology_, {}), progress.exec());
+            cooled_.emplace(mesh_, with_fixed_boundary(topology_, {}), progress.exec());
         heat += cooled_->solve(sources, length * length, progress);
     }
     for (double& one : heat)
@@ -237,7 +238,7 @@ Eigen::VectorXd HeatMethod::distance(std::span<const Index> from, const Progress
 {
     std::vector<Index> own;
     for (const Index v : from)
-        if (const Index local = position_in(vertices_, v); local >= 0)
+        if (const Index local = find_in(vertices_, v); local >= 0)
             own.push_back(local);
     sort_unique(own);
     const Eigen::VectorXd heat = logarithm_of_heat(own, progress);

@@ -15,15 +15,15 @@
 
 namespace seamflow {
 
-/// (M + dt K) X = M D on a whole mesh with Δ_B, in double precision: far from all heat X is tiny, and yet has correct
-/// digits. One factorisation for each dt, which is kept.
+/// (M + dt K) X = M D on a whole mesh with Δ_B, in double precision: X is tiny far from the sources, and yet has
+/// correct digits. One factorisation for each dt, which is kept.
 class HeatEquation {
   public:
-    /// @param topology with the vertices that have equations.
+    /// @param topology whose moving vertices have equations.
     HeatEquation(const PolygonMesh& mesh, const Topology& topology, const Executor& exec);
 
-    /// @param data #V: D. @returns #V: X; 0 where there is no equation.
-    /// @throws ComputationError where the equations are singular to rounding; Cancelled.
+    /// @param data #V: D. @returns #V: X; 0 at vertices without an equation.
+    /// @throws ComputationError if the equations are singular to rounding; Cancelled.
     [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& data, double time_step, const Progress& progress);
 
   private:
@@ -40,26 +40,27 @@ class HeatEquation {
     std::vector<KeptFactor> factors_;
 };
 
-/// The heat method of Crane, Weischedel and Wardetzky (2013) on the part of a surface that faces connect.
+/// The heat method of Crane, Weischedel and Wardetzky (2013) on one component of a surface.
 class HeatMethod {
   public:
-    /// @param surface near whose median edge 1 is the unit of length. @param faces those of the part, ascending.
+    /// @param surface in units in which the median edge is about 1. @param faces of the component, ascending.
     HeatMethod(const PolygonMesh& surface, std::span<const Index> faces, const Executor& exec);
     HeatMethod(const HeatMethod&) = delete;
     HeatMethod& operator=(const HeatMethod&) = delete;
 
-    /// Those of the surface, ascending.
+    /// The vertices of the component, as numbers in the surface, ascending.
     [[nodiscard]] const std::vector<Index>& vertices() const { return vertices_; }
 
-    /// @param from vertices of the surface, of which those of the part count: one at least.
+    /// The distances from the nearest source.
+    /// @param from vertices of the surface; only those of the component are sources: at least one.
     /// @returns the distance of each of vertices().
     /// @throws as HeatEquation::solve.
     Eigen::VectorXd distance(std::span<const Index> from, const Progress& progress);
 
   private:
-    /// The logarithm of the heat, where there is any: of the mean of those with a boundary that lets none through and
-    /// with one that takes all except at sources, which leaves the least of the boundary's own effect (section 3.4
-    /// there).
+    /// #V: the logarithm of the heat, where there is any. The heat is the mean of that with an insulating boundary and
+    /// that with a boundary at temperature 0 except at sources, because the effects of the two boundaries nearly cancel
+    /// (section 3.4 of Crane and others).
     Eigen::VectorXd logarithm_of_heat(std::span<const Index> from, const Progress& progress);
 
     std::vector<Index> vertices_;
@@ -68,7 +69,7 @@ class HeatMethod {
     double edge_;
     double diagonal_;
     std::optional<HeatEquation> insulated_;
-    /// Made for the first sources of which none is on the boundary.
+    /// The equation with the boundary at temperature 0, made for the first sources of which none is on the boundary.
     std::optional<HeatEquation> cooled_;
 };
 

@@ -11,14 +11,14 @@ namespace seamflow {
 
 namespace {
 
-/// Between -√3 and √3, all equally likely.
+/// A number between -√3 and √3, all equally likely.
 double uniform(std::uint64_t number)
 {
     const double in_unit = static_cast<double>(mixed((number + 1) * 0x9e3779b97f4a7c15U) >> 11U) * 0x1p-53;
     return std::numbers::sqrt3 * (2.0 * in_unit - 1.0);
 }
 
-/// NoiseSums over vertices and edges of a mesh.
+/// Sums of squares over vertices and edges of a mesh.
 struct NoiseSums {
     double n = 0.0;
     double value = 0.0;

@@ -13,9 +13,9 @@ namespace seamflow {
 
 namespace {
 
-/// Smaller factors of a displacement count as zero.
+/// Factors of a displacement below this count as zero.
 constexpr double smallest_factor = 0.1;
-/// Bisections to find a factor.
+/// The number of bisections that find a factor.
 constexpr int bisections = 20;
 
 }  // namespace
@@ -26,7 +26,7 @@ LimitedComponents::LimitedComponents(const PolygonMesh& mesh, const Topology& to
     , normals_(mesh, topology)
     , components_(face_components(mesh, topology))
     , is_closed_(usize(components_.count()), topology.oriented ? 1 : 0)
-    , first_(mesh.vertices)
+    , initial_(mesh.vertices)
     , factors_(usize(components_.count()), 1.0)
     , losses_(usize(components_.count()))
 {
@@ -45,10 +45,12 @@ LimitedComponents::LimitedComponents(const PolygonMesh& mesh, const Topology& to
     }
 }
 
-/// The volume with that fraction of the displacements, from the component's first vertex.
+/// The volume of a component with this fraction of its displacements, relative to the component's first vertex.
 double LimitedComponents::volume_of(Index component, const Points& positions, double factor) const
 {
-    const auto where = [&](Index v) -> Point { return first_.row(v) + factor * (positions.row(v) - first_.row(v)); };
+    const auto where = [&](Index v) -> Point {
+        return initial_.row(v) + factor * (positions.row(v) - initial_.row(v));
+    };
     const Point origin = where(vertices_[component].front());
     const std::span<const Index> faces = components_.nodes[component];
     return sum(run_in_parallel, static_cast<Index>(faces.size()), [&](Index i) {
@@ -94,7 +96,7 @@ double LimitedComponents::factor_by_move(Index component, const Points& position
     const std::span<const Index> vertices = vertices_[component];
     const double squares = sum(run_in_parallel, static_cast<Index>(vertices.size()), [&](Index i) {
         const Index v = vertices[i];
-        const double move = (positions.row(v) - first_.row(v)).dot(normals_(v, positions));
+        const double move = (positions.row(v) - initial_.row(v)).dot(normals_(v, positions));
         return move * move;
     });
     const double move = std::sqrt(squares / static_cast<double>(vertices.size()));
@@ -111,12 +113,12 @@ double LimitedComponents::factor_of(Index component, const Points& positions)
     return factor >= smallest_factor ? factor : 0.0;
 }
 
-/// Shortens the parts of displacements across the normals of the result.
+/// Shortens the components of displacements that are tangential to the result.
 void LimitedComponents::limit_slides(Points& positions) const
 {
     Points limited = positions;
     for_each(run_in_parallel, mesh_->n_vertices(), [&](Index v) {
-        const Point move = positions.row(v) - first_.row(v);
+        const Point move = positions.row(v) - initial_.row(v);
         const Point normal = normals_(v, positions);
         const Point slide = move - move.dot(normal) * normal;
         if (const double length = slide.norm(); length > limits_.slide)
@@ -136,13 +138,14 @@ void LimitedComponents::apply(Points& positions)
         const std::span<const Index> vertices = vertices_[c];
         for_each(run_in_parallel, static_cast<Index>(vertices.size()), [&](Index i) {
             const Index v = vertices[i];
-            positions.row(v) = factors_[c] == 0.0 ? Point(first_.row(v))
-                                                  : first_.row(v) + factors_[c] * (positions.row(v) - first_.row(v));
+            positions.row(v) = factors_[c] == 0.0
+                                   ? Point(initial_.row(v))
+                                   : initial_.row(v) + factors_[c] * (positions.row(v) - initial_.row(v));
         });
     }
 }
 
-/// In brackets; empty if no component would have lost too much of it.
+/// A text in brackets on the largest loss; empty if no component would have lost too much.
 std::string LimitedComponents::largest_loss() const
 {
     const Loss largest = *std::ranges::max_element(losses_, {}, &Loss::fraction);
@@ -154,9 +157,9 @@ std::string LimitedComponents::largest_loss() const
 
 std::optional<Remark> LimitedComponents::remark() const
 {
-    const auto n_held = std::ranges::count(factors_, 0.0);
+    const auto n_unmoved = std::ranges::count(factors_, 0.0);
     const auto n_less = std::ranges::count_if(factors_, [](double factor) { return factor > 0.0 && factor < 1.0; });
-    if (n_held + n_less == 0)
+    if (n_unmoved + n_less == 0)
         return {};
     const auto components = [&](auto n) {
         return components_.count() == 1 ? std::string("The surface")
@@ -169,11 +172,11 @@ std::optional<Remark> LimitedComponents::remark() const
     if (n_less > 0)
         text = fmt::format("{} {}: less was taken off there. <radius> smooths as much as it says.", components(n_less),
                            loss);
-    if (n_held > 0)
+    if (n_unmoved > 0)
         text += fmt::format("{}{} {}, however little was taken off, and stayed as it was: say how much to smooth with "
                             "<radius>.",
-                            text.empty() ? "" : " ", components(n_held), loss);
-    return Remark("limited loss", {{"moved less", n_less}, {"stayed", n_held}, {"of", components_.count()}}, {text});
+                            text.empty() ? "" : " ", components(n_unmoved), loss);
+    return Remark("limited loss", {{"moved less", n_less}, {"stayed", n_unmoved}, {"of", components_.count()}}, {text});
 }
 
 }  // namespace seamflow

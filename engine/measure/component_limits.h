@@ -13,25 +13,24 @@
 
 namespace seamflow {
 
-/// Limits what the components of a surface lose (see ComponentLimits): the displacements of one that would lose more
-/// are multiplied by the largest factor at which it does not. A blend of the surfaces before and after is that of a
-/// filter that removes less of everything.
+/// Limits the losses of the components of a surface (see ComponentLimits): if a component would lose too much, its
+/// displacements are multiplied by the largest factor with which it does not. A blend of the surfaces before and after
+/// is the result of a filter that removes less of all features.
 class LimitedComponents {
   public:
     /// Measures the surface as it is. The mesh and topology must outlive the object.
     /// @param topology with twins, which are not needed later.
     LimitedComponents(const PolygonMesh& mesh, const Topology& topology, const ComponentLimits& limits);
 
-    /// Moves the vertices of components that have lost too much back, along a straight line to where they were at
-    /// first.
+    /// Moves the vertices of components that have lost too much back, on the straight lines to their initial positions.
     /// @param positions #V by 3.
     void apply(Points& positions);
 
-    /// On the last result; nothing where no component had lost too much.
+    /// A sentence about the last result; empty if no component had lost too much.
     [[nodiscard]] std::optional<Remark> remark() const;
 
   private:
-    /// Of volume, beyond the limit: in length³, and as a fraction of it. 0: within.
+    /// A loss of volume beyond the limit: in length³, and as a fraction of the volume. 0: within the limit.
     struct Loss {
         double volume = 0.0;
         double fraction = 0.0;
@@ -52,10 +51,10 @@ class LimitedComponents {
     IndexLists vertices_;
     std::vector<std::uint8_t> is_closed_;
     /// #V by 3: the positions before the first step.
-    Points first_;
-    /// Per component: the factor by which displacements were multiplied in the last result.
+    Points initial_;
+    /// Per component: the factor that its displacements were multiplied by in the last result.
     std::vector<double> factors_;
-    /// Per component: what it would have lost in the last result.
+    /// Per component: its loss in the last result without a factor.
     std::vector<Loss> losses_;
 };
 

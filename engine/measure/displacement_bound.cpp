@@ -10,18 +10,18 @@ namespace seamflow {
 
 namespace {
 
-/// t: corrections are smooth over some √t edges.
+/// t of D + t K: corrections are smooth over about √t edges.
 constexpr double smoothness = 25.0;
-/// Largest eigenvalue of D + t K over D; the smallest is 1.
+/// The largest eigenvalue of D + t K over D; the smallest is 1.
 constexpr double largest_eigenvalue = 1.0 + 2.0 * smoothness;
-/// Relative to the correction.
+/// The accuracy of a correction, relative to the correction.
 constexpr double accuracy = 1e-4;
 
 }  // namespace
 
 DisplacementBound::DisplacementBound(const PolygonMesh& mesh, const Topology& topology, double bound)
     : bound_(bound)
-    , first_(mesh.vertices)
+    , initial_(mesh.vertices)
 {
     for (Index v = 0; v < mesh.n_vertices(); ++v) {
         const std::vector<Index> around = neighbours_of(mesh, topology, v);
@@ -38,8 +38,8 @@ Point DisplacementBound::bounded(const Point& displacement) const
 
 void DisplacementBound::apply(Points& positions) const
 {
-    const auto n = static_cast<Index>(first_.rows());
-    const Points displacements = positions - first_;
+    const auto n = static_cast<Index>(initial_.rows());
+    const Points displacements = positions - initial_;
     const auto moves = [&](Index v) { return !displacements.row(v).isZero(0.0); };
     std::atomic<bool> is_beyond = false;
     for_each(run_in_parallel, n, [&](Index v) {
@@ -75,7 +75,7 @@ void DisplacementBound::apply(Points& positions) const
     }
     for_each(run_in_parallel, n, [&](Index v) {
         if (moves(v))
-            positions.row(v) = Point(first_.row(v)) + bounded(displacements.row(v) + correction.row(v));
+            positions.row(v) = Point(initial_.row(v)) + bounded(displacements.row(v) + correction.row(v));
     });
 }
 

@@ -7,29 +7,30 @@
 
 namespace seamflow {
 
-/// Keeps every vertex within a distance r of where it was: the surface is replaced by the nearest one that satisfies
-/// this, so that vertices are held on the boundaries of their spheres and all others follow smoothly.
+/// Keeps every vertex within a distance r of its initial position: the surface is replaced by the nearest one that
+/// satisfies this, so that vertices stop at the boundaries of their spheres and all others follow smoothly.
 ///
-/// Nearest is meant in the metric of a diffusion step with uniform weights: the correction U minimises
-/// tr Uᵀ (D + t K) U under |V - V⁰ + U| ≤ r at each vertex, K the Laplacian of the graph with weights of one, D its
-/// diagonal; vertices that have not moved have none. A fixed number of accelerated projected gradient steps (Nesterov,
-/// Lectures on Convex Optimization, 2018, 2.2) brings U within a ten-thousandth of the minimum; each projects every
-/// vertex onto its sphere, so that the bound holds whatever is left.
+/// The distance of two surfaces is that of the metric of a diffusion step with uniform weights: the correction U
+/// minimises tr Uᵀ (D + t K) U under |V - V⁰ + U| ≤ r at each vertex, with K the Laplacian of the graph with weights of
+/// one, and D its diagonal; vertices that have not moved have no correction. A fixed number of accelerated projected
+/// gradient steps (Nesterov, Lectures on Convex Optimization, 2018, 2.2) brings U within a ten-thousandth of the
+/// minimum; each step projects every vertex onto its sphere, so that the bound is exact.
 class DisplacementBound {
   public:
-    /// Takes the positions of the mesh as those to stay near.
+    /// Takes the positions of the mesh as the initial ones.
     /// @param bound r, above 0, in units of length.
     DisplacementBound(const PolygonMesh& mesh, const Topology& topology, double bound);
 
-    /// @param positions #V by 3, as a flow has them; receives those within the bound.
+    /// Applies the bound.
+    /// @param positions #V by 3, in: of the flow; out: within the bound.
     void apply(Points& positions) const;
 
   private:
     [[nodiscard]] Point bounded(const Point& displacement) const;
 
     double bound_;
-    /// #V by 3.
-    Points first_;
+    /// #V by 3: the initial positions.
+    Points initial_;
     IndexLists neighbours_;
 };
 

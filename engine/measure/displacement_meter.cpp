@@ -13,7 +13,7 @@ namespace {
 
 constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
 
-/// Adds to a sum that is undefined if nothing was added.
+/// Adds to a sum that is undefined (NaN) until something is added.
 void add(double& sum, double value)
 {
     sum = std::isnan(sum) ? value : sum + value;
@@ -27,7 +27,7 @@ DisplacementMeter::DisplacementMeter(const PolygonMesh& mesh, const Topology& to
 {
 }
 
-/// Sets the sums for a mesh of which no vertex has moved.
+/// Sets the sums to those of a mesh in which no vertex has moved.
 void DisplacementMeter::begin(const Points& positions)
 {
     const auto n = static_cast<std::size_t>(positions.rows());

@@ -7,31 +7,31 @@
 
 namespace seamflow {
 
-/// Sums over the steps so far (see TotalDisplacement): of the tangential parts, #V by 3, and of the lengths of both
-/// parts, #V, NaN where they are not defined.
+/// Sums over the steps so far (see TotalDisplacement): of tangential displacements, #V by 3; and of the lengths of
+/// tangential and normal displacements, #V, NaN where they are not defined.
 struct DisplacementSums {
     Points drift = Points(0, 3);
     std::vector<double> tangential;
     std::vector<double> normal;
 };
 
-/// Measures how the vertices of a flowing mesh move along the surface and out of it, step by step and in total. Runs in
-/// parallel, sums in order: the bits do not depend on the number of threads.
+/// Measures the tangential and the normal displacements of the vertices of a flowing mesh, step by step and in total.
+/// Runs in parallel, sums in order: the bits do not depend on the number of threads.
 class DisplacementMeter {
   public:
-    /// @param mesh it and its topology must outlive the meter.
+    /// @param mesh, topology must outlive the meter.
     DisplacementMeter(const PolygonMesh& mesh, const Topology& topology);
 
     /// Adds one step.
     /// @param before, after #V by 3; `before` is `after` of the last step, if there was one.
     DisplacementStatistics add_step(const Points& before, const Points& after);
 
-    /// Of all steps so far.
+    /// The total over all steps so far.
     [[nodiscard]] TotalDisplacement total() const;
 
-    /// The sums that the next step adds to, empty before the first; `restore` continues from them.
-    /// @param now #V by 3, the positions then.
-    /// @throws InputError if they do not fit.
+    /// Returns the sums to which the next step adds, empty before the first step; `restore` continues from them.
+    /// @param now #V by 3, the positions at that time.
+    /// @throws InputError if the sums do not fit the mesh.
     [[nodiscard]] DisplacementSums sums() const;
     void restore(const DisplacementSums& sums, const Points& now);
 
@@ -41,11 +41,12 @@ class DisplacementMeter {
 
     const PolygonMesh& mesh_;
     VertexNormals normals_;
-    /// All empty before the first step. #V by 3: unit normals of the latest state, and the sums of the tangential
-    /// parts.
+    /// #V by 3: unit normals of the latest state, and the sums of tangential displacements. Empty before the first
+    /// step.
     Points normal_;
     Points drift_;
-    /// The sums of the lengths of both parts over those steps where they are defined.
+    /// The sums of the lengths of tangential and normal displacements, over the steps in which they are defined. Empty
+    /// before the first step.
     DisplacementField path_;
 };
 

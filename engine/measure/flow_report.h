@@ -17,7 +17,7 @@
 
 namespace seamflow {
 
-/// Seconds. `assemble` to `correct` are summed over all tasks and threads; the others are wall-clock time.
+/// Times in seconds. `assemble` to `correct` are summed over all tasks and threads; the others are wall-clock time.
 struct PhaseSeconds {
     double cut = 0.0;
     double analyse = 0.0;
@@ -25,14 +25,14 @@ struct PhaseSeconds {
     double factorise = 0.0;
     double solve = 0.0;
     double correct = 0.0;
-    /// The equation on Γ, with AccuracyOptions::tolerance: wall-clock time.
+    /// The solution of the equation on Γ, with AccuracyOptions::tolerance: wall-clock time.
     double interface = 0.0;
-    /// All steps.
+    /// The time of all steps.
     double step = 0.0;
-    /// The whole call, without the undecomposed flow that ReportOptions::reference asks for.
+    /// The time of the whole call, without the undecomposed flow that ReportOptions::reference asks for.
     double total = 0.0;
 
-    /// Adds the time spent in tasks, and on the equation on Γ.
+    /// Adds the times of tasks, and of the equation on Γ.
     void add_tasks(const PhaseSeconds& further)
     {
         assemble += further.assemble;
@@ -43,30 +43,31 @@ struct PhaseSeconds {
     }
 };
 
-/// How far a flow carried the vertices along the surface and out of it, in units of length. Only the former deforms a
-/// texture on the mesh.
+/// The displacement of the vertices by a whole flow, tangential to the surface and normal to it, in units of length.
+/// Only tangential displacements deform a texture on the mesh.
 struct TotalDisplacement {
-    /// Per vertex, the sum over all steps of the lengths of both parts: all its movement, there and back.
+    /// Per vertex, the sums over all steps of the lengths of its tangential and normal displacements: the path of the
+    /// vertex, there and back.
     DisplacementStatistics path;
-    /// Per vertex, the length of the sum of the tangential parts as vectors: how far the vertex, and the texture with
-    /// it, was dragged along the surface in the end.
+    /// Per vertex, the length of the vector sum of its tangential displacements: how far the vertex, and the texture
+    /// with it, has slid along the surface in the end.
     LengthStatistics drift;
 };
 
-/// One step.
+/// The report on one step.
 struct StepReport {
-    /// Wall-clock time.
+    /// Wall-clock time, in seconds.
     double seconds = 0.0;
     /// Largest length of the mean curvature vector ΔV over all interior vertices that may move, in 1/length (where it
     /// is finite: edges or faces that the flow has shrunk to nothing do not count).
     double max_mean_curvature_before = 0.0;
     double max_mean_curvature_after = 0.0;
-    /// How far the vertices moved in this step, in units of length (see split_displacement).
+    /// The displacements of the vertices in this step, in units of length (see split_displacement).
     DisplacementStatistics displacement;
-    /// With the classical conditions, how far apart the copies of Γ are after this step: over the vertices of Γ, the
+    /// With the classical conditions, the gap between the copies of Γ after this step: over the vertices of Γ, the
     /// largest distance between two copies, in units of length.
     std::optional<LengthStatistics> gap;
-    /// Of a converged step: its iterations, and the remaining residual.
+    /// Only for a converged step: the number of its iterations, and the residual at its end.
     std::optional<int> iterations;
     std::optional<double> residual;
     /// An estimate of the largest distance to the undecomposed flow after this step, VertexDistance::max. For sweeps it
@@ -75,50 +76,52 @@ struct StepReport {
     std::optional<double> estimated_v_max;  ///< in mean edge lengths
     /// Distance to the undecomposed flow after this step, with ReportOptions::reference.
     std::optional<VertexDistance> distance;
-    /// The same as H_: from the vertices of the undecomposed flow's mesh to the surface (see surface_distance), in
-    /// units of length.
+    /// H_mean and H_max: distances from the vertices of the undecomposed flow's mesh to the surface (see
+    /// surface_distance), in units of length.
     std::optional<LengthStatistics> surface_distance;
     /// Wall-clock time of the undecomposed step, with ReportOptions::reference.
     std::optional<double> reference_seconds;
 };
 
-/// The mesh that flowed.
+/// The report on the mesh that flowed.
 struct MeshReport {
     std::int64_t vertices = 0;
     std::int64_t faces = 0;
-    /// Vertices that stay where they are, for whatever reason: boundary, not manifold, without faces, or asked for.
+    /// Vertices that do not move, for whatever reason: boundary, not manifold, without faces, or named by the user.
     std::int64_t fixed_vertices = 0;
-    /// Those held fixed because they lie on an edge of three or more faces, or where two fans of faces touch.
+    /// Vertices that are fixed because they lie on an edge of three or more faces, or where two fans of faces touch.
     std::int64_t non_manifold_vertices = 0;
-    /// Those of kind Junction, which move unless they are held for another reason (see Junctions).
+    /// Vertices of kind Junction, which move unless they are fixed for another reason (see Junctions).
     std::int64_t junction_vertices = 0;
     /// The faces that have the same vertices as an earlier one and took no part in the flow, ascending.
     std::vector<Index> repeated_faces;
-    /// Those that no face uses, ascending: they stay, and count in no box and no mean.
+    /// Vertices without faces, ascending: they do not move, and no box or mean includes them.
     std::vector<Index> unused_vertices;
     /// #V: the lowest of the vertices joined with each along seams (see MotionOptions::weld), its own number if there
     /// are no others. Empty if none were joined.
     std::vector<Index> moved_with;
 };
 
-/// One sub-mesh.
+/// The report on one sub-mesh.
 struct SubMeshReport {
     Index faces = 0;
-    /// With those of the interface, and of the overlap of Conditions::Schwarz.
+    /// The number of its vertices, including the interface, and the overlap of Conditions::Schwarz.
     Index vertices = 0;
     /// Colour 0 solves first in even steps.
     Index colour = 0;
     /// Robin parameter, in 1/length; 0 without interface, and with conditions that have none.
     double p = 0.0;
-    /// What factorised it; Automatic: nothing did. And how often its equations were nearly singular.
+    /// The solver that factorised it; Automatic: none did. And the number of its factorisations that were nearly
+    /// singular.
     Factorisation factorisation = Factorisation::Automatic;
     Index n_nearly_singular = 0;
 };
 
-/// How the mesh was cut.
+/// The report on the cut.
 struct CutReport {
     std::vector<SubMeshReport> sub_meshes;
-    /// Sub-mesh of every face after repair; n of sub_meshes for those that no vertex of a region moves.
+    /// #F: the sub-mesh of every face after repair. Faces in which no vertex of a region moves have the number of
+    /// sub-meshes.
     std::vector<Index> labels;
     /// Number of vertices on the interface Γ.
     std::int64_t interface_vertices = 0;
@@ -136,78 +139,82 @@ struct CutReport {
     }
 };
 
-/// Whether steps were converged, and how many missed the tolerance.
+/// Whether steps were converged, and the number of steps that missed the tolerance.
 struct ConvergenceReport {
-    /// How steps were taken: one of Sweep, Converged, ConjugateGradients and Undecomposed.
+    /// The way in which steps were taken: Sweep, Converged, ConjugateGradients or Undecomposed.
     Approach approach = Approach::Sweep;
-    /// The tolerance of the steps, asked for or chosen; empty if they were sweeps.
+    /// The tolerance of the steps, given or chosen; empty for sweeps.
     std::optional<double> tolerance;
-    /// Converged steps that did not reach the tolerance, and those of them where more iterations would not have helped.
+    /// The number of converged steps that did not reach the tolerance, and of those in which more iterations would not
+    /// have helped.
     int steps_short_of_tolerance = 0;
     int steps_stagnated = 0;
 };
 
-/// The noise that was found where FlowOptions::denoise removes it.
+/// The noise that FlowOptions::denoise has removed.
 struct NoiseReport {
-    /// Along the normals, root mean square over the vertices that have some, in lengths of the edges there.
+    /// The root mean square of the noise along the normals, over the vertices that have noise, in lengths of the edges
+    /// there.
     double deviation = 0.0;
-    /// The fraction of vertices that have some.
+    /// The fraction of vertices that have noise.
     double part = 0.0;
 };
 
 /// Resources that the flow used.
 struct ResourceReport {
     int threads = 0;
-    /// How many factorisations of sub-meshes may live at once, and the bytes that were set aside for the
-    /// library's own; CHOLMOD's and UMFPACK's are not counted.
+    /// The most factorisations of sub-meshes that could live at once, and the bytes set aside for the library's own
+    /// factors; the bytes of CHOLMOD's and UMFPACK's factors are not counted.
     Index live_factors = 0;
     std::size_t factor_memory_bytes = 0;
-    /// How many sub-meshes had a factor in single precision in the last step.
+    /// The number of sub-meshes that had a factor in single precision in the last step.
     Index single_factors = 0;
 };
 
-/// What one of several ranks that shared the steps did.
+/// The report on one of several ranks that shared the steps.
 struct RankRecord {
-    /// Vertices whose positions it found, and others of the faces around its sub-meshes.
+    /// The number of vertices whose positions the rank computed; and of further vertices that it knew, of the faces
+    /// around its sub-meshes.
     std::int64_t vertices = 0;
     std::int64_t foreign_vertices = 0;
-    /// What it sent in all steps together.
+    /// The number of messages that the rank sent in all steps, and their bytes.
     std::uint64_t messages = 0;
     std::uint64_t bytes = 0;
     std::int64_t peak_memory_bytes = 0;
     std::int64_t threads = 0;
 };
 
-/// What a flow did.
+/// The report on a flow.
 struct FlowReport {
     MeshReport mesh;
     CutReport cut;
-    /// With FlowOptions::denoise, after the first step.
+    /// Only with FlowOptions::denoise, after the first step.
     std::optional<NoiseReport> noise;
     /// dt, in length².
     double time_step = 0.0;
     ConvergenceReport convergence;
     ResourceReport resources;
-    /// Empty where one process took all steps (see FlowControl::ranks).
+    /// One per rank; empty if one process took all steps (see FlowControl::ranks).
     std::vector<RankRecord> ranks;
     PhaseSeconds seconds;
     std::vector<StepReport> steps;
-    /// With ReportOptions::measures.
+    /// Only with ReportOptions::measures.
     std::optional<TotalDisplacement> displacement;
-    /// The sub-meshes at the end, none sharing a vertex with another, with ReportOptions::keep_gaps: the faces in the
-    /// order of the mesh; its vertices first, then the further copies.
+    /// The sub-meshes at the end, none sharing a vertex with another, with ReportOptions::keep_gaps. Faces are in the
+    /// order of the mesh; its vertices come first, then the additional copies of vertices.
     std::optional<PolygonMesh> separated;
-    /// With ReportOptions::record_schedule, of a flow in backward Euler steps.
+    /// Only with ReportOptions::record_schedule, for backward Euler steps.
     std::optional<Schedule> schedule;
-    /// How steps are taken and why, where that was left open.
+    /// The way in which steps are taken and the reason, if the options left it open; a sentence each.
     std::vector<Remark> choices;
-    /// For the user: a number of sub-meshes that was changed, vertices held fixed, and so on.
+    /// Remarks for the user, a sentence each: a number of sub-meshes that was changed, vertices that were fixed, and so
+    /// on.
     std::vector<Remark> remarks;
 };
 
 struct FlowState;
 
-/// What an observer sees after each step.
+/// The state of a flow that an observer gets after each step.
 struct StepState {
     /// Number of the step, from 1.
     int step = 0;
@@ -216,7 +223,7 @@ struct StepState {
     const StepReport& report;
     /// See FlowReport::separated; null without ReportOptions::keep_gaps.
     const PolygonMesh* separated = nullptr;
-    /// #V by 3, those of the undecomposed flow, rescaled as well; null without ReportOptions::reference.
+    /// #V by 3: the positions of the undecomposed flow, rescaled as well; null without ReportOptions::reference.
     const Points* reference_positions = nullptr;
     /// Copies everything that the flow needs to resume from here (see FlowState). May be called while the observer
     /// runs.

@@ -11,7 +11,7 @@ namespace seamflow {
 
 namespace {
 
-/// From this distance on, in extents, a mesh is far away.
+/// A mesh is far away if its distance from the origin is at least this many times its extent.
 constexpr double far = 16.0;
 
 bool has_sound_corners(const PolygonMesh& mesh)
@@ -19,9 +19,9 @@ bool has_sound_corners(const PolygonMesh& mesh)
     return std::ranges::all_of(mesh.face_vertices, [&](Index v) { return v >= 0 && v < mesh.n_vertices(); });
 }
 
-/// False if a few corners already show that the surface is not far away, as is nearly always so. Every vertex of a
-/// surface far away is further than `far` - ½ extents from the origin in some coordinate, and extents of a few are
-/// smaller.
+/// Whether the surface may lie far away. False if a few corners show that it does not, as in nearly all cases: every
+/// vertex of a surface far away is further than `far` - ½ extents from the origin in some coordinate, and the extent of
+/// a few corners is not larger.
 bool may_lie_far(const PolygonMesh& mesh)
 {
     constexpr std::size_t few = 1024;
@@ -51,7 +51,8 @@ Point origin_offset(const PolygonMesh& mesh)
     const double extent = (high - low).maxCoeff();
     if (!std::isnormal(extent))
         return Point::Zero();
-    // Multiples of the grid have few bits: a coordinate minus one of them has no more bits than itself.
+    // A multiple of the grid has few bits, so that the difference of a coordinate and the multiple has no more bits
+    // than the coordinate.
     const double grid = std::exp2(std::ilogb(extent) + 1);
     Point offset = Point::Zero();
     for (int c = 0; c < 3; ++c) {

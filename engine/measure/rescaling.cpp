@@ -78,15 +78,15 @@ Rescaling::Rescaling(const PolygonMesh& mesh, const Topology& topology, Rescale 
         if (const Index c = components_.of_vertex[v]; c >= 0 && origins_[c] < 0)
             origins_[c] = v;
     for (Index c = 0; c < components_.count(); ++c)
-        first_.push_back(measure(c, mesh.vertices));
+        initial_.push_back(measure(c, mesh.vertices));
     const auto is_sound = [&](const Extent& extent) { return has_size(extent); };
-    if (mesh.n_faces() > 0 && std::ranges::none_of(first_, is_sound))
+    if (mesh.n_faces() > 0 && std::ranges::none_of(initial_, is_sound))
         throw InputError(fmt::format("the surface has no {} above rounding: scale the mesh, or leave rescaling out",
                                      kind_ == Rescale::Area ? "area" : "volume"));
 }
 
-/// Whether its area or volume is more than rounding: that of parts that cancel each other is so small relative to the
-/// area.
+/// Whether the area or volume of a component is more than rounding: regions that cancel each other leave an area that
+/// is small compared with their own.
 bool Rescaling::has_size(const Extent& extent) const
 {
     const double least = kind_ == Rescale::Volume ? 1e-12 * extent.area * std::sqrt(extent.area) : 0.0;
@@ -98,7 +98,7 @@ Rescaling::Extent Rescaling::measure(Index component, const Points& positions) c
     const Point origin = positions.row(origins_[component]);
     const std::span<const Index> faces = components_.faces[component];
     const auto n = static_cast<Index>(faces.size());
-    // There may be very many small ones.
+    // There can be very many small components: then they are measured in parallel.
     const Executor exec = n > block_size ? Executor(run_in_parallel) : Executor(run_serially);
     const auto add_up = [&](auto&& of_face) {
         return sum(exec, n, [&](Index i) {
@@ -116,11 +116,12 @@ Rescaling::Extent Rescaling::measure(Index component, const Points& positions) c
     return {area, size, origin + centroid};
 }
 
-/// @returns a scale of 0 if too little is left.
+/// The map that scales a component back.
+/// @returns a scale of 0 if too little of the component is left.
 Similarity Rescaling::back(const Extent& first, const Extent& now) const
 {
     const double ratio = first.size / now.size;
-    // A surface that has fewer digits left would be dominated by rounding errors.
+    // The digits that a surface must have left, as a factor: below it, rounding errors would dominate.
     constexpr double digits_wanted = 1e4;
     const double farthest = now.centroid.cwiseAbs().maxCoeff() + std::sqrt(now.area);
     const double rounding = std::numeric_limits<double>::epsilon() * farthest;
@@ -137,7 +138,7 @@ SimilarityOfComponents Rescaling::apply(Points& positions)
         return all;
     n_left_ = 0;
     for (Index c = 0; c < components_.count(); ++c) {
-        Similarity similarity = back(first_[c], measure(c, positions));
+        Similarity similarity = back(initial_[c], measure(c, positions));
         if (similarity.scale == 0.0) {
             ++n_left_;
             similarity = {};

@@ -13,8 +13,8 @@
 
 namespace seamflow {
 
-/// A map of space that scales and translates: x goes to `to` + `scale` (x - `from`). Differences of positions and
-/// lengths are multiplied by `scale`.
+/// A similarity of space that scales and translates: x goes to `to` + `scale` (x - `from`). Differences of positions
+/// and lengths are multiplied by `scale`.
 struct Similarity {
     Point from = Point::Zero();
     double scale = 1.0;
@@ -29,9 +29,9 @@ struct Similarity {
 
 /// A map of a surface: a similarity for each of its components.
 struct SimilarityOfComponents {
-    /// #V: the component of each vertex; -1 where there are no faces.
+    /// #V: the component of each vertex; -1 for vertices without faces.
     std::span<const Index> component_of;
-    /// One for each component; empty: nothing moves.
+    /// One for each component; empty: the identity.
     std::vector<Similarity> maps;
 
     template <class Position>
@@ -41,11 +41,11 @@ struct SimilarityOfComponents {
     }
 };
 
-/// Brings each component of a surface (see SurfaceComponents) back to the area or volume that it began with, and to the
-/// centroid of its area (see Rescale): parts neither move apart nor make up for each other. A component without a
-/// volume, or of which too little is left, stays as the flow leaves it, unless that holds for all. The
-/// area of a face is the length of its vector area; volume is measured under the triangles that join every face's edges
-/// to the mean of its corners.
+/// Brings each component of a surface (see SurfaceComponents) back to the area or volume and to the centroid of area
+/// that it began with (see Rescale): components neither move apart nor compensate for each other. A component without a
+/// volume, or of which too little is left, is not scaled, unless that holds for all components. The area of a face is
+/// the length of its vector area; volume is measured under the triangles that join every face's edges to the mean of
+/// its corners.
 class Rescaling {
   public:
     /// Measures the surface as it is. The mesh and topology must outlive the object.
@@ -53,19 +53,20 @@ class Rescaling {
     ///         not oriented alike (naming an edge), or no volume in any component.
     Rescaling(const PolygonMesh& mesh, const Topology& topology, Rescale kind);
 
-    /// Scales positions of the flow, #V by 3; vertices without faces stay. Does nothing without Rescale.
-    /// @returns the map applied to the other vertices, which refers to this.
+    /// Scales positions of the flow; vertices without faces keep their positions. Does nothing without Rescale.
+    /// @param positions #V by 3.
+    /// @returns the map applied to the other vertices, which refers to this object.
     /// @throws ComputationError if too little is left of every component.
     SimilarityOfComponents apply(Points& positions);
 
-    /// On components that the last call left as they were; nothing if there were none.
+    /// A sentence on the components that the last call did not scale; empty if it scaled all.
     [[nodiscard]] std::optional<Remark> remark() const;
 
   private:
-    /// A component as a whole.
+    /// The size and the centroid of a component.
     struct Extent {
         double area;
-        /// Area or volume.
+        /// Area in length², or volume in length³.
         double size;
         Point centroid;
     };
@@ -79,8 +80,8 @@ class Rescaling {
     /// The lowest vertex of each component.
     std::vector<Index> origins_;
     /// The extent of each component before the first step.
-    std::vector<Extent> first_;
-    /// How many components the last call left as they were.
+    std::vector<Extent> initial_;
+    /// The number of components that the last call did not scale.
     Index n_left_ = 0;
 };
 

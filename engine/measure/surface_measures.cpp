@@ -19,7 +19,7 @@ double curvature_at(const PolygonMesh& mesh, const Topology& topology, const Poi
                : 0.0;
 }
 
-/// The largest finite one of value(0) … value(n - 1), or 0.
+/// The largest finite number among value(0) … value(n - 1), or 0.
 template <class Value>
 double largest_finite(Index n, Value&& value)
 {

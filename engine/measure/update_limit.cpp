@@ -16,7 +16,7 @@ namespace seamflow {
 
 namespace {
 
-/// The first vertex whose position is not finite, or the one that moves furthest.
+/// The first vertex whose position is not finite; if all are finite, the vertex with the largest displacement.
 /// @param unit about the size of the mesh, so that squares neither overflow nor vanish.
 Index farthest_mover(const Points& before, const Points& after, double unit)
 {
@@ -33,7 +33,7 @@ Index farthest_mover(const Points& before, const Points& after, double unit)
     };
     const auto n = static_cast<Index>(after.rows());
     const double scale = std::isnormal(1.0 / unit) ? 1.0 / unit : 1.0;
-    // An overflow is far, but less far than a non-finite position.
+    // A displacement whose square overflows is large, but counts as less than a position that is not finite.
     const auto square_of = [scale](const auto& to, const auto& from) {
         return to.allFinite() ? std::min(((to - from) * scale).squaredNorm(), std::numeric_limits<double>::max())
                               : std::numeric_limits<double>::infinity();

@@ -15,13 +15,13 @@ namespace {
 
 enum Tag : int { CollectiveTag, ArrivalTag, EndTag };
 
-/// Another rank has failed.
+/// Thrown where a rank waits, because another rank has failed.
 class Interruption : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;
 };
 
-/// How long to wait before checking for other events.
+/// The time to wait for a message before checking for other events.
 constexpr std::chrono::milliseconds patience_of_wait{100};
 
 using Kind = WorkOutcome::Kind;
@@ -71,6 +71,7 @@ WorkOutcome outcome_of(Work&& work)
     }
 }
 
+/// Throws the error of the ranks that have failed, if any has.
 /// @param outcomes of all ranks.
 void require_success(const std::vector<WorkOutcome>& outcomes)
 {
@@ -140,8 +141,8 @@ void Communicator::send(int to, Bytes bytes)
     send(to, ArrivalTag, std::move(bytes));
 }
 
-/// Waits for the next message and puts it where it belongs.
-/// @returns whether there was one.
+/// Waits for the next message and puts it into the list that it belongs to.
+/// @returns whether a message arrived in time.
 bool Communicator::take_in(std::chrono::microseconds patience)
 {
     std::optional<Message> message = transport_->receive(patience);
@@ -202,7 +203,8 @@ std::vector<Bytes> Communicator::exchange(std::span<const int> others, std::vect
 
 std::vector<Bytes> Communicator::allgather(Bytes own)
 {
-    // Every rank passes on the data of itself and of the ranks before it, of twice as many in each round.
+    // In each round, every rank passes on its own data and those of the ranks before it; the number of ranks whose data
+    // it has doubles.
     std::vector<Bytes> known{std::move(own)};
     const auto after = [&](int n) { return (rank() + n) % size(); };
     for (int n = 1; n < size(); n *= 2) {
@@ -234,8 +236,8 @@ std::optional<Message> Communicator::next_arrival(std::chrono::microseconds pati
     return message;
 }
 
-/// Messages still in transit from a rank arrive before its end, and are discarded. Messages after its end belong to the
-/// next work, which others may have begun.
+/// Waits until all ranks have ended the work. Messages still in transit from a rank arrive before its end, and are
+/// discarded. Messages after its end belong to the next work, which other ranks may have begun.
 std::vector<WorkOutcome> Communicator::part(const WorkOutcome& own)
 {
     for (int r = 0; r < size(); ++r)
@@ -261,7 +263,8 @@ std::vector<WorkOutcome> Communicator::part(const WorkOutcome& own)
     return outcomes;
 }
 
-/// Nothing is left of earlier work.
+/// Runs the work on this rank, after messages and outcomes of earlier work have been cleared, and throws if any rank
+/// has failed.
 void Communicator::run_work(const std::function<void()>& work)
 {
     for (auto& messages : collective_)

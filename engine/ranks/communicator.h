@@ -19,11 +19,11 @@
 
 namespace seamflow {
 
-/// How the work of a rank has ended.
+/// The end of the work on a rank.
 struct WorkOutcome {
     enum class Kind : std::uint8_t {
         Done,
-        /// Another rank has failed.
+        /// It was interrupted because another rank has failed.
         Interrupted,
         /// It has thrown an error of errors.h.
         InputError,
@@ -32,17 +32,17 @@ struct WorkOutcome {
         OutputError,
         Cancelled,
         OutOfMemory,
-        /// Anything else.
+        /// It has thrown any other exception.
         Failure,
     };
     Kind kind = Kind::Done;
     std::string message = {};
-    /// The machine.
+    /// The name of the rank's machine.
     std::string host = {};
 };
 
-/// Does what other ranks wait for, retrying while memory is lacking: what a failing rank had is freed meanwhile.
-/// @throws what the action throws, std::bad_alloc after some seconds.
+/// Runs an action that other ranks wait for, retrying while memory is lacking: a failing rank frees memory meanwhile.
+/// @throws whatever the action throws, std::bad_alloc after some seconds.
 template <class Action>
 void retry(Action&& action)
 {
@@ -60,7 +60,7 @@ void retry(Action&& action)
 }
 
 /// Communication of ranks that work together: each rank calls the collective functions in the same order as the others,
-/// within `run`. All of them, and next_arrival, throw if another rank fails in the meantime.
+/// within `run`. All collective functions, and next_arrival, throw if another rank fails in the meantime.
 class Communicator {
   public:
     /// @param transport must outlive this.
@@ -69,26 +69,26 @@ class Communicator {
     [[nodiscard]] int rank() const { return transport_->rank(); }
     [[nodiscard]] int size() const { return transport_->size(); }
 
-    /// Runs `work` on this rank, as every rank does, and waits until all ranks are at its end. If it throws on one
-    /// rank, it ends on all of them, as soon as each waits for another: then all throw what the lowest rank that failed
-    /// by itself has thrown, with the number and the machine of that rank before it, except if all have failed alike.
-    /// What may fail on one rank alone belongs in `work`.
+    /// Runs `work` on this rank, as every rank does, and waits until all ranks have ended it. If the work throws on one
+    /// rank, it ends on all ranks, as soon as each waits for another one. All ranks then throw the exception of the
+    /// lowest rank that failed by itself. Its message begins with the number and the machine of that rank, unless all
+    /// ranks have failed in the same way. Actions that can fail on one rank alone belong in `work`.
     /// @throws the errors of errors.h as they are; std::bad_alloc and all others as ComputationError.
     template <class Work>
     void run(Work&& work)
     {
-        // By reference, which takes no memory: without any, others would wait for this rank.
+        // By reference, which allocates no memory: if that failed on this rank alone, other ranks would wait for it.
         run_work(std::ref(work));
     }
 
-    /// Sends something to another rank, which takes it, in order.
+    /// Sends bytes to another rank, which receives them by `take`, in the same order.
     void give(int to, Bytes bytes);
     Bytes take(int from);
 
-    /// What every rank gives, in the order of ranks.
+    /// The bytes that every rank gives, in the order of ranks.
     std::vector<Bytes> allgather(Bytes own);
 
-    /// The same for a list of values each, joined.
+    /// The lists of values that all ranks give, joined in the order of ranks.
     template <class Value>
     std::vector<Value> gather_all(const std::vector<Value>& own)
     {
@@ -98,24 +98,26 @@ class Communicator {
         return all;
     }
 
-    /// Sends bytes to some other ranks, and receives those for this one.
-    /// @param others ascending; each of them names this rank. @param to_each corresponds. @returns the same.
+    /// Sends bytes to some other ranks, and receives bytes from them.
+    /// @param others ascending; each of these ranks also has this rank among its `others`.
+    /// @param to_each one per rank in `others`. @returns one from each rank in `others`.
     std::vector<Bytes> exchange(std::span<const int> others, std::vector<Bytes> to_each);
 
-    /// Sends something that no collective function waits for. Any thread may do so, at any time.
+    /// Sends bytes for next_arrival of another rank, not for a collective function. May be called from any thread, at
+    /// any time.
     /// @param to another rank.
     void send(int to, Bytes bytes);
 
-    /// The next of these to arrive; empty if none does in time.
+    /// The next message that another rank has sent by `send`; empty if none arrives in time.
     std::optional<Message> next_arrival(std::chrono::microseconds patience);
 
-    /// What has been sent so far, collective functions included.
+    /// The number of messages sent so far, including those of collective functions.
     [[nodiscard]] std::uint64_t n_messages() const { return n_messages_; }
     [[nodiscard]] std::uint64_t n_bytes() const { return n_bytes_; }
 
   private:
     void run_work(const std::function<void()>& work);
-    /// Tells all ranks how the work has ended here, and waits until all have done so.
+    /// Sends all ranks the outcome of the work on this rank, and waits for the outcomes of all ranks.
     std::vector<WorkOutcome> part(const WorkOutcome& own);
     bool take_in(std::chrono::microseconds patience);
     void sort_in(Message message);
@@ -123,11 +125,12 @@ class Communicator {
     void send(int to, int tag, Bytes bytes);
 
     Transport* transport_;
-    /// Per rank, what has arrived for collective functions, in order.
+    /// Per rank, the messages that have arrived for collective functions, in order.
     std::vector<std::deque<Bytes>> collective_;
-    /// A list takes no memory while it is empty: others would wait for a rank that has none to begin with.
+    /// The messages for next_arrival. An empty list allocates no memory: if that failed on this rank alone, other ranks
+    /// would wait for it.
     std::list<Message> arrivals_;
-    /// Per rank; empty: still at work.
+    /// Per rank, its outcome; empty while the rank works.
     std::vector<std::optional<WorkOutcome>> ended_;
     std::atomic<std::uint64_t> n_messages_ = 0;
     std::atomic<std::uint64_t> n_bytes_ = 0;

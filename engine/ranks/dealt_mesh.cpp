@@ -11,7 +11,7 @@ namespace seamflow {
 
 namespace {
 
-/// Calls visit(option) for everything that steps in sub-meshes read, but for what each vertex has of its own.
+/// Calls visit(option) for all options that steps in sub-meshes read, except lists with one entry per vertex.
 template <class Options, class Visit>
 void for_each_dealt(Options& options, Visit&& visit)
 {
@@ -39,17 +39,17 @@ void put_rows_of(const std::vector<Value>& all, std::span<const Index> rows, Pac
     message.put_all(std::span<const Value>(own));
 }
 
-/// Where a vertex has faces of several ranks.
+/// Stands for the rank of a vertex whose faces belong to several ranks.
 constexpr std::int32_t of_several = -2;
 
-/// Ascending: the places of a value.
+/// The indices of the entries that equal a value, ascending.
 std::vector<Index> all_of(const std::vector<std::int32_t>& values, int value)
 {
-    std::vector<Index> places;
+    std::vector<Index> indices;
     for (std::size_t i = 0; i < values.size(); ++i)
         if (values[i] == value)
-            places.push_back(static_cast<Index>(i));
-    return places;
+            indices.push_back(static_cast<Index>(i));
+    return indices;
 }
 
 }  // namespace
@@ -94,11 +94,11 @@ Dealer::Dealer(const PolygonMesh& mesh, const Topology& topology, std::span<cons
     , knows_face_(usize(mesh.n_faces()), -1)
     , knows_vertex_(usize(mesh.n_vertices()), -1)
     , meets_vertex_(usize(mesh.n_vertices()), -1)
-    , place_(usize(mesh.n_vertices()), 0)
+    , local_index_(usize(mesh.n_vertices()), 0)
     , known_vertices_(static_cast<std::size_t>(n_ranks))
     , sent_vertices_(known_vertices_.size())
 {
-    // A sub-mesh goes where its middle face is in a mesh that is divided equally.
+    // A sub-mesh goes to the rank that has its middle face, if faces are divided equally and in order among ranks.
     double before = 0.0;
     for (const std::vector<Index>& faces : faces_) {
         const double middle = before + 0.5 * static_cast<double>(faces.size());
@@ -112,7 +112,8 @@ Dealer::Dealer(const PolygonMesh& mesh, const Topology& topology, std::span<cons
         }
 }
 
-/// With two layers around its own ones, all that have the vertices around those of its sub-meshes are known.
+/// The own faces of a rank and two layers of faces around them: so the faces around the neighbours of the vertices of
+/// its sub-meshes are known.
 std::vector<Index> Dealer::known_faces(int rank)
 {
     constexpr int layers = 2;
@@ -162,7 +163,7 @@ void Dealer::deal(int rank, Packer& message)
     std::vector<Index> own_vertices;
     std::vector<std::uint8_t> is_sent;
     for (const Index v : vertices) {
-        place_[v] = static_cast<Index>(is_sent.size());
+        local_index_[v] = static_cast<Index>(is_sent.size());
         is_sent.push_back(sender_[v] == rank ? 1 : 0);
         if (is_sent.back() != 0)
             own_vertices.push_back(v);
@@ -181,9 +182,9 @@ void Dealer::deal(int rank, Packer& message)
     std::vector<Index> labels;
     for (const Index f : faces) {
         for (const Index v : mesh_->face(f))
-            part.face_vertices.push_back(place_[v]);
+            part.face_vertices.push_back(local_index_[v]);
         part.face_offsets.push_back(part.n_corners());
-        labels.push_back(position_in(sub_meshes, labels_[f]));
+        labels.push_back(find_in(sub_meshes, labels_[f]));
     }
     message.put_all(std::span<const Index>(part.face_offsets));
     message.put_all(std::span<const Index>(part.face_vertices));

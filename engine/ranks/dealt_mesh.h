@@ -11,48 +11,49 @@
 
 namespace seamflow {
 
-/// What one rank knows of a mesh that flows: its sub-meshes and two layers of faces around them, in the order of the
-/// whole mesh.
+/// The part of a flowing mesh that one rank knows: its sub-meshes and two layers of faces around them, in the order of
+/// the whole mesh.
 struct DealtMesh {
     PolygonMesh mesh;
-    /// As in the whole mesh, except at the rim of what is known.
+    /// As in the whole mesh, except at the rim of the known part.
     Topology topology;
-    /// #V, ascending: the vertices of the whole mesh.
+    /// #V: the numbers of the vertices in the whole mesh, ascending.
     std::vector<Index> vertex_numbers;
-    /// #V: 1 where rank 0 gets the position of the vertex from here.
+    /// #V: 1 if rank 0 gets the position of the vertex from this rank.
     std::vector<std::uint8_t> is_sent;
-    /// #V: ‖ΔV⁰‖; or empty.
+    /// #V: ‖ΔV⁰‖, in 1/length; or empty.
     std::vector<double> curvature;
-    /// #F: the place of the sub-mesh of each face among the known ones.
+    /// #F: the sub-mesh of each face, as an index in `known`.
     std::vector<Index> labels;
-    /// The known sub-meshes, ascending, and the first face of each, all as in the whole mesh.
+    /// The numbers of the known sub-meshes in the whole mesh, ascending; and the first face of each, numbered as in the
+    /// whole mesh.
     std::vector<Index> known;
     std::vector<Index> first_faces;
     /// The rank of each sub-mesh of the whole mesh.
     std::vector<Index> holders;
-    /// A copy of the fields of the options that steps read; the others are as by default.
+    /// The options that steps read are copied; the others have their default values.
     FlowOptions options;
 };
 
-/// Takes a mesh out of a message that a Dealer has made.
+/// Reads a DealtMesh from a message that a Dealer has made.
 DealtMesh dealt_mesh(Unpacker& message);
 
-/// Deals the sub-meshes of a mesh to ranks: each gets consecutive ones, with about equally many faces.
+/// Deals the sub-meshes of a mesh to ranks: each rank gets consecutive sub-meshes, with about equally many faces.
 class Dealer {
   public:
     /// @param mesh, topology, options must outlive this. @param labels #F, each in 0 to n_parts - 1; must outlive this,
-    /// too. @param curvature #V, or empty.
+    /// too. @param curvature #V: ‖ΔV⁰‖, in 1/length; or empty.
     Dealer(const PolygonMesh& mesh, const Topology& topology, std::span<const Index> labels, Index n_parts,
            const FlowOptions& options, std::vector<double> curvature, int n_ranks);
 
-    /// Puts what a rank gets into its message; once for each rank, in any order.
+    /// Puts the part of a rank into the message for it; to be called once for each rank, in any order.
     void deal(int rank, Packer& message);
 
     /// The rank of each sub-mesh.
     [[nodiscard]] const std::vector<Index>& holders() const { return holders_; }
 
-    /// Per rank that has been dealt its part: the vertices that it knows, and those whose positions come from it, both
-    /// ascending.
+    /// Per rank that has been dealt its part: the vertices that it knows; and the vertices whose positions it sends to
+    /// rank 0; both ascending.
     [[nodiscard]] std::vector<std::vector<Index>>& known_vertices() { return known_vertices_; }
     [[nodiscard]] std::vector<std::vector<Index>>& sent_vertices() { return sent_vertices_; }
 
@@ -67,16 +68,17 @@ class Dealer {
     /// The faces of each sub-mesh.
     std::vector<std::vector<Index>> faces_;
     std::vector<Index> holders_;
-    /// #V: the rank that has all faces of the vertex; below 0 if there is none.
+    /// #V: the rank that owns all faces of the vertex; negative if there is no such rank.
     std::vector<std::int32_t> holder_at_;
-    /// #V: the rank that sends the position of the vertex to rank 0; -1: none yet.
+    /// #V: the rank that sends the position of the vertex to rank 0; -1 if none has been chosen.
     std::vector<std::int32_t> sender_;
-    /// #F and #V: the last rank that knows the face, has looked around the vertex, and has got it.
+    /// #F: the last rank that knows the face. #V: the last rank that has visited the faces around the vertex; the last
+    /// rank that has got the vertex.
     std::vector<std::int32_t> knows_face_;
     std::vector<std::int32_t> knows_vertex_;
     std::vector<std::int32_t> meets_vertex_;
-    /// #V: the place of the vertex among those of the last rank that has it.
-    std::vector<Index> place_;
+    /// #V: the index of the vertex among the vertices of the last rank that has got it.
+    std::vector<Index> local_index_;
     std::vector<std::vector<Index>> known_vertices_;
     std::vector<std::vector<Index>> sent_vertices_;
 };

@@ -15,12 +15,12 @@ namespace seamflow {
 
 namespace {
 
-/// Tags of pieces with successors lie above the tags of messages.
+/// Added to the tag of a message for all its pieces except the last.
 constexpr int more_follows = 256;
 
-/// Gives this thread, and those that it starts, the cores of all ranks on its machine. mpirun binds each rank to a core
-/// of its own, but rank 0 works alone with as many threads as there are ranks, and a rank looks for messages beside its
-/// work.
+/// Allows this thread, and threads that it starts, all cores that the ranks on this machine may use. mpirun binds each
+/// rank to a core of its own, but rank 0 works alone with as many threads as there are ranks, and a rank receives
+/// messages beside its work.
 void share_cores(MPI_Comm world)
 {
     MPI_Comm of_machine = MPI_COMM_NULL;
@@ -30,7 +30,7 @@ void share_cores(MPI_Comm world)
     if (::sched_getaffinity(0, sizeof(cores), &cores) != 0)
         CPU_ZERO(&cores);
     ::MPI_Allreduce(MPI_IN_PLACE, &cores, sizeof(cores), MPI_BYTE, MPI_BOR, of_machine);
-    // Where that is refused, ranks stay where they are.
+    // If the system refuses, ranks keep the cores that they have.
     if (CPU_COUNT(&cores) > 0)
         ::sched_setaffinity(0, sizeof(cores), &cores);
     ::MPI_Comm_free(&of_machine);
@@ -56,7 +56,7 @@ class MpiTransport final : public Transport {
             throw ComputationError(
                 "this MPI lets only one thread call it: it must be built with thread support (MPI_THREAD_SERIALIZED)");
         }
-        // Messages of other users of MPI in this program are not mixed with ours.
+        // A communicator of its own, so that messages of other users of MPI in this program are not mixed with these.
         ::MPI_Comm_dup(MPI_COMM_WORLD, &world_);
         ::MPI_Comm_rank(world_, &rank_);
         ::MPI_Comm_size(world_, &size_);
@@ -100,7 +100,7 @@ class MpiTransport final : public Transport {
         } while (begin < shared->size());
     }
 
-    /// Polls, less often the longer nothing arrives: MPI cannot wait for two things at once.
+    /// Polls, less often the longer nothing arrives, because MPI cannot wait for messages and other events together.
     [[nodiscard]] std::optional<Message> fetch(std::chrono::microseconds patience) override
     {
         const auto end = std::chrono::steady_clock::now() + patience;
@@ -122,7 +122,7 @@ class MpiTransport final : public Transport {
         MPI_Request request;
     };
 
-    /// Takes available pieces until a message is complete.
+    /// Receives available pieces until a message is complete.
     std::optional<Message> look()
     {
         const std::scoped_lock lock(mutex_);
@@ -141,7 +141,7 @@ class MpiTransport final : public Transport {
             ::MPI_Get_count(&status_, MPI_BYTE, &size);
             Bytes& bytes = incomplete_[status_.MPI_SOURCE];
             const std::size_t begin = bytes.size();
-            // The piece waits if memory is lacking.
+            // If memory is lacking, the piece is not received yet, and stays available.
             bytes.resize(begin + static_cast<std::size_t>(size));
             ::MPI_Mrecv(bytes.data() + begin, size, MPI_BYTE, &piece_, MPI_STATUS_IGNORE);
             if (status_.MPI_TAG < more_follows)
@@ -154,10 +154,10 @@ class MpiTransport final : public Transport {
     MPI_Comm world_ = MPI_COMM_NULL;
     int rank_ = 0;
     int size_ = 1;
-    /// MPI is called by one thread at a time.
+    /// Allows one thread at a time to call MPI.
     std::mutex mutex_;
     std::vector<Outgoing> outgoing_;
-    /// Found, but not yet taken.
+    /// A piece that has been found, but not yet received.
     MPI_Message piece_ = MPI_MESSAGE_NULL;
     MPI_Status status_{};
     /// Per rank, the pieces of its message that have arrived.

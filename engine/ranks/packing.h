@@ -14,14 +14,14 @@
 /// Converts values to bytes and back. All ranks have the same byte order: one run uses one kind of machine.
 namespace seamflow {
 
-/// Appends values.
+/// Appends values to a message.
 class Packer {
   public:
     template <class Value>
     requires std::is_trivially_copyable_v<Value>
     void put(const Value& value) { put_bytes(&value, sizeof(Value)); }
 
-    /// Their number, then the values.
+    /// Appends the number of some values, then the values.
     template <class Value>
     requires std::is_trivially_copyable_v<Value>
     void put_all(std::span<const Value> values)
@@ -30,10 +30,10 @@ class Packer {
         put_bytes(values.data(), values.size_bytes());
     }
 
-    /// Three coordinates.
+    /// Appends three coordinates.
     void put_row(const double* coordinates) { put_bytes(coordinates, 3 * sizeof(double)); }
 
-    /// Their number, then the rows, of these or of all.
+    /// Appends the number of rows, then some of the rows, or all.
     void put_rows(const Points& points, std::span<const Index> rows)
     {
         put(3 * rows.size());
@@ -46,7 +46,7 @@ class Packer {
         put_all(std::span<const double>(points.data(), static_cast<std::size_t>(points.size())));
     }
 
-    /// Moves out what was put.
+    /// Moves the message out.
     [[nodiscard]] Bytes take() { return std::move(bytes_); }
 
     void reserve(std::size_t n_bytes) { bytes_.reserve(n_bytes); }
@@ -61,7 +61,7 @@ class Packer {
     Bytes bytes_;
 };
 
-/// Takes values in the order in which they were put.
+/// Reads values in the order in which they were appended.
 class Unpacker {
   public:
     /// @param bytes must outlive this.
@@ -94,7 +94,7 @@ class Unpacker {
         get_bytes(values.data() + (values.size() - n), n * sizeof(Value));
     }
 
-    /// What put_rows or put_points has put.
+    /// Reads the rows that put_rows or put_points has appended.
     [[nodiscard]] Points get_points()
     {
         Points points(static_cast<Eigen::Index>(next_size(sizeof(double)) / 3), 3);
@@ -102,7 +102,7 @@ class Unpacker {
         return points;
     }
 
-    /// The same into these rows, of which there are as many.
+    /// Reads rows into these rows of `points`. Their numbers must be equal.
     void get_rows(Points& points, std::span<const Index> rows)
     {
         if (next_size(sizeof(double)) != 3 * rows.size())
@@ -114,7 +114,7 @@ class Unpacker {
     [[nodiscard]] bool is_at_end() const { return left_.empty(); }
 
   private:
-    /// How many values of this many bytes follow.
+    /// Reads the number of values of this many bytes each that follow.
     std::size_t next_size(std::size_t bytes_each)
     {
         const auto n = get<std::size_t>();
@@ -135,7 +135,7 @@ class Unpacker {
     std::span<const std::byte> left_;
 };
 
-/// Bytes of one list of values.
+/// The bytes of one list of values.
 template <class Value>
 Bytes packed(const std::vector<Value>& values)
 {
@@ -145,7 +145,7 @@ Bytes packed(const std::vector<Value>& values)
     return packer.take();
 }
 
-/// The list of values that packed() was given.
+/// The list of values whose bytes packed() has returned.
 template <class Value>
 std::vector<Value> unpacked(const Bytes& bytes)
 {

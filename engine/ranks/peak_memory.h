@@ -4,7 +4,7 @@
 
 namespace seamflow {
 
-/// The most memory that this process has held until now (its peak resident set), in bytes.
+/// The largest amount of memory that this process has used so far (its peak resident set), in bytes.
 std::int64_t peak_memory_bytes();
 
 }  // namespace seamflow

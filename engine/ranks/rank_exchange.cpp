@@ -15,7 +15,7 @@ namespace seamflow {
 
 namespace {
 
-/// How soon a receiver notices that its run has failed.
+/// The time after which a receiver notices that its run has failed.
 constexpr std::chrono::milliseconds patience_of_receiver{20};
 
 /// The header before the rows of a message.
@@ -42,14 +42,14 @@ Index RankExchange::known_index(Index number) const
     return static_cast<Index>(std::ranges::lower_bound(dealt_->known, number) - dealt_->known.begin());
 }
 
-/// Rows that the transfers to this rank's sub-meshes read of foreign ones, and further rows.
+/// Finds the rows of remote sub-meshes that the transfers to this rank's sub-meshes read, and further rows.
 void RankExchange::find_own_interest(const Decomposition& decomposition, std::span<const SweepPlan> sweeps,
                                      std::span<const std::vector<Index>> further)
 {
     const auto note = [&](const std::vector<Transfer>& transfers, std::initializer_list<MessageKind> kinds) {
         for (const Transfer& transfer : transfers)
             for (const MessageKind kind : kinds)
-                if (is_foreign(transfer.from)) {
+                if (is_remote(transfer.from)) {
                     auto& rows = own_interest_[transfer.from].rows[index_of(kind)];
                     rows.insert(rows.end(), transfer.source.begin(), transfer.source.end());
                 }
@@ -80,7 +80,7 @@ void RankExchange::connect(const Decomposition& decomposition, std::span<const S
     pending_.resize(sweeps.size());
     std::vector<Packer> per_rank(comm_->size());
     for (std::size_t s = 0; s < dealt_->known.size(); ++s) {
-        if (!is_foreign(static_cast<Index>(s)))
+        if (!is_remote(static_cast<Index>(s)))
             continue;
         Packer& packer = per_rank[holder(static_cast<Index>(s))];
         packer.put(dealt_->known[s]);
@@ -107,8 +107,7 @@ void RankExchange::connect(const Decomposition& decomposition, std::span<const S
             interest.rank = others[i];
             for (auto& rows : interest.rows)
                 for (const Index number : unpacker.get_all<Index>())
-                    rows.push_back(
-                        local_index(decomposition.sub_meshes[s], position_in(dealt_->vertex_numbers, number)));
+                    rows.push_back(local_index(decomposition.sub_meshes[s], find_in(dealt_->vertex_numbers, number)));
             interest.predicts = unpacker.get_all<std::uint8_t>();
         }
 }
@@ -148,7 +147,7 @@ void RankExchange::send(MessageKind kind, std::size_t sweep, Index s, const Poin
     }
 }
 
-/// Keeps a message for a later run; else starts the task that waits for it.
+/// Starts the task that waits for a message; keeps a message of a later run.
 void RankExchange::deliver(Message message, TaskGraph& graph, std::vector<PendingMessage>& pending)
 {
     const auto header = Unpacker(message.bytes).get<Header>();
@@ -167,7 +166,8 @@ void RankExchange::deliver(Message message, TaskGraph& graph, std::vector<Pendin
     arrival->has_come = true;
 }
 
-/// If the run fails, here or at another rank, waiting tasks are started, too: they are then skipped.
+/// Receives all messages of a run. If the run fails, on this rank or another, waiting tasks are started, too: the graph
+/// then skips them.
 void RankExchange::receive_all(TaskGraph& graph, std::vector<PendingMessage>& pending)
 {
     try {
@@ -195,7 +195,7 @@ void RankExchange::run(TaskGraph& graph, std::size_t sweep, const std::function<
     try {
         graph.run(sweep, 0.0, join);
     } catch (...) {
-        // The receiver would wait for what others do not send.
+        // Without this failure the receiver would wait for messages that other ranks do not send.
         graph.fail(std::current_exception());
         throw;
     }

@@ -9,20 +9,20 @@
 #include "engine/ranks/communicator.h"
 #include "engine/ranks/dealt_mesh.h"
 #include "engine/setup/sweep_plan.h"
-#include "engine/steppers/foreign_sub_meshes.h"
+#include "engine/steppers/remote_sub_meshes.h"
 #include "engine/tasks/task_graph.h"
 #include "partition/decomposition/decomposition.h"
 
 namespace seamflow {
 
 /// Exchanges data of sub-meshes between ranks while a sweep runs: one message for each sub-mesh, kind of message and
-/// rank that waits for it. A separate thread receives them, and starts the tasks that waited.
-class RankExchange final : public ForeignSubMeshes {
+/// rank that waits for it. A separate thread receives messages, and starts the tasks that wait for them.
+class RankExchange final : public RemoteSubMeshes {
   public:
     /// @param comm, dealt must outlive this.
     RankExchange(Communicator& comm, const DealtMesh& dealt);
 
-    [[nodiscard]] bool is_foreign(Index s) const override { return holder(s) != comm_->rank(); }
+    [[nodiscard]] bool is_remote(Index s) const override { return holder(s) != comm_->rank(); }
     void connect(const Decomposition& decomposition, std::span<const SweepPlan> sweeps,
                  std::span<const std::vector<Index>> further) override;
     [[nodiscard]] bool awaits(MessageKind kind, std::size_t sweep, Index s) const override;
@@ -38,8 +38,8 @@ class RankExchange final : public ForeignSubMeshes {
     /// The rank of a known sub-mesh.
     [[nodiscard]] int holder(Index s) const { return dealt_->holders[dealt_->known[s]]; }
 
-    /// What a rank needs of a sub-mesh: the local rows for each kind of message, and whether the sub-mesh predicts for
-    /// it in each sweep.
+    /// The rows of a sub-mesh that a rank needs: local rows for each kind of message; and whether the sub-mesh predicts
+    /// for that rank in each sweep.
     struct Interest {
         int rank = -1;
         std::array<std::vector<Index>, n_kinds> rows;
@@ -66,14 +66,14 @@ class RankExchange final : public ForeignSubMeshes {
 
     Communicator* comm_;
     const DealtMesh* dealt_;
-    /// Per foreign sub-mesh, what this rank needs; per own one, what others need.
+    /// Per remote sub-mesh: the rows that this rank needs. Per own sub-mesh: the rows that other ranks need.
     std::vector<Interest> own_interest_;
     std::vector<std::vector<Interest>> listeners_;
-    /// Per sweep.
+    /// Per sweep: the messages that will arrive.
     std::vector<std::vector<PendingMessage>> pending_;
-    /// Per kind of message and foreign sub-mesh: what has arrived in this run.
+    /// Per kind of message and remote sub-mesh: the bytes that have arrived in this run.
     std::array<std::vector<Bytes>, n_kinds> mail_;
-    /// The number of this run; and messages for later ones.
+    /// The number of this run; and messages of later runs, which have arrived early.
     std::uint64_t run_ = 0;
     std::vector<Message> early_;
 };

@@ -21,7 +21,7 @@ namespace seamflow {
 
 namespace {
 
-/// All ranks call this together.
+/// The number of ranks on this rank's machine. All ranks call this together.
 int count_on_this_machine(Communicator& comm, const Transport& transport)
 {
     int n = 0;
@@ -35,7 +35,7 @@ int count_on_this_machine(Communicator& comm, const Transport& transport)
     return n;
 }
 
-/// A flow that rank 0 runs, here.
+/// A flow that rank 0 runs, on another rank.
 class ServedFlow {
   public:
     explicit ServedFlow(int threads)
@@ -46,13 +46,14 @@ class ServedFlow {
     ServedFlow(const ServedFlow&) = delete;
     ServedFlow& operator=(const ServedFlow&) = delete;
 
-    /// Where it was made, since each thread has memory of its own.
+    /// Destroyed on the threads on which the members were made, because each thread has memory of its own.
     ~ServedFlow()
     {
         workers_.execute([&] { part_.reset(); });
     }
 
-    /// @returns the answer.
+    /// Makes the part of this rank from a message.
+    /// @returns the answer to rank 0.
     Bytes make_part(Communicator& comm, Bytes message)
     {
         workers_.execute([&] {
@@ -79,7 +80,7 @@ class ServedFlow {
     std::optional<RankPart> part_;
 };
 
-/// What another rank than 0 does.
+/// Serves rank 0 on another rank.
 class RankServer {
   public:
     RankServer(Communicator& comm, int threads)
@@ -88,7 +89,7 @@ class RankServer {
     {
     }
 
-    /// Does one thing that rank 0 asks for. @returns the status to end with, if it is time.
+    /// Serves one request of rank 0. @returns the exit status, if the request is to end.
     std::optional<int> serve()
     {
         RankHeader header{};
@@ -108,7 +109,7 @@ class RankServer {
                     comm_.give(0, flows_.at(header.flow)->act(header.task, unpacker));
             });
         } catch (const std::exception&) {
-            // Rank 0 has got it, too, and reports it. The flow cannot go on.
+            // Rank 0 gets the same exception and reports it. The flow cannot continue.
             flows_.erase(header.flow);
             status.reset();
         }
@@ -116,7 +117,7 @@ class RankServer {
     }
 
   private:
-    /// Tells rank 0 at once that it has arrived, so that it deals one part at a time.
+    /// Makes the part of this rank. Confirms the message to rank 0 at once, so that rank 0 deals one part at a time.
     void begin(const RankHeader& header, Bytes message)
     {
         comm_.give(0, {});
@@ -144,14 +145,14 @@ RankGroup::~RankGroup()
         if (!has_dismissed_)
             dismiss(0);
     } catch (const std::exception&) {
-        // They end with what ends this rank.
+        // The other ranks end because of the failure that ends this rank.
     }
 }
 
 void RankGroup::dismiss(int status)
 {
     has_dismissed_ = true;
-    // They serve on until all of them have understood it.
+    // The other ranks serve until all of them have got the message.
     constexpr int most_attempts = 100;
     for (int attempt = 1;; ++attempt) {
         try {

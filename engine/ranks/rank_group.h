@@ -5,35 +5,36 @@
 
 namespace seamflow {
 
-/// The ranks that share the steps of flows (see FlowControl::ranks), as rank 0 sees them: it runs each flow, with the
-/// whole mesh, and the others have their sub-meshes of it and take their part in each step. They wait for it in
-/// serve_flows. One flow at a time takes a step; a flow ends before the group does.
+/// The ranks that share the steps of flows (see FlowControl::ranks), as rank 0 sees them: rank 0 runs each flow, with
+/// the whole mesh, and the others have sub-meshes of the flow and do their part of each step. Between steps the others
+/// wait for rank 0 in serve_flows. One flow at a time takes a step; a flow ends before the group does.
 class RankGroup {
   public:
-    /// All ranks begin together, the others in serve_flows.
+    /// All ranks begin together, the other ranks in serve_flows.
     /// @param transport of rank 0, which must outlive this.
     explicit RankGroup(Transport& transport);
     RankGroup(const RankGroup&) = delete;
     RankGroup& operator=(const RankGroup&) = delete;
 
-    /// Dismisses the others, with status 0, if that has not been done.
+    /// Dismisses the other ranks, with status 0, if `dismiss` has not been called.
     ~RankGroup();
 
     [[nodiscard]] Communicator& comm() { return comm_; }
     [[nodiscard]] int size() const { return comm_.size(); }
 
-    /// How many of the ranks, this one included, are on its machine.
+    /// The number of ranks, this one included, on the machine of rank 0.
     [[nodiscard]] int n_on_this_machine() const { return n_on_this_machine_; }
 
-    /// The threads of each rank in what they share; 0, as at first: rank 0 has those of its flow, and each other one
-    /// its part of those of its machine. The flow of rank 0 may have more: others wait while it works alone.
+    /// Sets the number of threads of each rank in shared work. 0, the default: rank 0 has those of its flow, and each
+    /// other rank its share of the threads of its machine. The flow of rank 0 may have more threads: other ranks wait
+    /// while it works alone.
     void set_threads_of_each(int threads) { threads_of_each_ = threads; }
     [[nodiscard]] int threads_of_each() const { return threads_of_each_; }
 
-    /// A number for a further flow.
+    /// Returns a number for a further flow.
     int add_flow() { return n_flows_++; }
 
-    /// Ends the others, once: serve_flows returns this status there.
+    /// Ends the other ranks: serve_flows returns this status there. To be called once.
     void dismiss(int status);
 
   private:
@@ -44,11 +45,11 @@ class RankGroup {
     bool has_dismissed_ = false;
 };
 
-/// Does what rank 0 asks for, on every other rank, and waits for it in between, which takes hardly any time of a
-/// processor. What fails here is thrown there.
-/// @param threads of the machine, which the ranks on it share if rank 0 does not say how many each has; 0: of all
-/// cores.
-/// @returns what rank 0 ends with.
+/// Serves the requests of rank 0 on another rank, and waits between them, which takes hardly any processor time.
+/// Failures of this rank are thrown on rank 0.
+/// @param threads the threads of the machine, which its ranks share if rank 0 does not set a number for each; 0: one
+/// per core.
+/// @returns the status with which rank 0 ends the ranks.
 int serve_flows(Transport& transport, int threads);
 
 }  // namespace seamflow

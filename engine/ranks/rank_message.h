@@ -6,16 +6,16 @@
 #include "engine/ranks/packing.h"
 #include "partition/index.h"
 
-/// The messages of rank 0 to the others, and what they answer.
+/// The messages of rank 0 to other ranks, and their answers.
 namespace seamflow {
 
-/// What rank 0 asks all ranks for. Rows of positions belong to the vertices that the rank
-/// knows, or in answers to those that it sends (DealtMesh::is_sent).
+/// The requests of rank 0 to all ranks. In requests, rows of positions belong to the vertices that the rank knows; in
+/// answers, to the vertices that it sends (DealtMesh::is_sent).
 enum class RankTask : std::uint8_t {
-    /// Make a RankPart of a DealtMesh. Answer: the SavedRow of each row that the stepper saves.
+    /// Make a RankPart from a DealtMesh. Answer: the SavedRow of each row that the stepper saves.
     Deal,
     Step,
-    /// Answer: rows, one for each vertex whose position comes from here.
+    /// Answer: rows, one for each vertex whose position this rank sends.
     Positions,
     /// Rows of all vertices: Stepper::set_positions, and Stepper::set_data, with its DataSteps.
     SetPositions,
@@ -26,24 +26,24 @@ enum class RankTask : std::uint8_t {
     Save,
     /// Rows of all vertices, numbers, and arrays: Stepper::restore.
     Restore,
-    /// Answer: a RankShare, and a SubMeshReport of each sub-mesh.
+    /// Answer: a RankShare, and a SubMeshReport for each sub-mesh.
     Describe,
     /// Forget the flow.
     Drop,
-    /// End, with an exit status.
+    /// End with an exit status.
     Dismiss,
 };
 
-/// What each message of rank 0 begins with.
+/// The beginning of each message of rank 0.
 struct RankHeader {
     RankTask task = RankTask::Dismiss;
-    /// Which flow it is about.
+    /// The number of the flow that the request concerns.
     std::int32_t flow = -1;
-    /// Of Deal: the number of threads, 0 if it is left open; of Dismiss: the exit status.
+    /// In Deal: the number of threads, 0 if it is not set. In Dismiss: the exit status.
     std::int32_t value = 0;
 };
 
-/// A message that begins so.
+/// A message that begins with this header.
 inline Packer rank_message(const RankHeader& header)
 {
     Packer message;
@@ -51,8 +51,8 @@ inline Packer rank_message(const RankHeader& header)
     return message;
 }
 
-/// A row that a stepper saves: its vertex, and the lowest of the sub-meshes there, as in the whole mesh. All rows of a
-/// stepper that has the whole mesh are in this order.
+/// A row that a stepper saves: its vertex, and the lowest of the sub-meshes at the vertex, both numbered as in the
+/// whole mesh. A stepper that has the whole mesh saves its rows in this order.
 struct SavedRow {
     Index lowest;
     Index vertex;
@@ -60,7 +60,7 @@ struct SavedRow {
     friend auto operator<=>(const SavedRow&, const SavedRow&) = default;
 };
 
-/// What a rank reports as a whole.
+/// The part of a report that concerns a whole rank.
 struct RankShare {
     RankRecord record;
     ResourceReport resources;

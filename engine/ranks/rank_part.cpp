@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "engine/ranks/communicator_ranks.h"
 #include "engine/ranks/peak_memory.h"
-#include "engine/ranks/rank_peers.h"
 #include "engine/steppers/schur_stepper.h"
 #include "engine/steppers/sweep_order.h"
 #include "engine/tasks/parallel_executor.h"
@@ -17,7 +17,7 @@ namespace seamflow {
 
 namespace {
 
-/// For each sub-mesh of all ranks, those with which it shares a vertex of Γ.
+/// Per sub-mesh of all ranks: the sub-meshes with which it shares a vertex of Γ.
 std::vector<std::vector<Index>> gather_adjacency(Communicator& comm, const DealtMesh& dealt,
                                                  const Decomposition& decomposition)
 {
@@ -36,7 +36,7 @@ std::vector<std::vector<Index>> gather_adjacency(Communicator& comm, const Dealt
     return adjacency;
 }
 
-/// Σ‖ΔV⁰‖ of each sub-mesh of all ranks.
+/// Per sub-mesh of all ranks: Σ‖ΔV⁰‖, in 1/length.
 std::vector<double> gather_curvatures(Communicator& comm, const DealtMesh& dealt, const Decomposition& decomposition)
 {
     struct Total {
@@ -54,9 +54,10 @@ std::vector<double> gather_curvatures(Communicator& comm, const DealtMesh& dealt
     return of_all;
 }
 
-/// Windows that are large enough forward and backward, whatever crosses Γ: as if every sub-mesh needed the results of
-/// all around it. Ranks that each have their part of both orders, and windows of at least this size, do not wait for
-/// each other in a circle: a solution waits for factorisations at lower places than those that wait for it.
+/// Windows that are large enough forward and backward, whatever data cross Γ: computed as if every sub-mesh needed the
+/// results of all sub-meshes around it. If ranks use their parts of both orders, and windows of at least this size,
+/// they do not wait for each other in a circle: a solution waits only for factorisations that are earlier in the order
+/// than the factorisations that wait for the solution.
 std::vector<FactorWindow> sufficient_windows(const std::vector<std::vector<Index>>& adjacency,
                                              const std::vector<Index>& stage)
 {
@@ -91,7 +92,7 @@ RankPart::RankPart(Communicator& comm, DealtMesh dealt, Progress& progress)
     std::vector<SubMeshName> names;
     for (std::size_t s = 0; s < dealt_.known.size(); ++s)
         names.push_back({dealt_.known[s], decomposition.sub_meshes[s].n_vertices, dealt_.first_faces[s]});
-    PeerSubMeshes own{std::move(decomposition), std::make_unique<RankPeers>(comm, dealt_.holders, dealt_.known),
+    RankSubMeshes own{std::move(decomposition), std::make_unique<CommunicatorRanks>(comm, dealt_.holders, dealt_.known),
                       std::move(names)};
     if (dealt_.options.accuracy.tolerance)
         stepper_ = std::make_unique<SchurStepper>(dealt_.mesh, std::move(own), dealt_.options, progress);
@@ -104,27 +105,27 @@ RankPart::RankPart(Communicator& comm, DealtMesh dealt, Progress& progress)
     }
     if (!dealt_.options.accuracy.tolerance)
         return;
-    // Converged steps keep what they need of them.
+    // The mesh is freed: converged steps have copies of the data that they need.
     dealt_.mesh = {};
     dealt_.topology = {};
     dealt_.labels = std::vector<Index>();
 }
 
-void RankPart::take_sweeps(PeerSubMeshes sub_meshes, Progress& progress)
+void RankPart::take_sweeps(RankSubMeshes sub_meshes, Progress& progress)
 {
     exchange_.emplace(comm_, dealt_);
-    SweepSubMeshes own{.own = std::move(sub_meshes), .foreign = &*exchange_};
+    SweepSubMeshes own{.own = std::move(sub_meshes), .remote = &*exchange_};
     const auto adjacency = gather_adjacency(comm_, dealt_, own.own.decomposition);
     const auto curvatures = gather_curvatures(comm_, dealt_, own.own.decomposition);
     const std::vector<Index> stage_of_all = assign_stages(adjacency, dealt_.options.interface.colouring, curvatures);
     for (const Index number : dealt_.known)
         own.stage.push_back(stage_of_all[number]);
-    // The own ones of all sub-meshes, by their numbers here.
+    // The own sub-meshes among those of all ranks, by their local numbers.
     const auto own_of = [&](const std::vector<Index>& all) {
         std::vector<Index> here;
         for (const Index number : all)
             if (dealt_.holders[number] == comm_.rank())
-                here.push_back(position_in(dealt_.known, number));
+                here.push_back(find_in(dealt_.known, number));
         return here;
     };
     for (const FactorWindow& window : sufficient_windows(adjacency, stage_of_all))
@@ -132,7 +133,7 @@ void RankPart::take_sweeps(PeerSubMeshes sub_meshes, Progress& progress)
     stepper_ = std::make_unique<SweepStepper>(dealt_.mesh, dealt_.topology, std::move(own), dealt_.options, progress);
 }
 
-/// Counts what it sends.
+/// Takes the step of this rank, and counts the messages sent.
 void RankPart::step()
 {
     const std::uint64_t messages = comm_.n_messages();
@@ -164,7 +165,7 @@ Bytes RankPart::act(RankTask task, Unpacker& message)
     case RankTask::SetVertices: {
         std::vector<Index> vertices = message.get_all<Index>();
         for (Index& v : vertices)
-            v = position_in(dealt_.vertex_numbers, v);
+            v = find_in(dealt_.vertex_numbers, v);
         stepper_->set_vertices(vertices, message.get_points());
         break;
     }

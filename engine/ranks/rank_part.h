@@ -19,27 +19,28 @@ namespace seamflow {
 /// The sub-meshes of one rank, and the stepper for them.
 class RankPart {
   public:
-    /// All ranks construct theirs together. @param comm, progress must outlive this.
+    /// All ranks construct their parts together. @param comm, progress must outlive this.
     RankPart(Communicator& comm, DealtMesh dealt, Progress& progress);
 
-    /// Does what rank 0 asks for, as all ranks do together. @returns the answer.
+    /// Serves a request of rank 0, as all ranks do together. @returns the answer.
     Bytes act(RankTask task, Unpacker& message);
 
     [[nodiscard]] const Stepper& stepper() const { return *stepper_; }
 
-    /// One for each row of the arrays that the stepper saves.
+    /// One per row of the arrays that the stepper saves.
     [[nodiscard]] const std::vector<SavedRow>& saved_rows() const { return saved_; }
 
   private:
     void step();
-    void take_sweeps(PeerSubMeshes sub_meshes, Progress& progress);
+    void take_sweeps(RankSubMeshes sub_meshes, Progress& progress);
     void report_to(Packer& answer) const;
 
     Communicator& comm_;
     DealtMesh dealt_;
-    /// Before steps: an arena of one thread counts another one as soon as messages have started tasks.
+    /// The number of threads, counted before steps: an arena of one thread reports another one as soon as messages have
+    /// started tasks.
     int n_threads_;
-    /// What was sent in steps.
+    /// The number of messages sent in steps, and their bytes.
     std::uint64_t n_messages_ = 0;
     std::uint64_t n_bytes_ = 0;
     std::int64_t n_interface_vertices_ = 0;

@@ -40,7 +40,7 @@ void RankStepper::deal(const PolygonMesh& mesh, const Topology& topology, const 
     std::vector<std::vector<SavedRow>> saved(static_cast<std::size_t>(comm.size()));
     Dealer dealer(mesh, topology, cut.labels, cut.n_parts, options, std::move(curvature), comm.size());
     comm.run([&] {
-        // The others begin while rank 0 makes its own part.
+        // The other ranks begin while rank 0 makes its own part.
         for (int rank = comm.size() - 1; rank > 0; --rank) {
             Packer message = rank_message({.task = RankTask::Deal, .flow = flow_, .value = ranks_->threads_of_each()});
             dealer.deal(rank, message);
@@ -65,7 +65,7 @@ void RankStepper::deal(const PolygonMesh& mesh, const Topology& topology, const 
     number_saved_rows(saved, dealer.holders());
 }
 
-/// Several ranks have some of them.
+/// Numbers the saved rows. Several ranks save the same row.
 void RankStepper::number_saved_rows(const std::vector<std::vector<SavedRow>>& of_ranks,
                                     const std::vector<Index>& holders)
 {
@@ -75,16 +75,16 @@ void RankStepper::number_saved_rows(const std::vector<std::vector<SavedRow>>& of
     sort_unique(all);
     n_saved_ = static_cast<Index>(all.size());
     for (std::size_t rank = 0; rank < of_ranks.size(); ++rank) {
-        std::vector<Index>& places = saved_places_.emplace_back();
+        std::vector<Index>& rows = saved_rows_.emplace_back();
         std::vector<std::uint8_t>& counts = counts_.emplace_back();
         for (const SavedRow& row : of_ranks[rank]) {
-            places.push_back(static_cast<Index>(std::ranges::lower_bound(all, row) - all.begin()));
+            rows.push_back(static_cast<Index>(std::ranges::lower_bound(all, row) - all.begin()));
             counts.push_back(holders[row.lowest] == static_cast<Index>(rank) ? 1 : 0);
         }
     }
 }
 
-/// In as many threads as each rank has.
+/// Runs work on rank 0 with as many threads as each rank has.
 void RankStepper::in_own_threads(const std::function<void()>& work) const
 {
     threads_ ? threads_->execute(work) : work();
@@ -92,7 +92,7 @@ void RankStepper::in_own_threads(const std::function<void()>& work) const
 
 RankStepper::~RankStepper()
 {
-    // Where it was made, since each thread has memory of its own.
+    // Destroyed on the threads on which the members were made, because each thread has memory of its own.
     in_own_threads([&] { own_.reset(); });
     try {
         Communicator& comm = ranks_->comm();
@@ -101,10 +101,11 @@ RankStepper::~RankStepper()
                 comm.give(rank, rank_message({.task = RankTask::Drop, .flow = flow_}).take());
         });
     } catch (const std::exception&) {
-        // They end without that, too.
+        // Other ranks end without being told, too.
     }
 }
 
+/// Sends a request to all ranks.
 /// @returns the answers of all ranks.
 std::vector<Bytes> RankStepper::ask(RankTask task, const Put& put) const
 {
@@ -181,14 +182,14 @@ void RankStepper::save(StepMemory& memory) const
     const std::vector<Bytes> answers = ask(RankTask::Save);
     for (std::size_t rank = 0; rank < answers.size(); ++rank) {
         Unpacker unpacker(answers[rank]);
-        // They are the same on all ranks.
+        // The numbers are the same on all ranks.
         memory.numbers = unpacker.get_all<double>();
         memory.arrays.resize(unpacker.get<std::size_t>(), Points::Zero(n_saved_, 3));
         for (Points& array : memory.arrays) {
             const Points rows = unpacker.get_points();
-            for (std::size_t i = 0; i < saved_places_[rank].size(); ++i)
+            for (std::size_t i = 0; i < saved_rows_[rank].size(); ++i)
                 if (counts_[rank][i] != 0)
-                    array.row(saved_places_[rank][i]) = rows.row(static_cast<Index>(i));
+                    array.row(saved_rows_[rank][i]) = rows.row(static_cast<Index>(i));
         }
     }
 }
@@ -205,7 +206,7 @@ void RankStepper::restore(const StepMemory& memory)
         message.put_all(std::span<const double>(memory.numbers));
         message.put(memory.arrays.size());
         for (const Points& array : memory.arrays)
-            message.put_rows(array, saved_places_[rank]);
+            message.put_rows(array, saved_rows_[rank]);
     });
 }
 
@@ -216,7 +217,7 @@ void RankStepper::add_seconds(PhaseSeconds& seconds) const
     seconds.add_tasks(report.seconds);
 }
 
-/// All ranks know the same of it.
+/// The report on a step is the same on all ranks.
 void RankStepper::report_to(StepReport& report) const
 {
     own_->stepper().report_to(report);
@@ -240,7 +241,7 @@ void RankStepper::report_to(FlowReport& report) const
         report.resources.factor_memory_bytes += resources.factor_memory_bytes;
         report.resources.single_factors += resources.single_factors;
         report.cut.interface_vertices += share.n_interface_vertices;
-        // They wait for each other there.
+        // In the equation on Γ the ranks wait for each other, so that its wall-clock times are not added.
         PhaseSeconds seconds = share.seconds;
         interface = std::max(interface, std::exchange(seconds.interface, 0.0));
         report.seconds.add_tasks(seconds);
@@ -252,7 +253,7 @@ void RankStepper::report_to(FlowReport& report) const
     report.cut.sub_meshes.insert(report.cut.sub_meshes.end(), sub_meshes.begin(), sub_meshes.end());
     report.convergence.steps_short_of_tolerance = of_own.convergence.steps_short_of_tolerance;
     report.convergence.steps_stagnated = of_own.convergence.steps_stagnated;
-    // They are about steps as a whole.
+    // The remarks concern steps as a whole, and are the same on all ranks.
     report.remarks.insert(report.remarks.end(), of_own.remarks.begin(), of_own.remarks.end());
 }
 

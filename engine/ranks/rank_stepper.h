@@ -16,25 +16,25 @@
 
 namespace seamflow {
 
-/// Whether several ranks can take the steps of a flow together: sweeps with the adapted conditions, and converged steps
-/// of symmetric Laplacians. Everything else rank 0 does alone.
-/// @param options with what was chosen.
+/// Whether several ranks can take the steps of a flow together: they can take sweeps with the adapted conditions, and
+/// converged steps of symmetric Laplacians. All other steps are taken by rank 0 alone.
+/// @param options with all choices made.
 bool can_share(const RankGroup& ranks, const Cut& cut, const FlowOptions& options);
 
-/// The steps of sub-meshes that are dealt to ranks. Each rank, rank 0 included, has a stepper for its own; they
-/// exchange what crosses Γ. The bits are those of a single process, on any number of ranks. Positions come to rank 0
-/// when they are asked for.
+/// Takes steps in sub-meshes that are dealt to ranks. Each rank, rank 0 included, has a stepper for its own sub-meshes;
+/// ranks exchange the data that cross Γ. The bits are those of a single process, on any number of ranks. Positions are
+/// sent to rank 0 only when it asks for them.
 class RankStepper final : public Stepper {
   public:
     /// Deals the sub-meshes.
-    /// @param ranks, progress must outlive the stepper; can_share holds.
-    /// @param curvature #V: ‖ΔV⁰‖; empty: as if it were 0.
+    /// @param ranks, progress must outlive the stepper; can_share is true.
+    /// @param curvature #V: ‖ΔV⁰‖, in 1/length; empty: as if it were 0.
     /// @throws as make_stepper, on the lowest rank that fails.
     RankStepper(RankGroup& ranks, const PolygonMesh& mesh, const Topology& topology, const Cut& cut,
                 const FlowOptions& options, std::vector<double> curvature, Progress& progress);
     ~RankStepper() override;
 
-    /// @param before is what positions() are.
+    /// @param before equal to positions().
     void step(const Points& before) override;
     [[nodiscard]] const Points& positions() const override;
     void set_positions(const Points& image, const SimilarityOfComponents& similarity) override;
@@ -47,7 +47,7 @@ class RankStepper final : public Stepper {
     void report_to(FlowReport& report) const override;
 
   private:
-    /// Appends to the message for a rank.
+    /// Appends data to the message for a rank.
     using Put = std::function<void(int rank, Packer& message)>;
 
     void deal(const PolygonMesh& mesh, const Topology& topology, const Cut& cut, const FlowOptions& options,
@@ -59,18 +59,19 @@ class RankStepper final : public Stepper {
     RankGroup* ranks_;
     int flow_;
     Index n_sub_meshes_;
-    /// Those of rank 0 in what ranks share; null: all of the flow.
+    /// The threads of rank 0 in shared work; null: all threads of the flow.
     std::unique_ptr<Workers> threads_;
     std::unique_ptr<RankPart> own_;
-    /// Per rank.
+    /// Per rank: the vertices that it knows; and the vertices whose positions it sends.
     std::vector<std::vector<Index>> known_vertices_;
     std::vector<std::vector<Index>> sent_vertices_;
     std::vector<std::vector<Index>> sub_meshes_;
-    /// Per rank, for each row that its stepper saves, its place among those of all, and whether it counts.
-    std::vector<std::vector<Index>> saved_places_;
+    /// Per rank: the index of each row that its stepper saves among the saved rows of all ranks; and whether the rank's
+    /// copy of the row is used.
+    std::vector<std::vector<Index>> saved_rows_;
     std::vector<std::vector<std::uint8_t>> counts_;
     Index n_saved_ = 0;
-    /// #V by 3; and whether these are the ones that the ranks have.
+    /// #V by 3: the positions; and whether they are those that the ranks have.
     mutable Points positions_;
     mutable bool are_current_ = true;
 };

@@ -12,7 +12,7 @@ namespace seamflow {
 
 namespace {
 
-/// Messages that have arrived at a rank.
+/// The messages that have arrived at a rank.
 class Inbox {
   public:
     void put(Message message)
@@ -73,7 +73,7 @@ void run_on_threads(int n, const std::function<void(Transport&)>& body)
     for (int rank = 0; rank < n; ++rank)
         transports.emplace_back(rank, inboxes);
     std::vector<std::exception_ptr> failures(n);
-    // No rank begins before all exist: it might wait for one that never starts.
+    // No rank begins before the threads of all ranks exist: it could wait for a rank that never starts.
     std::promise<bool> all_begin;
     const std::shared_future<bool> begin = all_begin.get_future().share();
     std::vector<std::jthread> threads;

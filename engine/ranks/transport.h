@@ -12,17 +12,17 @@ namespace seamflow {
 
 using Bytes = std::vector<std::byte>;
 
-/// What one rank sends to another.
+/// A message from one rank to another.
 struct Message {
     /// The rank that has sent it.
     int from = -1;
-    /// Its kind: 0 to 255.
+    /// The kind of the message: 0 to 255.
     int tag = 0;
     Bytes bytes;
 };
 
-/// One of the ranks that work on a mesh together, each with its own memory: MPI processes, or threads of one process.
-/// What is sent here is all that a rank learns of the others.
+/// One of the ranks that work on a mesh together, each with its own memory: MPI processes, or threads of one process. A
+/// rank gets no data from other ranks except by its transport.
 class Transport {
   public:
     Transport() = default;
@@ -37,12 +37,12 @@ class Transport {
     /// The name of the machine.
     [[nodiscard]] virtual std::string host() const = 0;
 
-    /// Sends bytes without waiting until they arrive. May be called by any thread. What one rank sends to another
-    /// arrives in the order in which it was sent.
+    /// Sends bytes without waiting until they arrive. May be called by any thread. Messages from one rank to another
+    /// arrive in the order in which they were sent.
     /// @param to another rank.
     virtual void send(int to, int tag, Bytes bytes) = 0;
 
-    /// The next message, from any rank; empty if none arrives in time. One thread at a time may call it.
+    /// The next message, from any rank; empty if none arrives in time. One thread at a time may call this.
     [[nodiscard]] std::optional<Message> receive(std::chrono::microseconds patience)
     {
         if (put_back_.empty())
@@ -52,7 +52,7 @@ class Transport {
         return message;
     }
 
-    /// Puts messages that came too early before all later ones; all, or none if it throws.
+    /// Puts messages that came too early in front of all later messages; all of them, or none if it throws.
     void put_back(const std::vector<Message>& messages)
     {
         std::deque<Message> all(messages.begin(), messages.end());
@@ -61,7 +61,7 @@ class Transport {
     }
 
   private:
-    /// As receive, for messages not yet received.
+    /// The next message from the network: as receive, without messages that were put back.
     [[nodiscard]] virtual std::optional<Message> fetch(std::chrono::microseconds patience) = 0;
 
     std::deque<Message> put_back_;

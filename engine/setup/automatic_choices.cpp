@@ -42,20 +42,21 @@ double width_in_diffusion_lengths(double area, Index k, double time_step)
 
 namespace {
 
-/// Leaves a few hundredths of a mean edge length on most meshes, and took one to four iterations with Δ_F on regular
-/// ones, up to 19 on a scan with slivers (measured: see engine/accuracy.md).
+/// The tolerance that leaves a few hundredths of a mean edge length on most meshes. It took one to four iterations with
+/// Δ_F on regular meshes, up to 19 on a scan with slivers (measured: see engine/accuracy.md).
 constexpr double loose_tolerance = 1e-2;
-/// Of steps that cost little more than their iterations.
+/// The tolerance of linear flows, whose steps cost little more than their iterations.
 constexpr double tolerance_of_linear_flow = 1e-4;
-/// In squared mean edge lengths: with longer steps, the error of a sweep approaches a mean edge length.
+/// The longest step of sweeps, in squared mean edge lengths: with longer steps, the error of a sweep approaches a mean
+/// edge length.
 constexpr double longest_step_of_sweeps = 16.0;
-/// For conjugate gradients, whose residual is that of all vertices. They leave no more than sweeps do, and with long
-/// steps than loosely converged sub-meshes, by the largest distance and by the mean one (measured: see
-/// engine/accuracy.md).
+/// The tolerance of conjugate gradients, whose residual is that of all vertices. It leaves no larger error than sweeps,
+/// and with long steps none larger than loosely converged sub-meshes, by the largest distance and by the mean distance
+/// (measured: see engine/accuracy.md).
 constexpr double tolerance_of_gradients = 3e-3;
 constexpr double tolerance_of_gradients_if_long = 1e-4;
 
-/// The multiple of the predicted number of iterations that may be needed.
+/// The number of iterations may exceed the predicted number by this factor.
 constexpr double safety_of_prediction = 2.0;
 
 bool is_long(const FlowOptions& options, const MeshSize& size)
@@ -68,13 +69,13 @@ double tolerance_by_gradients(const FlowOptions& options, const MeshSize& size)
     return is_long(options, size) ? tolerance_of_gradients_if_long : tolerance_of_gradients;
 }
 
-/// Whether an option is set that means nothing without sub-meshes.
+/// Whether an option is set that has no meaning without sub-meshes.
 bool speaks_of_sub_meshes(const FlowOptions& options)
 {
     return !first_set(options, concern::sub_meshes | concern::sweeps | concern::factors).empty();
 }
 
-/// Whether an option is set that means nothing to converged steps.
+/// Whether an option is set that has no meaning for converged steps.
 bool speaks_of_sweeps(const FlowOptions& options)
 {
     return options.accuracy.approach == Approach::Sweep || smooths_normals(options) ||
@@ -95,7 +96,8 @@ bool has_few_sub_meshes(const MeshSize& size, const FlowOptions& options)
     return options.cut.subdomains > 0 ? options.cut.subdomains <= 2 : size.vertices < 3 * needs_of_sweeps.vertices;
 }
 
-/// Whether a face has a tenth of the vertices of a sub-mesh or more, all of which are coupled where two rings are.
+/// Whether a face has at least a tenth of the vertices of a sub-mesh. With a Laplacian that reaches two rings, all
+/// vertices of such a face are coupled with each other.
 bool has_long_faces(const PolygonMesh& mesh)
 {
     const Index most = needs_of_unsymmetric_sweeps.vertices / 10;
@@ -105,8 +107,8 @@ bool has_long_faces(const PolygonMesh& mesh)
     return false;
 }
 
-/// Whether most entries of the rows would be those of faces with so many corners that factorisations give them
-/// auxiliary unknowns.
+/// Whether most entries of the rows would belong to faces with so many corners that factorisations give them auxiliary
+/// unknowns.
 bool has_dense_rows(const PolygonMesh& mesh, Laplacian laplacian)
 {
     constexpr double most_entries_by_corners = 16.0;
@@ -165,7 +167,7 @@ std::string_view need_of_junctions(const FlowOptions& options)
         return "With a symmetric Laplacian";
     if (options.keep_edges && !options.denoise)
         return "Without edges that are kept";
-    // There is no normal.
+    // Vertices at junctions have no normal.
     if (options.motion.direction.kind == MotionDirection::Kind::Normal)
         return "In any direction but normals";
     const bool is_whole = options.scheme == Scheme::ExplicitEuler || takes_whole_mesh(options.accuracy.approach);
@@ -176,7 +178,8 @@ std::string_view need_of_junctions(const FlowOptions& options)
 
 namespace {
 
-/// @param otherwise why, if the choice has no reason.
+/// The choice of steps in sub-meshes.
+/// @param otherwise the reason, if the choice has none.
 ApproachChoice in_sub_meshes(const ToleranceChoice& choice, std::string_view otherwise = {})
 {
     const std::string_view why = choice.reason.empty() ? otherwise : choice.reason;
@@ -230,7 +233,8 @@ ApproachChoice choose_approach(const PolygonMesh& mesh, const Topology& topology
     const ApproachChoice decomposed = in_sub_meshes(tolerance);
     ApproachChoice choice{.size = flow};
     choice.costs = {predict_cost(Approach::Undecomposed, flow, options.accuracy.tolerance)};
-    // Γ between sub-meshes on such a face has all of its corners, and the Schur complement all of their pairs.
+    // On Γ between sub-meshes that share such a face are all corners of the face, and the Schur complement has all
+    // pairs of these.
     const bool is_dense = has_dense_rows(mesh, options.laplacian);
     const double to_reach = options.accuracy.tolerance.value_or(tolerance_by_gradients(options, size));
     if (options.flow == FlowEquation::MeanCurvature && !attaches(options.motion) && !is_dense &&

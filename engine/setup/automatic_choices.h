@@ -11,25 +11,25 @@
 #include "partition/polygon_mesh.h"
 #include "partition/topology.h"
 
-/// Choices that a flow makes where its options do not.
+/// Decisions that a flow makes where its options leave them open.
 namespace seamflow {
 
-/// Requirements on sub-meshes for a kind of step.
+/// The sizes that sub-meshes need for a kind of step.
 struct SubdomainNeeds {
-    /// Setup and steps cost little per vertex in sub-meshes of about this size, and a million vertices make enough of
-    /// them to keep 64 threads busy.
+    /// The best number of vertices: sub-meshes of about this size have the least setup and step times per vertex, and a
+    /// million vertices make enough sub-meshes to keep 64 threads busy.
     Index vertices;
-    /// In √dt: below that the flow drifts away from the undecomposed one, or converged steps take more and more
-    /// iterations.
+    /// The least width, in √dt: with narrower sub-meshes the flow drifts away from the undecomposed one, or converged
+    /// steps take more and more iterations.
     double width;
 };
 
 inline constexpr SubdomainNeeds needs_of_sweeps{2'500, 10.0};
-/// For unsymmetric Laplacians, whose factors grow faster with sub-mesh size.
+/// The needs of unsymmetric Laplacians, whose factors grow faster with sub-mesh size.
 inline constexpr SubdomainNeeds needs_of_unsymmetric_sweeps{1'000, 10.0};
 inline constexpr SubdomainNeeds needs_of_converged_steps{2'000, 2.0};
 
-/// Sub-mesh requirements of a flow.
+/// The needs of the sub-meshes of a flow.
 /// @param converged whether steps are converged.
 const SubdomainNeeds& needs_of(Laplacian laplacian, bool converged);
 
@@ -39,40 +39,40 @@ struct SubdomainChoice {
     std::string reason;
 };
 
-/// Sub-meshes of a size that costs little, but on average no narrower than required.
+/// Chooses sub-meshes of the best size, but on average no narrower than required.
 SubdomainChoice choose_subdomains(const MeshSize& size, double time_step, const SubdomainNeeds& needs);
 
-/// Average width of k sub-meshes of a mesh of this area, the square root of their average area, in √dt.
+/// The average width of k sub-meshes of a mesh of this area, in √dt: the square root of their average area.
 double width_in_diffusion_lengths(double area, Index k, double time_step);
 
-/// Whether steps are converged, and why if nobody asked for it.
+/// Whether steps are converged, and the reason if the options leave it open.
 struct ToleranceChoice {
-    /// Empty: steps are sweeps.
+    /// The tolerance of converged steps; empty: steps are sweeps.
     std::optional<double> tolerance;
-    /// Empty where the options decide.
+    /// Empty if the options decide.
     std::string reason;
 };
 
-/// The tolerance of the options, if they have one. Where they leave open how sub-meshes are used, and unless another
-/// option asks for sweeps, steps are also converged, loosely, where a sweep would drift from the undecomposed step or
-/// cost more. They also are if the boundary moves, or vertices at junctions, which sub-meshes can share only in
-/// converged steps.
+/// The tolerance of the options, if they have one. If the options leave the use of sub-meshes open, and no option asks
+/// for sweeps, steps are also converged, loosely, if a sweep would drift from the undecomposed step or cost more. They
+/// are also converged if vertices on the boundary or at junctions move, because sub-meshes can share such vertices only
+/// in converged steps.
 /// @param rim_moves whether any such vertex moves (see moving_rim).
 ToleranceChoice choose_tolerance(const PolygonMesh& mesh, const MeshSize& size, const FlowOptions& options,
                                  bool rim_moves = false);
 
-/// When vertices at junctions would move if they do not with these options, as in "In converged steps"; empty: they
-/// move, or are to be held.
+/// The condition under which vertices at junctions would move, such as "In converged steps"; empty if they move, or are
+/// to be fixed.
 std::string_view need_of_junctions(const FlowOptions& options);
 
-/// How steps are taken: one of Sweep, Converged, ConjugateGradients and Undecomposed.
+/// The choice of the way in which steps are taken: Sweep, Converged, ConjugateGradients or Undecomposed.
 struct ApproachChoice {
     Approach approach = Approach::Sweep;
-    /// Empty: steps are not converged.
+    /// The tolerance; empty: steps are not converged.
     std::optional<double> tolerance = {};
-    /// A sentence; empty where the options decide.
+    /// A sentence; empty if the options decide.
     std::string reason = {};
-    /// All ways that would do, cheapest first; empty if there was no choice. And what their costs follow from.
+    /// All ways that were considered, cheapest first; empty if there was no choice. And the input of their costs.
     std::vector<PredictedCost> costs = {};
     FlowSize size = {};
 };
@@ -80,8 +80,8 @@ struct ApproachChoice {
 /// Whether ranks share the steps (see FlowControl::ranks).
 enum class Sharing { None, Ranks };
 
-/// The approach of the options. With Approach::Automatic, unless they concern sub-meshes or sweeps, the cheapest way
-/// (see predict_cost) of those that come as near to the undecomposed flow as automatically chosen sub-meshes would.
+/// The approach of the options. With Approach::Automatic, unless options concern sub-meshes or sweeps: the cheapest way
+/// (see predict_cost) among those whose error is at most that of automatically chosen sub-meshes.
 /// @param topology with the vertices that move.
 /// @param earlier the choice for the steps that the flow continues from, maybe for fewer of them: it is kept.
 /// @param sharing with ranks, Approach::Automatic takes steps in sub-meshes.
@@ -89,10 +89,10 @@ ApproachChoice choose_approach(const PolygonMesh& mesh, const Topology& topology
                                const FlowOptions& options, std::optional<Approach> earlier = {},
                                Sharing sharing = Sharing::None);
 
-/// Steps that factorise nothing, for an automatic approach whose factors do not fit into the memory limit: by conjugate
-/// gradients.
+/// The choice of conjugate gradients, which factorise nothing, for an automatic approach whose factors do not fit into
+/// the memory limit.
 /// @param options as given.
-/// @returns empty where the options rule them out.
+/// @returns empty if the options exclude conjugate gradients.
 std::optional<ApproachChoice> choose_without_factors(const MeshSize& size, const FlowOptions& options);
 
 }  // namespace seamflow

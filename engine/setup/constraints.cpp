@@ -16,7 +16,7 @@ namespace seamflow {
 
 namespace {
 
-/// For MotionOptions::strict.
+/// Refuses a mesh that is not manifold, for MotionOptions::strict.
 void require_manifold(const Topology& topology)
 {
     const auto found = std::find(topology.kind.begin(), topology.kind.end(), VertexKind::NonManifold);
@@ -27,7 +27,7 @@ void require_manifold(const Topology& topology)
             found - topology.kind.begin()));
 }
 
-/// Holds vertices without strength.
+/// Fixes vertices without strength.
 void hold_still(Topology& topology, const PolygonMesh& mesh, const std::vector<double>& strength,
                 std::vector<Remark>& remarks)
 {
@@ -58,7 +58,7 @@ void constrain(Topology& topology, const PolygonMesh& mesh, const FlowOptions& o
         free_junctions(mesh, topology, exec);
     if (options.motion.boundary != Boundary::Fixed)
         free_boundary(topology);
-    hold(topology, options.motion.fixed_vertices);
+    fix_vertices(topology, options.motion.fixed_vertices);
     const std::size_t n_weights = options.motion.attachment_weights.size();
     if (n_weights > 0 && n_weights != usize(mesh.n_vertices()))
         throw InputError(fmt::format("there are {} attachment weights, but the mesh has {} vertices: give one for each",
@@ -67,13 +67,13 @@ void constrain(Topology& topology, const PolygonMesh& mesh, const FlowOptions& o
     const bool is_sound = has_lengths && traits_of(options.laplacian).divisor == Divisor::EdgeLengths;
     const std::vector<Index> undefined =
         is_sound ? std::vector<Index>() : vertices_without_row(mesh, topology, options.laplacian, exec);
-    // Where nothing can move, the reason is more useful than the unchanged mesh.
+    // If no vertex can move, the reason is reported, which is more useful than the unchanged mesh.
     if (!is_sound && std::ssize(undefined) == std::ranges::count(topology.fixed, 0))
         require_sound_geometry(mesh, topology, options.laplacian, exec);
     if (!undefined.empty())
         remarks.push_back(remark_on_undefined_vertices(static_cast<std::int64_t>(undefined.size()), undefined.front(),
                                                        options.laplacian));
-    hold(topology, undefined);
+    fix_vertices(topology, undefined);
 }
 
 std::vector<Index> moving_rim(const PolygonMesh& mesh, const Topology& topology)

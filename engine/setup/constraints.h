@@ -10,22 +10,22 @@
 
 namespace seamflow {
 
-/// Lets the boundary and junctions move, if the options say so, and fixes the vertices that these name and those at
+/// Lets the boundary and junctions move, if the options say so. Fixes the vertices that the options name, and those at
 /// which the flow is not defined.
 /// @param topology of the mesh, as make_topology makes it.
 /// @param has_lengths whether all edges are known to have a length that is a normal double.
-/// @param remarks gets one on those.
+/// @param remarks gets a sentence about vertices at which the flow is not defined.
 /// @throws InputError for a number in MotionOptions::fixed_vertices that is not a vertex; if there are not as many
 ///         attachment weights or strengths as vertices; with MotionOptions::strict, naming the first vertex, edge or
 ///         face at which the flow is not defined; also without it if the flow is defined nowhere.
 void constrain(Topology& topology, const PolygonMesh& mesh, const FlowOptions& options, bool has_lengths,
                const Executor& exec, std::vector<Remark>& remarks);
 
-/// The vertices on the boundary or at junctions that move.
+/// The vertices on the boundary or at junctions that move, ascending.
 std::vector<Index> moving_rim(const PolygonMesh& mesh, const Topology& topology);
 
-/// Conditions on Γ are not defined where Γ meets a moving boundary.
-/// @param labels #F. @param vertices all, or those to check.
+/// Checks that Γ does not meet a moving boundary, where conditions on Γ are not defined.
+/// @param labels #F. @param vertices all vertices, or those to check.
 /// @throws OptionError if Γ meets such a boundary at any of them.
 void require_boundary_unshared(const Topology& topology, std::span<const Index> labels,
                                std::span<const Index> vertices);

@@ -7,8 +7,8 @@ namespace seamflow {
 
 namespace {
 
-/// Seconds for each vertex on two cores: a constant part, and one for each off-diagonal coefficient of its row; and the
-/// fraction of them that one core works alone.
+/// A time per vertex on two cores: a constant, and a time per off-diagonal coefficient of the row; and the fraction of
+/// the time in which one core works alone.
 struct PerVertex {
     double constant;
     double per_coefficient;
@@ -22,11 +22,11 @@ struct PerVertex {
     [[nodiscard]] double scale(int cores) const { return serial + (1.0 - serial) * 2.0 / cores; }
 };
 
-/// Iterations are bound by memory. With sixteen cores it still fed all of them; further ones are assumed to share what
-/// feeds so many.
+/// Iterations are bound by memory. Sixteen cores still got data at full speed; more than this many cores are assumed to
+/// share the memory bandwidth of this many.
 constexpr int most_cores_fed = 32;
 constexpr PerVertex iteration{3.5, 1.1, 0.02};
-/// Overhead of an iteration, however few its vertices: three loops begin and end.
+/// The overhead of an iteration, in seconds, however few its vertices: three loops begin and end.
 constexpr double seconds_per_iteration = 3e-5;
 constexpr PerVertex setup_of_conjugate_gradients{150.0, 30.0, 0.44};
 constexpr PerVertex step_of_conjugate_gradients{40.0, 4.0, 0.03};
@@ -35,12 +35,12 @@ constexpr PerVertex setup_of_sweeps{300.0, 200.0, 0.22};
 constexpr PerVertex step_of_sweeps{80.0, 14.0, 0.03};
 constexpr PerVertex step_of_converged{100.0, 18.0, 0.05};
 constexpr PerVertex interface_iteration{10.0, 0.0, 0.05};
-/// Larger meshes are cut by clusters of faces.
+/// The vertices above which a mesh is cut by clusters of faces.
 constexpr Index large_mesh = 250'000;
 constexpr double part_of_setup_if_large = 0.6;
 
 constexpr PerVertex setup_of_undecomposed{400.0, 55.0, 0.6};
-/// For `reference_vertices`; factors grow faster than meshes.
+/// For a mesh of `reference_vertices`; factors grow faster than meshes.
 constexpr PerVertex step_of_undecomposed{0.0, 45.0, 0.45};
 constexpr double reference_vertices = 10'000.0;
 constexpr double growth_of_factors = 0.22;
@@ -48,21 +48,22 @@ constexpr double growth_of_factors = 0.22;
 /// The cost of a further solution with the same factor, as a fraction of a step.
 constexpr double part_of_solution = 0.3;
 
-/// Iterations have been observed to grow slightly more slowly than the root of the condition number, which bounds them
-/// with the diagonal as preconditioner.
+/// The factor of the root of the condition number, which bounds the number of iterations with the diagonal as
+/// preconditioner. The observed numbers grow slightly more slowly.
 constexpr double iterations_of_one = 0.315;
 constexpr double growth_of_iterations = 0.4;
-/// Iterations on Γ, for each factor of e in the residual.
+/// The number of iterations on Γ for each factor of e in the residual.
 constexpr double interface_iterations = 0.6;
 
-/// A set-up is to pay within so many steps.
+/// The number of steps within which set-up must pay.
 constexpr int steps_ahead = 3;
-/// From step to step; what grows faster is small yet.
+/// The most growth of iterations from step to step that is extrapolated: numbers that grow faster are still small.
 constexpr double most_growth = 1.3;
-/// In vertices: a peak of about 600 MB. No cost makes up for a machine that runs out of memory.
+/// The most vertices of a factorised mesh: its peak is about 600 MB. No cost makes up for a machine that runs out of
+/// memory.
 constexpr Index largest_factor = 500'000;
 
-/// Of a step by conjugate gradients, for each solution.
+/// The seconds of a step by conjugate gradients, for each solution.
 double seconds_of_iterations(const FlowSize& size, double iterations)
 {
     FlowSize fed = size;

@@ -7,8 +7,9 @@
 #include "engine/options/flow_options.h"
 #include "solvers/laplacian/row_averages.h"
 
-/// The cost of a flow by each way of taking its steps: fitted once to measurements on two cores and on sixteen (see
-/// samples/benchmark/speed.md), and used only to compare these ways, so that results do not depend on the machine.
+/// The cost of a flow by each way of taking its steps. The model was fitted once to measurements on two cores and on
+/// sixteen (see samples/benchmark/speed.md), and is used only to compare the ways, so that results do not depend on the
+/// machine.
 namespace seamflow {
 
 /// Input of the cost model.
@@ -18,7 +19,7 @@ struct FlowSize {
     /// dt of a step, in length².
     double time_step = 0.0;
     int steps = 1;
-    /// Of each step (see n_solutions).
+    /// The number of solutions of each step (see n_solutions).
     int solutions = 1;
     int cores = 2;
 };
@@ -26,38 +27,39 @@ struct FlowSize {
 /// Predicted cost of a way of taking steps.
 struct PredictedCost {
     Approach approach = Approach::Automatic;
-    /// Where steps are converged.
+    /// The tolerance, if steps are converged.
     std::optional<double> tolerance = {};
-    /// Work before the first step, and for each step, in seconds.
+    /// The times of the work before the first step, and of each step, in seconds.
     double setup = 0.0;
     double step = 0.0;
 
     [[nodiscard]] double of(int steps) const { return setup + steps * step; }
 };
 
-/// How many iterations a step by conjugate gradients takes: a power of the condition number times the digits wanted, as
-/// in the bound of Saad (Iterative Methods for Sparse Linear Systems, 2003, eq. 6.128), fitted to measurements.
+/// The number of iterations of a step by conjugate gradients: a power of the condition number times the number of
+/// digits, as in the bound of Saad (Iterative Methods for Sparse Linear Systems, 2003, eq. 6.128), fitted to
+/// measurements.
 double predicted_iterations(const FlowSize& size, double tolerance);
 
 /// @param approach Sweep, Converged, ConjugateGradients or Undecomposed.
-/// @param tolerance of the steps, where they are converged.
+/// @param tolerance of the steps, if they are converged.
 PredictedCost predict_cost(Approach approach, const FlowSize& size, std::optional<double> tolerance = {});
 
-/// The iterations by conjugate gradients of the last two steps.
+/// The numbers of iterations by conjugate gradients of the last two steps.
 struct StepIterations {
     int before = 0;
     int last = 0;
-    /// The most that a step may take.
+    /// The most iterations that a step may take.
     int most = 0;
 };
 
-/// Whether a few further steps would cost less, set-up included, by one factorisation of the whole mesh than by
-/// conjugate gradients whose iterations go on growing as they have grown. How many steps are left does not count: a
-/// flow that is resumed for more of them has the bits of one that was not interrupted.
+/// Whether a few further steps would cost less by one factorisation of the whole mesh, set-up included, than by
+/// conjugate gradients whose iterations grow at the present rate. The number of remaining steps is not used: a flow
+/// that is resumed for more steps has the bits of an uninterrupted one.
 bool pays_to_factorise(const FlowSize& size, const StepIterations& iterations);
 
 /// One of the constants, for inspection: nanoseconds per vertex, and per coefficient of its row, on two cores; and the
-/// fraction of them that one core works alone.
+/// fraction of the time in which one core works alone.
 struct CostConstant {
     std::string_view name;
     double per_vertex = 0.0;

@@ -42,15 +42,15 @@ void FlowingMesh::weld_seams(Topology& topology, MotionOptions& motion, const Ex
         remark_on_seams_ = remark_on_seams(0, 0, given_->n_vertices(), *motion.weld, 0.0);
         return;
     }
-    first_ = std::move(welded->first);
+    representative_ = std::move(welded->representative);
     const Points& joined = welded->mesh.vertices;
     const Points& own = mesh().vertices;
     for (Index v = 0; v < given_->n_vertices(); ++v) {
-        if (first_[v] != v)
+        if (representative_[v] != v)
             copies_.push_back(v);
-        // Zeros of different sign differ.
-        if (std::memcmp(own.row(v).data(), joined.row(first_[v]).data(), sizeof(Point)) != 0)
-            apart_.push_back({v, own.row(v), joined.row(first_[v])});
+        // Compared byte by byte, because zeros of different sign differ.
+        if (std::memcmp(own.row(v).data(), joined.row(representative_[v]).data(), sizeof(Point)) != 0)
+            apart_.push_back({v, own.row(v), joined.row(representative_[v])});
     }
     double furthest = 0.0;
     for (const Apart& one : apart_)
@@ -59,20 +59,20 @@ void FlowingMesh::weld_seams(Topology& topology, MotionOptions& motion, const Ex
                                        furthest > 0.0 ? furthest / mean_edge_length(mesh()) : 0.0);
     const auto join = [&](Index& v) {
         if (v >= 0 && v < given_->n_vertices())
-            v = first_[v];
+            v = representative_[v];
     };
     for (Index& v : motion.fixed_vertices)
         join(v);
     for (Edge& edge : motion.feature_edges)
         std::ranges::for_each(edge, join);
-    if (motion.attachment_weights.size() == first_.size())
+    if (motion.attachment_weights.size() == representative_.size())
         for (const Index v : copies_) {
-            double& weight = motion.attachment_weights[first_[v]];
+            double& weight = motion.attachment_weights[representative_[v]];
             weight = std::max(weight, motion.attachment_weights[v]);
         }
-    if (motion.strength.size() == first_.size())
+    if (motion.strength.size() == representative_.size())
         for (const Index v : copies_) {
-            double& strength = motion.strength[first_[v]];
+            double& strength = motion.strength[representative_[v]];
             strength = std::min(strength, motion.strength[v]);
         }
     topology = std::move(welded->topology);
@@ -82,9 +82,9 @@ void FlowingMesh::weld_seams(Topology& topology, MotionOptions& motion, const Ex
 void FlowingMesh::move_isolated(std::span<const Index> vertices, const Points& to)
 {
     for (std::size_t i = 0; i < vertices.size(); ++i)
-        if (const auto place = std::ranges::lower_bound(isolated_, vertices[i]);
-            place != isolated_.end() && *place == vertices[i])
-            of_isolated_.row(place - isolated_.begin()) = to.row(static_cast<Eigen::Index>(i));
+        if (const auto found = std::ranges::lower_bound(isolated_, vertices[i]);
+            found != isolated_.end() && *found == vertices[i])
+            of_isolated_.row(found - isolated_.begin()) = to.row(static_cast<Eigen::Index>(i));
 }
 
 bool FlowingMesh::leave_out_still_faces(std::span<const double> strength, Reach reach)
@@ -122,7 +122,8 @@ bool FlowingMesh::leave_out_still_faces(std::span<const double> strength, Reach 
     return true;
 }
 
-/// @param number per face of mesh(), among those that stay; -1: the face is still.
+/// Renumbers the faces.
+/// @param number per face of mesh(): its number among the remaining faces; -1: the face does not move.
 void FlowingMesh::renumber(std::vector<Index> number)
 {
     if (number_.empty())
@@ -177,7 +178,7 @@ std::vector<Index> FlowingMesh::of_faces_left(const std::vector<Index>& labels) 
     if (number_.empty() || labels.size() != number_.size())
         return labels;
     std::vector<Index> left;
-    // Behind its first triangle a polygon has others.
+    // After its first triangle, a polygon has further triangles.
     for (std::size_t f = 0; f < labels.size(); ++f)
         if (number_[f] >= std::ssize(left)) {
             left.resize(usize(number_[f]), left.empty() ? 0 : left.back());
@@ -187,7 +188,7 @@ std::vector<Index> FlowingMesh::of_faces_left(const std::vector<Index>& labels) 
     return left;
 }
 
-/// Those of the given mesh: all others that are left have numbers of their own, in this order.
+/// The faces of the given mesh that repeat others: those whose number is not the next in order.
 std::vector<Index> FlowingMesh::repeated_faces() const
 {
     std::vector<Index> repeated;
@@ -213,7 +214,8 @@ void FlowingMesh::move_to(const Points& positions)
 void FlowingMesh::bring_back(Points& positions) const
 {
     take_along(positions);
-    // What has not moved stays; of firsts it is seen before any of them is put where it was itself.
+    // Vertices that have not moved get their own positions back. This is decided before any representative is moved
+    // back.
     std::vector<const Apart*> unmoved;
     for (const Apart& one : apart_)
         if (positions.row(one.vertex) == one.joined)
@@ -224,7 +226,7 @@ void FlowingMesh::bring_back(Points& positions) const
         shift_back(positions);
 }
 
-/// The first vertices are those of mesh(): their faces get back their vertices in the given mesh.
+/// The first vertices of `separated` are those of mesh(): its faces get back their vertices in the given mesh.
 void FlowingMesh::bring_back(PolygonMesh& separated) const
 {
     if (!copies_.empty())
@@ -234,7 +236,7 @@ void FlowingMesh::bring_back(PolygonMesh& separated) const
     bring_back(separated.vertices);
 }
 
-/// Moves positions near the origin back. The difference may not be exact for vertices without faces.
+/// Moves positions near the origin back. For vertices without faces, this may not be exact.
 void FlowingMesh::shift_back(Points& positions) const
 {
     positions.rowwise() += offset_;

@@ -22,7 +22,7 @@ namespace seamflow {
 
 namespace {
 
-/// Checks the mesh, and identifies the flow where that is needed.
+/// Checks the mesh, and computes the identity of the flow if that is needed.
 std::uint64_t require_sound(const PolygonMesh& mesh, const FlowOptions& options, bool is_observed,
                             const FlowState* resume, Progress& progress)
 {
@@ -38,7 +38,8 @@ std::uint64_t require_sound(const PolygonMesh& mesh, const FlowOptions& options,
     return identity;
 }
 
-/// @param choices gets one if the number of sub-meshes is chosen.
+/// Cuts the mesh.
+/// @param choices gets a sentence if the number of sub-meshes is chosen.
 Cut make_cut(const PolygonMesh& mesh, const MeshSize& size, const Topology& topology, const FlowOptions& options,
              const Executor& exec, const Alongside& alongside, std::vector<Remark>& choices)
 {
@@ -55,8 +56,8 @@ Cut make_cut(const PolygonMesh& mesh, const MeshSize& size, const Topology& topo
     return cut_into(mesh, topology, choice.count, exec, alongside);
 }
 
-/// Whether only the faces around a region need to flow: where nothing else asks for the whole surface, and no seam of a
-/// moving boundary could open.
+/// Whether only the faces around a region need to flow: no option needs the whole surface, and no seam of a moving
+/// boundary could open.
 bool flows_alone(const FlowOptions& options)
 {
     return !options.motion.strength.empty() && !smooths_normals(options) && !options.motion.limits.exist() &&
@@ -79,7 +80,7 @@ void examine(PreparedFlow& prepared, FlowingMesh& mesh, Progress& progress)
              {{"faces", mesh.mesh().n_faces()}},
              {fmt::format("Only the {} faces around the region flow, and are measured.", mesh.mesh().n_faces())}});
     const auto look = [&] {
-        // Part of the topology is made by one thread.
+        // One thread makes part of the topology: another one measures the mesh meanwhile.
         run_both([&] { topology = make_topology(mesh.mesh(), progress.exec()); },
                  [&] { prepared.size = size_of(mesh.mesh()); });
     };
@@ -91,7 +92,8 @@ void examine(PreparedFlow& prepared, FlowingMesh& mesh, Progress& progress)
         prepared.size.vertices -= static_cast<Index>(std::ranges::count(topology.kind, VertexKind::Isolated));
     };
     look();
-    // The sub-meshes as they are have all faces. A seam is where edges of one face each meet.
+    // With keep_gaps the result has all faces, so that none are left out. A seam is where edges with one face each
+    // meet.
     if (!options.report.keep_gaps && !options.motion.strict && mesh.leave_out_repeated_faces(topology))
         look();
     if (std::ranges::find(topology.kind, VertexKind::Isolated) != topology.kind.end())
@@ -101,7 +103,7 @@ void examine(PreparedFlow& prepared, FlowingMesh& mesh, Progress& progress)
     std::optional<Cracks> cracks;
     if (options.motion.weld && !options.report.keep_gaps)
         cracks = find_cracks(mesh.mesh(), topology, progress.exec());
-    // Some repeat others only now that vertices are joined.
+    // Some faces repeat others only after vertices were joined.
     if (!options.report.keep_gaps && mesh.leave_out_repeated_faces(topology)) {
         look();
         constrain_it();
@@ -112,7 +114,7 @@ void examine(PreparedFlow& prepared, FlowingMesh& mesh, Progress& progress)
                               progress.exec())) {
             mesh.replace_faces(std::move(surface->mesh), surface->face_of);
             prepared.stiffness = std::move(surface->stiffness);
-            // The factors of other filters are below 0 or above 1 for some modes.
+            // Filters with factors outside 0 to 1 for some modes are excluded.
             prepared.choices.push_back(
                 {"flipped edges",
                  {},
@@ -122,7 +124,7 @@ void examine(PreparedFlow& prepared, FlowingMesh& mesh, Progress& progress)
             constrain_it();
         }
     options.cut.labels = mesh.of_faces_left(options.cut.labels);
-    // A free boundary would open cracks.
+    // A remark is also made on cracks, which a free boundary would open.
     if (std::ranges::find(topology.fixed, 0) == topology.fixed.end() && mesh.mesh().n_faces() > 0)
         prepared.remarks.push_back(remark_on_unmoving_mesh(cracks ? Boundary::Free : options.motion.boundary));
     if (cracks)
@@ -137,14 +139,14 @@ Remark choice_of(const ApproachChoice& choice)
     return {"approach", numbers, {choice.reason}};
 }
 
-/// METIS has one thread: the others measure in the meantime; if it has nothing to do, measuring comes afterwards.
+/// METIS has one thread: other threads measure in the meantime. If METIS is not needed, measuring comes afterwards.
 void cut_and_measure(PreparedFlow& prepared, const PolygonMesh& mesh, Progress& progress)
 {
     bool is_measured = false;
     const auto measure = [&] {
         is_measured = true;
         const FlowOptions& options = prepared.options;
-        // Curvature orders the colours.
+        // Sweeps order the colours by curvature.
         const bool is_ordering = options.accuracy.approach == Approach::Sweep;
         const bool is_beside_cut = options.report.measures && !takes_whole_mesh(options.accuracy.approach);
         if (is_ordering || is_beside_cut)
@@ -176,7 +178,7 @@ std::unique_ptr<PreparedFlow> prepare(FlowingMesh& mesh, FlowOptions given, bool
     progress.count();
     const Topology& topology = prepared->topology;
     AccuracyOptions& accuracy = prepared->options.accuracy;
-    // Steps that were begun go on in the same way.
+    // A resumed flow continues in the way in which it began.
     if (options.resources.memory_limit && resume == nullptr && control.ranks == nullptr)
         prepared->without_factors = choose_without_factors(prepared->size, options);
     if (prepared->without_factors) {
@@ -194,7 +196,7 @@ std::unique_ptr<PreparedFlow> prepare(FlowingMesh& mesh, FlowOptions given, bool
     cut_and_measure(*prepared, mesh.mesh(), progress);
     std::vector<Remark>& remarks = prepared->remarks;
     remarks.insert(remarks.begin(), prepared->cut.remarks.begin(), prepared->cut.remarks.end());
-    // A single sub-mesh is solved exactly either way.
+    // A single sub-mesh is solved exactly, whatever the approach.
     if (prepared->cut.n_parts == 1 && accuracy.approach == Approach::Converged && !choice.reason.empty()) {
         accuracy.approach = Approach::Undecomposed;
         accuracy.tolerance.reset();
@@ -212,7 +214,7 @@ void leave_factors(PreparedFlow& prepared, const PolygonMesh& mesh, const Execut
     prepared.options.accuracy.tolerance = prepared.without_factors->tolerance;
     prepared.cut = cut_into(mesh, prepared.topology, 1, exec);
     prepared.choices = std::move(prepared.choices_without_factors);
-    // There are to be none later either.
+    // No factors are to be made in later steps either.
     prepared.costs.reset();
 }
 
@@ -228,7 +230,7 @@ void report_to(const PreparedFlow& prepared, const FlowingMesh& mesh, FlowReport
     report.cut.repaired_faces = prepared.cut.repaired_faces;
     report.choices = prepared.choices;
     report.remarks = prepared.remarks;
-    // At the rim of a region faces may be left out, which is nothing to report.
+    // Faces that were left out at the rim of a region are not reported.
     const std::vector<double>& strength = options.motion.strength;
     const auto count_in_region = [&](VertexKind kind) {
         Index n = 0;

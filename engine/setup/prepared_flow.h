@@ -23,27 +23,28 @@
 
 namespace seamflow {
 
-/// A flow before its first step: all decisions about it, and the measurements behind them.
+/// A flow before its first step: all decisions about it, and the measurements that they are based on.
 struct PreparedFlow {
-    /// The given options, with what was chosen where they left it open: the approach, the tolerance. Labels are those
-    /// of faces that flow.
+    /// The given options, with choices where they left something open: the approach, the tolerance. Labels are those of
+    /// the flowing faces.
     FlowOptions options;
-    /// What the cost of steps follows from; empty if there was no choice how to take them.
+    /// The input of the costs of steps; empty if the way of taking steps was not chosen by cost.
     std::optional<FlowSize> costs;
-    /// What replaces steps whose factors do not fit into the memory limit; empty: nothing does.
+    /// The approach that replaces steps whose factors do not fit into the memory limit; empty: none.
     std::optional<ApproachChoice> without_factors;
-    /// Takes the place of `choices` where `without_factors` is taken.
+    /// Replaces `choices` if `without_factors` is used.
     std::vector<Remark> choices_without_factors;
     /// Checksum of the mesh and the given options, by which a checkpoint is recognised. 0 if it is not needed.
     std::uint64_t identity = 0;
     MeshSize size;
-    /// The topology of the flowing mesh, which also says which vertices move.
+    /// The topology of the flowing mesh, with the vertices that move.
     Topology topology;
     /// The vertices of the given mesh that no face uses, ascending.
     std::vector<Index> unused_vertices;
-    /// When vertices at junctions would move: the result of the function of this name (automatic_choices.h).
+    /// The condition under which vertices at junctions would move: the result of need_of_junctions in
+    /// automatic_choices.h.
     std::string_view need_of_junctions;
-    /// K and M, where the weights of the Laplacian were not as FlowOptions::weights says.
+    /// K and M, if the weights of the Laplacian did not satisfy FlowOptions::weights; otherwise empty.
     std::optional<GivenStiffness> stiffness;
     /// The sub-mesh of every face.
     Cut cut;
@@ -51,13 +52,13 @@ struct PreparedFlow {
     std::vector<double> curvature;
     /// Refers to the topology; empty without ReportOptions::measures.
     std::optional<DisplacementMeter> meter;
-    /// Why sub-meshes and steps were chosen as they were.
+    /// The reasons for the choice of sub-meshes and steps.
     std::vector<Remark> choices;
-    /// About the mesh and the cut.
+    /// Remarks on the mesh and the cut.
     std::vector<Remark> remarks;
 };
 
-/// Checks a mesh and decides how it is to flow: which faces and vertices take part, whether steps are converged, which
+/// Checks a mesh and decides how it flows: which faces and vertices take part, whether steps are converged, which
 /// sub-meshes there are.
 /// @param mesh must outlive the result; vertices along seams are joined, faces that repeat others are left out.
 /// @param is_observed whether an observer may ask for the flow's state.
@@ -67,10 +68,10 @@ struct PreparedFlow {
 std::unique_ptr<PreparedFlow> prepare(FlowingMesh& mesh, FlowOptions options, bool is_observed,
                                       const FlowControl& control, Progress& progress);
 
-/// Leaves sub-meshes and factorisations for conjugate gradients, as PreparedFlow::without_factors says.
+/// Changes the flow to conjugate gradients, as PreparedFlow::without_factors says: no sub-meshes, no factorisations.
 void leave_factors(PreparedFlow& prepared, const PolygonMesh& mesh, const Executor& exec);
 
-/// Adds this to the report.
+/// Adds the decisions and measurements to the report.
 void report_to(const PreparedFlow& prepared, const FlowingMesh& mesh, FlowReport& report);
 
 }  // namespace seamflow

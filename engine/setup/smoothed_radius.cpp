@@ -13,7 +13,7 @@ namespace seamflow {
 
 namespace {
 
-/// dt / R² for which half is left after all steps.
+/// dt / R² with which half of a bump is left after all steps.
 double step_per_squared_radius(int steps, const StepFilter& filter)
 {
     const double lambda = filter.is_plain() ? std::expm1(std::numbers::ln2 / steps)

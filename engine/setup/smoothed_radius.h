@@ -5,9 +5,9 @@
 
 namespace seamflow {
 
-/// How far a flow smooths, as a length on the surface: bumps of this radius are half as high after all steps, smaller
-/// ones lower yet, much larger ones hardly changed. A bump is z = a sin(πx/2R) sin(πy/2R), whose height each step
-/// multiplies by the filter's transfer(dt π²/(2R²)), to first order in a. With Laplacian::Uniform that holds where
+/// The length on the surface over which a flow smooths: bumps of this radius have half their height after all steps;
+/// smaller bumps have less, much larger ones hardly change. A bump is z = a sin(πx/2R) sin(πy/2R), whose height each
+/// step multiplies by the filter's transfer(dt π²/(2R²)), to first order in a. With Laplacian::Uniform that holds where
 /// edges are as long as its h.
 /// @param time_step in length². @param steps at least 1.
 /// @returns R, in units of length.
@@ -17,18 +17,18 @@ double smoothed_radius(double time_step, int steps, const StepFilter& filter = {
 /// The time step, in length², with which that many steps smooth bumps of radius R: the inverse of smoothed_radius.
 double time_step_for_radius(double radius, int steps, const StepFilter& filter = {});
 
-/// The same for a radius that may be relative to the mesh.
+/// The time step, in length², for a radius that may be relative to the mesh.
 /// @param steps 0 counts as 1. @param diagonal of the bounding box, in units of length.
-/// @throws InputError for a mesh that has no size to measure by, without naming it: "has no size …"; OptionError for a
+/// @throws InputError for a mesh without a size, without naming the mesh: "has no size …"; OptionError for a
 ///         time step that no double can hold.
 double time_step_for_radius(const LengthOnMesh& radius, int steps, double diagonal, const StepFilter& filter = {});
 
-/// FlowOptions::time_step, or that for FlowOptions::radius, in length².
+/// FlowOptions::time_step, or the time step for FlowOptions::radius, in length².
 /// @throws InputError for a mesh that is not valid; as time_step_for_radius.
 double time_step_of(const FlowOptions& options, const PolygonMesh& mesh);
 
-/// FlowOptions::uniform_edge, or if Laplacian::Uniform needs it and it is 0, the mean edge length; 1 if edges have
-/// none.
+/// FlowOptions::uniform_edge; if Laplacian::Uniform needs it and it is 0, the mean edge length; 1 if no edge has a
+/// length.
 /// @throws InputError for a mesh that is not valid.
 double uniform_edge_of(const FlowOptions& options, const PolygonMesh& mesh);
 

@@ -10,9 +10,9 @@
 
 namespace seamflow {
 
-FlowTerms terms_of(const FlowOptions& options, const Points& first)
+FlowTerms terms_of(const FlowOptions& options, const Points& initial)
 {
-    return {.first = &first,
+    return {.initial = &initial,
             .keeps_stiffness = options.flow != FlowEquation::MeanCurvature,
             .keeps_mass = options.flow == FlowEquation::Linear,
             .weights = options.motion.attachment_weights,
@@ -51,8 +51,9 @@ std::unique_ptr<SubMeshSystem> make_equations(const SubMesh& sub_mesh, std::vect
 
 namespace {
 
-/// With a good prediction the other side answers to what Γ adds like a half plane: with the derivative 1/√dt, so that
-/// dt p = √dt would be right for smooth surfaces. Measured on twelve meshes, Δ_A and Δ_P, a little less is better.
+/// p √dt with predictions. With a good prediction the other side responds to a further movement of Γ like a half plane:
+/// the derivative is 1/√dt, so that dt p = √dt would be right for smooth surfaces. Measured on twelve meshes, Δ_A and
+/// Δ_P, a little less is better.
 constexpr double predicted_p_in_diffusion_lengths = 0.7;
 
 }  // namespace

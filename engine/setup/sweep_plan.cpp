@@ -8,7 +8,7 @@ namespace seamflow {
 
 namespace {
 
-/// Transfers to sub-mesh s at the vertices of its Γ at which another one solves before it.
+/// The transfers to sub-mesh s at those vertices of its Γ at which another sub-mesh solves earlier.
 std::vector<Transfer> list_traces(const Decomposition& decomposition, Index s, const std::vector<Index>& stage)
 {
     const auto& interface = decomposition.sub_meshes[s].interface;
@@ -23,7 +23,7 @@ std::vector<Transfer> list_traces(const Decomposition& decomposition, Index s, c
     return transfers_to(s, std::move(rows));
 }
 
-/// Sub-mesh s leads where it solves first.
+/// The roles of sub-mesh s: it leads at vertices where it solves first.
 std::vector<InterfaceRole> list_roles(const SubMeshInterface& interface, Index s, const std::vector<Index>& stage)
 {
     std::vector<InterfaceRole> roles;
@@ -37,8 +37,8 @@ std::vector<InterfaceRole> list_roles(const SubMeshInterface& interface, Index s
     return roles;
 }
 
-/// The sub-mesh, other than s itself, that sends a vertex beyond Γ: the lowest of those at a vertex of Γ, one of which
-/// has all faces of both.
+/// The sub-mesh, other than s, that sends the vertex `halo_vertex` beyond Γ: the lowest of the sub-meshes at a vertex
+/// of Γ in which all faces of both vertices are.
 TransferRow sender_of(const Decomposition& decomposition, std::span<const Index> sharing, Index s, Index halo_vertex)
 {
     const Index vertex = decomposition.sub_meshes[s].local_to_global[halo_vertex];
@@ -50,14 +50,14 @@ TransferRow sender_of(const Decomposition& decomposition, std::span<const Index>
     return {-1, -1, -1};
 }
 
-/// The lowest of the sub-meshes at a vertex of Γ other than s.
+/// The lowest sub-mesh at a vertex of Γ, s excluded.
 Index lowest_but(Index s, std::span<const Index> sharing)
 {
     return sharing[0] == s ? sharing[1] : sharing[0];
 }
 
-/// Faces beyond Γ with many corners, each of which would visit all others. Corners where the same sub-meshes meet visit
-/// the same.
+/// Faces beyond Γ with so many corners that visiting all other corners from each corner would take too long. Corners at
+/// which the same sub-meshes meet have the same senders, so that the face is visited from one of them.
 class LargeFaces {
   public:
     explicit LargeFaces(const SubMeshInterface& interface)
@@ -65,7 +65,8 @@ class LargeFaces {
     {
     }
 
-    /// Whether a vertex of Γ where the same sub-meshes meet has asked for the face; false for small ones.
+    /// Whether the face has been visited from another vertex of Γ where the same sub-meshes meet; false for small
+    /// faces.
     bool has_been_seen_from_like(Index face, Index vertex)
     {
         constexpr std::size_t many = 32;
@@ -106,7 +107,7 @@ void plan_predictions(const Decomposition& decomposition, Index s, SweepPlan& pl
             for (const Index v : interface.halo_faces[f]) {
                 if (v < sub_mesh.n_vertices)
                     continue;
-                // The lowest of all, so that the choice does not depend on the numbering of vertices.
+                // The lowest sender is taken, so that the choice does not depend on the numbering of vertices.
                 TransferRow& sender = senders[v - sub_mesh.n_vertices];
                 if (sender.from >= 0 && sender.from <= lowest_but(s, interface.sharing[i]))
                     continue;

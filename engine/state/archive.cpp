@@ -9,7 +9,7 @@ namespace seamflow {
 
 namespace {
 
-/// Must be increased whenever `fields` or the checksum changes.
+/// The format of archives. To be increased whenever `fields` or the checksum changes.
 constexpr std::uint32_t format = 0x5ea30006;
 
 /// The beginning of a file.

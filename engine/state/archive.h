@@ -19,19 +19,19 @@
 
 /// Files that hold structs, bit for bit. A file is: a line that names its kind; the format, which reads differently on
 /// machines of another byte order; the version of this library; the fields of the struct in the order of `fields`,
-/// arrays after their sizes; the checksum of all that.
+/// arrays after their sizes; the checksum of all these.
 namespace seamflow {
 
-/// @throws InputError naming the file, the reason and what to do.
+/// @throws InputError naming the file, the reason and a remedy.
 [[noreturn]] void refuse_archive(const std::filesystem::path& file, const std::string& reason);
 
-/// Writes parts to a file.
+/// Writes values to a file.
 class ArchiveWriter {
   public:
-    /// Only for the checksum of the parts.
+    /// A writer without a file, which only computes the checksum.
     ArchiveWriter() = default;
 
-    /// @param line what the file is.
+    /// @param line the kind of the file.
     ArchiveWriter(const std::filesystem::path& path, std::string_view line);
 
     template <class Number>
@@ -61,10 +61,10 @@ class ArchiveWriter {
         number(static_cast<std::uint64_t>(value ? 1 : 0));
     }
 
-    /// Of all parts so far.
+    /// The checksum of all values written so far.
     [[nodiscard]] std::uint64_t checksum() const { return checksum_.value(); }
 
-    /// Ends the file.
+    /// Completes the file.
     void commit()
     {
         number(checksum());
@@ -76,11 +76,11 @@ class ArchiveWriter {
     Checksum checksum_;
 };
 
-/// Reads parts from a file. An array takes no more memory than the length of the file allows, whatever size the file
+/// Reads values from a file. An array takes no more memory than the length of the file allows, whatever size the file
 /// gives.
 class ArchiveReader {
   public:
-    /// Checks the whole file first.
+    /// Opens the file and checks all of it.
     ArchiveReader(const std::filesystem::path& path, std::string_view line);
 
     template <class Number>
@@ -134,14 +134,15 @@ class ArchiveReader {
 
     std::filesystem::path path_;
     std::ifstream file_;
-    /// Except for the checksum.
+    /// The number of bytes left, without the checksum.
     std::uint64_t n_left_ = 0;
 };
 
 template <class Value, class Struct>
 concept Is = std::is_same_v<std::remove_const_t<Value>, Struct>;
 
-/// Structs have a function `fields` in their namespace: all fields, or the compiler complains.
+/// Structs that have a function `fields` in their namespace, which lists all fields: the compiler refuses a list that
+/// is not complete.
 template <class Value>
 concept HasFields = requires(Value& value)
 {
@@ -158,7 +159,7 @@ template <class Value>
 concept HasNumbers =
     Is<Value, Points> || Is<Value, std::string> || Is<Value, std::vector<double>> || Is<Value, std::vector<Index>>;
 
-/// Writes the parts of a value to a file or reads them: values are const when they are written.
+/// Writes a value, field by field, to a file, or reads it. Values are const when they are written.
 template <class Archive, class Value>
 void transfer(Archive& archive, Value& value)
 {
@@ -179,7 +180,7 @@ void transfer(Archive& archive, Value& value)
     }
 }
 
-/// The checksum of values, as a file would hold them.
+/// The checksum of values, as in a file.
 template <class... Value>
 std::uint64_t checksum_of(const Value&... values)
 {
@@ -198,7 +199,7 @@ void write_archive(const std::filesystem::path& path, std::string_view line, con
     archive.commit();
 }
 
-/// Reads it back.
+/// Reads a struct from a file that write_archive has written.
 /// @throws InputError naming the file if it cannot be opened, is not such a file, comes from a version or a machine
 ///         with another format, is cut off, or has changed since it was written.
 template <class Struct>

@@ -9,8 +9,8 @@ struct XXH3_state_s;
 
 namespace seamflow {
 
-/// A checksum of a sequence of bytes (XXH3 of xxHash, 64 bits). Different sequences agree once in 2⁶⁴. The portions in
-/// which bytes are added do not matter. It does not protect against tampering.
+/// A checksum of a sequence of bytes (XXH3 of xxHash, 64 bits). Two different sequences have the same checksum with
+/// probability 2⁻⁶⁴. The division of the bytes into calls does not matter. No protection against tampering.
 class Checksum {
   public:
     /// @throws std::bad_alloc

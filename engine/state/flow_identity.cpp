@@ -22,13 +22,13 @@ auto fields(Is<MotionDirection> auto& of)
 
 std::uint64_t identify(const PolygonMesh& mesh, const FlowOptions& options)
 {
-    // Near the origin, where it flows.
+    // The positions near the origin, as they flow.
     const Point offset = origin_offset(mesh);
     const Points moved = offset.isZero(0.0) ? Points(0, 3) : Points(mesh.vertices.rowwise() - offset);
     std::uint64_t identity = checksum_of(offset.isZero(0.0) ? mesh.vertices : moved, mesh.face_offsets,
                                          mesh.face_vertices, filter_of(options).order);
     for_each_option(options, [&](const auto& row) {
-        // The order that is left open is that of the filter.
+        // An order of 0 stands for the default of the filter.
         if ((row.concerns & concern::no_result) == 0 && row.field != "order")
             identity = checksum_of(identity, *row.value);
     });

@@ -12,7 +12,7 @@
 
 namespace seamflow {
 
-/// Data passed from step to step: always positions; the rest depends on the stepper.
+/// Data passed from step to step: the positions, and further data that depend on the stepper.
 struct StepMemory {
     /// #V by 3, after the last complete step.
     Points positions = Points(0, 3);
@@ -28,19 +28,21 @@ class StepMemoryReader {
     {
     }
 
+    /// Returns the next array.
     /// @throws InputError if there is no further array, or it has another number of rows, or non-finite numbers.
     const Points& array(Eigen::Index rows);
 
-    /// The same for an array of any numbers.
+    /// Returns the next array, whose numbers need not be finite.
     const Points& array_of_any(Eigen::Index rows);
 
+    /// Returns the next number.
     /// @throws InputError if there is no further number.
     double number();
 
-    /// The same for a number that counts something.
+    /// Returns the next number, which must be a count.
     int count();
 
-    /// @throws InputError if anything is left.
+    /// @throws InputError if any data are left.
     void require_end() const;
 
   private:
@@ -49,25 +51,25 @@ class StepMemoryReader {
     std::size_t next_number_ = 0;
 };
 
-/// Everything a flow needs to resume after a complete step as if it had never ended: see StepState::capture and
-/// FlowControl::resume. It belongs to the mesh as it was before the first step, and to the options.
+/// All data that a flow needs to resume after a complete step as if it had never ended: see StepState::capture and
+/// FlowControl::resume. The state belongs to the mesh as it was before the first step, and to the options.
 struct FlowState {
-    /// See identify; 0: it was not needed.
+    /// See identify; 0: no identity was computed.
     std::uint64_t identity = 0;
-    /// How its steps are taken.
+    /// The way in which the steps are taken.
     Approach approach = Approach::Sweep;
-    /// Checksum of the cut.
+    /// The checksum of the cut.
     std::uint64_t cut = 0;
-    /// As in the FlowReport: one for each step so far, and their seconds.
+    /// The reports on the steps so far, and their times in seconds, as in the FlowReport.
     std::vector<StepReport> steps;
     PhaseSeconds seconds;
     DisplacementSums displacement;
     StepMemory flow = {};
-    /// Of the undecomposed flow, with ReportOptions::reference.
+    /// The memory of the undecomposed flow, with ReportOptions::reference.
     std::optional<StepMemory> reference = {};
 
     [[nodiscard]] int n_steps() const { return static_cast<int>(steps.size()); }
-    /// #V by 3, as the flow itself continues with them: unscaled if MotionOptions::rescale scales only results.
+    /// #V by 3: the positions from which the flow continues: unscaled if MotionOptions::rescale scales only results.
     [[nodiscard]] const Points& positions() const { return flow.positions; }
 };
 

@@ -23,7 +23,7 @@ void CondensedSubMesh::use_memory(FactorMemory& memory, bool is_kept)
     is_kept_ = is_kept;
 }
 
-/// Starts with increments of 0.
+/// Sets the increments to 0.
 void CondensedSubMesh::begin_increments(const CondensedStep& step, SolverWorkspace& workspace) const
 {
     for (const Index v : interior())
@@ -32,7 +32,7 @@ void CondensedSubMesh::begin_increments(const CondensedStep& step, SolverWorkspa
     workspace.increments.setZero();
 }
 
-/// Vᵏ⁺¹ - Vᵏ as reached so far in the step.
+/// Fetches Vᵏ⁺¹ - Vᵏ as reached so far in the step.
 void CondensedSubMesh::fetch_increments(const CondensedStep& step, SolverWorkspace& workspace) const
 {
     Points& increments = workspace.increments;
@@ -44,7 +44,7 @@ void CondensedSubMesh::fetch_increments(const CondensedStep& step, SolverWorkspa
         increments.row(system_->unknowns()[system_->n_interior() + i]) = step.reached.row(on_interface_[i]);
 }
 
-/// The equations with the workspace's increments.
+/// Assembles the equations at the increments in the workspace.
 NeumannSystem::Assembled CondensedSubMesh::assemble(const CondensedStep& step, SolverWorkspace& workspace) const
 {
     const auto own = std::span(vertices_.local_to_global).first(usize(vertices_.n_vertices));
@@ -53,7 +53,7 @@ NeumannSystem::Assembled CondensedSubMesh::assemble(const CondensedStep& step, S
     return system_->assemble(positions, workspace.increments, step.time_step, workspace, data);
 }
 
-/// Factorises, and condenses with that factor.
+/// Factorises the equations, and condenses them with this factor.
 NeumannSystem::Factor CondensedSubMesh::factorise(const CondensedStep& step, SolverWorkspace& workspace)
 {
     Stopwatch watch;
@@ -103,7 +103,7 @@ void CondensedSubMesh::condense_again(const CondensedStep& step, SolverWorkspace
     seconds_->solve += watch.lap();
 }
 
-/// The factor left by the last condensation.
+/// Takes the factor that the last condensation has stored, or recomputes it.
 NeumannSystem::Factor CondensedSubMesh::take_factor(const CondensedStep& step, SolverWorkspace& workspace)
 {
     if (factor_)
@@ -112,8 +112,8 @@ NeumannSystem::Factor CondensedSubMesh::take_factor(const CondensedStep& step, S
     return factorise(step, workspace);
 }
 
-/// Continues to an update of Γ.
-/// @param factor as left by condensation. @param workspace receives the increments.
+/// Solves for the interior at an update of Γ.
+/// @param factor as condensation has left it. @param workspace receives the increments.
 void CondensedSubMesh::substitute(const CondensedStep& step, NeumannSystem::Factor& factor, const Points& update,
                                   SolverWorkspace& workspace) const
 {

@@ -14,26 +14,26 @@
 
 namespace seamflow {
 
-/// A step condensed to Γ, as shared by all sub-meshes.
+/// The data of a step condensed to Γ that all sub-meshes share.
 struct CondensedStep {
     /// #V by 3: Vᵏ.
     const Points& before;
-    /// #V by 3: Vᵏ⁺¹ in the end; until then interiors have Vᵏ⁺¹ - Vᵏ there, as far as the step has come.
+    /// #V by 3: receives Vᵏ⁺¹. Until then, interiors have the Vᵏ⁺¹ - Vᵏ reached so far there.
     Points& positions;
-    /// #V by 3: data other than Vᵏ that the step is applied to; else null.
+    /// #V by 3: data other than Vᵏ that the step is applied to; null if it is applied to Vᵏ.
     const Points* data;
     /// dt, in length².
     double time_step;
-    /// #vertices of Γ by 3: the update of Γ that interiors belong to.
+    /// #vertices of Γ by 3: the update of Γ for which interiors were solved last.
     const Points& reached;
-    /// #copies by 3: the right-hand sides on Γ of all sub-meshes, and later what is left of them.
+    /// #copies by 3: the right-hand sides on Γ of all sub-meshes, and later their residuals.
     Points& condensed;
 };
 
 /// A sub-mesh whose equations are condensed to Γ and solved by back substitution. One thread at a time.
 class CondensedSubMesh {
   public:
-    /// SubMesh data that steps need.
+    /// The data of a SubMesh that steps need.
     struct Vertices {
         std::vector<Index> faces = {};
         Index n_vertices = 0;
@@ -41,8 +41,9 @@ class CondensedSubMesh {
         std::vector<std::uint8_t> owned = {};
     };
 
-    /// @param on_interface the vertices of Γ that it has copies of, and the first of these copies (see
-    ///        InterfaceCopies). @param seconds receives the time in its tasks. Both must outlive the object.
+    /// @param on_interface the vertices of Γ of which the sub-mesh has copies. @param first_copy the number of the
+    /// first of these copies (see InterfaceCopies). @param seconds receives the time of the sub-mesh's tasks. Both
+    /// references must outlive the object.
     CondensedSubMesh(Vertices vertices, std::unique_ptr<NeumannSystem> system, std::span<const Index> on_interface,
                      Index first_copy, PhaseSeconds& seconds);
 
@@ -50,35 +51,36 @@ class CondensedSubMesh {
     [[nodiscard]] const NeumannSystem& system() const { return *system_; }
     [[nodiscard]] NeumannSystem& system() { return *system_; }
 
-    /// @param is_kept whether the factor lives from condensation to back substitution; otherwise it is recomputed
-    ///        whenever it is needed, with the same bits.
+    /// @param memory for factors. @param is_kept whether the factor lives from condensation to back substitution;
+    ///        otherwise it is recomputed whenever it is needed, with the same bits.
     void use_memory(FactorMemory& memory, bool is_kept);
     [[nodiscard]] bool is_kept() const { return is_kept_; }
 
     /// Whether the factor of this step is in single precision.
     [[nodiscard]] bool is_single() const { return precision_ == Precision::Single; }
 
-    /// The largest residual of the interior in each column, when last condensed.
+    /// The largest residual of the interior in each column at the last condensation.
     [[nodiscard]] const Point& residual() const { return residual_; }
 
-    /// Factorises and condenses, from Vᵏ⁺¹ = Vᵏ on.
+    /// Factorises and condenses, beginning at Vᵏ⁺¹ = Vᵏ.
     /// @param complement receives the Schur complement.
     void condense(const CondensedStep& step, Precision precision, SolverWorkspace& workspace, DenseFactor& complement);
 
     /// Condenses other data, with the factor of the first solution of the step.
     void condense_again(const CondensedStep& step, SolverWorkspace& workspace);
 
-    /// Solves for the interior at an update of Γ, and condenses what is left of the equations.
+    /// Solves for the interior at an update of Γ, and condenses the residual of the equations.
     void refine(const CondensedStep& step, const Points& update, SolverWorkspace& workspace);
 
-    /// Completes Vᵏ⁺¹, or the step's result for other data, at the vertices that it owns.
+    /// Completes Vᵏ⁺¹, or the step's result for other data, at the vertices that the sub-mesh owns.
     /// @param keeps_factor whether another solution follows.
     void back_substitute(const CondensedStep& step, const Points& update, bool keeps_factor,
                          SolverWorkspace& workspace);
 
-    /// See NeumannSystem. It takes a factor that is kept.
+    /// See NeumannSystem. Requires a factor that is kept.
     [[nodiscard]] bool can_take_columns() const;
-    /// @param fields #V by any number of columns.
+    /// See NeumannSystem.
+    /// @param time_step dt, in length². @param n the number of steps. @param fields #V by any number of columns.
     void take_steps(double time_step, int n, Eigen::Ref<Eigen::MatrixXd> fields, const Executor& exec) const;
 
   private:
@@ -103,7 +105,7 @@ class CondensedSubMesh {
     PhaseSeconds* seconds_;
     FactorMemory* memory_ = nullptr;
     bool is_kept_ = true;
-    /// That of its factor in this step, or Automatic until it is known.
+    /// The precision of the factor in this step; Automatic until it is known.
     Precision precision_ = Precision::Automatic;
     std::optional<NeumannSystem::Factor> factor_;
     Point residual_ = Point::Zero();

@@ -6,16 +6,16 @@
 namespace seamflow {
 
 /// Takes the undecomposed backward Euler step of a symmetric Laplacian by conjugate gradients on the whole mesh, whose
-/// rows the threads share (see WholeMeshSystem): no cut, no factorisation, hardly any set-up. The way to go for short
-/// steps, and for few.
+/// rows the threads share (see WholeMeshSystem): no cut, no factorisation, hardly any set-up. Fastest for short steps,
+/// and for few steps.
 class ConjugateGradientStepper final : public ConvergedStepper {
   public:
     /// @param mesh, topology, progress must outlive the stepper.
     ConjugateGradientStepper(const PolygonMesh& mesh, const Topology& topology, const FlowOptions& options,
                              Progress& progress);
 
-    /// The solution that iterations of the next step begin with, #V by 3, unless Vᵏ is nearer; null: Vᵏ. It must exist
-    /// until the step has been taken.
+    /// Sets the solution with which iterations of the next step begin, #V by 3, unless Vᵏ is nearer to the solution;
+    /// null: Vᵏ. It must exist until the step has been taken.
     void begin_with(const Points* guess) { guess_ = guess; }
 
     void give(const GivenStiffness& given) override { system_.give(given); }

@@ -13,7 +13,7 @@ namespace seamflow {
 
 namespace {
 
-/// Of a mesh that is not cut: a step is exact, whatever its tolerance.
+/// The tolerance for a mesh that is not cut: a step is exact, whatever its tolerance.
 constexpr double tolerance_without_interface = 1e-10;
 
 }  // namespace
@@ -43,7 +43,8 @@ void ConvergedStepper::step(const Points& before)
     note();
 }
 
-/// Runs the same graph again for each further solution, with the same factors.
+/// Takes a step with a filter of several solutions: runs the same graph for each further solution, with the same
+/// factors.
 void ConvergedStepper::take_filtered()
 {
     InterfaceResult sum = reached_.last;
@@ -71,7 +72,7 @@ void ConvergedStepper::take_filtered()
     reached_.last = sum;
 }
 
-/// Notes how well the step has met the tolerance.
+/// Records the residual and whether the step has met the tolerance.
 void ConvergedStepper::note()
 {
     reached_.of_step.resize(std::max(reached_.of_step.size(), usize(reached_.n_taken) + 1));

@@ -13,8 +13,9 @@
 
 namespace seamflow {
 
-/// Common base of steppers that take the undecomposed step itself: an iteration solves an equation to a tolerance, for
-/// what sub-meshes share, with tasks of the sub-meshes before it and maybe after it, or for the whole mesh.
+/// Common base of steppers that take the undecomposed step itself. Each step solves an equation to a tolerance by an
+/// iteration: an equation for the vertices that sub-meshes share, with tasks of the sub-meshes before it and perhaps
+/// after it; or an equation for the whole mesh.
 class ConvergedStepper : public Stepper {
   public:
     void step(const Points& before) final;
@@ -28,8 +29,8 @@ class ConvergedStepper : public Stepper {
     void report_to(StepReport& report) const final;
 
   protected:
-    /// Adds the equation to the graph.
-    /// @param parts_of_equation that it counts for in the progress of a step.
+    /// Adds the solution of the equation to the graph as a task.
+    /// @param parts_of_equation the number of parts that this task counts for in the progress of a step.
     /// @param progress must outlive the stepper.
     ConvergedStepper(const PolygonMesh& mesh, Index n_sub_meshes, const FlowOptions& options, double parts_of_equation,
                      Progress& progress);
@@ -37,10 +38,10 @@ class ConvergedStepper : public Stepper {
     /// Solves the equation.
     virtual InterfaceResult solve_equation(const IterationStop& stop, const Executor& exec) = 0;
 
-    /// Restores what `save` has added.
+    /// Restores the data that `save` of a subclass has added.
     virtual void restore_further(StepMemoryReader&) {}
 
-    /// Fills in what all such steps report.
+    /// Fills in the part of the report that is common to all such steppers.
     void describe_steps(FlowReport& report) const;
 
     Workspaces workspaces_;
@@ -48,11 +49,12 @@ class ConvergedStepper : public Stepper {
     StepFilter filter_;
     /// #V by 3: Vᵏ, during a step.
     const Points* before_ = nullptr;
-    /// #V by 3: other data, if any, that the step is applied to with the same factor; 0 where nothing moves.
+    /// #V by 3: other data that the step is applied to, with the same factor; 0 where nothing moves. Null: the step is
+    /// applied to Vᵏ.
     const Points* data_ = nullptr;
-    /// #V by 3: Vᵏ⁺¹, complete at the end of a step; or the step's result for data.
+    /// #V by 3: Vᵏ⁺¹, complete at the end of a step; or the result of the step for data_.
     Points positions_;
-    /// Per sub-mesh, and of the equation.
+    /// Per sub-mesh, and for the equation: the times of tasks.
     std::vector<PhaseSeconds> seconds_;
     TaskGraph graph_;
     TaskGraph::Node root_;
@@ -65,16 +67,17 @@ class ConvergedStepper : public Stepper {
         bool has_stagnated = false;
     };
 
-    /// How well steps have kept to their tolerance.
+    /// The accuracy of the steps so far.
     struct Reached {
-        /// In the last step; the residual is relative to that of the positions before it.
+        /// The last step; its residual is relative to that of the positions before it.
         InterfaceResult last;
-        /// Estimated distance of the positions to those of the undecomposed flow. The residuals of the steps are added
-        /// up like independent errors.
+        /// The estimated distance of the positions to those of the undecomposed flow. The residuals of the steps are
+        /// added up like independent errors.
         double distance = 0.0;
         int n_short_of_tolerance = 0;
         int n_stagnated = 0;
-        /// How many steps were taken, also before those since `begin`; and for each what is counted of it already.
+        /// The number of steps taken; the number of these before the last data with Further steps (see DataSteps), from
+        /// which the number continues for data whose steps are taken Again; and per step, how it was counted.
         int n_taken = 0;
         int first = 0;
         std::vector<Missed> of_step = {};
@@ -85,7 +88,7 @@ class ConvergedStepper : public Stepper {
     void note();
 
     IterationStop stop_;
-    /// Of the iteration.
+    /// Counts the loops of the iteration.
     LoopCount loops_;
     Reached reached_;
 };

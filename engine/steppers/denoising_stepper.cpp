@@ -13,8 +13,8 @@ namespace seamflow {
 
 namespace {
 
-/// A part of the surface this small that has none is not worth a sentence.
-constexpr double small_part = 0.05;
+/// If the fraction of the surface without noise is smaller than this, it is not mentioned.
+constexpr double small_fraction = 0.05;
 
 }  // namespace
 
@@ -29,14 +29,14 @@ std::unique_ptr<const DenoisingStepper::CutOpen> DenoisingStepper::cut_open(cons
     open->mesh = FeatureLines(mesh, topology, feature_edges).cut_open(mesh, topology);
     open->topology = make_topology(open->mesh, exec);
     free_boundary(open->topology);
-    std::vector<Index> held;
+    std::vector<Index> on_feature_edges;
     for (const Edge& edge : feature_edges)
-        held.insert(held.end(), edge.begin(), edge.end());
-    sort_unique(held);
+        on_feature_edges.insert(on_feature_edges.end(), edge.begin(), edge.end());
+    sort_unique(on_feature_edges);
     for (Index h = 0; h < mesh.n_corners(); ++h) {
         const Index v = mesh.face_vertices[h];
         open->mesh.vertices.row(open->mesh.face_vertices[h]) = mesh.vertices.row(v);
-        if (!topology.moves(v) || std::ranges::binary_search(held, v))
+        if (!topology.moves(v) || std::ranges::binary_search(on_feature_edges, v))
             open->topology.fixed[open->mesh.face_vertices[h]] = 1;
     }
     return open;
@@ -66,7 +66,8 @@ void DenoisingStepper::step(const Points& before)
     assert(&before != &positions_);
     const Executor exec = loops_.begin();
     if (open_) {
-        // Copies of a vertex do not move: the first has its number.
+        // The additional copies of a vertex, on the other sides of a feature edge, do not move. The first copy has the
+        // number of the vertex.
         Points of_copies(open_->mesh.n_vertices(), 3);
         of_copies.topRows(before.rows()) = before;
         for (Index h = 0; h < mesh_->n_corners(); ++h)
@@ -140,7 +141,7 @@ void DenoisingStepper::report_to(FlowReport& report) const
         return;
     }
     std::string where;
-    if (noise_->part < 1.0 - small_part)
+    if (noise_->part < 1.0 - small_fraction)
         where = fmt::format(" on {:.0f}% of the vertices, none on the others", 100.0 * noise_->part);
     report.choices.push_back(
         {"noise",

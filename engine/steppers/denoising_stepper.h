@@ -15,8 +15,8 @@
 namespace seamflow {
 
 /// Takes steps that remove noise (FlowOptions::denoise, see MeshDenoiser). The whole mesh at once, its faces and
-/// vertices shared among the threads; the bits do not depend on their number. Vertices on feature edges stay, and faces
-/// on the two sides do not matter to each other.
+/// vertices shared among the threads; the bits do not depend on their number. Vertices on feature edges do not move,
+/// and faces on the two sides of feature edges do not affect each other.
 class DenoisingStepper final : public Stepper {
   public:
     /// @param mesh, topology, progress must outlive the stepper; the twins of the topology are not needed later.
@@ -32,14 +32,14 @@ class DenoisingStepper final : public Stepper {
     }
     void save(StepMemory& memory) const override;
     void restore(const StepMemory& memory) override;
-    /// There are no tasks.
+    /// The stepper has no tasks.
     void add_seconds(PhaseSeconds&) const override {}
-    /// A single step has nothing to report.
+    /// A single step has no data for the report.
     void report_to(StepReport&) const override {}
     void report_to(FlowReport& report) const override;
 
   private:
-    /// A mesh with one vertex for each side of the feature edges at a vertex.
+    /// The mesh cut open along feature edges: with one vertex for each side of the feature edges at a vertex.
     struct CutOpen {
         PolygonMesh mesh;
         Topology topology;
@@ -51,12 +51,12 @@ class DenoisingStepper final : public Stepper {
 
     const PolygonMesh* mesh_;
     std::unique_ptr<const CutOpen> open_;
-    /// Of the mesh that is cut open: #V: the part of each displacement that vertices go; empty: 1.
+    /// #V of the mesh that is cut open: the fraction of its displacement that each vertex moves by; empty: 1.
     std::vector<double> step_scales_;
     MeshDenoiser denoiser_;
     Points positions_;
     LoopCount loops_;
-    /// Before the first step.
+    /// The noise before the first step.
     std::optional<SurfaceNoise> noise_;
 };
 

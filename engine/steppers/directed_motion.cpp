@@ -11,19 +11,20 @@ namespace seamflow {
 
 namespace {
 
-/// Where the cosine between a line and the normal of the surface is smaller, the surface stands along the line, and it
-/// is a matter of rounding which of its points the line meets.
+/// The least cosine between a line and the normal of the surface. With a smaller one the surface is nearly parallel to
+/// the line, and rounding decides which of its points the line meets.
 constexpr double least_cosine = 0.01;
 
-/// Near a silhouette, where a surface turns over as seen along the lines, many of them miss the moved surface. There,
-/// the moved surface is followed all the way only where the cosine is larger than this.
+/// The least such cosine near a silhouette, where the surface turns over as seen along the lines, and many lines miss
+/// the moved surface. The motion is reduced where the cosine is smaller.
 constexpr double least_cosine_at_silhouette = 0.7;
 
-/// Ways along lines of this fraction of the distance from a silhouette are half of the one and half of the other.
+/// The length of a motion along a line, as a fraction of the distance from a silhouette, at which the two ways of
+/// limiting the motion are averaged.
 constexpr double halved_at = 1.0 / 16.0;
 
-/// The way along a line of direction d to the plane through the moved point with normal n; less of it where their
-/// cosine is below `least`.
+/// The length along a line of direction d to the plane through the moved point with normal n; reduced if the cosine of
+/// d and n is below `least`.
 double way_to_plane(const Point& way, const Point& d, const Point& n, double least)
 {
     const double along = way.dot(d);
@@ -32,7 +33,7 @@ double way_to_plane(const Point& way, const Point& d, const Point& n, double lea
     return along + aside.dot(n) * cosine / std::max(cosine * cosine, least * least);
 }
 
-/// Replaces each way by another one, coordinate by coordinate.
+/// Replaces the motion of each vertex by another one, coordinate by coordinate.
 template <class NewWay>
 void move_each(const Points& before, Points& after, const Executor& exec, NewWay&& new_way)
 {
@@ -102,7 +103,8 @@ void DirectedMotion::project(const Points& before, Points& after, const Executor
 double DirectedMotion::least_way(Index v, const Point& way, const Points& moved) const
 {
     const double along = way.dot(direction_);
-    // Lines beside the surface may meet its steep planes far away.
+    // Lines beside the surface may meet its steep planes far away, so that the motion at the boundary is limited by the
+    // lengths of edges.
     const double furthest = topology_.kind[v] == VertexKind::Boundary
                                 ? std::max(longest_edge(v, moved, [](const Point& edge) { return edge; }),
                                            (way - along * direction_).norm())

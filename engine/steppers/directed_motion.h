@@ -8,45 +8,46 @@
 
 namespace seamflow {
 
-/// Lets vertices move only along the lines of a MotionDirection, and the surface follow the one that the whole motion
-/// gives: what slides along that surface moves nothing.
+/// Lets vertices move only along the lines of a MotionDirection, so that the surface still becomes the one to which the
+/// whole motion leads: motion within that surface is left out.
 class DirectedMotion {
   public:
-    /// @param mesh, topology must outlive this, with the corners at all vertices.
+    /// @param mesh, topology must outlive this; the topology has the corners at all vertices.
     DirectedMotion(const PolygonMesh& mesh, const Topology& topology, const MotionDirection& direction);
 
-    /// Whether all lines are parallel, and the same for every step.
+    /// Whether all lines are parallel, and the same in every step.
     [[nodiscard]] bool is_parallel() const { return !follows_normals_; }
 
-    /// V' = V + ((V̂ - V)·n) n, with n the normal of V̂ at each vertex, of length 1; or V' = V + s d, the point on a line
-    /// of direction d where it meets the plane through V̂ with the normal n, or where the surface is steeper than 45°
-    /// the nearest of this plane and those of the faces of V̂, so that walls do not spread. So a plane stays a plane,
-    /// and a height field a height field, whatever their slope. Less of the way is gone on steep parts that turn over
-    /// nearby, as seen along d: there, lines may miss the moved surface. At the boundary, planes steeper than 45°
-    /// are not followed beyond the edges at V̂, and a vertex stays if its line passes V̂ further away than these are long
-    /// as seen along d: it misses the moved surface. Without a normal, at junctions, s is that of the motion.
-    /// Coordinates to which nothing is added stay bit for bit.
+    /// V' = V + ((V̂ - V)·n) n, with n the normal of V̂ at each vertex, of length 1; or V' = V + s d, the point on a
+    /// line of direction d where the line meets the plane through V̂ with the normal n. Where the surface is steeper
+    /// than 45°, it is the nearest of the points where the line meets this plane and the planes of the faces of V̂, so
+    /// that walls do not spread. So a plane stays a plane, and a height field a height field, whatever their slope. The
+    /// motion is reduced on steep regions that turn over nearby, as seen along d, because lines may miss the moved
+    /// surface there. At the boundary, planes steeper than 45° are not followed beyond the edges at V̂, and a vertex
+    /// does not move if its line passes V̂ at a distance longer than these edges as seen along d: the line misses the
+    /// moved surface. Without a normal, at junctions, s is that of the motion. Coordinates to which nothing is added do
+    /// not change, bit for bit.
     /// @param before #V by 3: V. @param after in: V̂; out: V'.
     void project(const Points& before, Points& after, const Executor& exec) const;
 
-    /// Takes back what rounding has added beside parallel lines: V' = V + ((V̂ - V)·d) d.
+    /// Removes the components that rounding has added across parallel lines: V' = V + ((V̂ - V)·d) d.
     void straighten(const Points& before, Points& after, const Executor& exec) const;
 
   private:
     /// Whether the faces at a vertex are seen from both sides along the lines, or one of them edgewise.
     [[nodiscard]] bool is_on_silhouette(Index v, const Points& positions) const;
 
-    /// The shortest way along the line to the planes through V̂ of the surface at a vertex, and of the faces there; 0 at
-    /// the boundary if all would lead further from V̂ than its edges are long.
+    /// The shortest motion along the line to the planes through V̂ of the surface at a vertex, and of the faces there;
+    /// 0 at the boundary if all of these lead further from V̂ than the lengths of its edges.
     [[nodiscard]] double least_way(Index v, const Point& way, const Points& moved) const;
 
-    /// The length of the longest edge at a vertex, as it is seen.
-    /// @param seen maps the vector of an edge to another one.
+    /// The length of the longest edge at a vertex, mapped by `seen`.
+    /// @param seen maps the vector of an edge to another vector.
     template <class Seen>
     [[nodiscard]] double longest_edge(Index v, const Points& positions, Seen&& seen) const;
 
-    /// Whether the line of a vertex of the boundary passes the moved one further away than its edges are long, as seen
-    /// along the lines.
+    /// Whether the line of a vertex of the boundary passes the moved vertex at a distance longer than the edges of the
+    /// latter, as seen along the lines.
     [[nodiscard]] bool misses_rim(Index v, const Point& way, const Points& moved) const;
 
     const PolygonMesh& mesh_;

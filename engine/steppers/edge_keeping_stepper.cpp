@@ -14,12 +14,12 @@ namespace seamflow {
 
 namespace {
 
-/// Steps of this many face areas move vertices half of the way.
+/// The time step, in face areas, with which vertices move half of the way.
 constexpr double short_step = 0.01;
-/// In mean edge lengths: a surface whose vertices all move by less is as it was.
+/// In mean edge lengths: if all vertices move by less, the surface counts as unchanged.
 constexpr double next_to_nothing = 0.01;
 
-/// Normals diffuse only on each side of the lines.
+/// A diffusion of normals that does not cross the lines.
 NormalDiffusion diffusion_between(const PolygonMesh& mesh, const Topology& topology, const FeatureLines& lines,
                                   const Executor& exec)
 {
@@ -51,7 +51,7 @@ void EdgeKeepingStepper::step(const Points& before)
     const Executor exec = loops_.begin();
     const Points smoothed =
         smoothed_between_edges(*mesh_, *topology_, lines_, diffusion_, before, time_step_, angle_, exec);
-    // Vertices fit at once, however short the step: they go all the way if it is long relative to faces.
+    // Vertices are fitted completely, however short the step. For a short step they move by a fraction of that.
     for_each(exec, mesh_->n_vertices(), [&](Index v) {
         const auto corners = topology_->corners_at(v);
         double size = 0.0;

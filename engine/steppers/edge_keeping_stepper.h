@@ -32,9 +32,9 @@ class EdgeKeepingStepper final : public Stepper {
     }
     void save(StepMemory& memory) const override;
     void restore(const StepMemory& memory) override;
-    /// There are no tasks.
+    /// The stepper has no tasks.
     void add_seconds(PhaseSeconds&) const override {}
-    /// A single step has nothing to report.
+    /// A single step has no data for the report.
     void report_to(StepReport&) const override {}
     void report_to(FlowReport& report) const override;
 
@@ -43,12 +43,12 @@ class EdgeKeepingStepper final : public Stepper {
     const Topology* topology_;
     double time_step_;
     double angle_;
-    /// #V: the part of each displacement that vertices go; empty: 1.
+    /// #V: the fraction of its displacement that each vertex moves by; empty: 1.
     std::vector<double> step_scales_;
     FeatureLines lines_;
     NormalDiffusion diffusion_;
     Points positions_;
-    /// The furthest that a vertex moved in a step, in mean edge lengths.
+    /// The largest displacement of a vertex in a step, in mean edge lengths.
     double furthest_ = 0.0;
     LoopCount loops_;
 };

@@ -12,13 +12,15 @@ namespace seamflow {
 
 namespace {
 
-/// The remainder of a difference between two flows after the next step.
+/// The fractions of a difference between two flows on Γ that are left after the next step.
 struct Carried {
-    /// Of what a correction did to single vertices, tangentially. Δ_A and Δ_P do not see how vertices lie in a surface;
-    /// Δ_F does, and half of it to all of it is left, the less the rougher. Normally nothing is left but what spreads.
+    /// The fraction left of tangential displacements of single vertices by a correction. Δ_A and Δ_P do not depend on
+    /// the tangential position of vertices; with Δ_F, half to all of it is left, the less the rougher it is. In the
+    /// normal direction nothing is left except what spreads.
     double tangential_correction;
-    /// Of the error of a sweep, tangentially; and normally where it is smooth along Γ. Across Γ it is smooth over √dt:
-    /// of the largest the first step leaves a half, the next one three quarters, then five sixths, and so on.
+    /// The fraction left of the tangential error of a sweep; and of its normal error where this is smooth along Γ.
+    /// Across Γ the error is smooth over √dt: of the largest, the first step leaves a half, the next one three
+    /// quarters, then five sixths, and so on.
     double tangential_error;
     double normal_error;
 };
@@ -37,44 +39,44 @@ Point scaled(const Point& vector, const Point& normal, double tangentially, doub
 }  // namespace
 
 ErrorEstimate::ErrorEstimate(const Decomposition& decomposition, const PolygonMesh& mesh, const Topology& topology,
-                             const FlowOptions& options, InterfacePeers& peers)
+                             const FlowOptions& options, InterfaceRanks& ranks)
     : decomposition_(&decomposition)
     , mesh_(&mesh)
     , topology_(&topology)
     , laplacian_(options.laplacian)
     , time_step_(options.time_step)
     , has_copies_(is_classical(options.interface.conditions))
-    , peers_(&peers)
-    , equation_(decomposition, mesh, topology, laplacian_of(options), peers, run_in_parallel)
+    , ranks_(&ranks)
+    , equation_(decomposition, mesh, topology, laplacian_of(options), ranks, run_in_parallel)
 {
     for (Points* array : {&correction_, &corrected_, &swept_})
         array->setZero(equation_.size(), 3);
     if (options.flow == FlowEquation::Conformalized)
-        first_ = mesh.vertices;
+        initial_ = mesh.vertices;
     attach(terms_of(options, mesh.vertices));
     if (laplacian_ == Laplacian::PtackovaVelho) {
         solved_ = mesh.vertices;
-        list_foreign_rows();
+        list_remote_rows();
     }
 }
 
-/// The corners of faces that share an edge with faces of this peer.
-void ErrorEstimate::list_foreign_rows()
+/// Lists the corners of remote faces that share an edge with faces of this rank.
+void ErrorEstimate::list_remote_rows()
 {
-    if (peers_->has_all())
+    if (ranks_->has_all())
         return;
-    foreign_rows_.resize(decomposition_->sub_meshes.size());
+    remote_rows_.resize(decomposition_->sub_meshes.size());
     const std::vector<Index> labels = labels_by_face(*decomposition_, mesh_->n_faces());
     for (Index h = 0; h < mesh_->n_corners(); ++h) {
         const Index twin = topology_->twin[h];
-        if (twin < 0 || !peers_->is_own(labels[topology_->face_of[h]]))
+        if (twin < 0 || !ranks_->is_own(labels[topology_->face_of[h]]))
             continue;
         const Index f = topology_->face_of[twin];
-        if (const Index s = labels[f]; !peers_->is_own(s))
+        if (const Index s = labels[f]; !ranks_->is_own(s))
             for (const Index v : mesh_->face(f))
-                foreign_rows_[s].push_back(local_index(decomposition_->sub_meshes[s], v));
+                remote_rows_[s].push_back(local_index(decomposition_->sub_meshes[s], v));
     }
-    for (auto& rows : foreign_rows_)
+    for (auto& rows : remote_rows_)
         sort_unique(rows);
 }
 
@@ -83,7 +85,7 @@ void ErrorEstimate::attach(const FlowTerms& terms)
     if (!terms.attaches())
         return;
     const std::vector<Index> global = vertices();
-    attached_to_ = rows_of(*terms.first, global);
+    attached_to_ = rows_of(*terms.initial, global);
     for (const Index v : global)
         attached_.push_back(time_step_ * terms.weight(v));
 }
@@ -97,7 +99,7 @@ std::vector<Index> ErrorEstimate::vertices() const
     return global;
 }
 
-/// Vᵏ⁺¹ as solved by the sub-mesh; on Γ, the mean of all copies.
+/// Vᵏ⁺¹ as solved by the sub-mesh; on Γ, the mean over all copies.
 const Points& ErrorEstimate::joined(const std::vector<SubMeshState>& states, Index s, Points& mean) const
 {
     const SubMeshState& state = states[s];
@@ -111,12 +113,12 @@ const Points& ErrorEstimate::joined(const std::vector<SubMeshState>& states, Ind
     return mean;
 }
 
-/// The positions whose K the step uses, #local by 3.
+/// The positions from which the step has K, #local by 3: Vᵏ, or V⁰ if K is kept.
 const Points& ErrorEstimate::stiffness_at(const SubMeshState& state, Points& first) const
 {
-    if (first_.rows() == 0)
+    if (initial_.rows() == 0)
         return state.position;
-    return gather_rows(state.sub_mesh->local_to_global, first_, first);
+    return gather_rows(state.sub_mesh->local_to_global, initial_, first);
 }
 
 void ErrorEstimate::measure(std::vector<SubMeshState>& states, Index s, SolverWorkspace& workspace)
@@ -142,7 +144,8 @@ void ErrorEstimate::note_correction(const std::vector<SubMeshState>& states, Ind
     }
 }
 
-/// The errors of earlier steps at the beginning of this one: what it smooths away at single vertices spreads.
+/// Adds the errors of earlier steps at the beginning of this one: displacements of single vertices, which the step
+/// smooths away, spread.
 void ErrorEstimate::carry_over()
 {
     const Carried carried = carried_by(laplacian_);
@@ -156,15 +159,15 @@ void ErrorEstimate::carry_over()
     });
 }
 
-/// Fills in Vᵏ⁺¹ as solved, and Vᵏ, where this peer's rows reach those of others.
+/// Fills in Vᵏ⁺¹ as solved, and Vᵏ, at vertices of other ranks that this rank's rows reach.
 /// @returns #V by 3: Vᵏ.
-const Points& ErrorEstimate::fill_foreign_rows(const std::vector<SubMeshState>& states, const Points& before)
+const Points& ErrorEstimate::fill_remote_rows(const std::vector<SubMeshState>& states, const Points& before)
 {
-    if (foreign_rows_.empty())
+    if (remote_rows_.empty())
         return before;
     before_ = before;
-    for (std::size_t s = 0; s < foreign_rows_.size(); ++s)
-        for (const Index v : foreign_rows_[s]) {
+    for (std::size_t s = 0; s < remote_rows_.size(); ++s)
+        for (const Index v : remote_rows_[s]) {
             const Index global = states[s].sub_mesh->local_to_global[v];
             before_.row(global) = states[s].position.row(v);
             solved_.row(global) = states[s].solved.row(v);
@@ -175,7 +178,7 @@ const Points& ErrorEstimate::fill_foreign_rows(const std::vector<SubMeshState>& 
 void ErrorEstimate::add_step(const std::vector<SubMeshState>& states, const Points& before)
 {
     if (laplacian_ == Laplacian::PtackovaVelho)
-        equation_.measure_whole_rows(*mesh_, *topology_, fill_foreign_rows(states, before), solved_, time_step_,
+        equation_.measure_whole_rows(*mesh_, *topology_, fill_remote_rows(states, before), solved_, time_step_,
                                      run_in_parallel);
     carry_over();
     equation_.solve(run_in_parallel);
@@ -191,12 +194,13 @@ void ErrorEstimate::save(StepMemory& memory) const
 
 void ErrorEstimate::restore(StepMemoryReader& memory)
 {
-    // An estimate that has overflowed neither stops a flow nor keeps it from continuing.
+    // The numbers need not be finite: an estimate that has overflowed must not stop a flow, nor keep it from being
+    // resumed.
     corrected_ = memory.array_of_any(corrected_.rows());
     swept_ = memory.array_of_any(swept_.rows());
 }
 
-/// Over all peers.
+/// The largest error over all ranks; empty if it is not finite.
 std::optional<double> ErrorEstimate::find_largest() const
 {
     double squared = 0.0;
@@ -209,7 +213,7 @@ std::optional<double> ErrorEstimate::find_largest() const
         else
             is_lost = 1.0;
     }
-    const std::vector<double> of_all = peers_->largest({squared, is_lost});
+    const std::vector<double> of_all = ranks_->largest({squared, is_lost});
     return of_all[1] > 0.0 ? std::nullopt : std::optional(std::sqrt(of_all[0]));
 }
 

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// dt beyond this fraction of the squared shortest edge is unstable on regular grids.
+/// The largest stable dt on regular grids, as a fraction of the squared shortest edge.
 constexpr double safe_part = 0.25;
 
 /// The squared length of the shortest edge at a vertex, ignoring edges without length.

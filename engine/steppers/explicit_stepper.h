@@ -32,9 +32,9 @@ class ExplicitStepper final : public Stepper {
     }
     void save(StepMemory& memory) const override;
     void restore(const StepMemory& memory) override;
-    /// There are no tasks.
+    /// The stepper has no tasks.
     void add_seconds(PhaseSeconds&) const override {}
-    /// A single step has nothing to report.
+    /// A single step has no data for the report.
     void report_to(StepReport&) const override {}
     void report_to(FlowReport& report) const override;
 
@@ -49,7 +49,7 @@ class ExplicitStepper final : public Stepper {
     /// #V: s, which scales dt; empty: 1.
     std::vector<double> step_scales_;
     Points positions_;
-    /// largest_explicit_step of the first step, and the smallest so far.
+    /// largest_explicit_step before the first step, and its smallest value so far.
     double first_limit_;
     double smallest_limit_;
 };

@@ -8,7 +8,7 @@ namespace seamflow {
 
 namespace {
 
-/// The largest between two copies of the i-th vertex of a sub-mesh's Γ.
+/// The largest distance between two copies of the i-th vertex of a sub-mesh's Γ.
 double largest_distance(const std::vector<SubMeshState>& states, const SubMeshInterface& interface, Index i)
 {
     const auto copy = [&](std::size_t k) -> Point {

@@ -9,22 +9,23 @@
 
 namespace seamflow {
 
-/// The sub-meshes' copies of Γ where each has its own: how far apart they are, the mean that represents them, and the
-/// sub-meshes, each with its own. Runs in parallel, sums in order: the bits do not depend on the number of threads.
+/// The gaps between the sub-meshes' copies of Γ, where each sub-mesh has its own copy: the distances, the mean that
+/// represents the copies, and the sub-meshes as a mesh with all copies. Runs in parallel, sums in order: the bits do
+/// not depend on the number of threads.
 class InterfaceGaps {
   public:
     /// @param decomposition must outlive this.
-    /// @param keeps_separated whether separated() is wanted.
+    /// @param keeps_separated whether separated() will be called.
     InterfaceGaps(const PolygonMesh& mesh, const Decomposition& decomposition, bool keeps_separated);
 
-    /// Takes over the positions of all sub-meshes after a step.
+    /// Reads the positions of all sub-meshes after a step.
     /// @param positions #V by 3; receives the mean of the copies of each vertex of Γ.
     void join(const std::vector<SubMeshState>& states, Points& positions);
 
-    /// Over the vertices of Γ after the last join, the largest distance between two copies, in units of length.
+    /// The largest distance between two copies, over the vertices of Γ at the last join, in units of length.
     [[nodiscard]] LengthStatistics gap() const { return length_statistics(gaps_); }
 
-    /// The sub-meshes as of the last join, or null.
+    /// The sub-meshes at the last join, as a mesh with all copies of Γ; null unless keeps_separated.
     [[nodiscard]] const PolygonMesh* separated() const { return separated_ ? &separated_->mesh : nullptr; }
 
   private:
@@ -32,7 +33,8 @@ class InterfaceGaps {
 
     const Decomposition* decomposition_;
     std::optional<SeparatedSubMeshes> separated_;
-    /// For each sub-mesh, the index of its first entry in `gaps_`: it has one per vertex of Γ where it is the lowest.
+    /// For each sub-mesh, the index of its first entry in `gaps_`: it has one entry per vertex of Γ of which it is the
+    /// lowest sub-mesh.
     std::vector<std::size_t> first_gap_;
     std::vector<double> gaps_;
 };

@@ -21,8 +21,7 @@ std::vector<Index> largest_first(std::span<const std::size_t> factors)
 }
 
 /// Keeps the first sub-meshes in the order and no others.
-KeptFactors keep_first(std::span<const std::size_t> factors, std::span<const Index> order, Index n_whole,
-                       Index n_places)
+KeptFactors keep_first(std::span<const std::size_t> factors, std::span<const Index> order, Index n_whole, Index n_slots)
 {
     KeptFactors kept;
     kept.whole.assign(factors.size(), 0);
@@ -32,21 +31,22 @@ KeptFactors keep_first(std::span<const std::size_t> factors, std::span<const Ind
         kept.bytes += factors[s];
     }
     if (usize(n_whole) < order.size()) {
-        kept.n_places = n_places;
-        kept.bytes_per_place = factors[order[n_whole]];
+        kept.n_slots = n_slots;
+        kept.bytes_per_slot = factors[order[n_whole]];
     }
     return kept;
 }
 
-/// The most that fit with this number of places; -1 if not even zero do.
-Index most_kept_within(std::span<const std::size_t> factors, std::span<const Index> order, Index n_places,
+/// The largest number of whole factors that fits into the limit together with this number of slots; -1 if not even zero
+/// does.
+Index most_kept_within(std::span<const std::size_t> factors, std::span<const Index> order, Index n_slots,
                        std::size_t limit)
 {
     Index most = -1;
     std::size_t bytes = 0;
     for (std::size_t n_whole = 0; n_whole < order.size(); ++n_whole) {
         const std::size_t next = factors[order[n_whole]];
-        if (bytes + usize(n_places) * next <= limit)
+        if (bytes + usize(n_slots) * next <= limit)
             most = static_cast<Index>(n_whole);
         bytes += next;
     }
@@ -63,19 +63,20 @@ KeptFactors choose_kept_factors(std::span<const std::size_t> factors, std::optio
     if (!limit || all.bytes <= *limit)
         return all;
     Index n_whole = -1;
-    Index n_places = 0;
+    Index n_slots = 0;
     Index least_rounds = std::numeric_limits<Index>::max();
-    // More places for factors made again leave less room to keep others: doubling them finds all relevant cases.
-    for (Index places = 1;; places = std::min(2 * places, n_threads)) {
-        const Index most = most_kept_within(factors, order, places, *limit);
+    // More slots for recomputed factors leave less room to keep factors: doubling the number of slots finds all
+    // relevant cases.
+    for (Index slots = 1;; slots = std::min(2 * slots, n_threads)) {
+        const Index most = most_kept_within(factors, order, slots, *limit);
         if (most < 0)
             break;
-        if (const Index rounds = (n - most + places - 1) / places; rounds < least_rounds) {
+        if (const Index rounds = (n - most + slots - 1) / slots; rounds < least_rounds) {
             n_whole = most;
-            n_places = places;
+            n_slots = slots;
             least_rounds = rounds;
         }
-        if (places == n_threads)
+        if (slots == n_threads)
             break;
     }
     if (n_whole < 0)
@@ -83,7 +84,7 @@ KeptFactors choose_kept_factors(std::span<const std::size_t> factors, std::optio
             Wording{"<memory_limit> is " + std::to_string(*limit) + " bytes, but one factorisation can take " +
                     std::to_string(factors[order.front()]) +
                     ": raise it, use more sub-meshes, or if the flow allows it sweeps (<approach sweep>)"});
-    return keep_first(factors, order, n_whole, n_places);
+    return keep_first(factors, order, n_whole, n_slots);
 }
 
 }  // namespace seamflow

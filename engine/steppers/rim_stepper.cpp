@@ -13,8 +13,8 @@ namespace seamflow {
 
 namespace {
 
-/// The radius whose bumps one of n steps halves: all leave 1 / (1 + (r/R)⁴)ⁿ = ½ of those of the radius R that all have
-/// together.
+/// The radius R of one of n steps. A step leaves 1 / (1 + (r/R)⁴) of bumps of radius r; all steps together leave ½ of
+/// bumps of the radius that the options give.
 double radius_of_step(const FlowOptions& options)
 {
     const double of_all = smoothed_radius(options.time_step, std::max(options.steps, 1), filter_of(options));
@@ -41,7 +41,7 @@ void RimStepper::step(const Points& before)
     assert(&before != &positions_);
     const Executor exec = loops_.begin();
     Points normals(mesh_->n_faces(), 3);
-    // Those of faces without area would be rounding.
+    // Faces without area get no normal: it would be rounding.
     for_each(exec, mesh_->n_faces(), [&](Index f) {
         const std::span<const Index> face = mesh_->face(f);
         normals.row(f) = has_area(face, before) ? vector_area(face, before) : Point(Point::Zero());

@@ -13,8 +13,9 @@
 
 namespace seamflow {
 
-/// Takes steps in which the boundary of a surface moves alone (Boundary::Smooth): its vertices go to a smooth curve, at
-/// right angles to it and along the surface, which follows within a band.
+/// Takes steps in which only the boundary of a surface moves (Boundary::Smooth), and a band beside it: boundary
+/// vertices move to a smooth curve, at right angles to the curve and along the surface; the surface follows within the
+/// band.
 class RimStepper final : public Stepper {
   public:
     /// @param mesh, topology, progress must outlive the stepper; the twins of the topology are not needed later.
@@ -30,9 +31,9 @@ class RimStepper final : public Stepper {
     }
     void save(StepMemory& memory) const override { memory.positions = positions_; }
     void restore(const StepMemory& memory) override { positions_ = memory.positions; }
-    /// There are no tasks.
+    /// The stepper has no tasks.
     void add_seconds(PhaseSeconds&) const override {}
-    /// A single step has nothing to report.
+    /// A single step has no data for the report.
     void report_to(StepReport&) const override {}
     void report_to(FlowReport& report) const override;
 
@@ -41,9 +42,9 @@ class RimStepper final : public Stepper {
     const Topology* topology_;
     std::vector<RimCurve> curves_;
     VertexNormals vertex_normals_;
-    /// Of bumps that a step halves, in units of length.
+    /// The radius of bumps that a step halves, in units of length.
     double radius_;
-    /// #V: the part of each displacement that vertices go; empty: 1.
+    /// #V: the fraction of its displacement that each vertex moves by; empty: 1.
     std::vector<double> step_scales_;
     Points positions_;
     LoopCount loops_;

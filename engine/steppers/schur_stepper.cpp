@@ -15,12 +15,13 @@ namespace seamflow {
 
 namespace {
 
-/// The most that back substitution in single precision leaves of a residual.
+/// The largest fraction of a residual that back substitution in single precision leaves.
 constexpr double left_by_single = 1e-4;
 
 }  // namespace
 
-/// Sub-meshes whose factors are made again take turns.
+/// Calls action(s) for all own sub-meshes. Sub-meshes whose factors are recomputed take turns, so that no more of them
+/// run at once than there are slots.
 template <class Action>
 void SchurStepper::for_each_sub_mesh(const Executor& exec, Action&& action)
 {
@@ -33,8 +34,8 @@ void SchurStepper::for_each_sub_mesh(const Executor& exec, Action&& action)
         if (is_own(s) && is_kept(s))
             act(s);
     });
-    for_each(exec, factors_.plan.n_places, [&](Index place) {
-        for (std::size_t i = usize(place); i < passing.size(); i += usize(factors_.plan.n_places))
+    for_each(exec, factors_.plan.n_slots, [&](Index slot) {
+        for (std::size_t i = usize(slot); i < passing.size(); i += usize(factors_.plan.n_slots))
             act(passing[i]);
     });
 }
@@ -55,13 +56,14 @@ void SchurStepper::condense(Index s)
 {
     if (has_matrix_of(s))
         return sub_meshes_[s]->condense_again(shared_step(), workspaces_.local());
-    // Without Γ there is no iteration: one solution is exact.
+    // Without Γ there is no iteration: one solution must be exact.
     const bool is_exact = factors_.precision == Precision::Automatic && equation_.copies().n_in(s) == 0;
     sub_meshes_[s]->condense(shared_step(), is_exact ? Precision::Double : factors_.precision, workspaces_.local(),
                              interface_.complements[s]);
 }
 
-/// @returns the residual on Γ.
+/// Refines the interiors of all sub-meshes at an update of Γ.
+/// @returns the residual on Γ, one row per copy.
 Points& SchurStepper::refine_all(const Points& update, const Executor& exec)
 {
     for_each_sub_mesh(exec, [&](Index s) { sub_meshes_[s]->refine(shared_step(), update, workspaces_.local()); });
@@ -69,26 +71,26 @@ Points& SchurStepper::refine_all(const Points& update, const Executor& exec)
     return interface_.condensed;
 }
 
-/// At any peer.
+/// Whether any sub-mesh, of any rank, has a factor in single precision.
 bool SchurStepper::has_single() const
 {
     const bool here = std::ranges::any_of(sub_meshes_, [](const auto& one) { return one && one->is_single(); });
-    return peers_->largest({here ? 1.0 : 0.0}).front() > 0.0;
+    return ranks_->largest({here ? 1.0 : 0.0}).front() > 0.0;
 }
 
-/// The largest in each column, over all peers.
+/// The largest residual of interiors in each column, over all ranks.
 Point SchurStepper::interior_residual() const
 {
     Point largest = Point::Zero();
     for (const auto& one : sub_meshes_)
         if (one)
             largest = largest.cwiseMax(one->residual());
-    const std::vector<double> of_all = peers_->largest({largest[0], largest[1], largest[2]});
+    const std::vector<double> of_all = ranks_->largest({largest[0], largest[1], largest[2]});
     return {of_all[0], of_all[1], of_all[2]};
 }
 
-/// Refines the interiors until the remaining back substitution leaves no more than the tolerance. Mostly, this is the
-/// case already.
+/// Refines the interiors until the remaining back substitution leaves no more than the tolerance, which usually holds
+/// without refinement.
 /// @param first the initial residual.
 /// @returns whether this was reached.
 bool SchurStepper::refine_interiors(double tolerance, const Point& first, const Executor& exec)
@@ -106,8 +108,8 @@ bool SchurStepper::refine_interiors(double tolerance, const Point& first, const 
     return true;
 }
 
-/// For each coordinate, whether Γ moves no more along it than by rounding of positions: the residuals left there have
-/// no meaning.
+/// For each coordinate, whether Γ moves along it by no more than the rounding of positions, so that the residual of
+/// that coordinate has no meaning.
 std::array<bool, 3> SchurStepper::at_rest(const Executor& exec) const
 {
     constexpr double rounding = 4.0 * std::numeric_limits<double>::epsilon();
@@ -119,19 +121,20 @@ std::array<bool, 3> SchurStepper::at_rest(const Executor& exec) const
         for (Index v = 0; v < own.n_vertices; ++v)
             farthest[s] = std::max(farthest[s], before_->row(own.local_to_global[v]).cwiseAbs().maxCoeff());
     });
-    // Without Γ nothing is known.
+    // Stands for a rank without Γ.
     constexpr double unknown = -1.0;
     Point moved = Point::Constant(unknown);
     if (interface_.update.size() > 0)
         moved = interface_.update.cwiseAbs().colwise().maxCoeff();
     const double position = sub_meshes_.empty() ? 0.0 : std::ranges::max(farthest);
-    const std::vector<double> of_all = peers_->largest({moved[0], moved[1], moved[2], position});
+    const std::vector<double> of_all = ranks_->largest({moved[0], moved[1], moved[2], position});
     std::array<bool, 3> rests{};
     for (std::size_t c = 0; c < 3; ++c)
         rests[c] = of_all[c] != unknown && of_all[c] <= rounding * of_all[3];
     return rests;
 }
 
+/// Solves the equation on Γ, and refines the interiors.
 /// @returns stagnation also if refinement of the interiors stagnates.
 InterfaceResult SchurStepper::solve_on_interface(bool has_matrix, const IterationStop& stop, const Executor& exec)
 {
@@ -151,7 +154,7 @@ InterfaceResult SchurStepper::solve_on_interface(bool has_matrix, const Iteratio
         result.residual = std::min(result.residual, std::max(moving, stop.tolerance));
         result.stagnated &= moving > stop.tolerance;
     }
-    // Interiors may move though Γ rests; where they rest, too, no refinement makes their residuals smaller.
+    // Interiors may move where Γ does not. If they do not move either, no refinement makes their residuals smaller.
     const bool is_refined = !has_single() || refine_interiors(stop.tolerance, first, exec);
     if (!is_refined && std::ranges::find(rests, false) != rests.end()) {
         result.residual = std::max(result.residual, largest_ratio(interior_residual(), first));
@@ -166,14 +169,15 @@ InterfaceResult SchurStepper::solve_equation(const IterationStop& stop, const Ex
     interface_.has_guess = std::exchange(interface_.has_update, true);
     const InterfaceResult result = solve_on_interface(has_matrix(), stop, exec);
     if (data_ == nullptr) {
-        // Further solutions of a step may have factors in double precision, with which no step begins.
+        // Further solutions of a step may have factors in double precision, but the next step begins in single
+        // precision.
         interface_.has_complements = keeps_matrix_;
         std::ranges::fill(changed_, 0);
         has_changed_ = false;
     }
     if (!result.stagnated || !has_single() || factors_.precision == Precision::Single)
         return result;
-    // A resumed flow would begin its steps in single precision, too.
+    // The next step begins in single precision, as that of a resumed flow does.
     interface_.has_complements = false;
     for_each_sub_mesh(exec, [&](Index s) {
         sub_meshes_[s]->condense(shared_step(), Precision::Double, workspaces_.local(), interface_.complements[s]);
@@ -205,34 +209,35 @@ void SchurStepper::back_substitute(Index s)
                                     workspaces_.local());
 }
 
-/// Calls action(i, sub-mesh, local number) for the i-th vertex in each sub-mesh that it belongs to.
+/// Calls action(i, sub-mesh, local number) for the i-th vertex, in each sub-mesh that the vertex belongs to.
 template <class Action>
 void SchurStepper::change(std::span<const Index> vertices, Action&& action)
 {
-    if (places_of_.size() == 0)
-        places_of_ = make_lists<Place>(static_cast<Index>(positions_.rows()), [&](auto&& add) {
+    if (local_vertices_of_.size() == 0)
+        local_vertices_of_ = make_lists<LocalVertex>(static_cast<Index>(positions_.rows()), [&](auto&& add) {
             for (Index s = 0; s < static_cast<Index>(sub_meshes_.size()); ++s)
                 for (Index v = 0; is_own(s) && v < sub_meshes_[s]->vertices().n_vertices; ++v)
-                    add(sub_meshes_[s]->vertices().local_to_global[v], Place{s, v});
+                    add(sub_meshes_[s]->vertices().local_to_global[v], LocalVertex{s, v});
         });
     for (std::size_t i = 0; i < vertices.size(); ++i)
-        for (const Place& place : places_of_[vertices[i]]) {
-            changed_[place.sub_mesh] = 1;
+        for (const LocalVertex& vertex : local_vertices_of_[vertices[i]]) {
+            changed_[vertex.sub_mesh] = 1;
             has_changed_ = true;
-            action(i, *sub_meshes_[place.sub_mesh], place.local);
+            action(i, *sub_meshes_[vertex.sub_mesh], vertex.local);
         }
 }
 
-void SchurStepper::hold(std::span<const Index> vertices, bool is_held)
+void SchurStepper::set_fixed(std::span<const Index> vertices, bool is_fixed)
 {
-    change(vertices, [&](std::size_t, CondensedSubMesh& sub_mesh, Index v) { sub_mesh.system().hold(v, is_held); });
+    change(vertices,
+           [&](std::size_t, CondensedSubMesh& sub_mesh, Index v) { sub_mesh.system().set_fixed(v, is_fixed); });
     std::vector<std::uint8_t> is_named(usize(static_cast<Index>(positions_.rows())), 0);
     for (const Index v : vertices)
         is_named[v] = 1;
     const std::vector<Index> on_interface = saved_vertices();
     for (std::size_t i = 0; i < on_interface.size(); ++i)
         if (is_named[on_interface[i]] != 0)
-            equation_.hold(static_cast<Index>(i), is_held);
+            equation_.set_fixed(static_cast<Index>(i), is_fixed);
 }
 
 void SchurStepper::attach(std::span<const Index> vertices, std::span<const double> weights)
@@ -263,13 +268,13 @@ void SchurStepper::weigh(const std::function<double(Index v, Index w)>& squared_
 
 void SchurStepper::set_reference_vertices(std::span<const Index> vertices, const Points& to)
 {
-    if (first_.rows() == 0)
+    if (initial_.rows() == 0)
         return;
-    move_rows(vertices, to, first_);
+    move_rows(vertices, to, initial_);
     change(vertices, [](std::size_t, CondensedSubMesh&, Index) {});
     for_each(run_in_parallel, static_cast<Index>(sub_meshes_.size()), [&](Index s) {
         if (changed_[s] != 0)
-            sub_meshes_[s]->system().set_reference(rows_of(first_, sub_meshes_[s]->vertices().local_to_global));
+            sub_meshes_[s]->system().set_reference(rows_of(initial_, sub_meshes_[s]->vertices().local_to_global));
     });
 }
 
@@ -279,7 +284,7 @@ void SchurStepper::save(StepMemory& memory) const
     memory.arrays = {interface_.update};
 }
 
-/// The vertices of Γ.
+/// The vertices of Γ, with which all saved arrays have their rows.
 std::vector<Index> SchurStepper::saved_vertices() const
 {
     const InterfaceCopies& copies = equation_.copies();
@@ -289,7 +294,7 @@ std::vector<Index> SchurStepper::saved_vertices() const
             continue;
         const NeumannSystem& system = sub_meshes_[s]->system();
         for (Index i = 0; i < system.n_interface(); ++i)
-            vertices[copies.vertex[copies.first[s] + i]] =
+            vertices[copies.vertex[copies.offsets[s] + i]] =
                 sub_meshes_[s]->vertices().local_to_global[system.unknowns()[system.n_interior() + i]];
     }
     return vertices;

@@ -11,13 +11,13 @@
 #include "engine/steppers/condensed_sub_mesh.h"
 #include "engine/steppers/converged_stepper.h"
 #include "engine/steppers/kept_factors.h"
-#include "engine/steppers/peer_sub_meshes.h"
+#include "engine/steppers/rank_sub_meshes.h"
 #include "engine/steppers/shared_factor_pool.h"
 #include "partition/cut/cut.h"
 #include "partition/index_lists.h"
 #include "partition/topology.h"
 #include "solvers/interface/interface_equation.h"
-#include "solvers/interface/interface_peers.h"
+#include "solvers/interface/interface_ranks.h"
 
 namespace seamflow {
 
@@ -31,9 +31,9 @@ namespace seamflow {
 /// the whole step there: every sub-mesh then solves for its interior and condenses its residual, computed in double
 /// precision. So a step is refined to any tolerance.
 ///
-/// Where the memory limit does not let a sub-mesh's factor live until its back substitution, it is recomputed whenever
-/// it is needed, by the same arithmetic: the bits are the same. Such sub-meshes take turns, as many at a time as there
-/// are places.
+/// Where the memory limit does not let a sub-mesh's factor live until its back substitution, the factor is recomputed
+/// whenever it is needed, by the same arithmetic: the bits are the same. Such sub-meshes take turns, as many at a time
+/// as there are slots (see KeptFactors).
 class SchurStepper final : public ConvergedStepper {
   public:
     /// @param progress must outlive the stepper.
@@ -42,15 +42,16 @@ class SchurStepper final : public ConvergedStepper {
     SchurStepper(const PolygonMesh& mesh, const Topology& topology, const Cut& cut, const FlowOptions& options,
                  Progress& progress);
 
-    /// The same for the sub-meshes of one of several peers, which construct their steppers, and take steps, together.
-    /// @param mesh the part of the mesh that this peer knows; positions() are Vᵏ⁺¹ only in its own sub-meshes.
-    SchurStepper(const PolygonMesh& mesh, PeerSubMeshes sub_meshes, const FlowOptions& options, Progress& progress);
+    /// The stepper for the sub-meshes of one of several ranks, which construct their steppers, and take steps,
+    /// together.
+    /// @param mesh the part of the mesh that this rank knows; positions() are Vᵏ⁺¹ only in its own sub-meshes.
+    SchurStepper(const PolygonMesh& mesh, RankSubMeshes sub_meshes, const FlowOptions& options, Progress& progress);
 
     void set_data(const Points& data, DataSteps steps) override;
     [[nodiscard]] bool can_take_columns() const override;
     void take_steps(Eigen::Ref<Eigen::MatrixXd> fields, int n, const Executor& exec) override;
     [[nodiscard]] bool can_change() const override { return true; }
-    void hold(std::span<const Index> vertices, bool is_held) override;
+    void set_fixed(std::span<const Index> vertices, bool is_fixed) override;
     void attach(std::span<const Index> vertices, std::span<const double> weights) override;
     void give(const GivenStiffness& given) override;
     void weigh(const std::function<double(Index v, Index w)>& squared_difference) override;
@@ -61,34 +62,34 @@ class SchurStepper final : public ConvergedStepper {
     void report_to(FlowReport& report) const override;
 
   private:
-    /// Where factors live.
+    /// The memory of factors.
     struct FactorStore {
         Precision precision = Precision::Automatic;
         KeptFactors plan;
-        /// Memory of the factors that are kept. Under a memory limit they are on the heap instead, because the size of
-        /// a factor may differ from step to step.
+        /// Memory of the kept factors. Under a memory limit factors are on the heap instead, because the size of a
+        /// factor may differ from step to step.
         SharedFactorPool pool;
-        /// Memory of the factors that are recomputed; set once their size is known.
+        /// Memory of the recomputed factors; set once their size is known.
         std::optional<SharedFactorPool> passing;
     };
-    /// On Γ.
+    /// The data on Γ.
     struct Interface {
         Index n_vertices = 0;
         std::vector<DenseFactor> complements;
-        /// Each sub-mesh's share of the right-hand side, and later of what is left of it.
+        /// #copies by 3: each sub-mesh's share of the right-hand side, and later of the residual.
         Points condensed;
-        /// Vᵏ⁺¹ - Vᵏ, if a step has been taken, and that of the step before, if there was one.
+        /// #Γ by 3: Vᵏ⁺¹ - Vᵏ of the last step, if a step has been taken; and of the step before it, if there was one.
         Points update;
         Points guess;
         bool has_update = false;
-        /// Whether the complements are also those of the next step.
+        /// Whether the complements are also those of the next step, which has the same matrix.
         bool has_complements = false;
         bool has_guess = false;
-        /// The update that interiors and `condensed` belong to.
+        /// #Γ by 3: the update for which interiors and `condensed` were computed.
         Points reached;
     };
 
-    [[nodiscard]] bool is_own(Index s) const { return peers_->is_own(s); }
+    [[nodiscard]] bool is_own(Index s) const { return ranks_->is_own(s); }
     [[nodiscard]] bool is_kept(Index s) const { return factors_.plan.whole[s] != 0; }
     void make_sub_meshes(Decomposition& decomposition, const PolygonMesh& mesh, const FlowOptions& options,
                          Progress& progress);
@@ -117,23 +118,23 @@ class SchurStepper final : public ConvergedStepper {
     InterfaceResult solve_equation(const IterationStop& stop, const Executor& exec) override;
     void restore_further(StepMemoryReader& memory) override;
 
-    std::unique_ptr<InterfacePeers> peers_;
+    std::unique_ptr<InterfaceRanks> ranks_;
     std::vector<SubMeshName> names_;
     /// Whether all steps have the same matrix.
     bool keeps_matrix_ = false;
     FactorStore factors_;
-    /// #V by 3: V⁰, if something of it is kept.
-    Points first_ = Points(0, 3);
-    /// Sub-meshes whose matrix has changed since the last step, and whether any has.
+    /// #V by 3: V⁰, if K or M of V⁰ is kept.
+    Points initial_ = Points(0, 3);
+    /// Per sub-mesh: 1 if its matrix has changed since the last step; and whether any has.
     std::vector<std::uint8_t> changed_;
     bool has_changed_ = false;
-    /// Where vertices are, once that is asked for.
-    struct Place {
+    /// A vertex in a sub-mesh. Per vertex of the mesh, its local vertices, once they have been asked for.
+    struct LocalVertex {
         Index sub_mesh;
         Index local;
     };
-    Lists<Place> places_of_;
-    /// Null for foreign sub-meshes, for which nothing is done.
+    Lists<LocalVertex> local_vertices_of_;
+    /// Null for remote sub-meshes, for which this rank computes nothing.
     std::vector<std::unique_ptr<CondensedSubMesh>> sub_meshes_;
     InterfaceEquation equation_;
     Interface interface_;

@@ -13,7 +13,7 @@ void copy(const Points& source, Points& target)
     target = source;
 }
 
-/// Copies rows of one array of the senders to the receiver's.
+/// Copies the rows of transfers, in one array of the senders' states, to `target`.
 void receive(const std::vector<SubMeshState>& states, std::span<const Transfer> transfers, Points SubMeshState::*array,
              Points& target)
 {
@@ -24,7 +24,7 @@ void receive(const std::vector<SubMeshState>& states, std::span<const Transfer> 
     }
 }
 
-/// What a sub-mesh of a mutual sweep can know of the other side, with `array_of` the latest array of each sender.
+/// Fetches the other side of a sub-mesh of a mutual sweep, with `array_of` the latest array of each sender.
 template <class ArrayOf>
 void receive_other_side(const std::vector<SubMeshState>& states, const std::vector<Transfer>& halo,
                         const std::vector<Transfer>& copies, ArrayOf array_of, const SubMeshState& state,
@@ -84,7 +84,7 @@ void assemble_and_factorise(std::vector<SubMeshState>& states, Index s, const st
     const auto equations = state.system->assemble(state.position, is_mutual ? other_side : state.position, time_step,
                                                   state.p, plan.roles[s], workspace);
     state.seconds.assemble += watch.lap();
-    // If a step has failed, a factor is left.
+    // A failed step may have left a factor.
     state.factor.reset();
     state.factor = state.system->factorise(equations, memory, workspace);
     state.seconds.factorise += watch.lap();
@@ -121,7 +121,7 @@ void solve(std::vector<SubMeshState>& states, Index s, const std::vector<Transfe
         receive_other_side(states, halo, plan.copies[s], latest, state, workspace.other_side);
         state.system->use_other_side(state.position, workspace.other_side);
     }
-    // `solved` holds what is known of Vᵏ⁺¹.
+    // `solved` has Vᵏ⁺¹ where the sub-mesh follows.
     state.system->solve(*state.factor, state.given(), state.solved, workspace);
     if (state.solution == SubMeshState::Solution::Only)
         state.factor.reset();

@@ -12,15 +12,15 @@
 
 namespace seamflow {
 
-/// The state of one sub-mesh. Of the others it sees only what transfers bring: the tasks below read the states of the
-/// senders that a Transfer names, and write only to their own.
+/// The state of one sub-mesh. The tasks below read states of other sub-meshes only as far as a Transfer names their
+/// rows, and write only to the state of their own sub-mesh.
 struct SubMeshState {
     SubMeshState(const SubMesh& sub_mesh, std::unique_ptr<SubMeshSystem> system, const Points& positions,
                  bool predicts);
 
     const SubMesh* sub_mesh;
     std::unique_ptr<SubMeshSystem> system;
-    /// From assemble_and_factorise until solved.
+    /// Exists from assemble_and_factorise until solve.
     std::optional<SubMeshSystem::Factor> factor;
     /// Robin parameter, in 1/length.
     double p = 0.0;
@@ -28,42 +28,42 @@ struct SubMeshState {
     Points position;
     /// #local by 3: Vᵏ⁺¹ as solved, before the correction.
     Points solved;
-    /// #local by 3: at own vertices, the result with Γ held at Vᵏ; empty where sub-meshes do not predict.
+    /// #local by 3: at own vertices, the result with Γ fixed at Vᵏ; empty if sub-meshes do not predict.
     Points predicted = Points(0, 3);
-    /// Which solution of the step is being computed: with a filter that has several, the first, or the result for
-    /// `data`.
+    /// The solution of the step that is being computed. With a filter that has several solutions it is the first, or
+    /// the result for `data`; otherwise the only one.
     enum class Solution { Only, First, OfData } solution = Solution::Only;
-    /// #local by 3: input of the step besides Vᵏ.
+    /// #local by 3: the input of further solutions, in place of Vᵏ.
     Points data = Points(0, 3);
-    /// Of its tasks in all steps.
+    /// The times of its tasks in all steps.
     PhaseSeconds seconds;
 
-    /// The input of the right-hand side.
+    /// The positions or data on the right-hand side.
     [[nodiscard]] const Points& given() const { return solution == Solution::OfData ? data : position; }
 };
 
-/// The mean of all copies of the i-th vertex of a sub-mesh's Γ.
-/// @param array that the copies are rows of.
+/// The mean over all copies of the i-th vertex of a sub-mesh's Γ.
+/// @param array the copies are rows of this array of each state.
 Point mean_of_copies(const std::vector<SubMeshState>& states, const SubMeshInterface& interface, Index i,
                      Points SubMeshState::*array);
 
-/// Fetches Vᵏ for the halo, and in a mutual sweep the copies that the others have of Γ, fills the equations and
-/// factorises them. Adds its seconds, which those of the others are not.
+/// Fetches Vᵏ for the halo, and in a mutual sweep the other sub-meshes' copies of Γ; assembles and factorises the
+/// equations. Adds its time to the seconds of the sub-mesh; the functions below do not.
 /// @param memory must outlive the states.
 void assemble_and_factorise(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& halo,
                             const SweepPlan& plan, double time_step, FactorMemory& memory, SolverWorkspace& workspace);
 
-/// Solves with Γ held at Vᵏ.
+/// Solves with Γ fixed at Vᵏ.
 void predict(SubMeshState& state, SolverWorkspace& workspace);
 
-/// Fetches what the sub-meshes beyond Γ predict, where this one leads.
+/// Fetches the predictions of the sub-meshes beyond Γ, where this sub-mesh leads.
 void use_predictions(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& predictions,
                      SolverWorkspace& workspace);
 
-/// Fetches Vᵏ⁺¹ where the sub-mesh follows another on its interface, keeps Vᵏ where it follows none, and solves. In a
-/// mutual sweep it fetches the others' copies of Γ and the halo: Vᵏ⁺¹ from the sub-meshes of an earlier stage, and Vᵏ
-/// from those of a later stage; where a vertex has several other copies, their mean is taken. The factor is freed if
-/// the step has one solution.
+/// Fetches Vᵏ⁺¹ where the sub-mesh follows another on its interface, takes Vᵏ where it follows none, and solves. In a
+/// mutual sweep it fetches the other sub-meshes' copies of Γ and the halo: Vᵏ⁺¹ from sub-meshes of an earlier stage,
+/// and Vᵏ from sub-meshes of a later stage; where a vertex has several other copies, their mean is used. The factor is
+/// freed if the step has one solution.
 void solve(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& halo, const SweepPlan& plan,
            SolverWorkspace& workspace);
 

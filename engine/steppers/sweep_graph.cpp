@@ -9,7 +9,7 @@ namespace {
 
 using Node = TaskGraph::Node;
 
-/// Whether a sub-mesh takes over values that another has solved.
+/// Whether sub-mesh s takes over values of Γ that sub-mesh `leader` has solved.
 [[maybe_unused]] bool follows(const SweepPlan& plan, Index s, Index leader)
 {
     return std::ranges::any_of(plan.traces[s], [&](const Transfer& trace) { return trace.from == leader; });
@@ -19,13 +19,13 @@ using Node = TaskGraph::Node;
 class SweepBuilder {
   public:
     SweepBuilder(TaskGraph& graph, const PerformTask& perform, std::size_t sweep, const SweepPlan& plan,
-                 const std::vector<std::vector<Index>>& adjacency, ForeignSubMeshes* foreign)
+                 const std::vector<std::vector<Index>>& adjacency, RemoteSubMeshes* remote)
         : graph_(graph)
         , perform_(perform)
         , sweep_(sweep)
         , plan_(plan)
         , adjacency_(adjacency)
-        , foreign_(foreign)
+        , remote_(remote)
         , root_(graph.add_root())
     {
     }
@@ -33,7 +33,7 @@ class SweepBuilder {
     void build(const FactorWindow& window, bool predicts)
     {
         add_factorisations_and_solves();
-        if (foreign_ != nullptr)
+        if (remote_ != nullptr)
             wait_for_positions();
         wait_for_room(window);
         wait_for_traces();
@@ -43,21 +43,21 @@ class SweepBuilder {
     }
 
   private:
-    [[nodiscard]] bool is_foreign(Index s) const { return foreign_ != nullptr && foreign_->is_foreign(s); }
+    [[nodiscard]] bool is_remote(Index s) const { return remote_ != nullptr && remote_->is_remote(s); }
 
     Node add_task(TaskKind kind, Index s)
     {
         return graph_.add_task([perform = perform_, kind, s] { perform(kind, s); }, {kind, s});
     }
 
-    /// The arrival of what a foreign sub-mesh finds in a task; -1 if nothing waits for it.
+    /// Adds the arrival of the result of a remote sub-mesh's task; returns -1 if nothing waits for it.
     Node add_arrival(TaskKind kind, Index s)
     {
-        if (!foreign_->awaits(message_of(kind), sweep_, s))
+        if (!remote_->awaits(message_of(kind), sweep_, s))
             return -1;
         const Node event = graph_.add_event([perform = perform_, kind, s] { perform(kind, s); }, {kind, s});
         graph_.add_dependency(root_, event);
-        foreign_->set_event(message_of(kind), sweep_, s, event);
+        remote_->set_event(message_of(kind), sweep_, s, event);
         return event;
     }
 
@@ -66,7 +66,7 @@ class SweepBuilder {
     void add_factorisations_and_solves()
     {
         for (Index s = 0; s < n_sub_meshes(); ++s) {
-            if (is_foreign(s)) {
+            if (is_remote(s)) {
                 factorised_.push_back(add_arrival(TaskKind::AssembleAndFactorise, s));
                 solved_.push_back(add_arrival(TaskKind::Solve, s));
                 continue;
@@ -78,23 +78,23 @@ class SweepBuilder {
         }
     }
 
-    /// A sub-mesh is assembled once its halo has arrived.
+    /// Makes the assembly of each sub-mesh wait for the arrival of its halo.
     void wait_for_positions()
     {
         for (Index s = 0; s < n_sub_meshes(); ++s)
             for (const Index neighbour : adjacency_[s])
-                if (is_foreign(neighbour) && factorised_[neighbour] >= 0)
+                if (is_remote(neighbour) && factorised_[neighbour] >= 0)
                     graph_.add_dependency(factorised_[neighbour], factorised_[s]);
     }
 
-    /// Factorisation waits until an earlier factor is freed.
+    /// Makes factorisations wait until an earlier factor is freed.
     void wait_for_room(const FactorWindow& window)
     {
         for (std::size_t i = 0; i + usize(window.size) < window.order.size(); ++i)
             graph_.add_dependency(solved_[window.freed[i]], factorised_[window.order[i + usize(window.size)]]);
     }
 
-    /// A solve waits for those whose Vᵏ⁺¹ it takes.
+    /// Makes the solve of each sub-mesh wait for the sub-meshes whose Vᵏ⁺¹ it takes.
     void wait_for_traces()
     {
         for (std::size_t s = 0; s < solved_.size(); ++s) {
@@ -106,15 +106,15 @@ class SweepBuilder {
         }
     }
 
-    /// Between factorisation and solve, every sub-mesh that follows another one makes a prediction, which the leading
-    /// one reads.
+    /// Adds a prediction, between factorisation and solve, for every sub-mesh that follows another; and a task of the
+    /// leading sub-mesh that reads it.
     void add_predictions()
     {
         std::vector<Node> predicted(solved_.size(), -1);
         for (Index s = 0; s < n_sub_meshes(); ++s) {
-            if (is_foreign(s))
+            if (is_remote(s))
                 predicted[s] = add_arrival(TaskKind::Predict, s);
-            if (is_foreign(s) || plan_.traces[s].empty())
+            if (is_remote(s) || plan_.traces[s].empty())
                 continue;
             predicted[s] = add_task(TaskKind::Predict, s);
             graph_.add_dependency(factorised_[s], predicted[s]);
@@ -129,9 +129,10 @@ class SweepBuilder {
             if (predicted[s] >= 0)
                 graph_.add_dependency(predicted[s], used);
             for (const Transfer& prediction : plan_.predictions[s]) {
-                // A sub-mesh that predicts follows here, and its solution waits: see SubMeshState::solved.
+                // The solve of the predicting sub-mesh, which follows here, waits for this: SubMeshState::solved holds
+                // the prediction until then.
                 graph_.add_dependency(predicted[prediction.from], used);
-                if (is_foreign(prediction.from))
+                if (is_remote(prediction.from))
                     graph_.add_dependency(used, solved_[prediction.from]);
                 else
                     assert(follows(plan_, prediction.from, s));
@@ -142,7 +143,7 @@ class SweepBuilder {
     void add_acceptances()
     {
         for (Index s = 0; s < n_sub_meshes(); ++s) {
-            if (is_foreign(s))
+            if (is_remote(s))
                 continue;
             const Node accepted = add_task(TaskKind::Accept, s);
             graph_.add_dependency(solved_[s], accepted);
@@ -157,7 +158,7 @@ class SweepBuilder {
     std::size_t sweep_;
     const SweepPlan& plan_;
     const std::vector<std::vector<Index>>& adjacency_;
-    ForeignSubMeshes* foreign_;
+    RemoteSubMeshes* remote_;
     Node root_;
     std::vector<Node> factorised_;
     std::vector<Node> solved_;
@@ -167,9 +168,9 @@ class SweepBuilder {
 
 void add_sweep(TaskGraph& graph, const PerformTask& perform, std::size_t sweep, const SweepPlan& plan,
                const std::vector<std::vector<Index>>& adjacency, const FactorWindow& window, bool predicts,
-               ForeignSubMeshes* foreign)
+               RemoteSubMeshes* remote)
 {
-    SweepBuilder(graph, perform, sweep, plan, adjacency, foreign).build(window, predicts);
+    SweepBuilder(graph, perform, sweep, plan, adjacency, remote).build(window, predicts);
 }
 
 }  // namespace seamflow

@@ -5,17 +5,17 @@
 #include <vector>
 
 #include "engine/setup/sweep_plan.h"
-#include "engine/steppers/foreign_sub_meshes.h"
+#include "engine/steppers/remote_sub_meshes.h"
 #include "engine/steppers/sweep_order.h"
 #include "engine/tasks/task_graph.h"
 
 namespace seamflow {
 
-/// Does what a task is named after, for a sub-mesh.
+/// Performs a task of this kind for a sub-mesh.
 using PerformTask = std::function<void(TaskKind kind, Index s)>;
 
-/// Adds one sweep over all sub-meshes to a graph, with a root of its own. Without predictions it has three tasks for
-/// each sub-mesh:
+/// Adds one sweep over all sub-meshes to a graph, with a root of its own. Without predictions the sweep has three tasks
+/// for each sub-mesh:
 ///
 ///     assemble and factorise ──► solve ──► accept
 ///                                  ▲         ▲
@@ -23,20 +23,21 @@ using PerformTask = std::function<void(TaskKind kind, Index s)>;
 ///        sub-meshes that lead                      adjacent sub-meshes
 ///        it on Γ
 ///
-/// With predictions there are two more: predict comes between the first two of each sub-mesh that follows another, and
-/// use predictions before the solve of each sub-mesh that leads. With the classical conditions none leads, and solve
-/// waits for the adjacent sub-meshes of lower colour. So that few factors live at once, assemble and factorise also
-/// waits for a solve some places before it (see FactorWindow). No barrier separates colours.
+/// With predictions there are two more: predict comes between the first two tasks of each sub-mesh that follows
+/// another, and use predictions before the solve of each sub-mesh that leads. With the classical conditions every
+/// sub-mesh leads, and solve waits for the adjacent sub-meshes of lower stage. So that few factors live at once,
+/// assemble and factorise also waits for the solve of an earlier sub-mesh (see FactorWindow). No barrier separates
+/// colours.
 ///
-/// For foreign sub-meshes, the arrival of predictions and solutions takes the place of these tasks. Assemble and
-/// factorise waits for the positions of those around.
+/// For remote sub-meshes, the arrivals of predictions and solutions replace these tasks. Assemble and factorise waits
+/// for the positions of remote sub-meshes around.
 /// @param sweep the number of the plan, from 0.
 /// @param plan is not used after the call.
-/// @param adjacency per sub-mesh: those with which it shares vertices.
+/// @param adjacency per sub-mesh: the sub-meshes with which it shares vertices.
 /// @param predicts whether sub-meshes predict.
-/// @param foreign null if the sweep has all sub-meshes of the mesh.
+/// @param remote null if the sweep has all sub-meshes of the mesh.
 void add_sweep(TaskGraph& graph, const PerformTask& perform, std::size_t sweep, const SweepPlan& plan,
                const std::vector<std::vector<Index>>& adjacency, const FactorWindow& window, bool predicts,
-               ForeignSubMeshes* foreign);
+               RemoteSubMeshes* remote);
 
 }  // namespace seamflow

@@ -11,7 +11,7 @@ namespace seamflow {
 
 namespace {
 
-/// Σ‖ΔV‖ over the sub-mesh's own interior.
+/// Σ‖ΔV‖ over the vertices of a sub-mesh that are not on Γ, in 1/length.
 double total_curvature(const SubMesh& sub_mesh, const std::vector<double>& curvature)
 {
     if (curvature.empty())
@@ -33,16 +33,16 @@ std::vector<Index> ascending(std::size_t n)
     return numbers;
 }
 
-/// The place of each number in an order.
+/// The index of each number in an order.
 std::vector<Index> inverse(const std::vector<Index>& order)
 {
-    std::vector<Index> places(order.size());
+    std::vector<Index> indices(order.size());
     for (std::size_t i = 0; i < order.size(); ++i)
-        places[order[i]] = static_cast<Index>(i);
-    return places;
+        indices[order[i]] = static_cast<Index>(i);
+    return indices;
 }
 
-/// Calls visit(t) for the sub-meshes whose Vᵏ⁺¹ a sub-mesh takes.
+/// Calls visit(t) for the sub-meshes t whose Vᵏ⁺¹ sub-mesh s takes.
 template <class Visit>
 void for_each_leader(const SweepPlan& plan, Index s, Visit&& visit)
 {
@@ -98,9 +98,9 @@ std::vector<Index> reversed(const std::vector<Index>& stage)
 
 std::vector<Index> order_by_need(const SweepPlan& plan, const std::vector<Index>& order)
 {
-    const std::vector<Index> places = inverse(order);
-    // Per sub-mesh, the lowest place of one whose solve waits for its solve, and for its factor.
-    std::vector<Index> solve = places;
+    const std::vector<Index> indices = inverse(order);
+    // Per sub-mesh, the lowest index of a sub-mesh whose solve waits for its solve; and for its factor.
+    std::vector<Index> solve = indices;
     std::vector<Index> sweep = by_stage(plan);
     for (auto s = sweep.rbegin(); s != sweep.rend(); ++s)
         for_each_leader(plan, *s, [&](Index leader) { solve[leader] = std::min(solve[leader], solve[*s]); });
@@ -114,13 +114,13 @@ std::vector<Index> order_by_need(const SweepPlan& plan, const std::vector<Index>
 
 FactorWindow least_window(const SweepPlan& plan, std::vector<Index> order)
 {
-    const std::vector<Index> places = inverse(order);
-    // Per sub-mesh, the last place that must be factorised before it can be solved.
-    std::vector<Index> last = places;
+    const std::vector<Index> indices = inverse(order);
+    // Per sub-mesh, the last index that must be factorised before it can be solved.
+    std::vector<Index> last = indices;
     FactorWindow window{.order = std::move(order), .freed = by_stage(plan)};
     for (const Index s : window.freed) {
         for (const Transfer& prediction : plan.predictions[s])
-            last[s] = std::max(last[s], places[prediction.from]);
+            last[s] = std::max(last[s], indices[prediction.from]);
         for_each_leader(plan, s, [&](Index leader) { last[s] = std::max(last[s], last[leader]); });
     }
     std::ranges::stable_sort(window.freed, {}, [&](Index s) { return last[s]; });

@@ -7,20 +7,20 @@
 
 namespace seamflow {
 
-/// Does what a task is named after. Other ranks get what they wait for as soon as it is found; where they find it, it
-/// arrives.
+/// Performs a task. The result of an own sub-mesh is sent to the ranks that wait for it at once; for a remote sub-mesh,
+/// the task reads the message that has arrived.
 void SweepStepper::perform(TaskKind kind, Index s)
 {
     const MessageKind message = message_of(kind);
     if (!is_own(s))
-        return foreign_->receive(message, s, rows_of(message, s));
+        return remote_->receive(message, s, rows_of(message, s));
     run_for_sub_mesh(names_[s], [&] { perform_own(kind, s); });
-    if (foreign_ != nullptr && (kind == TaskKind::Predict || kind == TaskKind::Solve))
-        foreign_->send(message, sweep_, s, rows_of(message, s));
+    if (remote_ != nullptr && (kind == TaskKind::Predict || kind == TaskKind::Solve))
+        remote_->send(message, sweep_, s, rows_of(message, s));
 }
 
-/// The rows of A are those of I + dt Δ, and on Γ the transmission condition where the sub-mesh leads, the identity
-/// where it follows (see SubMeshSystem).
+/// Performs a task of an own sub-mesh. The rows of A are those of I + dt Δ; on Γ they are the transmission condition
+/// where the sub-mesh leads, and the identity where it follows (see SubMeshSystem).
 void SweepStepper::perform_own(TaskKind kind, Index s)
 {
     SolverWorkspace& workspace = workspaces_.local();
@@ -46,7 +46,7 @@ void SweepStepper::perform_own(TaskKind kind, Index s)
         solve(states_, s, decomposition_.halo[s], plan(), workspace);
         break;
     default:
-        // Γ at the centroids of its neighbours, where it is corrected
+        // Γ moves to the centroids of its neighbours, if it is corrected
         finish(s, workspace);
     }
     (kind == TaskKind::Accept ? state.seconds.correct : state.seconds.solve) += watch.lap();
@@ -63,7 +63,7 @@ void SweepStepper::finish(Index s, SolverWorkspace& workspace)
         receive_solution(states_, s, decomposition_.halo[s]);
 }
 
-/// What sub-meshes send each other.
+/// The rows of a sub-mesh's state that a message of this kind has.
 Points& SweepStepper::rows_of(MessageKind kind, Index s)
 {
     switch (kind) {
@@ -79,14 +79,14 @@ Points& SweepStepper::rows_of(MessageKind kind, Index s)
 void SweepStepper::run_sweep(std::size_t sweep, const std::function<void()>& join)
 {
     sweep_ = sweep;
-    if (foreign_ == nullptr)
+    if (remote_ == nullptr)
         return graph_.run(sweep, 0.0, join);
     const auto send_positions = [&] {
         for (Index s = 0; s < static_cast<Index>(states_.size()); ++s)
             if (is_own(s))
-                foreign_->send(MessageKind::Position, sweep, s, states_[s].position);
+                remote_->send(MessageKind::Position, sweep, s, states_[s].position);
     };
-    foreign_->run(graph_, sweep, send_positions, join);
+    remote_->run(graph_, sweep, send_positions, join);
 }
 
 void SweepStepper::accept_solution(Index s)
@@ -96,7 +96,7 @@ void SweepStepper::accept_solution(Index s)
         error_->note_correction(states_, s);
 }
 
-/// The same graph is run once for each solution.
+/// Takes a step. The same graph is run once for each solution.
 void SweepStepper::step(const Points& before)
 {
     const std::size_t root = static_cast<std::size_t>(steps_done_) % plans_.size();
@@ -112,7 +112,8 @@ void SweepStepper::step(const Points& before)
         error_->add_step(states_, before);
 }
 
-/// Each sub-mesh filters with its halo, so that all sub-meshes at a vertex find the same bits.
+/// Takes a step with a filter. Each sub-mesh filters its halo, too, so that all sub-meshes at a vertex compute the same
+/// bits.
 void SweepStepper::take_filtered(std::size_t root, const std::function<void()>& end)
 {
     const auto for_each_own = [&](auto&& action) {
@@ -171,7 +172,7 @@ void SweepStepper::fetch_positions(SubMeshState& state)
         state.position.row(v) = positions_.row(state.sub_mesh->local_to_global[v]);
 }
 
-/// Copies that differ are each mapped; their means are then those of the image up to rounding.
+/// If copies differ, each of them is mapped; their means are then those of the image up to rounding.
 void SweepStepper::set_positions(const Points& image, const SimilarityOfComponents& similarity)
 {
     copy(run_in_parallel, image, positions_);
@@ -201,7 +202,7 @@ void SweepStepper::set_vertices(std::span<const Index> vertices, const Points& t
     });
 }
 
-/// Sub-meshes that do not differ hold no more than the whole mesh.
+/// Sub-meshes are saved only if their copies differ: otherwise they hold no more than the whole mesh.
 void SweepStepper::save(StepMemory& memory) const
 {
     memory.positions = positions_;

@@ -10,9 +10,9 @@
 #include "engine/setup/sweep_plan.h"
 #include "engine/state/flow_state.h"
 #include "engine/steppers/error_estimate.h"
-#include "engine/steppers/foreign_sub_meshes.h"
 #include "engine/steppers/interface_gaps.h"
-#include "engine/steppers/peer_sub_meshes.h"
+#include "engine/steppers/rank_sub_meshes.h"
+#include "engine/steppers/remote_sub_meshes.h"
 #include "engine/steppers/shared_factor_pool.h"
 #include "engine/steppers/stepper.h"
 #include "engine/steppers/sub_mesh_state.h"
@@ -22,37 +22,37 @@
 #include "engine/tasks/workspaces.h"
 #include "partition/cut/cut.h"
 #include "partition/topology.h"
-#include "solvers/interface/interface_peers.h"
+#include "solvers/interface/interface_ranks.h"
 
 namespace seamflow {
 
-/// Sub-meshes, of a whole mesh or of one of several ranks, and their places in a sweep over all.
+/// Sub-meshes, of a whole mesh or of one of several ranks, and their order in a sweep over all.
 struct SweepSubMeshes {
-    PeerSubMeshes own;
-    /// #sub-meshes: the sweep's order.
+    RankSubMeshes own;
+    /// #sub-meshes: see SweepPlan::stage.
     std::vector<Index> stage = {};
-    /// Of ranks, for a sweep forward and one backward: those of this rank, in orders common to all ranks, and the
-    /// smallest size with which the sweep cannot deadlock. Empty: they follow from the plans.
+    /// Only for ranks, for a sweep forward and one backward: this rank's part of orders that are common to all ranks,
+    /// and the smallest size with which the sweep cannot deadlock. Empty: the windows follow from the plans.
     std::vector<FactorWindow> windows = {};
-    /// Null where all sub-meshes are here; must outlive the stepper.
-    ForeignSubMeshes* foreign = nullptr;
+    /// Null if all sub-meshes are on this rank; must outlive the stepper.
+    RemoteSubMeshes* remote = nullptr;
 };
 
 /// Takes a step in one sweep over the colours of the sub-meshes (see add_sweep), with InterfaceOptions::conditions on
-/// Γ. The result is near the undecomposed step, but not the same.
+/// Γ. The result is near the undecomposed step, but differs from it.
 class SweepStepper final : public Stepper {
   public:
     /// Cuts out the sub-meshes, analyses their equations and builds the graph.
     /// @param mesh, topology, progress must outlive the stepper.
-    /// @param curvature #V: ‖ΔV⁰‖; empty: as if it were 0.
+    /// @param curvature #V: ‖ΔV⁰‖, in 1/length; empty: as if it were 0.
     /// @throws ComputationError naming the sub-mesh if an analysis fails; MemoryLimitError if the limit is too low;
     ///         Cancelled, as all functions that take time.
     SweepStepper(const PolygonMesh& mesh, const Topology& topology, const Cut& cut, const FlowOptions& options,
                  std::vector<double> curvature, Progress& progress);
 
-    /// The same for sub-meshes that are cut out, maybe those of one rank.
-    /// @param mesh, topology the part of the mesh that the rank knows. @param options of ranks not the classical
-    /// conditions, nor Schwarz's.
+    /// Makes the stepper for sub-meshes that have already been cut out, maybe those of one rank.
+    /// @param mesh, topology the part of the mesh that the rank knows. @param options for ranks neither the classical
+    /// conditions nor Schwarz's.
     SweepStepper(const PolygonMesh& mesh, const Topology& topology, SweepSubMeshes sub_meshes,
                  const FlowOptions& options, Progress& progress);
 
@@ -70,7 +70,7 @@ class SweepStepper final : public Stepper {
 
   private:
     void make_states(const PolygonMesh& mesh, const FlowOptions& options, Progress& progress);
-    [[nodiscard]] bool is_own(Index s) const { return peers_->is_own(s); }
+    [[nodiscard]] bool is_own(Index s) const { return ranks_->is_own(s); }
     void choose_factor_window(const FlowOptions& options);
     [[nodiscard]] const SweepPlan& plan() const { return plans_[sweep_]; }
     void run_sweep(std::size_t sweep, const std::function<void()>& join = {});
@@ -83,31 +83,31 @@ class SweepStepper final : public Stepper {
     void set_solution(SubMeshState::Solution solution);
     void fetch_positions(SubMeshState& state);
     void join();
-    /// Whether sub-meshes differ on what they share: with copies of Γ, and where they overlap.
-    [[nodiscard]] bool has_copies() const { return copies_ || (!error_ && foreign_ == nullptr); }
+    /// Whether the positions of a vertex differ between sub-meshes: with copies of Γ, and if sub-meshes overlap.
+    [[nodiscard]] bool has_copies() const { return copies_ || (!error_ && remote_ == nullptr); }
 
-    /// Made when the size of factors is known.
+    /// Made once the size of factors is known.
     std::optional<SharedFactorPool> factors_;
     Workspaces workspaces_;
     Decomposition decomposition_;
     std::vector<SubMeshName> names_;
-    /// Null where all sub-meshes are its own.
-    ForeignSubMeshes* foreign_ = nullptr;
+    /// Null if all sub-meshes are on this rank.
+    RemoteSubMeshes* remote_ = nullptr;
     std::vector<SubMeshState> states_;
-    /// Forward, and backward where the sweep alternates.
+    /// The plan of the sweep forward, and, if the direction alternates, of the sweep backward.
     std::vector<SweepPlan> plans_;
     /// One for each plan, all of the same size.
     std::vector<FactorWindow> windows_;
-    /// With the classical conditions.
+    /// Only with the classical conditions.
     std::optional<InterfaceGaps> copies_;
-    std::unique_ptr<InterfacePeers> peers_;
-    /// Not for overlapping sub-meshes.
+    std::unique_ptr<InterfaceRanks> ranks_;
+    /// The estimate of the error; empty with overlapping sub-meshes.
     std::optional<ErrorEstimate> error_;
-    /// A root for each plan.
+    /// The graph, with a root for each plan.
     TaskGraph graph_;
     Points positions_;
     int steps_done_ = 0;
-    /// The plan of the sweep that runs.
+    /// The number of the plan of the present sweep.
     std::size_t sweep_ = 0;
     double time_step_;
     StepFilter filter_;

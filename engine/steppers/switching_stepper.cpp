@@ -22,7 +22,7 @@ SwitchingStepper::SwitchingStepper(const PolygonMesh& mesh, const Topology& topo
 {
 }
 
-/// Without memory for them, there are none.
+/// Makes the factors of the whole mesh. If memory is lacking, the stepper continues without factors.
 void SwitchingStepper::make_factors()
 {
     try {
@@ -45,7 +45,7 @@ void SwitchingStepper::leave_factors()
 
 void SwitchingStepper::try_to_make_factors()
 {
-    // Flows do not keep twins.
+    // The topology of a flow has no twins: it is made again.
     complete_ = *topology_;
     complete_.twin = make_topology(*mesh_, progress_->exec()).twin;
     factors_ = make_undecomposed_stepper(*mesh_, complete_, *options_, options_->resources.memory_limit, *progress_);
@@ -53,6 +53,7 @@ void SwitchingStepper::try_to_make_factors()
         factors_->give(*given_);
 }
 
+/// Solves the step by the factors.
 /// @returns the solution; null without factors.
 const Points* SwitchingStepper::solve_by_factors(const Points& before)
 {

@@ -9,16 +9,16 @@
 
 namespace seamflow {
 
-/// Takes undecomposed steps by conjugate gradients, which from some step on begin with the solution by a factorisation
-/// of the whole mesh: as soon as they have come to need so many iterations that it is cheaper for the steps that are
-/// left. Edges that a flow shrinks to nothing make the matrix worse, which no choice before the first step foresees;
-/// where they also spoil the factorisation, conjugate gradients repair its solution or go without it. It all depends on
-/// numbers of iterations alone, so that the bits are the same on every machine with enough memory.
+/// Takes undecomposed steps by conjugate gradients. From some step on, these begin with the solution by a factorisation
+/// of the whole mesh: as soon as they need so many iterations that factorising is cheaper for further steps. Edges that
+/// a flow shrinks to nothing make the matrix worse, which no choice before the first step foresees; if they also spoil
+/// the factorisation, conjugate gradients correct its solution or do without it. The decisions depend on numbers of
+/// iterations alone, so that the bits are the same on every machine with enough memory.
 class SwitchingStepper final : public Stepper {
   public:
     /// @param mesh, topology, progress must outlive the stepper.
-    /// @param options must, too; without a filter.
-    /// @param size what the costs follow from.
+    /// @param options must outlive the stepper; without a filter.
+    /// @param size the input of the costs.
     SwitchingStepper(const PolygonMesh& mesh, const Topology& topology, const FlowOptions& options,
                      const FlowSize& size, Progress& progress);
 
@@ -54,13 +54,13 @@ class SwitchingStepper final : public Stepper {
     Progress* progress_;
     const GivenStiffness* given_ = nullptr;
     ConjugateGradientStepper gradients_;
-    /// The topology with twins, which the factorisation needs; empty until there is one.
+    /// The topology with twins, which the factorisation needs; empty until there is a factorisation.
     Topology complete_;
     std::unique_ptr<Stepper> factors_;
-    /// Of the last two steps without factors.
+    /// The iterations of the last two steps without factors.
     StepIterations iterations_;
     int n_taken_ = 0;
-    /// The step that factors were first made for, and the one for which they failed; 0: none.
+    /// The number of the first step with factors, and of the step in which factorising failed; 0: none.
     int first_with_factors_ = 0;
     int failed_ = 0;
 };

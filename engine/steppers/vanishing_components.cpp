@@ -19,8 +19,8 @@ namespace seamflow {
 
 namespace {
 
-/// dt over the squared diagonal of a component from which on it is small: masses have eleven digits left beside dt K,
-/// and the scaling neglects the square of what is left of the shape, the ten-billionth part of it.
+/// dt over the squared diagonal of a component above which the component is small. At this value masses have eleven
+/// digits left beside dt K; and the scaling neglects the square of the shape that is left, a relative error of 10⁻¹⁰.
 constexpr double small_by_steps = 1e5;
 /// A component whose diagonal is a smaller fraction of its coordinates than this is a point.
 constexpr double point_in_coordinates = 1e6 * std::numeric_limits<double>::epsilon();
@@ -44,7 +44,7 @@ Point mean_of(const Points& positions, std::span<const Index> vertices)
     return origin + sum / static_cast<double>(vertices.size());
 }
 
-/// The i-th of n points spread over a ball of diameter 1: a shape that is no worse than others for any faces.
+/// The i-th of n points spread over a ball of diameter 1: a shape that suits any faces.
 Point spread_point(std::size_t i, std::size_t n)
 {
     const double height = 1.0 - (2.0 * static_cast<double>(i) + 1.0) / static_cast<double>(n);
@@ -53,7 +53,7 @@ Point spread_point(std::size_t i, std::size_t n)
     return 0.5 * Point(radius * std::cos(angle), radius * std::sin(angle), height);
 }
 
-/// Steps of a smaller strength may leave something of the shape of a small component.
+/// Steps with a smaller strength may leave some of the shape of a small component.
 constexpr double weak = 0.01;
 
 void append(std::span<const Index> list, IndexLists& lists)
@@ -62,7 +62,7 @@ void append(std::span<const Index> list, IndexLists& lists)
     lists.close();
 }
 
-/// Whether any face is small enough for a component of less than `extent`.
+/// Whether any face is so small that it can belong to a component smaller than `extent`.
 bool has_small_face(const PolygonMesh& mesh, const Points& positions, double extent)
 {
     std::atomic<bool> found = false;
@@ -76,7 +76,7 @@ bool has_small_face(const PolygonMesh& mesh, const Points& positions, double ext
     return found;
 }
 
-/// Whether the bounding box of some vertices has a diagonal of less than `extent`.
+/// Whether the bounding box of some vertices has a diagonal smaller than `extent`.
 bool is_smaller(const Points& positions, std::span<const Index> vertices, double extent)
 {
     Box box;
@@ -95,35 +95,35 @@ VanishingComponents::VanishingComponents(const PolygonMesh& mesh, const Topology
     , topology_(topology)
     , options_(options)
 {
-    // The Laplacian with uniform weights does not depend on any size.
+    // The Laplacian with uniform weights does not depend on sizes.
     if (options.scheme == Scheme::BackwardEuler && !smooths_normals(options) && options.laplacian != Laplacian::Uniform)
         extent_ = std::sqrt(options.time_step / small_by_steps);
-    // The matrix of a linear flow has the sizes of the first surface in all steps, and keeps enough of its masses.
+    // The matrix of a linear flow is that of the initial sizes in all steps, and keeps enough digits of its masses.
     if (options.flow == FlowEquation::Linear && extent_ > 0.0)
         most_ = find_small(mesh.vertices, std::exchange(extent_, 0.0)).size();
     is_attached_ = attaches(options.motion);
     has_kept_lengths_ =
         options.flow == FlowEquation::Conformalized && traits_of(options.laplacian).divisor == Divisor::EdgeLengths;
     if (extent_ > 0.0 && (is_attached_ || has_kept_lengths_)) {
-        first_ = mesh.vertices;
+        initial_ = mesh.vertices;
         weights_ = options.motion.attachment_weights;
     }
 }
 
-/// Components of the vertices of faces, none of which is fixed or hardly moves.
+/// The vertices of the components in which no vertex is fixed or has a strength below `weak`.
 IndexLists VanishingComponents::free_components() const
 {
     const std::vector<double>& strength = options_.motion.strength;
-    const auto is_held = [&](Index v) { return !topology_.moves(v) || (!strength.empty() && strength[v] < weak); };
+    const auto is_fixed = [&](Index v) { return !topology_.moves(v) || (!strength.empty() && strength[v] < weak); };
     IndexLists free;
     const IndexLists all = surface_components(mesh_, run_in_parallel).vertices();
     for (Index c = 0; c < all.size(); ++c)
-        if (std::ranges::none_of(all[c], is_held))
+        if (std::ranges::none_of(all[c], is_fixed))
             append(all[c], free);
     return free;
 }
 
-/// The vertices of those whose bounding boxes have diagonals of less than `extent`, ascending in each.
+/// The components whose bounding boxes have a diagonal smaller than `extent`: their vertices, ascending in each.
 IndexLists VanishingComponents::find_small(const Points& positions, double extent)
 {
     IndexLists small;
@@ -139,7 +139,7 @@ IndexLists VanishingComponents::find_small(const Points& positions, double exten
 
 void VanishingComponents::attach(std::span<const Index> vertices, std::span<const double> weights)
 {
-    if (first_.rows() == 0)
+    if (initial_.rows() == 0)
         return;
     if (weights_.empty())
         weights_.assign(usize(mesh_.n_vertices()), options_.motion.attachment);
@@ -149,9 +149,9 @@ void VanishingComponents::attach(std::span<const Index> vertices, std::span<cons
 
 void VanishingComponents::set_reference_vertices(std::span<const Index> vertices, const Points& to)
 {
-    // Of a mean curvature flow an attachment goes on pulling to where it pulled.
-    if (first_.rows() > 0 && options_.flow != FlowEquation::MeanCurvature)
-        move_rows(vertices, to, first_);
+    // In a mean curvature flow, an attachment keeps its initial positions.
+    if (initial_.rows() > 0 && options_.flow != FlowEquation::MeanCurvature)
+        move_rows(vertices, to, initial_);
 }
 
 void VanishingComponents::step(Stepper& stepper, const Points& before)
@@ -172,15 +172,15 @@ void VanishingComponents::step(Stepper& stepper, const Points& before)
     stepper.set_vertices(small.values, rows_of(moved, small.values));
 }
 
-/// Brings a component to the pose for the step.
+/// Brings a component to the pose in which the step is taken.
 VanishingComponents::Pose VanishingComponents::pose(std::span<const Index> vertices, Points& positions) const
 {
     const Box box = box_of(positions, vertices);
     const double diagonal = box.diagonal().norm();
     const double farthest = std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
-    // M goes with lengths, and K, which is kept, with those of the first surface.
+    // M scales with present lengths; K, if it is kept, with initial lengths.
     const double wanted =
-        has_kept_lengths_ ? extent_ * (extent_ / box_of(first_, vertices).diagonal().norm()) : extent_;
+        has_kept_lengths_ ? extent_ * (extent_ / box_of(initial_, vertices).diagonal().norm()) : extent_;
     Pose pose{.centre = mean_of(positions, vertices)};
     if (diagonal > point_in_coordinates * farthest) {
         pose.scale = std::max(wanted / diagonal, 1.0);
@@ -194,15 +194,16 @@ VanishingComponents::Pose VanishingComponents::pose(std::span<const Index> verti
     return pose;
 }
 
-/// w of the attachment, with the strength.
+/// The weight w of the attachment, multiplied by the strength.
 double VanishingComponents::weight(Index v) const
 {
     const std::vector<double>& strength = options_.motion.strength;
     return (weights_.empty() ? options_.motion.attachment : weights_[v]) * (strength.empty() ? 1.0 : strength[v]);
 }
 
-/// @param before the step.
-/// @param positions as the step has left the component in its pose; receives where it is.
+/// Brings a component back from its pose after the step.
+/// @param before the positions before the step.
+/// @param positions in: the result of the step in the pose; out: the result.
 void VanishingComponents::bring_back(std::span<const Index> vertices, const Pose& pose, const Points& before,
                                      Points& positions) const
 {
@@ -213,13 +214,14 @@ void VanishingComponents::bring_back(std::span<const Index> vertices, const Pose
         Point towards = Point::Zero();
         for (const Index v : vertices) {
             total += weight(v);
-            towards += weight(v) * (first_.row(v) - pose.centre);
+            towards += weight(v) * (initial_.row(v) - pose.centre);
         }
         pull = options_.time_step * total / static_cast<double>(vertices.size());
         if (total > 0.0)
             target += towards / total;
     }
-    // The offset of the centroid by mass from the mean of the vertices: the step has found it, scaled.
+    // The offset of the centre of mass from the mean of the vertices, which the step has computed in the scaled
+    // component.
     const Point mean = mean_of(positions, vertices);
     Point off_centre = Point::Zero();
     if (pose.scale > 0.0)

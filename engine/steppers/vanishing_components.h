@@ -14,35 +14,37 @@
 namespace seamflow {
 
 /// Takes steps of surfaces whose components differ much in size. A backward Euler step shrinks a component that is
-/// small compared to √dt to about a point: its centroid, which stays. But next to dt K its masses are then lost to
-/// rounding, and its place with them. Such a component is scaled up about its centroid before the step, and the result
-/// is scaled back: of everything except the centroid about 1 / (dt λ) is left, where λ are the eigenvalues of M⁻¹ K,
-/// which go with the square of lengths. A component that its coordinates no longer resolve is a point, and stays.
+/// small compared to √dt nearly to a point, its centroid, which does not move. But its masses are lost to rounding
+/// beside dt K, and with them the position of that point. Such a component is scaled up about its centroid before the
+/// step, and the result is scaled back: about 1 / (dt λ) is left of its shape, where the eigenvalues λ of M⁻¹ K scale
+/// with the inverse square of lengths. A component that is too small for the digits of its coordinates is treated as a
+/// point, and does not move.
 class VanishingComponents {
   public:
-    /// @param mesh as it is before the first step: an attachment attaches to that. It, the topology and the options
-    /// must outlive this.
+    /// @param mesh in its state before the first step, to which an attachment pulls. The mesh, the topology and the
+    /// options must outlive this.
     VanishingComponents(const PolygonMesh& mesh, const Topology& topology, const FlowOptions& options);
 
-    /// One step. @throws as Stepper::step.
+    /// Takes one step. @throws as Stepper::step.
     void step(Stepper& stepper, const Points& before);
 
-    /// Of changes between steps: which vertices are held, weights of the attachment, and first positions.
+    /// To be called after vertices were fixed or released, weights of the attachment changed, or initial positions
+    /// moved.
     void look_again() { free_.reset(); }
     void attach(std::span<const Index> vertices, std::span<const double> weights);
     void set_reference_vertices(std::span<const Index> vertices, const Points& to);
 
-    /// On components that were so small; nothing if there were none.
+    /// A sentence on small components; empty if there were none.
     [[nodiscard]] std::optional<Remark> remark() const;
 
   private:
-    /// How a component is brought to where the step is taken.
+    /// The map that brings a component to the size at which the step is taken.
     struct Pose {
-        /// The mean of its vertices, which stays where it is.
+        /// The mean of its vertices, the fixed point of the map.
         Point centre;
-        /// 0: the component is a point.
+        /// The factor of lengths; 0: the component is a point.
         double scale = 0.0;
-        /// Factor for the shape that the step leaves there.
+        /// The factor by which the shape in the result of the step is multiplied.
         double rest = 0.0;
     };
     [[nodiscard]] IndexLists free_components() const;
@@ -55,16 +57,17 @@ class VanishingComponents {
     const Topology& topology_;
     const FlowOptions& options_;
     bool is_attached_ = false;
-    /// Whether steps have a K that depends on lengths of the first surface, not on present ones.
+    /// Whether the K of steps depends on initial lengths, not on present ones.
     bool has_kept_lengths_ = false;
-    /// The first positions, empty where neither holds; and the weights of an attachment that has one for each vertex.
-    Points first_ = Points(0, 3);
+    /// #V by 3: the initial positions; empty if neither K is kept nor an attachment exists. The weights of an
+    /// attachment that has one per vertex.
+    Points initial_ = Points(0, 3);
     std::vector<double> weights_;
-    /// See free_components, once that is asked for.
+    /// The result of free_components, once it has been asked for.
     std::optional<IndexLists> free_;
-    /// Below it components are small; 0: no step needs this.
+    /// The diagonal below which components are small; 0: no component is treated as small.
     double extent_ = 0.0;
-    /// How many there were at most.
+    /// The largest number of small components in a step.
     Index most_ = 0;
 };
 

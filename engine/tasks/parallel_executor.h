@@ -9,7 +9,7 @@ namespace seamflow {
 /// Runs a loop of the lower layers on the threads of the calling arena (see Executor).
 void run_in_parallel(Index n, const RangeBody& body);
 
-/// How many threads the calling arena has.
+/// The number of threads of the calling arena.
 int n_threads_of_arena();
 
 /// Runs two pieces of work, in parallel if there are threads for both.

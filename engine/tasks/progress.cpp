@@ -9,11 +9,12 @@ namespace seamflow {
 
 namespace {
 
-/// The least progress reported: a fraction of the whole, or any after so many seconds.
+/// The least progress that is reported, as a fraction of the whole; and the number of seconds after which any progress
+/// is reported.
 constexpr double noticeable = 1.0 / 500.0;
 constexpr double seconds_between = 0.1;
 
-/// Clears a set flag at the end of its scope.
+/// Clears a flag at the end of its scope.
 class Cleared {
   public:
     explicit Cleared(std::atomic_flag& flag)
@@ -71,7 +72,8 @@ void Progress::finish()
     report(1.0, true);
 }
 
-/// Of several threads at once, one reports, and the others continue their work.
+/// Reports to the observer. If several threads call this at once, one of them reports and the others continue their
+/// work.
 void Progress::report(double fraction, bool at_once)
 {
     if (!control_->on_progress || is_reporting_.test_and_set(std::memory_order_acquire))

@@ -8,9 +8,9 @@
 
 namespace seamflow {
 
-/// Reports to an observer how far a flow is, and to the flow whether to stop. Phases begin in one thread; their parts
-/// are counted from any thread. Costs an addition per count, and with an observer a few hundred calls of it, and ten
-/// more per second.
+/// Reports the progress of a flow to an observer, and tells the flow whether to stop. A phase begins in one thread; its
+/// parts are counted from any thread. A count costs an addition; an observer is called a few hundred times, and ten
+/// more times per second.
 class Progress {
   public:
     /// @param control must outlive this.
@@ -18,16 +18,16 @@ class Progress {
 
     [[nodiscard]] bool is_stopped() const { return control_->stop.stop_requested(); }
 
-    /// Lets the flow stop here.
-    /// @throws Cancelled if it is to stop.
+    /// Lets the flow stop here, if a stop was requested.
+    /// @throws Cancelled in that case.
     void require_going_on() const;
 
     /// Sets `steps` of FlowProgress.
     void set_steps(int steps) { now_.steps = steps; }
 
     /// Begins a phase.
-    /// @param step its number; 0: before the first.
-    /// @param begin, end the fraction of the whole now, and when everything is counted.
+    /// @param step the number of the step; 0: before the first.
+    /// @param begin, end the fraction of the whole at the beginning and at the end of the phase.
     /// @throws Cancelled if the flow is to stop.
     void enter(FlowPhase phase, int step, double begin, double end);
 
@@ -37,13 +37,13 @@ class Progress {
     /// Counts parts as done.
     void count(double parts = 1.0);
 
-    /// All is done.
+    /// Reports that everything is done.
     void finish();
 
-    /// Loops that may stop at each of their ranges, on the threads of the arena.
+    /// An executor whose loops may stop at each of their ranges, on the threads of the arena.
     [[nodiscard]] Executor exec() const;
 
-    /// The same, and each index of a loop counts as one part that is done (see expect).
+    /// An executor like exec(); in addition, each index of a loop counts as one part that is done (see expect).
     [[nodiscard]] Executor counted_loop();
 
   private:
@@ -61,10 +61,10 @@ class Progress {
     Stopwatch since_report_;
 };
 
-/// Counts a task that takes an unknown number of loops: it is expected to take as many as last time.
+/// Counts a task that takes an unknown number of loops: it is expected to take as many as in the last step.
 class LoopCount {
   public:
-    /// @param parts that the task counts for (see Progress::expect).
+    /// @param parts the number of parts that the task counts for (see Progress::expect).
     /// @param progress must outlive this.
     LoopCount(double parts, Progress& progress)
         : progress_(&progress)
@@ -74,10 +74,11 @@ class LoopCount {
 
     [[nodiscard]] double parts() const { return parts_; }
 
-    /// Loops that count and may stop. This must outlive them; one at a time.
+    /// Begins the task. @returns an executor whose loops count and may stop. This object must outlive it; one task at a
+    /// time.
     [[nodiscard]] Executor begin();
 
-    /// Counts what is left.
+    /// Ends the task, and counts the parts that are left.
     void end();
 
   private:

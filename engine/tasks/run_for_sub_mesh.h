@@ -9,15 +9,15 @@
 
 namespace seamflow {
 
-/// By what a failure names a sub-mesh: its numbers in the whole mesh.
+/// The names of a sub-mesh in messages of failures: its numbers in the whole mesh.
 struct SubMeshName {
     Index number = 0;
     Index n_vertices = 0;
-    /// One of its faces.
+    /// The number of one of its faces.
     Index face = 0;
 };
 
-/// Runs `body` for a sub-mesh, in one thread; failures name it.
+/// Runs `body` for a sub-mesh, in one thread; messages of failures name the sub-mesh.
 template <class Body>
 void run_for_sub_mesh(const SubMeshName& sub_mesh, Body&& body)
 {

@@ -7,7 +7,7 @@
 
 namespace seamflow {
 
-/// What a task does for its sub-mesh (the last three: in converged steps).
+/// The work of a task for its sub-mesh (the last three: in converged steps).
 enum class TaskKind {
     AssembleAndFactorise,
     Predict,
@@ -19,20 +19,21 @@ enum class TaskKind {
     BackSubstitute,
 };
 
-/// In words: "assemble and factorise", "solve" and so on.
+/// The name of the work: "assemble and factorise", "solve" and so on.
 std::string_view name_of(TaskKind kind);
 
-/// Whether such tasks start before others that are ready: in a sweep what frees a factor comes before what makes one.
+/// Whether such tasks start before others that are ready: in a sweep, tasks that free a factor come before tasks that
+/// make one.
 bool has_priority(TaskKind kind);
 
 /// A task of the graph. It runs at most once in a step.
 struct ScheduledTask {
     TaskKind kind = TaskKind::Solve;
-    /// -1: none.
+    /// The number of the sub-mesh; -1: none.
     Index sub_mesh = 0;
 };
 
-/// `after` starts when `before` is done; both are numbers of tasks.
+/// Task `after` starts when task `before` is done; both are indices in Schedule::tasks.
 struct Dependency {
     Index before = 0;
     Index after = 0;
@@ -40,11 +41,11 @@ struct Dependency {
 
 /// One run of a task.
 struct TaskRecord {
-    /// From 1.
+    /// The number of the step, from 1.
     int step = 0;
-    /// Its number in Schedule::tasks.
+    /// The index in Schedule::tasks.
     Index task = 0;
-    /// Slot of the thread in its TBB arena, from 0; the calling thread's is one of them.
+    /// The slot of the thread in its TBB arena, from 0; the calling thread has one of the slots.
     int thread = 0;
     /// Seconds since the first step began.
     double start = 0.0;
@@ -58,14 +59,14 @@ struct StepRecord {
     double end = 0.0;
 };
 
-/// What ran when in a flow, and what had to wait for what.
+/// The tasks of a flow with their times, and their dependencies.
 struct Schedule {
-    /// Those of all sweeps; a step runs only the tasks of its own sweep.
+    /// The tasks of all sweeps; a step runs only the tasks of its own sweep.
     std::vector<ScheduledTask> tasks;
     std::vector<Dependency> dependencies;
-    /// In order of their steps; within a step in order of their tasks.
+    /// The runs of tasks in the order of steps; within a step in the order of tasks.
     std::vector<TaskRecord> records;
-    /// #steps.
+    /// One per step.
     std::vector<StepRecord> steps;
 };
 

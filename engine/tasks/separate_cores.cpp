@@ -11,7 +11,7 @@ namespace {
 
 constexpr int no_core = -1;
 
-/// Moves the calling thread to a core that it may use and that is none of these, if there is one.
+/// Moves the calling thread to a core that it may use and that is not in the list, if there is one.
 void leave_for_another(const std::vector<int>& cores)
 {
     cpu_set_t allowed;
@@ -32,10 +32,10 @@ SeparateCores::SeparateCores(int threads)
 {
 }
 
-void SeparateCores::enter(int place)
+void SeparateCores::enter(int slot)
 {
-    leave(place);
-    const auto own = static_cast<std::size_t>(place);
+    leave(slot);
+    const auto own = static_cast<std::size_t>(slot);
     if (own >= core_.size())
         return;
     const std::lock_guard lock(mutex_);
@@ -44,10 +44,10 @@ void SeparateCores::enter(int place)
     core_[own] = ::sched_getcpu();
 }
 
-void SeparateCores::leave(int place)
+void SeparateCores::leave(int slot)
 {
     const std::lock_guard lock(mutex_);
-    if (const auto own = static_cast<std::size_t>(place); own < core_.size())
+    if (const auto own = static_cast<std::size_t>(slot); own < core_.size())
         core_[own] = no_core;
 }
 

@@ -5,17 +5,17 @@
 
 namespace seamflow {
 
-/// Wall-clock time since it was made or last read.
+/// Wall-clock time since the stopwatch was made or since the last lap().
 class Stopwatch {
   public:
-    /// Seconds since then; starts anew.
+    /// The seconds of this lap; begins a new lap.
     double lap()
     {
         const auto now = std::chrono::steady_clock::now();
         return std::chrono::duration<double>(now - std::exchange(start_, now)).count();
     }
 
-    /// Seconds since then; goes on.
+    /// The seconds of this lap, which goes on.
     [[nodiscard]] double seconds() const
     {
         return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();

@@ -55,7 +55,7 @@ class TaskGraph::Nodes {
     };
 
     /// The work at a node. oneTBB copies the body of a node, and loses a copy if there is no memory for the next one:
-    /// so it is given only a pointer to this.
+    /// it is given only a pointer to this struct.
     struct Task {
         Node node = -1;
         Index number = 0;
@@ -64,15 +64,15 @@ class TaskGraph::Nodes {
 
     ~Nodes() { graph.wait_for_all(); }
 
-    /// Runs the body of a task, and notes when, unless it throws.
+    /// Runs the body of a task, and records the times, unless it throws.
     void run(const Task& task);
 
-    /// Runs a task, or skips it. Exceptions stay inside: a flow graph from which one has escaped starts its next run
-    /// with wrong counts.
+    /// Runs a task, or skips it. Exceptions are caught here: a flow graph from which one has escaped starts its next
+    /// run with wrong counts.
     void perform(const Task& task);
 
-    /// Starts an event, or lets it begin when the tasks before it are done. An outside thread that did so itself would
-    /// wait for a place in the arena.
+    /// Starts an event, or lets it begin when the tasks before it are done. The call is made within the arena: a thread
+    /// outside it would wait for a slot of the arena.
     void start(Node event)
     {
         arena.enqueue([this, event] {
@@ -102,22 +102,22 @@ class TaskGraph::Nodes {
     std::vector<Index> task_of_node;
     std::optional<Schedule> schedule;
     Stopwatch clock;
-    /// #tasks, for the step that runs; step 0: has not run.
+    /// One per task, for the present step; step 0: the task has not run.
     std::vector<TaskRecord> running;
-    /// The arena in which all is constructed: signals come from threads outside it.
+    /// The arena in which all members are constructed: signals come from threads outside it.
     oneapi::tbb::task_arena arena{oneapi::tbb::task_arena::attach()};
     flow::graph graph;
     std::deque<flow::continue_node<flow::continue_msg>> nodes;
     TaskOrder order;
     Progress* progress = nullptr;
     FirstFailure failure;
-    /// Set if a task was skipped because the flow was asked to stop. oneTBB's own cancellation would also make the
-    /// loops within running tasks skip what they have not begun.
+    /// Set if a task was skipped because the flow was asked to stop. oneTBB's own cancellation would also make loops
+    /// within running tasks skip the ranges that have not begun.
     std::atomic<bool> skipped{false};
-    /// For each root.
+    /// The number of tasks behind each root.
     std::unordered_map<Node, Index> n_tasks;
     std::unordered_map<Node, Index> n_events;
-    /// Guards what follows: signals come from any thread.
+    /// Guards the following members, because signals come from any thread.
     std::mutex mutex;
     bool is_running = false;
     /// The events signalled before the run.

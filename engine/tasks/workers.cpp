@@ -28,7 +28,7 @@ int threads_of(const tbb::task_arena& arena)
     return std::min(arena.max_concurrency(), static_cast<int>(allowed));
 }
 
-/// Tells SeparateCores which threads enter and leave an arena, which must outlive this.
+/// Reports the threads that enter and leave an arena to SeparateCores, which must outlive this.
 class ThreadsOfArena final : public tbb::task_scheduler_observer {
   public:
     explicit ThreadsOfArena(tbb::task_arena& arena)
@@ -56,11 +56,12 @@ class Workers::Arena {
     {
         require_threads(threads);
         if (threads > 0) {
-            // TBB starts no more threads than there are cores, whatever an arena asks for, unless told otherwise.
+            // TBB starts no more threads than there are cores, whatever an arena asks for, unless the limit is raised.
             const auto wanted = static_cast<std::size_t>(threads);
             if (wanted > tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism))
                 limit.emplace(tbb::global_control::max_allowed_parallelism, wanted);
-            // The lowest limit applies, the program's own included; TBB complains about arenas that ask for more.
+            // The lowest limit applies, including that of the program; TBB prints warnings about arenas that ask for
+            // more.
             const auto allowed = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
             arena.initialize(static_cast<int>(std::min(wanted, allowed)));
         } else {

@@ -7,7 +7,7 @@
 
 namespace seamflow {
 
-/// The threads that a flow runs on. While it lives, BLAS stays single-threaded: the parallelism is in the tasks, and
+/// The threads that a flow runs on. While this object lives, BLAS is single-threaded: the tasks run in parallel, and
 /// libraries that start threads of their own inside each task slow all of them down.
 class Workers {
   public:
@@ -23,10 +23,10 @@ class Workers {
     /// Runs `work` so that everything parallel in it uses these threads.
     void execute(const std::function<void()>& work);
 
-    /// Loops on these threads, which must outlive it.
+    /// An executor whose loops run on these threads, which must outlive it.
     [[nodiscard]] Executor exec();
 
-    /// How many there are, within the limits that the program has set (oneTBB's global_control).
+    /// The number of threads, within the limits that the program has set (oneTBB's global_control).
     [[nodiscard]] int threads() const;
 
   private:

@@ -11,10 +11,10 @@ class Workspaces {
   public:
     Workspaces();
 
-    /// That of the calling thread.
+    /// The workspace of the calling thread.
     SolverWorkspace& local();
 
-    /// How many threads the arena has.
+    /// The number of threads of the arena.
     [[nodiscard]] Index size() const { return n_threads_; }
 
   private:

@@ -76,10 +76,10 @@ class Tree {
 
 void sort_along_longest_side(std::span<Index> points, const Points& positions)
 {
-    struct Place {
+    struct Projection {
         double coordinate;
         Index point;
-        auto operator<=>(const Place&) const = default;
+        auto operator<=>(const Projection&) const = default;
     };
     Box box;
     for (const Index i : points)
@@ -87,12 +87,13 @@ void sort_along_longest_side(std::span<Index> points, const Points& positions)
     if (box.isEmpty())
         return;
     const Index axis = longest_side(box);
-    std::vector<Place> places;
-    places.reserve(points.size());
+    std::vector<Projection> projections;
+    projections.reserve(points.size());
     for (const Index i : points)
-        places.push_back({positions(i, axis), i});
-    std::sort(places.begin(), places.end());
-    std::transform(places.begin(), places.end(), points.begin(), [](const Place& place) { return place.point; });
+        projections.push_back({positions(i, axis), i});
+    std::sort(projections.begin(), projections.end());
+    std::transform(projections.begin(), projections.end(), points.begin(),
+                   [](const Projection& projection) { return projection.point; });
 }
 
 }  // namespace

@@ -14,24 +14,25 @@ namespace seamflow {
 
 namespace {
 
-/// Lighter meshes (see face_weight) are divided face by face, which takes a fraction of a second and gives the best
-/// boundaries; others are divided by clusters.
+/// The total face_weight below which meshes are divided face by face, which takes a fraction of a second and gives the
+/// best boundaries; heavier meshes are divided by clusters.
 constexpr double min_weight_for_clusters = 500'000;
-/// The boundaries of parts as small as this matter less, and clusters are grown in lighter meshes, too.
+/// A part is small below this weight: its boundaries matter less, and clusters are grown in lighter meshes, too.
 constexpr double small_part = 5'000;
 constexpr double min_weight_for_small_parts = 300'000;
-/// About how many clusters METIS gets per part: enough to shape it well and to balance parts within a few percent.
+/// The approximate number of clusters that METIS gets per part: enough to shape the part well and to balance parts
+/// within a few percent.
 constexpr double clusters_per_part = 80;
-/// The least in total, which takes a twentieth of a second.
+/// The least total number of clusters, which takes METIS a twentieth of a second.
 constexpr double min_clusters = 20'000;
-/// Larger clusters save no time and leave longer boundaries between parts.
+/// The largest weight of a cluster. Larger clusters save no time and leave longer boundaries between parts.
 constexpr double max_cluster_weight = 64;
-/// Smaller clusters save little compared with single faces.
+/// The least weight of a cluster. Smaller clusters save little time compared with single faces.
 constexpr double min_cluster_weight = 8;
-/// Where a part would have fewer clusters than this, METIS gets every face.
+/// The fewest clusters per part. If a part would have fewer, METIS gets every face.
 constexpr double min_clusters_per_part = 30;
 
-/// Faces that follow each other.
+/// A range of consecutive faces.
 struct Chunk {
     Index begin;
     Index end;
@@ -41,7 +42,7 @@ struct Chunk {
 
 /// Clusters whose faces are stored one cluster after the other in an array of all faces.
 struct Grown {
-    /// Where the faces of the first cluster begin, and where those of each end.
+    /// The index of the first face of the first cluster, and the index of the end of each cluster.
     Index begin = 0;
     std::vector<Index> ends;
     /// One entry per cluster: whether one of its edges leads to another chunk.
@@ -55,13 +56,13 @@ struct Grown {
     }
 };
 
-/// Where clusters are stored.
-struct ClusterPlace {
-    /// #F, negative where a face has no cluster yet.
+/// The output of a ClusterGrower.
+struct ClusterRange {
+    /// #F: the cluster of each face; negative if the face has no cluster yet.
     std::vector<Index>& cluster_of;
     /// #F: receives the faces of one cluster after the other.
     std::vector<Index>& faces;
-    /// The number of the first cluster, and where its faces begin in `faces`.
+    /// The number of the first cluster, and the index of its first face in `faces`.
     Index first = 0;
     Index begin = 0;
 };
@@ -70,30 +71,30 @@ struct ClusterPlace {
 class ClusterGrower {
   public:
     ClusterGrower(const PolygonMesh& mesh, const Topology& topology, Index weight, Chunk chunk,
-                  const ClusterPlace& place)
+                  const ClusterRange& range)
         : mesh_(mesh)
         , topology_(topology)
         , weight_(weight)
         , chunk_(chunk)
-        , first_(place.first)
-        , cluster_of_(place.cluster_of)
-        , faces_(place.faces)
-        , grown_{.begin = place.begin, .ends = {}, .touches_others = {}}
-        , end_(place.begin)
+        , first_(range.first)
+        , cluster_of_(range.cluster_of)
+        , faces_(range.faces)
+        , grown_{.begin = range.begin, .ends = {}, .touches_others = {}}
+        , end_(range.begin)
     {
     }
 
-    /// The grown clusters; nothing can be grown after this.
+    /// Moves out the grown clusters; nothing can be grown after this.
     Grown take() { return std::move(grown_); }
 
-    /// Grows clusters over all that is connected to face f of the chunk, unless it has one.
+    /// Grows clusters over all faces of the chunk that are connected to face f, unless f has a cluster.
     void grow_around(Index f)
     {
         if (!is_free(f))
             return;
         outer_.clear();
         grow_cluster(f);
-        // Each next cluster begins beside the earliest face that has a free neighbour, so that few gaps remain.
+        // Each further cluster begins beside the earliest face that has a free neighbour, so that few gaps remain.
         for (std::size_t front = 0; front < outer_.size(); ++front)
             for_each_free_neighbour(outer_[front], [&](Index g) {
                 grow_cluster(g);
@@ -103,10 +104,10 @@ class ClusterGrower {
 
   private:
     [[nodiscard]] bool is_free(Index f) const { return chunk_.has(f) && cluster_of_[f] < 0; }
-    /// The cluster being grown.
+    /// The number of the cluster being grown.
     [[nodiscard]] Index last() const { return first_ + grown_.size(); }
 
-    /// Stops when `visit` returns false.
+    /// Calls visit for neighbours of face f in the chunk that have no cluster; stops when `visit` returns false.
     template <class Visit>
     void for_each_free_neighbour(Index f, Visit&& visit)
     {
@@ -136,8 +137,8 @@ class ClusterGrower {
         Index next = begin;
         for (add(seed); left > 0 && next < end_; ++next)
             for_each_free_neighbour(faces_[next], add);
-        // Filling notches and including faces that would be isolated makes outlines shorter and clusters fewer. All
-        // faces that the growth has passed, except the last, have no free neighbours left.
+        // Faces that fill notches, or would be isolated, are added to the cluster, which makes outlines shorter and
+        // clusters fewer. Faces before the present one have no free neighbours left.
         for (next = std::max(next, begin + 1) - 1; next < end_; ++next) {
             for_each_free_neighbour(faces_[next], [&](Index g) {
                 if (belongs_to_last(g))
@@ -150,8 +151,8 @@ class ClusterGrower {
         grown_.touches_others.push_back(touches_others_ ? 1 : 0);
     }
 
-    /// Whether most edges of a free face lead to the cluster being grown, whose outline it would shorten, or none lead
-    /// to a free face.
+    /// Whether the free face f should join the cluster being grown: most of its edges lead to the cluster, so that it
+    /// shortens the outline, or none leads to a free face.
     [[nodiscard]] bool belongs_to_last(Index f) const
     {
         Index inner = 0;
@@ -175,10 +176,10 @@ class ClusterGrower {
     std::vector<Index>& cluster_of_;
     std::vector<Index>& faces_;
     Grown grown_;
-    /// The cluster being grown: where its faces end, and whether one of its edges leads to another chunk.
+    /// The cluster being grown: the end of its faces, and whether one of its edges leads to another chunk.
     Index end_;
     bool touches_others_ = false;
-    /// Those faces of the current connected component's clusters that may have free neighbours, in order.
+    /// The faces of the clusters of the present connected component that may have free neighbours, in order.
     std::vector<Index> outer_;
 };
 
@@ -196,11 +197,12 @@ double part_across(const PolygonMesh& mesh, const Topology& topology, Index size
     return inner > 0 ? static_cast<double>(across) / inner : 0.0;
 }
 
-/// The chunks of all faces: larger ones, up to a single one, where too many clusters would touch several.
-/// @param size that of the smallest chunks.
+/// Divides all faces into chunks. They are larger, or a single one, if too many clusters would touch several chunks.
+/// @param size of the smallest chunks.
 std::vector<Chunk> chunks_of(const PolygonMesh& mesh, const Topology& topology, Index weight, Index size)
 {
-    // A cluster is about as wide as the square root of its weight. At most about a tenth of all is grown again.
+    // The largest fraction of edges across chunks: a cluster is about as wide as the square root of its weight, so that
+    // about a tenth of all clusters is grown again.
     constexpr double most_edges_across = 0.025;
     const double width = std::sqrt(weight);
     while (size < mesh.n_faces() && width * part_across(mesh, topology, size) > most_edges_across)
@@ -211,7 +213,7 @@ std::vector<Chunk> chunks_of(const PolygonMesh& mesh, const Topology& topology, 
     return chunks;
 }
 
-/// Face f is cluster f.
+/// Clusters of one face each.
 FaceClusters one_face_each(const PolygonMesh& mesh)
 {
     FaceClusters clusters;
@@ -223,14 +225,14 @@ FaceClusters one_face_each(const PolygonMesh& mesh)
     return clusters;
 }
 
-/// Clusters without those that end where a chunk does.
+/// Clusters that do not touch the ends of chunks.
 struct InnerClusters {
     FaceClusters clusters;
-    /// The faces that are left over, whose cluster is -1, chunk by chunk.
+    /// The other faces, whose cluster is -1, chunk by chunk.
     std::vector<Index> left_over;
 };
 
-/// @param grown chunk by chunk, and numbered from 0 in each. @param faces #F, those of the clusters.
+/// @param grown chunk by chunk, with clusters numbered from 0 in each. @param faces #F: the faces of the clusters.
 InnerClusters keep_inner(const std::vector<Grown>& grown, std::vector<Index> faces, std::vector<Index> cluster_of,
                          const Executor& exec)
 {

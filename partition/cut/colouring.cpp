@@ -38,8 +38,8 @@ Index lowest_free(const std::vector<bool>& taken)
     return static_cast<Index>(std::find(taken.begin(), taken.end(), false) - taken.begin());
 }
 
-/// Colours the nodes of a connected component one by one: next is the one whose neighbours have the most different
-/// colours, then the one with the most neighbours, then the first.
+/// Colours the nodes of a connected component one by one. The next node is the one whose neighbours have the most
+/// different colours; of equals the one with the most neighbours; of equals the first.
 void colour_by_saturation(const Adjacency& adjacency, const std::vector<Index>& nodes, std::vector<Index>& colours)
 {
     using Urgency = std::tuple<Index, Index, Index>;

@@ -49,7 +49,7 @@ void require_labels(const PolygonMesh& mesh, std::span<const Index> labels)
                                      negative - labels.begin(), *negative));
 }
 
-/// Parts are not made smaller on average than this many faces: a part should have vertices that no other one has.
+/// The fewest faces of a part on average: a part should have vertices that no other part has.
 constexpr Index min_faces_per_part = 12;
 
 /// The largest sensible number of parts of a mesh of n_faces faces, at most k.
@@ -58,7 +58,7 @@ Index sensible_parts(std::int64_t n_faces, Index k)
     return static_cast<Index>(std::clamp<std::int64_t>(n_faces / min_faces_per_part, 1, k));
 }
 
-/// Why a mesh was not cut into k parts. @returns nothing if it was.
+/// A remark on why a mesh was not cut into k parts. @returns a sentence; empty if it was.
 std::optional<Remark> remark_on_number(std::int64_t n_faces, Index k, Index n_parts, Index n_components)
 {
     if (n_parts == k)
@@ -75,8 +75,8 @@ std::optional<Remark> remark_on_number(std::int64_t n_faces, Index k, Index n_pa
         {fmt::format("The mesh was cut into {} instead of {}, because {}.", number_of(n_parts, "part"), k, reason)});
 }
 
-/// Remarks on labels that were given.
-/// @param n_given different labels, the largest being `largest`.
+/// Remarks on given labels, one sentence each.
+/// @param n_given the number of different labels. @param largest the largest of them.
 std::vector<Remark> remarks_on_labels(Index n_given, Index largest, std::int64_t repaired_faces, Index n_parts)
 {
     std::vector<Remark> remarks;

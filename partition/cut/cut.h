@@ -12,21 +12,21 @@
 
 namespace seamflow {
 
-/// How the faces of a mesh are divided into sub-meshes.
+/// The division of the faces of a mesh into sub-meshes.
 struct Cut {
     /// #F: the part each face belongs to, from 0 to n_parts - 1; each label occurs. Unless n_parts is 1, each part is a
     /// manifold with boundary, except at junctions (see repair, free_junctions).
     std::vector<Index> labels;
     /// 0 for a mesh without faces.
     Index n_parts = 0;
-    /// How many faces had to be moved to other parts to make every part a manifold.
+    /// The number of faces that were moved to other parts to make every part a manifold.
     Index repaired_faces = 0;
-    /// What the user should know about the cut.
+    /// Remarks on the cut for the user, one sentence each.
     std::vector<Remark> remarks;
 };
 
-/// Runs the serial part of a cut. A caller with further threads and work that does not need the cut can do both at
-/// once.
+/// Runs the serial part of a cut. A caller that has more threads, and work that does not need the cut, can do that work
+/// at the same time.
 using Alongside = std::function<void(const std::function<void()>& serial)>;
 
 /// Runs `serial` in the thread of the caller.

@@ -20,10 +20,11 @@ namespace seamflow {
 namespace {
 
 constexpr idx_t seed = 20230;
-/// With fewer nodes per part than this, recursive bisection takes a third of the time of k-way partitioning and cuts up
-/// to a third less. With more, k-way cuts up to a tenth less, and unlike bisection it keeps parts connected.
+/// The fewest nodes per part for k-way partitioning. With fewer, recursive bisection takes a third of the time and cuts
+/// up to a third less. With more, k-way cuts up to a tenth less, and unlike bisection it keeps parts connected.
 constexpr Index min_nodes_per_part_k_way = 50;
-/// Where parts are refined afterwards, bisection leaves interfaces 0 to 2 percent larger than k-way up to about here.
+/// The fewest nodes per part for k-way partitioning if parts are refined afterwards: up to about here, bisection leaves
+/// interfaces only 0 to 2 percent larger than k-way.
 constexpr Index min_nodes_per_refined_part_k_way = 120;
 
 /// METIS draws from the C library's random numbers and installs signal handlers: one caller at a time.
@@ -45,7 +46,8 @@ class OwnRandomNumbers {
     OwnRandomNumbers& operator=(const OwnRandomNumbers&) = delete;
 
   private:
-    /// Of the same size as the C library's own, so that the numbers are the same.
+    /// The state of METIS's own generator. It has the size of the C library's default state, so that the numbers are
+    /// the same.
     alignas(8) std::array<char, 128> state_{};
     char* callers_;
 };

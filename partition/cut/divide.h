@@ -7,11 +7,11 @@
 
 namespace seamflow {
 
-/// What is done to the parts of a graph afterwards.
+/// The treatment of the parts of a graph after METIS has divided it.
 enum class Afterwards {
-    /// Nothing: METIS has to shape them well.
+    /// Nothing: METIS must shape the parts well.
     Nothing,
-    /// They are made connected, balanced and refined (see refine): METIS may be quick.
+    /// Parts are made connected, balanced and refined (see refine): METIS may be quick.
     Refined,
 };
 

@@ -42,7 +42,8 @@ Index node_weight(const PolygonMesh& mesh, std::span<const Index> faces, Index u
 struct Arc {
     Index target;
     double length;
-    /// Also orders by length, so that shared edges add up to the same bits from both sides.
+    /// Arcs are also ordered by length, so that the lengths of shared edges are added in the same order from both
+    /// sides.
     friend auto operator<=>(const Arc&, const Arc&) = default;
 };
 
@@ -102,8 +103,8 @@ struct ClusterPair {
     Index high;
 };
 
-/// The pairs at all edges between clusters, by blocks of faces. Whether there is one at a half-edge is hard to predict:
-/// each is written, and most are overwritten.
+/// The pairs of clusters at all edges between clusters, by blocks of faces. Each half-edge writes a pair, and most are
+/// overwritten: a branch would be hard to predict.
 std::vector<std::vector<ClusterPair>> list_cut_edges(const PolygonMesh& mesh, const Topology& topology,
                                                      const FaceClusters& clusters, const Executor& exec)
 {
@@ -117,7 +118,8 @@ std::vector<std::vector<ClusterPair>> list_cut_edges(const PolygonMesh& mesh, co
                 const Index twin = topology.twin[h];
                 const Index other =
                     clusters.cluster_of[topology.face_of[twin < 0 ? topology.next_at_junction(h) : twin]];
-                // The half-edges of a junction form a cycle of pairs; others meet from both sides.
+                // The half-edges of a junction form a cycle, which gives each of them a pair; other half-edges give a
+                // pair from both sides.
                 found[n] = {std::min(own, other), std::max(own, other)};
                 n += own < other || (twin < 0 && own != other) ? 1 : 0;
             }
@@ -138,7 +140,7 @@ std::vector<BlockOfArcs> list_arcs_by_count(const PolygonMesh& mesh, const Topol
                 add(pair.high, pair.low);
             }
     });
-    // Sorted as plain numbers: a cluster has five times as many of them as arcs.
+    // Pairs are sorted as plain numbers: a cluster has five times as many pairs as arcs.
     for_each(exec, clusters.size(), [&](Index cluster) {
         const auto begin = neighbours.values.begin();
         std::sort(begin + neighbours.offsets[cluster], begin + neighbours.offsets[cluster + 1]);

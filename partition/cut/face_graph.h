@@ -16,9 +16,9 @@ namespace seamflow {
 /// between two clusters that share edges. Arcs of a node are in ascending order of their targets; there are no
 /// duplicate arcs and no loops.
 struct FaceGraph {
-    /// #nodes + 1; the arcs of node i are those from offsets[i] to offsets[i + 1] - 1.
+    /// #nodes + 1; the arcs of node i have the indices offsets[i] to offsets[i + 1] - 1.
     std::vector<Index> offsets{0};
-    /// #arcs; the node an arc leads to.
+    /// #arcs: the node to which an arc leads.
     std::vector<Index> targets;
     /// #arcs, at least 1: the length or number of all shared edges, in a unit in which the mean is about 64. Equal both
     /// ways.
@@ -28,7 +28,7 @@ struct FaceGraph {
 
     [[nodiscard]] Index n_nodes() const { return static_cast<Index>(offsets.size()) - 1; }
 
-    /// The nodes that the arcs of a node lead to.
+    /// The nodes to which the arcs of a node lead.
     [[nodiscard]] std::span<const Index> neighbours(Index node) const
     {
         const std::size_t begin = usize(offsets[node]);
@@ -36,14 +36,14 @@ struct FaceGraph {
     }
 };
 
-/// Neither the arc weights nor the node weights of a graph add up to more than this.
+/// The largest sum of all arc weights, and of all node weights, of a graph.
 inline constexpr double max_weight_sum = 1e9;
 
 /// The cost of cutting an arc.
 enum class ArcMeasure {
     /// The length of the shared edges.
     Length,
-    /// Their number, about that of the vertices that will lie on the interface.
+    /// The number of shared edges, which is about that of the vertices that will lie on the interface.
     Count,
 };
 

@@ -14,7 +14,7 @@ namespace seamflow {
 
 namespace {
 
-/// Hardly anything moves in later rounds.
+/// Later rounds move hardly any faces.
 constexpr int max_shortening_rounds = 8;
 
 class BoundaryShortener {
@@ -37,6 +37,7 @@ class BoundaryShortener {
         return beside;
     }
 
+    /// Moves face f to a better part.
     /// @returns whether the face changed its label.
     bool improve(Index f)
     {
@@ -51,7 +52,7 @@ class BoundaryShortener {
         for (const Index label : candidates_)
             if (label != own && may_move(f, own, label) && is_better(f, label, best))
                 best = label;
-        // A face with one edge to its part leaves the rest of it connected.
+        // If the face has one edge to its part, the rest of the part stays connected.
         if (best != own && shared_[own] > 1)
             may_be_divided_[own] = true;
         for (const Index label : candidates_)
@@ -71,8 +72,8 @@ class BoundaryShortener {
         return weight_.relieves(weight, from, to) || weight_.stay_balanced(weight, from, to);
     }
 
-    /// Whether the vertices of f that are on no edge to a face of the part have only faces of f's own part, so that
-    /// this is not divided or pinched when f leaves.
+    /// Whether face f is at the outline of its part: at the vertices of f that are on no edge to a face of part
+    /// `label`, all faces are of f's own part. Then the own part is not divided or pinched if f leaves it.
     [[nodiscard]] bool is_outermost(Index f, Index label) const
     {
         const auto leads_to_label = [&](Index h) {
@@ -102,7 +103,7 @@ class BoundaryShortener {
     const Topology& topology_;
     std::vector<Index>& labels_;
     PartWeights weight_;
-    /// One entry per label, 0 between faces: the number of edges that the current face shares with the part.
+    /// One entry per label, 0 between calls: the number of edges that the current face shares with the part.
     std::vector<Index> shared_;
     std::vector<bool> may_be_divided_;
     std::vector<Index> candidates_;
@@ -122,7 +123,7 @@ SuspectedDefects shorten_boundaries(const PolygonMesh& mesh, const Topology& top
     auto faces = select(exec, mesh.n_faces(), [&](Index f) { return shortener.is_beside_boundary(f); });
     std::vector<Index> suspected = faces;
     for (int round = 0; round < max_shortening_rounds && !faces.empty(); ++round) {
-        // Other faces may follow only around faces that have moved.
+        // In the next round, only faces around moved faces are tried.
         std::vector<Index> next;
         for (const Index f : faces)
             if (shortener.improve(f))

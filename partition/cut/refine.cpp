@@ -42,7 +42,7 @@ std::vector<bool> find_heaviest(const FaceGraph& graph, const Components& compon
     return is_heaviest;
 }
 
-/// Hardly anything moves in later rounds.
+/// Later rounds move hardly any nodes.
 constexpr int max_rounds = 8;
 constexpr int max_passes = 3;
 
@@ -64,6 +64,7 @@ class Refiner {
     {
     }
 
+    /// Moves a node to a better part.
     /// @returns whether the node changed its label.
     bool improve(Index node)
     {
@@ -102,7 +103,7 @@ class Refiner {
     const FaceGraph& graph_;
     std::vector<Index>& labels_;
     PartWeights weight_;
-    /// One entry per label, 0 between nodes: the weight of the arcs from the current node to the part.
+    /// One entry per label, 0 between calls: the weight of the arcs from the current node to the part.
     std::vector<std::int64_t> shared_;
     std::vector<Index> candidates_;
 };
@@ -138,7 +139,7 @@ bool join_loose_components(const FaceGraph& graph, Index n_labels, std::vector<I
     for (Index component = 0; component < components.count(); ++component)
         if (!settled[component])
             loose.push_back(component);
-    // A component with only loose ones around it waits for them.
+    // A component that has only loose components around it waits until they are joined.
     const auto join = [&](Index component) {
         std::map<Index, std::int64_t> shared;
         for (const Index node : components.nodes[component])
@@ -163,7 +164,7 @@ bool join_loose_components(const FaceGraph& graph, Index n_labels, std::vector<I
 void refine(const FaceGraph& graph, Index n_labels, std::vector<Index>& labels)
 {
     join_loose_components(graph, n_labels, labels);
-    // Nodes that move may leave loose components behind, and joining those may spoil the balance.
+    // Moved nodes may leave loose components behind, and joining these may spoil the balance.
     for (int pass = 0; pass < max_passes; ++pass) {
         move_nodes(graph, n_labels, labels);
         if (!join_loose_components(graph, n_labels, labels))

@@ -7,10 +7,11 @@
 
 namespace seamflow {
 
-/// How much heavier than the mean of all parts a part may become when nodes or faces move between parts.
+/// The excess of a part's weight over the mean of all parts, as a fraction, that is allowed when nodes or faces move
+/// between parts.
 inline constexpr double balance_tolerance = 0.04;
 
-/// The weights of parts between which nodes or faces move, and how far they may differ (see balance_tolerance).
+/// The weights of parts between which nodes or faces move, and their limits (see balance_tolerance).
 class PartWeights {
   public:
     /// @param weights one entry per part.
@@ -18,7 +19,8 @@ class PartWeights {
 
     std::int64_t operator[](Index part) const { return weights_[part]; }
 
-    /// Whether a part that is too heavy would give this weight to a lighter one, or one that is too light get it.
+    /// Whether a part that is too heavy would give this weight to a lighter part, or a part that is too light would
+    /// receive it.
     [[nodiscard]] bool relieves(Index weight, Index from, Index to) const
     {
         return (weights_[from] > heaviest_ || weights_[to] < lightest_) && weights_[to] + weight < weights_[from];
@@ -42,15 +44,15 @@ class PartWeights {
     std::int64_t lightest_;
 };
 
-/// Makes the parts of a divided graph connected: each keeps its heaviest connected component (of equals the first), and
-/// every other one goes to the neighbouring part to which its arcs weigh most.
+/// Makes the parts of a divided graph connected: each part keeps its heaviest connected component (of equals the
+/// first); every other component moves to the neighbouring part to which its arcs weigh most.
 /// @param labels #nodes, from 0 to n_labels - 1; no part may have nodes in several connected components of the graph.
-/// @returns whether a part had several.
+/// @returns whether a part had several components.
 bool join_loose_components(const FaceGraph& graph, Index n_labels, std::vector<Index>& labels);
 
 /// Makes the parts of a divided graph connected (see join_loose_components) and better: nodes move to neighbouring
-/// parts where one of the two is too heavy or too light (see balance_tolerance), to the part across their heaviest
-/// arcs, and elsewhere where this cuts less.
+/// parts if one of the two parts is too heavy or too light (see balance_tolerance), to the part across their heaviest
+/// arcs, and elsewhere if this cuts less.
 /// @param labels #nodes, from 0 to n_labels - 1; no part may have nodes in several connected components of the graph.
 void refine(const FaceGraph& graph, Index n_labels, std::vector<Index>& labels);
 

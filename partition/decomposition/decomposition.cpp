@@ -11,7 +11,8 @@ namespace seamflow {
 
 namespace {
 
-/// For every vertex of the halo, the lowest of the adjacent sub-meshes that have it; these are the ones that send it.
+/// The transfers into the halo of sub-mesh s: every vertex of the halo is sent by the lowest of the adjacent sub-meshes
+/// that have it.
 std::vector<Transfer> list_halo_transfers(const Topology& topology, std::span<const Index> labels, Index s,
                                           const Decomposition& decomposition)
 {
@@ -30,7 +31,7 @@ std::vector<Transfer> list_halo_transfers(const Topology& topology, std::span<co
     return transfers_to(s, std::move(rows));
 }
 
-/// The faces of a range by their labels, in ascending order for each.
+/// Sorts the faces of a range by their labels; ascending for each label.
 IndexLists sorted_by_label(std::span<const Index> labels, Index n_parts, IndexRange range)
 {
     return make_lists(n_parts, [&](auto&& add) {

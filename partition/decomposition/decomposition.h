@@ -11,7 +11,7 @@
 namespace seamflow {
 
 /// Data from one sub-mesh to another: the rows `source` of the sender's positions become the rows `target` of the
-/// receiver's. Both are local indices; entries correspond.
+/// receiver's positions. Both are lists of local indices, of the same length.
 struct Transfer {
     Index from = -1;
     Index to = -1;
@@ -26,16 +26,16 @@ struct TransferRow {
     Index target;
 };
 
-/// Everything that sub-mesh `to` receives: one transfer from each sender, in ascending order. Rows of the same sender
-/// keep their order.
+/// The transfers to sub-mesh `to`: one from each sender, in ascending order of senders. Rows of the same sender keep
+/// their order.
 std::vector<Transfer> transfers_to(Index to, std::vector<TransferRow> rows);
 
-/// A mesh cut into sub-meshes, and all data exchanged between them between two steps.
+/// A mesh cut into sub-meshes, and the data that sub-meshes exchange between two steps.
 struct Decomposition {
     std::vector<SubMesh> sub_meshes;
-    /// For each sub-mesh, those with which it shares a vertex of Γ, in ascending order.
+    /// For each sub-mesh: the sub-meshes with which it shares a vertex of Γ, in ascending order.
     std::vector<std::vector<Index>> adjacency;
-    /// For each sub-mesh, the transfers into its halo: Vᵏ before step k + 1, and Vᵏ⁺¹ before the correction of Γ.
+    /// For each sub-mesh: the transfers into its halo, of Vᵏ before step k + 1, and of Vᵏ⁺¹ before the correction of Γ.
     /// Senders are adjacent to the receiver, in ascending order.
     std::vector<std::vector<Transfer>> halo;
     /// Number of vertices on Γ, each counted once.
@@ -47,7 +47,7 @@ struct Decomposition {
 std::vector<std::vector<Index>> faces_by_label(std::span<const Index> labels, Index n_parts,
                                                const Executor& exec = run_serially);
 
-/// The inverse: the sub-mesh of every face. @param n_faces of the mesh, each in one sub-mesh.
+/// The sub-mesh of every face: inverse of faces_by_label. @param n_faces of the mesh, each in one sub-mesh.
 std::vector<Index> labels_by_face(const Decomposition& decomposition, Index n_faces);
 
 /// Joins sub-meshes made by make_sub_mesh: sets the sharing of Γ and the halo transfers.

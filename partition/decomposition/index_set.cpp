@@ -9,7 +9,7 @@ namespace seamflow {
 
 namespace {
 
-/// With at most this many indices per value from the first value to the last, the values are dense.
+/// Values are dense if there are at most this many indices per value between the first value and the last.
 constexpr std::size_t most_indices_per_value = 256;
 
 }  // namespace
@@ -52,7 +52,7 @@ void IndexSet::fill_slots(std::span<const Index> values)
 {
     ascending_.assign(values.begin(), values.end());
     sort_unique(ascending_);
-    // At least two values are that far apart: the shift is by fewer bits than the product has.
+    // At least two values are this far apart, so that the shift is by fewer bits than the product has.
     slots_.assign(std::bit_ceil(2 * ascending_.size()), Slot{-1, -1});
     shift_ = 64 - std::countr_zero(slots_.size());
     for (std::size_t i = 0; i < ascending_.size(); ++i)

@@ -17,15 +17,15 @@ class IndexSet {
     /// @param values at least 0, in any order; repetitions are allowed.
     explicit IndexSet(std::span<const Index> values);
 
-    /// Each value once.
+    /// The values, each once, ascending.
     [[nodiscard]] const std::vector<Index>& ascending() const { return ascending_; }
 
-    /// Position of a value, or -1.
+    /// The position of a value in ascending(), or -1.
     [[nodiscard]] Index operator[](Index value) const
     {
         if (!slots_.empty())
             return slots_[slot_of(value)].position;
-        // Values below the first wrap to far beyond the last.
+        // For values below the first, the difference wraps around to numbers beyond the last.
         const std::uint32_t offset = static_cast<std::uint32_t>(value) - static_cast<std::uint32_t>(first_);
         if (offset / bits_per_word >= words_.size())
             return -1;
@@ -38,7 +38,7 @@ class IndexSet {
     static constexpr std::uint32_t bits_per_word = 64;
     struct Word {
         std::uint64_t bits = 0;
-        /// How many bits are set in the words before.
+        /// The number of bits that are set in earlier words.
         Index before = 0;
     };
     struct Slot {
@@ -58,7 +58,7 @@ class IndexSet {
     void fill_slots(std::span<const Index> values);
 
     /// The slot of `value`, or the free slot for it. The upper bits of the product depend on all bits of the value: on
-    /// a grid the indices of a part are a few runs that are a power of two apart.
+    /// a grid, the indices of a part are a few runs whose distances are powers of two.
     [[nodiscard]] std::size_t slot_of(Index value) const
     {
         std::size_t slot = static_cast<std::size_t>(static_cast<std::uint64_t>(value) * 0x9E3779B97F4A7C15U >> shift_);
@@ -68,10 +68,10 @@ class IndexSet {
     }
 
     std::vector<Index> ascending_;
-    /// For values close together: a bit for each index from the first value to the last.
+    /// Dense values: a bit for each index from the first value to the last.
     Index first_ = 0;
     std::vector<Word> words_;
-    /// For scattered values: a table of a power of two slots; free ones have the value -1.
+    /// Scattered values: a table of a power of two slots; free slots have the value -1.
     std::vector<Slot> slots_;
     int shift_ = 0;
 };

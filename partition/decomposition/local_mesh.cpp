@@ -10,7 +10,7 @@ namespace seamflow {
 
 namespace {
 
-/// Numbers the vertices in the order of their global indices.
+/// Numbers the local vertices in the order of their global indices.
 void copy_vertices(const PolygonMesh& mesh, SubMeshDraft& draft)
 {
     SubMesh& sub_mesh = draft.sub_mesh;
@@ -29,7 +29,7 @@ void copy_vertices(const PolygonMesh& mesh, SubMeshDraft& draft)
         corner = draft.vertices[corner];
 }
 
-/// A pair of half-edges is found once, from the first of its faces.
+/// Copies the twins. A pair of half-edges is visited once, at its first half-edge.
 void copy_twins(const PolygonMesh& mesh, const Topology& topology, SubMeshDraft& draft)
 {
     SubMesh& sub_mesh = draft.sub_mesh;

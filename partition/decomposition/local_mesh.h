@@ -12,7 +12,7 @@
 /// The building blocks of all sub-meshes, overlapping or not.
 namespace seamflow {
 
-/// Whether vertex v may move and has faces of several labels: whether it lies on Γ.
+/// Whether vertex v lies on Γ: it may move and has faces of several labels.
 bool is_on_interface(const Topology& topology, std::span<const Index> labels, Index v);
 
 /// Lists the vertices at the other ends of the edges at v, in ascending order.
@@ -21,7 +21,7 @@ void edge_neighbours(const PolygonMesh& mesh, const Topology& topology, Index v,
 /// A sub-mesh under construction, with lookup tables.
 struct SubMeshDraft {
     SubMesh sub_mesh;
-    /// Own vertices, halo vertices and faces, numbered as in the whole mesh.
+    /// The own vertices, the halo vertices and the faces, by their numbers in the whole mesh.
     IndexSet vertices;
     IndexSet halo;
     IndexSet faces;
@@ -35,18 +35,19 @@ struct SubMeshDraft {
     }
 };
 
-/// A sub-mesh of the given faces with its vertices, their fixedness, and its half-edges; no data of other sub-meshes
-/// yet, no owned vertices.
+/// Makes a sub-mesh of the given faces: with its vertices, their fixedness, and its half-edges, but without data of
+/// other sub-meshes, and owning no vertices.
 /// @param faces in ascending order.
 SubMeshDraft copy_faces(const PolygonMesh& mesh, const Topology& topology, std::vector<Index> faces);
 
-/// Appends to the halo those of the given vertices that the sub-mesh does not have.
+/// Appends those of the given vertices that the sub-mesh does not have to the halo.
 void append_halo(std::span<const Index> vertices, SubMeshDraft& draft);
 
-/// Notes a vertex of Γ, to be corrected after a step, and its edge neighbours, all of them in the sub-mesh or its halo.
+/// Appends a vertex of Γ that is corrected after a step, and its edge neighbours, which must all be in the sub-mesh or
+/// its halo.
 void append_corrected(Index v, std::span<const Index> neighbours, SubMeshDraft& draft);
 
-/// Fills in who shares each vertex of an interface: SubMeshInterface::sharing and index_in_sharing.
+/// Fills in the sub-meshes that share each vertex of an interface: SubMeshInterface::sharing and index_in_sharing.
 /// @param labels #F. @param sub_meshes all of them. @param local_to_global of the sub-mesh with the interface.
 void list_sharing(const Topology& topology, std::span<const Index> labels, std::span<const SubMesh> sub_meshes,
                   SubMeshInterface& interface, std::span<const Index> local_to_global);

@@ -10,7 +10,7 @@ namespace seamflow {
 
 namespace {
 
-/// The mesh that one sub-mesh is cut out of.
+/// The mesh from which one sub-mesh is cut out.
 struct Whole {
     const PolygonMesh& mesh;
     const Topology& topology;
@@ -21,7 +21,7 @@ struct Whole {
     [[nodiscard]] Index label_of(Index corner) const { return labels[topology.face_of[corner]]; }
 };
 
-/// The local vertices that have faces of other sub-meshes too.
+/// The local vertices that also have faces of other sub-meshes.
 std::vector<Index> list_shared(const Topology& topology, const SubMesh& sub_mesh)
 {
     std::vector<Index> n_others(sub_mesh.n_vertices);
@@ -36,7 +36,7 @@ std::vector<Index> list_shared(const Topology& topology, const SubMesh& sub_mesh
     return shared;
 }
 
-/// The sub-mesh of the lowest label owns a vertex.
+/// Marks the vertices that the sub-mesh owns. A vertex is owned by the sub-mesh of the lowest label among its faces.
 void mark_owned(const Whole& whole, std::span<const Index> shared, SubMesh& sub_mesh)
 {
     sub_mesh.owned.resize(sub_mesh.n_vertices);
@@ -49,7 +49,7 @@ void mark_owned(const Whole& whole, std::span<const Index> shared, SubMesh& sub_
     }
 }
 
-/// The faces of other sub-meshes that touch Γ, as indices into the whole mesh.
+/// The faces of other sub-meshes that touch Γ, by their numbers in the whole mesh.
 IndexSet list_halo_faces(const Whole& whole, const SubMesh& sub_mesh)
 {
     std::vector<Index> faces;
@@ -74,7 +74,7 @@ void localise_halo_faces(const PolygonMesh& mesh, std::span<const Index> halo_fa
     }
 }
 
-/// Fans and neighbours at one vertex of Γ.
+/// Fills in the fans and neighbours at one vertex of Γ.
 void describe_interface_vertex(const Whole& whole, const IndexSet& halo_faces, Index v, std::vector<Index>& neighbours,
                                SubMeshDraft& draft)
 {

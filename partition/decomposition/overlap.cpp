@@ -21,7 +21,7 @@ std::vector<Index> next_layer(const PolygonMesh& mesh, const Topology& topology,
             for (const Index corner : topology.corners_at(v)) {
                 const Index f = topology.face_of[corner];
                 const Index part = overlap.labels[f];
-                if (part != s && overlap.stage[part] >= overlap.stage[s] && position_in(faces, f) < 0)
+                if (part != s && overlap.stage[part] >= overlap.stage[s] && find_in(faces, f) < 0)
                     layer.push_back(f);
             }
     sort_unique(layer);
@@ -31,9 +31,8 @@ std::vector<Index> next_layer(const PolygonMesh& mesh, const Topology& topology,
 bool is_artificial_boundary(const Topology& topology, const SubMesh& sub_mesh, Index v)
 {
     const auto corners = topology.corners_at(v);
-    return topology.moves(v) && std::any_of(corners.begin(), corners.end(), [&](Index c) {
-               return position_in(sub_mesh.faces, topology.face_of[c]) < 0;
-           });
+    return topology.moves(v) && std::any_of(corners.begin(), corners.end(),
+                                            [&](Index c) { return find_in(sub_mesh.faces, topology.face_of[c]) < 0; });
 }
 
 void list_artificial_boundary(const Topology& topology, SubMesh& sub_mesh)
@@ -50,7 +49,7 @@ void list_artificial_boundary(const Topology& topology, SubMesh& sub_mesh)
     }
 }
 
-/// The vertices of these faces for which `holds` is true, as in the whole mesh, ascending.
+/// The vertices of these faces for which `holds` is true, by their numbers in the whole mesh, ascending.
 template <class Predicate>
 std::vector<Index> vertices_of(const PolygonMesh& mesh, std::span<const Index> faces, Predicate&& holds)
 {
@@ -61,7 +60,7 @@ std::vector<Index> vertices_of(const PolygonMesh& mesh, std::span<const Index> f
     return vertices;
 }
 
-/// Marks the vertices that a sub-mesh owns: those that may move and whose lowest label is its own.
+/// Marks the vertices that a sub-mesh owns: those that may move and whose lowest label is the sub-mesh's own.
 void mark_owned(const Topology& topology, std::span<const Index> labels, Index own, SubMesh& sub_mesh)
 {
     sub_mesh.owned.resize(sub_mesh.n_vertices);
@@ -72,7 +71,8 @@ void mark_owned(const Topology& topology, std::span<const Index> labels, Index o
     }
 }
 
-/// For every vertex that is not of part s, the lowest part that has it; these are the ones that send it.
+/// The transfers into part s: every vertex outside the ungrown part is sent by the lowest part that has it before
+/// growing.
 std::vector<Transfer> list_halo_transfers(const Topology& topology, const Overlap& overlap, Index s,
                                           std::span<const SubMesh> sub_meshes)
 {

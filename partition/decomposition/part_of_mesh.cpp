@@ -21,7 +21,7 @@ SubMesh make_ghost_sub_mesh(const PolygonMesh& mesh, const Topology& topology, s
     return fragment;
 }
 
-/// Makes a whole sub-mesh own vertices that fragments would, if it is the lowest whole one there.
+/// Makes a whole sub-mesh own a vertex that a fragment would own, if it is the lowest whole sub-mesh there.
 void speak_for_fragments(const Topology& topology, std::span<const Index> labels,
                          std::span<const std::uint8_t> is_whole, Index s, SubMesh& sub_mesh)
 {

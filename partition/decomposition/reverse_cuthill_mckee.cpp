@@ -8,10 +8,11 @@ namespace seamflow {
 
 std::vector<Index> reverse_cuthill_mckee(const std::vector<std::vector<Index>>& adjacency)
 {
-    // The number of the last walk that reached each vertex; 0: none.
+    // Per vertex, the number of the last walk that reached it; 0: none.
     std::vector<int> reached_in(adjacency.size(), 0);
     int n_walks = 0;
-    // All vertices of a component, breadth first, those reached from a vertex by ascending degree.
+    // The vertices of a component, breadth first; the vertices reached from one vertex are in ascending order of their
+    // degrees.
     const auto walk = [&](Index start) {
         ++n_walks;
         std::vector<Index> order;

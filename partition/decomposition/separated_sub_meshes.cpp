@@ -7,7 +7,8 @@ namespace seamflow {
 
 namespace {
 
-/// Numbers the copies; one that is `taken` already gets a new vertex, recorded in `originals`.
+/// Numbers the copies of a sub-mesh's vertices. A vertex that is `taken` already gets a new number, and is appended to
+/// `originals`.
 std::vector<Index> number_vertices(const SubMesh& sub_mesh, std::vector<std::uint8_t>& taken,
                                    std::vector<Index>& originals)
 {

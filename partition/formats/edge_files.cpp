@@ -18,7 +18,7 @@ namespace seamflow {
 
 namespace {
 
-/// Collects edges, and rejects those that cannot be edges of the mesh.
+/// Collects edges, and refuses pairs that cannot be edges of the mesh.
 class EdgeList {
   public:
     explicit EdgeList(Index n_vertices)

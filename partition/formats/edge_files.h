@@ -11,9 +11,10 @@ namespace seamflow {
 /// vertex1 and vertex2), from any other file two vertex numbers per line, from 0; blank lines and anything after a #
 /// are skipped.
 /// @param n_vertices of the mesh.
-/// @returns in the order of the file; each is between two vertices of the mesh, whether or not faces have it.
-/// @throws InputError naming file and line or element, and what to do; also where an .obj or .ply file has none, and
-/// for a file of another format of meshes, which cannot have any.
+/// @returns the edges in the order of the file. Each is between two vertices of the mesh, but need not be an edge of a
+/// face.
+/// @throws InputError naming file and line or element, and a remedy; also for an .obj or .ply file without edges, and
+/// for a file of another mesh format, which cannot have edges.
 std::vector<Edge> read_edges(const std::filesystem::path& path, Index n_vertices);
 
 }  // namespace seamflow

@@ -27,7 +27,7 @@ bool is_one_word(std::string_view name)
            std::ranges::none_of(name, [](char c) { return static_cast<unsigned char>(c) <= ' ' || c == '\x7f'; });
 }
 
-/// The names that a word stands for; itself if there are none.
+/// The names of the fields that a word stands for; the word itself if it is no group of fields.
 std::vector<std::string> fields_meant_by(const std::string& word)
 {
     if (word == "normal")
@@ -88,7 +88,7 @@ void round_as_written(FileFields& fields, const Eigen::MatrixXd& extremes, const
     for (Eigen::Index c = 0; c < fields.values.cols(); ++c) {
         const auto column = static_cast<std::size_t>(c);
         if (const auto range = column < fields.whole.size() ? fields.whole[column] : std::nullopt)
-            // The sum is not -0.
+            // Adding 0 turns -0 into 0.
             round_column(
                 c, [&](double value) { return std::clamp(std::round(value), range->least, range->largest) + 0.0; });
         else if (column < fields.decimals.size() && fields.decimals[column] != Decimals::Double &&

@@ -15,40 +15,41 @@
 
 namespace seamflow {
 
-/// The ends of the whole numbers that a field of a file can hold.
+/// The smallest and the largest whole number that a field of a file can hold.
 struct WholeRange {
     double least = 0.0;
     double largest = 0.0;
 };
 
-/// How a file holds numbers that need not be whole.
+/// The precision in which a file holds numbers that need not be whole.
 enum class Decimals {
     Double,
-    /// In four bytes.
+    /// Four bytes.
     Single,
-    /// As the shortest text that reads back to the same number in single precision.
+    /// The shortest text that reads back to the same number in single precision.
     SingleText
 };
 
 /// Numbers of the vertices of a file besides their positions, such as colours, normals or measurements.
 struct FileFields {
-    /// One for each column, each once.
+    /// The name of each column; no name occurs twice.
     std::vector<std::string> names = {};
     /// #V by names. NaN means that a vertex has no data.
     Eigen::MatrixXd values = {};
-    /// Of fields that were read, one for each column: nothing where its numbers need not be whole.
+    /// Only for fields that were read, one per column: the range of its numbers if they must be whole; otherwise
+    /// nothing.
     std::vector<std::optional<WholeRange>> whole = {};
-    /// The same where they need not be.
+    /// Only for fields that were read, one per column: the precision of its numbers if they need not be whole.
     std::vector<Decimals> decimals = {};
 
-    /// The column of that name; -1 if there is none.
+    /// The column of a name; -1 if there is none.
     [[nodiscard]] Index column(std::string_view name) const;
 };
 
 /// Rounds the values of fields that were read as write_mesh_like does: whole numbers to the nearest within their range,
-/// others to single precision where the file has them in that. Reading the result gives these numbers.
-/// @param extremes n by columns: among them the least and the largest of each column in the whole file. Where single
-///        precision cannot hold them, they are written as doubles.
+/// others to single precision if the file has them in that precision. Reading the written file gives these numbers.
+/// @param extremes n by columns: the least and the largest value of each column in the whole file are among the rows.
+///        If single precision cannot hold them, values are written as doubles.
 void round_as_written(FileFields& fields, const Eigen::MatrixXd& extremes, const Executor& exec);
 
 /// The names of fields, each once, with nx, ny, nz for `normal`, and red, green, blue for `colour` or `color`.

@@ -15,15 +15,15 @@
 
 namespace seamflow {
 
-/// A glTF 2.0 file together with the buffers that it names: those in other files and those in `data:` URIs.
+/// Joins a glTF 2.0 file and the buffers that it names, in other files and in `data:` URIs.
 /// @param content of `file`: .glb or .gltf.
-/// @returns nothing if the file has all of them in its binary chunk; then its own content serves below.
+/// @returns nothing if all buffers are in the file's binary chunk; then the functions below take its own content.
 /// @throws InputError naming the file and the buffer.
 std::optional<OpenFile> with_gltf_buffers(const OpenFile& file, std::string_view content);
 
 /// Reads the triangles, strips and fans of all primitives of all meshes, each mesh in its own coordinates: the
 /// transforms of nodes are not applied. A set of positions that several primitives share is one set of vertices, and
-/// primitives that are alike are one; all else is passed over.
+/// identical primitives are one; all other content is skipped.
 /// @param path for messages only. @param content see with_gltf_buffers.
 /// @param faults if not null, collects faults instead of throwing.
 /// @throws InputError naming the element of the file, as in `meshes[0].primitives[1].indices`; also for positions that
@@ -41,9 +41,9 @@ void require_fits_gltf(const std::filesystem::path& path, const PolygonMesh& mes
 void write_gltf(OutputFile& file, const PolygonMesh& mesh, FileFormat format, const Slicing& slicing);
 
 /// Rewrites a file read by `read_gltf` with other positions. Normals become those of the new surface, and the bounds
-/// (min and max) of what has changed are updated; all else stays byte for byte. What has changed of a sparse accessor
-/// makes it dense: its vectors are added at the end of the buffer. Buffers that are in other files are written to new
-/// files beside the result, which are never those of the input.
+/// (min and max) of changed data are updated; all other bytes stay. A changed sparse accessor becomes dense: its
+/// vectors are added at the end of the buffer. Buffers in other files are written to new files beside the result, never
+/// over those of the input.
 /// @param path of the file that was read. @param content see with_gltf_buffers. @param mesh with the faces of the file.
 /// @param seam_distance see write_mesh_like.
 /// @returns remarks for the user, in sentences.

@@ -25,7 +25,7 @@ std::size_t found_in(const Table& table, const Key& key, const GltfValue& value)
     return found->second;
 }
 
-/// The bytes of a view: the span of one element.
+/// The bytes of a buffer view, as the span of one element.
 GltfSpan view_of(const GltfContent& content, const GltfValue& view)
 {
     for (const char* const extension : {"EXT_meshopt_compression", "KHR_meshopt_compression"})
@@ -46,7 +46,7 @@ GltfSpan view_of(const GltfContent& content, const GltfValue& view)
     return {.buffer = buffer, .offset = offset, .stride = view["byteStride"].number_or(0), .size = size, .count = 1};
 }
 
-/// The type of the elements of an accessor, and how many there are.
+/// The type of the elements of an accessor, and their number.
 GltfSpan elements_of(const GltfValue& accessor)
 {
     const GltfValue type = accessor["type"];
@@ -67,23 +67,23 @@ std::size_t count_of(const GltfValue& list)
 }
 
 /// Finds elements in a view.
-/// @param place names the view, and perhaps an offset in it. @param span their type and number.
-GltfSpan placed_in_view(const GltfContent& content, const GltfValue& place, GltfSpan span)
+/// @param source names the view, and perhaps an offset in it. @param span their type and number.
+GltfSpan span_in_view(const GltfContent& content, const GltfValue& source, GltfSpan span)
 {
-    const GltfValue view = content.named_by(place["bufferView"], "bufferViews");
+    const GltfValue view = content.named_by(source["bufferView"], "bufferViews");
     const GltfSpan bytes = view_of(content, view);
-    const std::uint64_t offset = place["byteOffset"].number_or(0);
+    const std::uint64_t offset = source["byteOffset"].number_or(0);
     span.buffer = bytes.buffer;
     span.offset = bytes.offset + offset;
     span.stride = bytes.stride > 0 ? bytes.stride : span.size;
     if (span.stride < span.size)
         view["byteStride"].fail(fmt::format("is {}, but the elements of {} have {} bytes; export the mesh again",
-                                            span.stride, place.name(), span.size));
+                                            span.stride, source.name(), span.size));
     if (offset > bytes.size || bytes.size - offset < span.size ||
         span.count - 1 > (bytes.size - offset - span.size) / span.stride)
-        place.fail(fmt::format("its {} do not fit into {}, which has {}; export the mesh again",
-                               counted(span.count, "element", "elements"), view.name(),
-                               counted(bytes.size, "byte", "bytes")));
+        source.fail(fmt::format("its {} do not fit into {}, which has {}; export the mesh again",
+                                counted(span.count, "element", "elements"), view.name(),
+                                counted(bytes.size, "byte", "bytes")));
     return span;
 }
 
@@ -109,7 +109,8 @@ void require_ascending(const GltfContent& content, const GltfValue& list, const 
     }
 }
 
-/// A few bytes announce any number of zeros: no mesh has more vertices than the file has bytes to name them by.
+/// Refuses a sparse accessor of more elements than the file has bytes to name them by: a few bytes could announce any
+/// number of zeros.
 void require_few(const GltfContent& content, const GltfValue& accessor, std::size_t count)
 {
     std::size_t n_bytes = 0;
@@ -139,7 +140,7 @@ GltfSpan span_of_gltf(const GltfContent& content, const GltfValue& accessor)
         accessor.fail("has no bufferView and so no data; export the mesh again");
     GltfSpan span = elements_of(accessor);
     span.count = count_of(accessor);
-    return placed_in_view(content, accessor, span);
+    return span_in_view(content, accessor, span);
 }
 
 GltfSparse sparse_of_gltf(GltfContent& content, const GltfValue& number)
@@ -150,19 +151,19 @@ GltfSparse sparse_of_gltf(GltfContent& content, const GltfValue& number)
     sparse.dense = elements_of(accessor);
     sparse.dense.count = count_of(accessor);
     if (accessor["bufferView"].is_there())
-        sparse.base = placed_in_view(content, accessor, sparse.dense);
+        sparse.base = span_in_view(content, accessor, sparse.dense);
     else
         require_few(content, accessor, sparse.dense.count);
     sparse.values = sparse.dense;
     sparse.values.count = count_of(replaced);
-    sparse.values = placed_in_view(content, replaced["values"], sparse.values);
+    sparse.values = span_in_view(content, replaced["values"], sparse.values);
     const GltfValue indices = replaced["indices"];
     sparse.indices.component = indices["componentType"].number();
     sparse.indices.size = found_in(bytes_of_components, sparse.indices.component, indices["componentType"]);
     sparse.indices.n_components = 1;
     sparse.indices.count = sparse.values.count;
     require_gltf_indices(sparse.indices, indices);
-    sparse.indices = placed_in_view(content, indices, sparse.indices);
+    sparse.indices = span_in_view(content, indices, sparse.indices);
     require_ascending(content, indices, sparse);
     sparse.dense.buffer = content.add_buffer(dense_bytes(sparse, [&](std::size_t i) { return content.buffer(i); }));
     return sparse;

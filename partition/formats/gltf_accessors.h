@@ -14,19 +14,19 @@
 
 namespace seamflow {
 
-/// Where the elements of an accessor are: `size` bytes each, `stride` apart, from byte `offset` of a buffer on. They
-/// are known to be there.
+/// The bytes of the elements of an accessor: `size` bytes each, `stride` apart, beginning at byte `offset` of a buffer.
+/// They are known to be within the buffer.
 struct GltfSpan {
     std::size_t buffer = 0;
     std::size_t offset = 0;
     std::size_t stride = 0;
     std::size_t size = 0;
     std::size_t count = 0;
-    /// As the file numbers types, see below.
+    /// The number of the type in the file (see below).
     std::uint64_t component = 0;
     std::size_t n_components = 0;
 
-    /// The bytes from the first to the last.
+    /// The index of the byte after the last element.
     [[nodiscard]] std::size_t end() const { return offset + (count - 1) * stride + size; }
 
     friend bool operator==(const GltfSpan&, const GltfSpan&) = default;
@@ -37,7 +37,7 @@ inline constexpr std::uint64_t gltf_short = 5123;
 inline constexpr std::uint64_t gltf_int = 5125;
 inline constexpr std::uint64_t gltf_float = 5126;
 
-/// The number that an element of indices has, unsigned and of 1, 2 or 4 bytes.
+/// The value of an index: unsigned, of 1, 2 or 4 bytes.
 /// @param bytes of the element.
 inline std::uint32_t gltf_index(const char* bytes, std::uint64_t component)
 {
@@ -71,16 +71,16 @@ void require_gltf_indices(const GltfSpan& span, const GltfValue& name);
 ///         sparse or without data.
 GltfSpan span_of_gltf(const GltfContent& content, const GltfValue& accessor);
 
-/// An accessor some of whose elements are replaced by values that are listed elsewhere.
+/// An accessor of which some elements are replaced by values that are listed elsewhere in the file.
 struct GltfSparse {
-    /// Its number.
+    /// The number of the accessor.
     std::size_t accessor = 0;
-    /// The elements before; nothing: zeros.
+    /// The elements without replacements; nothing: zeros.
     std::optional<GltfSpan> base;
-    /// Of the elements that are replaced, ascending.
+    /// The indices of the replaced elements, ascending.
     GltfSpan indices;
     GltfSpan values;
-    /// All elements one behind the other, in a buffer which is not in the file.
+    /// All elements after replacement, in a buffer that is not in the file.
     GltfSpan dense;
 };
 

@@ -29,32 +29,32 @@ std::set<std::string> names_of_buffers(const std::filesystem::path& path)
                 uri.is_there() && !is_gltf_data(uri.text()))
                 names.insert(gltf_name_of(uri.text()));
     } catch (const InputError&) {
-        // There is none, or it is another kind of file.
+        // There is no such file, or it is of another kind.
     }
     return names;
 }
 
 }  // namespace
 
-std::vector<std::filesystem::path> places_of_gltf_buffers(const std::filesystem::path& output,
-                                                          const std::filesystem::path& input, std::size_t n)
+std::vector<std::filesystem::path> paths_of_gltf_buffers(const std::filesystem::path& output,
+                                                         const std::filesystem::path& input, std::size_t n)
 {
     const std::filesystem::path file = file_behind(output);
     std::error_code ignored;
-    // Those that the file which is replaced names, and nobody else.
+    // Names are used again if the file that is replaced names them, and no other file does.
     std::set<std::string> replaced = names_of_buffers(output);
     for (const std::string& of_input : names_of_buffers(input))
         std::erase_if(replaced, [&](const std::string& name) {
             return std::filesystem::equivalent(file.parent_path() / name, input.parent_path() / of_input, ignored);
         });
-    std::vector<std::filesystem::path> places;
-    for (int number = 1; places.size() < n; ++number) {
-        std::filesystem::path place = before_extension(file);
-        place += number == 1 ? ".bin" : fmt::format("-{}.bin", number);
-        if (replaced.contains(place.filename().string()) || !std::filesystem::exists(place, ignored))
-            places.push_back(std::move(place));
+    std::vector<std::filesystem::path> paths;
+    for (int number = 1; paths.size() < n; ++number) {
+        std::filesystem::path path = before_extension(file);
+        path += number == 1 ? ".bin" : fmt::format("-{}.bin", number);
+        if (replaced.contains(path.filename().string()) || !std::filesystem::exists(path, ignored))
+            paths.push_back(std::move(path));
     }
-    return places;
+    return paths;
 }
 
 }  // namespace seamflow

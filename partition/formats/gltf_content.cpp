@@ -19,7 +19,8 @@ namespace seamflow {
 namespace {
 
 constexpr std::string_view signature = "glTF";
-/// Begins a file with its buffers behind it, in memory. No file can begin so: this is no version of the format.
+/// The beginning of a file in memory that has its buffers appended. No file can begin like this: it is no version of
+/// the format.
 constexpr std::string_view signature_with_buffers = "glTF\xff\xff\xff\xff";
 
 [[noreturn]] void refuse_gltf(const std::filesystem::path& path, const std::string& complaint)
@@ -36,7 +37,7 @@ Number number_at(std::string_view bytes, std::size_t offset)
                : 0;
 }
 
-/// A piece that begins at an offset; cut off where the bytes end.
+/// The piece of `size` bytes that begins at an offset; shorter if the bytes end before.
 std::string_view piece_at(std::string_view bytes, std::uint64_t offset, std::uint64_t size)
 {
     return offset <= bytes.size() ? bytes.substr(offset, size) : std::string_view();
@@ -78,7 +79,7 @@ GltfValue GltfValue::operator[](const std::string& key) const
         return {path_, nullptr, name};
     if (!value_->is_object())
         fail("expected an object { … }; export the mesh again");
-    // Of members with the same name the last one counts.
+    // If several members have the same name, the last one counts.
     const auto found = std::find_if(value_->children.rbegin(), value_->children.rend(),
                                     [&](const JsonNode* member) { return text_of_json(member->key) == key; });
     return {path_, found != value_->children.rend() ? *found : nullptr, name};
@@ -153,7 +154,7 @@ GltfContent::GltfContent(const std::filesystem::path& path, std::string_view con
         buffers_[0] = chunk_;
     if (!content.starts_with(signature_with_buffers))
         return;
-    // Behind the signature: the size of the file, the file, and so on for each buffer.
+    // After the signature follow the size of the file, the file, and the same for each buffer.
     std::uint64_t next = signature_with_buffers.size() + sizeof(std::uint64_t) + file_.size();
     for (std::string_view& buffer : buffers_) {
         const auto size = number_at<std::uint64_t>(content, next);
@@ -163,7 +164,7 @@ GltfContent::GltfContent(const std::filesystem::path& path, std::string_view con
     }
 }
 
-/// Finds the file, and the text and the binary chunk in it.
+/// Finds the file, and within it the text and the binary chunk.
 void GltfContent::take_apart(std::string_view content)
 {
     file_ = content;

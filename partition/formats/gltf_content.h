@@ -16,7 +16,7 @@
 
 namespace seamflow {
 
-/// A value in the JSON text of a glTF file, or the lack of one; complaints name it as in `meshes[0].primitives[1]`.
+/// A value in the JSON text of a glTF file, or a missing value. Messages name it as in `meshes[0].primitives[1]`.
 class GltfValue final : public InputPosition {
   public:
     /// @param path, value must outlive this object. @param name empty: the whole text.
@@ -31,29 +31,30 @@ class GltfValue final : public InputPosition {
     [[nodiscard]] const std::string& name() const { return name_; }
 
     /// A member of an object.
-    /// @throws InputError if this is there, but no object.
+    /// @throws InputError if this value exists and is no object.
     [[nodiscard]] GltfValue operator[](const std::string& key) const;
 
-    /// Number of elements of an array; 0 if it is not there.
-    /// @throws InputError if this is there, but no array.
+    /// The number of elements of an array; 0 for a missing value.
+    /// @throws InputError if this value exists and is no array.
     [[nodiscard]] std::size_t size() const;
     /// @pre i < size().
     [[nodiscard]] GltfValue at(std::size_t i) const;
 
-    /// The names of the members; none if it is not there.
+    /// The names of the members; none for a missing value.
     [[nodiscard]] std::vector<std::string> keys() const;
 
     /// A whole number of at least 0 that a double can hold.
-    /// @throws InputError if this is anything else, or is not there.
+    /// @throws InputError for any other value, and for a missing one.
     [[nodiscard]] std::uint64_t number() const;
     [[nodiscard]] std::uint64_t number_or(std::uint64_t otherwise) const { return is_there() ? number() : otherwise; }
 
-    /// @throws InputError if this is not text.
+    /// The text of a string.
+    /// @throws InputError if this is no string.
     [[nodiscard]] std::string text() const;
 
-    /// As it is written; empty if it is not there.
+    /// The JSON text of the value; empty for a missing value.
     [[nodiscard]] std::string_view source() const { return value_ != nullptr ? value_->source : std::string_view(); }
-    /// Its elements or members; none if it is not there, or cannot have any.
+    /// The elements or members; none for a missing value or one of another type.
     [[nodiscard]] std::vector<const JsonNode*> nodes() const
     {
         return value_ != nullptr ? value_->children : std::vector<const JsonNode*>();
@@ -67,14 +68,14 @@ class GltfValue final : public InputPosition {
     std::string name_;
 };
 
-/// A glTF file taken apart.
+/// The pieces of a glTF file.
 class GltfContent {
   public:
     /// @param path for messages; must outlive this object, as must `content`: see with_gltf_buffers.
     /// @throws InputError if it is not glTF 2.0.
     GltfContent(const std::filesystem::path& path, std::string_view content);
 
-    /// As it was read.
+    /// The path of the file, for messages.
     [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 
     /// A .glb file, or the text of a .gltf file.
@@ -88,17 +89,17 @@ class GltfContent {
     /// The value of the whole text.
     [[nodiscard]] GltfValue root() const { return {path_, &json_.root(), ""}; }
 
-    /// The element that a number stands for.
+    /// The element of a list that a number names.
     /// @param list such as "accessors".
-    /// @throws InputError if there is none of that number.
+    /// @throws InputError if there is no such element.
     [[nodiscard]] GltfValue named_by(const GltfValue& number, const std::string& list) const;
 
     /// All bytes of a buffer, perhaps more than its length.
-    /// @pre it is in the list of buffers, or added.
+    /// @pre the buffer is in the file's list, or was added.
     [[nodiscard]] std::string_view buffer(std::size_t i) const { return buffers_[i]; }
     [[nodiscard]] std::size_t n_buffers() const { return buffers_.size(); }
 
-    /// Adds a buffer behind those of the file.
+    /// Adds a buffer after those of the file.
     /// @returns its number.
     std::size_t add_buffer(std::string bytes)
     {
@@ -123,7 +124,7 @@ constexpr std::size_t glb_header_bytes = 12;
 constexpr std::size_t glb_chunk_header_bytes = 8;
 
 /// Writes the header and the first chunk of a .glb file.
-/// @param text of a multiple of four bytes. @param n_behind the number of bytes that follow.
+/// @param text of a multiple of four bytes. @param n_behind the number of bytes that follow it.
 void write_glb_head(ByteWriter& file, std::string_view text, std::size_t n_behind);
 
 }  // namespace seamflow

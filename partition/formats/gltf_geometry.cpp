@@ -15,7 +15,7 @@ namespace seamflow {
 
 namespace {
 
-/// The lists of a primitive's attributes, each looked up once.
+/// The accessors of a primitive's attributes, each looked up once.
 class Accessors {
   public:
     explicit Accessors(GltfContent& content)
@@ -34,7 +34,7 @@ class Accessors {
         return known->second;
     }
 
-    /// Those of the lists so far.
+    /// The sparse accessors found so far.
     std::vector<GltfSparse>& sparse() { return sparse_; }
 
   private:
@@ -43,9 +43,10 @@ class Accessors {
     std::vector<GltfSparse> sparse_;
 };
 
-/// Spans of vectors, joined where they share elements.
+/// Spans of vectors; spans that share elements are joined.
 class SharedVectors {
   public:
+    /// Adds a span.
     /// @returns its number among those added.
     std::size_t add(const GltfSpan& span, const std::string& name)
     {
@@ -54,12 +55,12 @@ class SharedVectors {
         return spans_.size() - 1;
     }
 
-    /// To be called when all have been added.
-    /// @returns how many elements there are.
+    /// Joins the spans. To be called when all have been added.
+    /// @returns the number of elements.
     std::int64_t join();
 
     [[nodiscard]] const std::vector<GltfVectors>& joined() const { return joined_; }
-    /// The number of the first element of a span among those of all.
+    /// The number of the first element of a span among all elements.
     [[nodiscard]] Index first_of(std::size_t span) const
     {
         const GltfVectors& all = joined_[of_span_[span]];
@@ -75,7 +76,7 @@ class SharedVectors {
 
 std::int64_t SharedVectors::join()
 {
-    // Those that can share elements follow each other.
+    // In this order, spans that can share elements follow each other.
     std::vector<std::size_t> order(spans_.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::ranges::sort(order, {}, [&](std::size_t i) {
@@ -96,10 +97,10 @@ std::int64_t SharedVectors::join()
         list.count = std::max(list.count, (span.offset - list.offset) / span.stride + span.count);
         list_of[i] = lists.size() - 1;
     }
-    std::vector<std::size_t> place(lists.size(), none);
+    std::vector<std::size_t> list_at(lists.size(), none);
     std::int64_t n = 0;
     for (std::size_t i = 0; i < spans_.size(); ++i) {
-        std::size_t& there = place[list_of[i]];
+        std::size_t& there = list_at[list_of[i]];
         if (there == none) {
             there = joined_.size();
             joined_.push_back({lists[list_of[i]], names_[i], static_cast<Index>(n)});
@@ -123,7 +124,7 @@ bool share_bytes(const GltfSpan& a, const GltfSpan& b)
     return behind < a.size || behind + b.size > a.stride;
 }
 
-/// A part of the surface in a buffer.
+/// A span of bytes that the surface occupies in a buffer.
 struct OccupiedSpan {
     GltfSpan span;
     std::string name;
@@ -134,7 +135,7 @@ struct OccupiedSpan {
 void require_apart(const GltfContent& content, std::vector<OccupiedSpan> spans)
 {
     std::ranges::sort(spans, {}, [](const OccupiedSpan& one) { return std::pair(one.span.buffer, one.span.offset); });
-    // Those before the current one that reach beyond its begin.
+    // The earlier spans that reach beyond the beginning of the present one.
     std::vector<const OccupiedSpan*> reaching;
     for (const OccupiedSpan& one : spans) {
         std::erase_if(reaching, [&](const OccupiedSpan* other) {
@@ -144,7 +145,7 @@ void require_apart(const GltfContent& content, std::vector<OccupiedSpan> spans)
             if ((one.is_written || other->is_written) && share_bytes(one.span, other->span))
                 GltfValue(content.path(), nullptr, one.name)
                     .fail("shares bytes with " + other->name + ", which would change with it; export the mesh again");
-        // Of spans that are only read one is enough where it reaches as far.
+        // A span that is only read is needed only if no other such span reaches as far.
         if (one.is_written || std::ranges::none_of(reaching, [&](const OccupiedSpan* other) {
                 return !other->is_written && other->span.end() >= one.span.end() && other->span == one.span;
             }))
@@ -152,7 +153,7 @@ void require_apart(const GltfContent& content, std::vector<OccupiedSpan> spans)
     }
 }
 
-/// What is found while the primitives are walked through.
+/// Collects the surface while the primitives are visited.
 class GeometryFinder {
   public:
     explicit GeometryFinder(GltfContent& content)
@@ -246,7 +247,7 @@ void GeometryFinder::add(const GltfValue& primitive)
     found_.push_back({std::move(one), positions_.add(positions, attributes["POSITION"].name()), normals});
 }
 
-/// A normal belongs to the vertex of the same number in the primitive.
+/// Relates each normal to the vertex of the same number in the primitive.
 void GeometryFinder::relate_normals(const Found& found)
 {
     constexpr Index unknown = -2;
@@ -271,7 +272,7 @@ GltfGeometry GeometryFinder::finish()
         content_.root().fail("has no triangles, strips or fans in its meshes; export a mesh with its surface");
     geometry_.n_vertices = require_few(positions_.join(), "vertices");
     geometry_.vertex_of_normal.assign(usize(require_few(normals_.join(), "normals")), -2);
-    // Vertices, mode, and buffer, offset, stride, count and type of the indices.
+    // The key of a primitive: its vertices and mode, and buffer, offset, stride, count and type of its indices.
     std::set<std::tuple<Index, Index, GltfPrimitive::Mode, std::array<std::uint64_t, 5>>> known;
     for (Found& found : found_) {
         found.primitive.first_vertex = positions_.first_of(found.positions);

@@ -14,16 +14,17 @@
 
 namespace seamflow {
 
-/// Vectors of three floats, known to several accessors, in the order of the buffer.
+/// Vectors of three floats in a buffer, in the order of the buffer. Several accessors may use them.
 struct GltfVectors {
     GltfSpan span;
-    /// Where the file names them first, for messages.
+    /// The name of their first use in the file, for messages.
     std::string name;
-    /// The number of its first element among those of all.
+    /// The number of the first vector among all vectors.
     Index first = 0;
 };
 
-/// Runs body(list, i, number) for the n elements of some lists.
+/// Runs body(list, i, number) for all vectors of some lists: i is the index within the list, number the index among the
+/// n vectors of all lists.
 template <class Body>
 void for_each_vector(const std::vector<GltfVectors>& lists, Index n, const Executor& exec, Body&& body)
 {
@@ -37,44 +38,44 @@ void for_each_vector(const std::vector<GltfVectors>& lists, Index n, const Execu
     });
 }
 
-/// Triangles of a file.
+/// A primitive of a file, which consists of triangles.
 struct GltfPrimitive {
     enum class Mode { Triangles = 4, Strip = 5, Fan = 6 };
 
     Mode mode = Mode::Triangles;
-    /// The number of the first vertex, and how many there are.
+    /// The number of its first vertex, and the number of its vertices.
     Index first_vertex = 0;
     Index n_vertices = 0;
-    /// Nothing: they are 0, 1, 2, …
+    /// The indices; nothing: they are 0, 1, 2, …
     std::optional<GltfSpan> indices;
-    /// Of the indices or else of the positions, for messages.
+    /// The name of the indices, or of the positions if there are none, for messages.
     std::string name;
-    /// Number of faces of those before it.
+    /// The number of faces of all earlier primitives.
     std::int64_t first_face = 0;
     std::int64_t n_faces = 0;
 };
 
-/// The surface in a file, see read_gltf.
+/// The surface in a file (see read_gltf).
 struct GltfGeometry {
-    /// In the order in which the primitives name them.
+    /// The vectors of positions, in the order in which primitives first use them.
     std::vector<GltfVectors> positions;
     Index n_vertices = 0;
-    /// Each once.
+    /// The primitives, each once.
     std::vector<GltfPrimitive> primitives;
     std::int64_t n_faces = 0;
     std::vector<GltfVectors> normals;
-    /// For each normal its vertex, or -1 if it has several.
+    /// For each normal, its vertex; -1 if it belongs to several.
     std::vector<Index> vertex_of_normal;
-    /// Those among the accessors of all these.
+    /// The sparse accessors of positions, normals and indices.
     std::vector<GltfSparse> sparse;
-    /// Whether a primitive has normals that are not floats, or are not there once for each vertex.
+    /// Whether a primitive has normals that are not floats, or not one for each vertex.
     bool has_other_normals = false;
     bool has_tangents = false;
     bool has_morph_targets = false;
 };
 
-/// Finds the surface, checking that all of it is within the buffers and that nothing which is written there lies upon
-/// anything else of it.
+/// Finds the surface. Checks that all of it is within the buffers, and that data that are written do not overlap with
+/// other data of the surface.
 /// @param content gets buffers for sparse accessors.
 /// @throws InputError naming the element.
 GltfGeometry geometry_of(GltfContent& content);

@@ -13,7 +13,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// The end of the string, number or word that begins at a place.
+/// The end of the string, number or word that begins at `begin`.
 std::size_t end_of_scalar(std::string_view text, std::size_t begin)
 {
     if (text[begin] != '"')
@@ -28,10 +28,10 @@ std::size_t end_of_scalar(std::string_view text, std::size_t begin)
 
 JsonTree::JsonTree(std::string_view text)
 {
-    // Checks the text, and keeps nothing of it.
+    // Checks the text; the callback discards all values.
     [[maybe_unused]] const Json nothing =
         Json::parse(text.begin(), text.end(), [](int, Json::parse_event_t, Json&) { return false; });
-    // Where there is a zero the text ends: some programs fill up chunks with them.
+    // The text ends at a zero byte: some programs fill chunks up with zeros.
     text = text.substr(0, text.find('\0'));
     constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
     std::size_t next = text.starts_with(byte_order_mark) ? byte_order_mark.size() : 0;

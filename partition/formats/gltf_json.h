@@ -6,13 +6,13 @@
 #include <utility>
 #include <vector>
 
-/// JSON texts of glTF files, as they are written.
+/// JSON texts of glTF files, in which each value keeps its source text.
 namespace seamflow {
 
 /// A value in a JSON text.
 struct JsonNode {
     std::string_view source;
-    /// With its quotation marks; empty if this is no member of an object.
+    /// The key with its quotation marks; empty if the value is no member of an object.
     std::string_view key = {};
     /// The elements of an array, the values of an object.
     std::vector<const JsonNode*> children = {};
@@ -21,7 +21,7 @@ struct JsonNode {
     [[nodiscard]] bool is_array() const { return source.front() == '['; }
     [[nodiscard]] bool is_text() const { return source.front() == '"'; }
 
-    /// With the key, if there is one.
+    /// The text of the value, with its key if it has one.
     [[nodiscard]] std::string_view member() const
     {
         const char* const begin = key.empty() ? source.data() : key.data();
@@ -29,7 +29,7 @@ struct JsonNode {
     }
 };
 
-/// A JSON text taken apart. It goes away without taking memory, and without recursion, which nlohmann's does not.
+/// The values of a JSON text. Its destruction needs neither memory nor recursion, unlike that of nlohmann's values.
 class JsonTree {
   public:
     /// No value.
@@ -45,16 +45,16 @@ class JsonTree {
     std::deque<JsonNode> nodes_;
 };
 
-/// The text that a string in quotation marks stands for.
+/// The text that a JSON string, in quotation marks, stands for.
 std::string text_of_json(std::string_view source);
 
-/// The same text as JSON.
+/// The JSON string for a text.
 std::string json_of_text(std::string_view text);
 
-/// Parts of a JSON text, which may be empty, and what replaces them. No two begin at the same place.
+/// Ranges of a JSON text, which may be empty, with their replacements. No two begin at the same character.
 using JsonEdits = std::vector<std::pair<std::string_view, std::string>>;
 
-/// The text with its parts replaced.
+/// The text with these ranges replaced.
 std::string edited_json(std::string_view text, JsonEdits edits);
 
 }  // namespace seamflow

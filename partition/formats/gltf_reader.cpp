@@ -15,7 +15,7 @@ namespace seamflow {
 
 namespace {
 
-/// A place in a list of a file.
+/// The position of an element in a list of a file, for messages.
 class GltfPosition final : public InputPosition {
   public:
     GltfPosition(const std::filesystem::path& path, FaultLog* faults)
@@ -61,7 +61,7 @@ class GltfCorners {
         case GltfPrimitive::Mode::Triangles:
             return {index(3 * t), index(3 * t + 1), index(3 * t + 2)};
         case GltfPrimitive::Mode::Strip:
-            // Every second one is written backwards.
+            // Every other triangle of a strip has the opposite order of corners.
             return {index(t), index(t + 1 + t % 2), index(t + 2 - t % 2)};
         case GltfPrimitive::Mode::Fan:
             break;
@@ -82,7 +82,7 @@ class GltfCorners {
     const char* bytes_;
 };
 
-/// Reads faces begin to end - 1. Strips and fans are joined by triangles without area, which are passed over.
+/// Reads faces begin to end - 1. Triangles without area, which join strips and fans, are skipped.
 void read_gltf_faces(const GltfContent& content, const GltfGeometry& geometry, std::int64_t begin, std::int64_t end,
                      GltfPosition& position, MeshBuilder& builder)
 {
@@ -107,8 +107,8 @@ void read_gltf_faces(const GltfContent& content, const GltfGeometry& geometry, s
     }
 }
 
-/// @param per_slice number of faces that are read at a time. @param faults see read_gltf.
-/// @throws InputError if there is any fault; naming it if all are read at a time.
+/// @param per_slice the number of faces of a slice. @param faults see read_gltf.
+/// @throws InputError if there is any fault; the message names it if all faces are in one slice.
 PolygonMesh read_gltf_slices(const GltfContent& content, const GltfGeometry& geometry, std::int64_t per_slice,
                              const Executor& exec, FaultLog* faults)
 {

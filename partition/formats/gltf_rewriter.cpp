@@ -26,7 +26,7 @@ namespace seamflow {
 
 namespace {
 
-/// Replaces those components that differ.
+/// Writes the components of `after` that differ from `before`.
 /// @returns whether any had to be rounded.
 bool set_float_vector(std::string& bytes, const GltfSpan& span, std::size_t i, const Point& before, const Point& after)
 {
@@ -43,9 +43,9 @@ bool set_float_vector(std::string& bytes, const GltfSpan& span, std::size_t i, c
     return rounded;
 }
 
-/// The buffers of a file with another surface.
+/// The new buffers of a file with another surface.
 struct NewBuffers {
-    /// One for each buffer; nothing where it stays.
+    /// One per buffer; nothing if the buffer does not change.
     std::vector<std::optional<std::string>> bytes;
     bool rounded = false;
     std::uint64_t n_staying_normals = 0;
@@ -127,13 +127,13 @@ void edit_bound(JsonEdits& edits, const GltfValue& list, const Point& before, co
         if (before[component] == after[component])
             continue;
         OutputBuffer text;
-        // The sum is not -0.
+        // Adding 0 turns -0 into 0.
         text.number(after[component] + 0.0);
         edits.emplace_back(numbers[k]->source, text.content());
     }
 }
 
-/// The vectors of an accessor in a buffer that has changed; nothing for all others, good or bad.
+/// The vectors of an accessor in a changed buffer; nothing for all other accessors, whether valid or not.
 std::optional<GltfSpan> changed_vectors(const GltfContent& content, const GltfGeometry& geometry, const NewBuffers& now,
                                         std::size_t accessor)
 {
@@ -145,12 +145,12 @@ std::optional<GltfSpan> changed_vectors(const GltfContent& content, const GltfGe
         if (span.component == gltf_float && span.n_components == 3 && now.bytes[span.buffer])
             return span;
     } catch (const InputError&) {
-        // It is none of those that were read.
+        // The accessor was not read.
     }
     return std::nullopt;
 }
 
-/// Of all accessors, those that no primitive of triangles names among them.
+/// Updates the bounds of all accessors, including those that no primitive of triangles names.
 void edit_bounds(JsonEdits& edits, const GltfContent& content, const GltfGeometry& geometry, const NewBuffers& now,
                  const Executor& exec)
 {
@@ -166,7 +166,7 @@ void edit_bounds(JsonEdits& edits, const GltfContent& content, const GltfGeometr
     }
 }
 
-/// Makes a sparse accessor one of all elements of a view.
+/// Replaces a sparse accessor by one whose elements are all in a view.
 void edit_sparse(JsonEdits& edits, const GltfValue& accessor, std::size_t view)
 {
     const std::vector<const JsonNode*> members = accessor.nodes();
@@ -174,7 +174,7 @@ void edit_sparse(JsonEdits& edits, const GltfValue& accessor, std::size_t view)
         const std::string key = text_of_json(members[i]->key);
         return key == "sparse" || key == "bufferView" || key == "byteOffset";
     };
-    // Others go together with the comma before them.
+    // Members after the first are removed together with the comma before them.
     edits.emplace_back(members[0]->member().substr(0, goes(0) ? std::string_view::npos : 0),
                        fmt::format(R"("bufferView":{}{})", view, goes(0) ? "" : ","));
     for (std::size_t i = 1; i < members.size(); ++i)
@@ -186,7 +186,7 @@ void edit_sparse(JsonEdits& edits, const GltfValue& accessor, std::size_t view)
         }
 }
 
-/// Puts the elements of sparse accessors that have changed behind all that is in the buffers of their values.
+/// Appends the elements of changed sparse accessors to the buffers that have their values.
 void edit_sparse_accessors(JsonEdits& edits, const GltfContent& content, const GltfGeometry& geometry, NewBuffers& now)
 {
     const GltfValue root = content.root();
@@ -198,7 +198,7 @@ void edit_sparse_accessors(JsonEdits& edits, const GltfContent& content, const G
     std::size_t n_views = views.size();
     std::set<std::size_t> grown;
     for (const GltfSparse& sparse : geometry.sparse) {
-        // What it lies upon may have changed, too.
+        // The elements without replacements may have changed, too.
         const std::string_view dense = bytes_now(sparse.dense.buffer);
         if (dense == dense_bytes(sparse, bytes_now))
             continue;
@@ -221,7 +221,7 @@ void edit_sparse_accessors(JsonEdits& edits, const GltfContent& content, const G
 std::vector<std::string> write_buffers(JsonEdits& edits, OutputFile& file, const GltfContent& content,
                                        const NewBuffers& now)
 {
-    std::vector<std::filesystem::path> places;
+    std::vector<std::filesystem::path> paths;
     std::string names;
     const GltfValue buffers = content.root()["buffers"];
     std::size_t n = 0;
@@ -239,10 +239,10 @@ std::vector<std::string> write_buffers(JsonEdits& edits, OutputFile& file, const
             edits.emplace_back(uri.source(), json_of_text(gltf_data(head, bytes)));
             continue;
         }
-        if (places.empty())
-            places = places_of_gltf_buffers(file.path(), content.path(), buffers.size());
-        const std::string name = places[n].filename().string();
-        file.beside(places[n++]).text(bytes);
+        if (paths.empty())
+            paths = paths_of_gltf_buffers(file.path(), content.path(), buffers.size());
+        const std::string name = paths[n].filename().string();
+        file.beside(paths[n++]).text(bytes);
         edits.emplace_back(uri.source(), json_of_text(gltf_uri_of(name)));
         names += (names.empty() ? "" : ", ") + name;
     }
@@ -258,7 +258,7 @@ void write_binary_gltf(OutputFile& file, const GltfContent& content, std::string
         text.resize(text.find_last_not_of(std::string_view(" \0", 2)) + 1);
         text.resize((text.size() + unit - 1) / unit * unit, ' ');
     }
-    // From the header of the binary chunk on.
+    // The rest of the file, from the header of the binary chunk on.
     std::string_view behind = content.file().substr(glb_header_bytes + glb_chunk_header_bytes + content.text().size());
     const auto length =
         from_bytes<std::uint32_t>(content.file().data() + 2 * sizeof(std::uint32_t), std::endian::little);
@@ -280,7 +280,7 @@ void write_binary_gltf(OutputFile& file, const GltfContent& content, std::string
     file.text(behind);
 }
 
-/// Pictures and the like, which are not copied, where the result is in another folder.
+/// Remarks on pictures and other files that are not copied, if the result is in another folder.
 std::vector<std::string> remarks_on_other_files(const OutputFile& file, const GltfContent& content)
 {
     std::error_code ignored;

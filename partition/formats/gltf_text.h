@@ -17,7 +17,7 @@ std::string gltf_data(std::string_view head, std::string_view bytes);
 /// Appends bytes in base64 (RFC 4648).
 void append_base64(std::string_view bytes, std::string& text);
 
-/// The bytes that base64 stands for; nothing if a character is no digit of it.
+/// The bytes that a base64 text encodes; nothing if a character is no base64 digit.
 std::optional<std::string> bytes_of_gltf_base64(std::string_view text);
 
 /// A relative URI for the name of a file, and the name of such a URI.

@@ -24,13 +24,13 @@ namespace {
 
 /// The wording of messages about the numbers in a text file.
 struct NumberWords {
-    /// "a label", "labels": what the numbers are.
+    /// The word for a number: "a label", "labels".
     const char* name;
     const char* names;
-    /// "face", "faces": what has one.
+    /// The word for an element that has a number: "face", "faces".
     const char* element;
     const char* elements;
-    /// What to do about a negative number.
+    /// A remedy for a negative number.
     const char* negative;
 };
 
@@ -91,7 +91,7 @@ double parse_weight(std::string_view text, const std::filesystem::path& path, st
 }
 
 /// Reads a text file with one number per line.
-/// @param take called with each line that is not blank, and its number, counted from 1, in order.
+/// @param take called in order with each line that is not blank, and its number, counted from 1.
 /// @returns the number of lines.
 template <class Take>
 std::size_t read_lines(const std::filesystem::path& path, Take&& take)
@@ -149,7 +149,7 @@ std::vector<Index> from_lines(const std::filesystem::path& path, Index n_vertice
     return vertices;
 }
 
-/// The file must have a vertex property of that name, and as many vertices as the mesh.
+/// Checks that the file has a vertex property of this name, and as many vertices as the mesh.
 void require_property(const TextScanner& scanner, const PlyHeader& header, Index n_vertices, std::string_view property)
 {
     const PlyElement* const element = header.element("vertex");

@@ -14,7 +14,8 @@ namespace seamflow {
 
 namespace {
 
-/// @throws Error if there is none.
+/// The format of a path.
+/// @throws Error if the path names none.
 template <class Error>
 FileFormat require_format_or(const std::filesystem::path& path)
 {

@@ -32,14 +32,14 @@ struct FileKind {
 /// The properties of a format.
 struct FormatTraits {
     FileFormat format;
-    /// In messages.
+    /// The name in messages.
     std::string_view name;
-    /// In lower case.
+    /// The extension, in lower case.
     std::string_view extension;
-    /// It has these encodings and those between them.
+    /// The first and the last encoding of the format, which also has those between them.
     Encoding first_encoding;
     Encoding last_encoding;
-    /// Whether its faces may have more than three sides.
+    /// Whether faces may have more than three sides.
     bool holds_polygons;
 };
 
@@ -55,12 +55,12 @@ inline constexpr std::array<FormatTraits, 6> format_traits = {{
 
 const FormatTraits& traits_of(FileFormat format);
 
-/// Some of the formats, to be named in a message.
+/// A group of formats, for messages.
 enum class FormatGroup {
     All,
-    /// Those whose faces may have any number of sides.
+    /// The formats whose faces may have any number of sides.
     Polygons,
-    /// Those that are always written as text.
+    /// The formats that are always written as text.
     Text,
 };
 
@@ -71,7 +71,7 @@ std::string extensions_of(FormatGroup group = FormatGroup::All);
 /// names none.
 std::optional<FileFormat> format_of(const std::filesystem::path& path);
 
-/// ".obj" and so on.
+/// The extension of a format, such as ".obj".
 std::string extension_of(FileFormat format);
 
 /// A path without the extension of its format, and without `.gz` behind that.
@@ -89,14 +89,14 @@ FileFormat require_format(const std::filesystem::path& path);
 /// "a, b or c".
 std::string choice_of(const std::vector<std::string_view>& words);
 
-/// A mesh file that was read, as the template for others; see write_mesh_like.
+/// A mesh file that was read, as the template for other files; see write_mesh_like.
 class MeshSource;
 
 /// A mesh together with the file it came from.
 struct MeshFile {
     PolygonMesh mesh;
     FileKind kind;
-    /// The file, which stays open, but not in memory, as long as this or a copy of it lives.
+    /// The file, which stays open, but not in memory, as long as a copy of this pointer exists.
     std::shared_ptr<const MeshSource> source = {};
 };
 

@@ -32,7 +32,7 @@ std::uint64_t checksum(std::string_view bytes)
     return XXH3_64bits(bytes.data(), bytes.size());
 }
 
-/// The checksums of slices are computed several at a time; the checksum of these distinguishes files.
+/// Files are distinguished by a checksum of the checksums of their slices, which are computed several at a time.
 std::uint64_t checksum(std::string_view content, const Executor& exec)
 {
     constexpr std::size_t slice = std::size_t{1} << 20;
@@ -56,7 +56,8 @@ std::uint64_t checksum_of_faces(const PolygonMesh& mesh, const Executor& exec)
 /// other positions. Renaming, replacing or removing it does no harm; a change within it is detected.
 class MeshSource {
   public:
-    /// @param content of the file. @param mesh, kind what was read from it.
+    /// @param file, content the file that was read, and its content. @param mesh, kind the mesh read from it, and its
+    /// kind.
     MeshSource(OpenFile file, std::string_view content, const PolygonMesh& mesh, const FileKind& kind,
                const Executor& exec)
         : file_(std::move(file))
@@ -68,7 +69,7 @@ class MeshSource {
     {
     }
 
-    /// As it was read, for messages.
+    /// The path under which the file was read, for messages.
     [[nodiscard]] const std::filesystem::path& path() const { return file_.path(); }
 
     [[nodiscard]] const FileKind& kind() const { return kind_; }
@@ -78,7 +79,7 @@ class MeshSource {
     [[nodiscard]] InputFile read_again(const Executor& exec) const;
 
     /// Checks that the mesh has as many vertices as the file, and the same faces.
-    /// @param path where the mesh will be written, for the message.
+    /// @param path of the file to write, for the message.
     /// @throws OutputError
     void require_same_faces(const std::filesystem::path& path, const PolygonMesh& mesh, const Executor& exec) const;
 
@@ -120,8 +121,8 @@ namespace {
 struct Format {
     MeshFile (*read)(const std::filesystem::path& path, std::string_view content, const Slicing& slicing,
                      FaultLog* faults);
-    /// Throws OutputError for a mesh that the format cannot hold, and returns remarks for the user; null: the format
-    /// holds all.
+    /// Throws OutputError for a mesh that the format cannot hold, and returns remarks for the user; null if the format
+    /// can hold every mesh.
     std::vector<std::string> (*require_fits)(const std::filesystem::path& path, const PolygonMesh& mesh,
                                              Encoding encoding);
     void (*write)(OutputFile& file, const PolygonMesh& mesh, Encoding encoding, const Slicing& slicing);
@@ -129,13 +130,14 @@ struct Format {
     std::vector<std::string> (*rewrite)(OutputFile& file, const std::filesystem::path& path, std::string_view content,
                                         const PolygonMesh& mesh, const Slicing& slicing, const FileFields& fields,
                                         double seam_distance);
-    /// See read_fields; null: there are none.
+    /// See read_fields; null if the format has no fields.
     FileFields (*read_fields)(const std::filesystem::path& path, std::string_view content,
                               std::span<const std::string> names, const Slicing& slicing);
     /// See extras_of.
     std::vector<std::string> (*extras)(const std::filesystem::path& path, std::string_view content,
                                        const Slicing& slicing);
-    /// The file with others that belong to it, or nothing if none do; null: none ever do.
+    /// The file together with other files that belong to it, or nothing if there are none; null if the format has no
+    /// such files.
     std::optional<OpenFile> (*with_others)(const OpenFile& file, std::string_view content) = nullptr;
 };
 
@@ -205,7 +207,7 @@ constexpr std::array<Format, 6> all_formats = {{
     gltf_functions<FileFormat::Gltf>,
 }};
 
-/// The format of content without a file name. OBJ has no signature.
+/// Recognises the format of content without a file name. OBJ has no signature.
 FileFormat recognised_format(std::string_view content)
 {
     if (content.starts_with("glTF"))
@@ -227,8 +229,8 @@ const Format& functions_of(FileFormat format)
     return all_formats[static_cast<std::size_t>(format)];
 }
 
-/// @param open with all that belongs to it.
-/// @param faults null: they are thrown. With faults other than those of faces, the file is not a source for others.
+/// @param open with all files that belong to it.
+/// @param faults null: faults are thrown. With faults other than those of faces, the file is not a source for others.
 MeshFile read_whole(OpenFile open, const InputFile& input, FileFormat format, const Executor& exec, FaultLog* faults)
 {
     MeshFile file = functions_of(format).read(open.path(), input.content(), {exec}, faults);
@@ -237,7 +239,7 @@ MeshFile read_whole(OpenFile open, const InputFile& input, FileFormat format, co
     return file;
 }
 
-/// @param format nothing: it is recognised from the content. @param faults see read_whole.
+/// @param format nothing: the format is recognised from the content. @param faults see read_whole.
 MeshFile read_open(OpenFile open, std::optional<FileFormat> format, const Executor& exec, FaultLog* faults)
 {
     const InputFile input(open);
@@ -282,7 +284,7 @@ void require_encoding(const FileKind& kind)
                                   path.string(), traits_of(format).name));
 }
 
-/// Ensures that what is written can be read again.
+/// Checks that the written file can be read again.
 void require_readable(const std::filesystem::path& path, const PolygonMesh& mesh, const Executor& exec)
 {
     if (mesh.n_vertices() == 0)
@@ -294,7 +296,7 @@ void require_readable(const std::filesystem::path& path, const PolygonMesh& mesh
     }
 }
 
-/// @param element of which there are n.
+/// @param element the name of an element. @param n the number of elements.
 void require_one_for_each(const std::filesystem::path& path, std::size_t count, const std::string& what, Index n,
                           const char* element, const char* elements)
 {

@@ -60,8 +60,7 @@ std::vector<std::string> write_mesh(const std::filesystem::path& path, const Pol
 /// file that are in other files are written beside the result, to files of new names (see rewrite_gltf). Facets of STL
 /// files that thereby become lines stay. The file may be written over itself.
 /// @param mesh with as many vertices as the file and the same faces.
-/// @param seam_distance across seams of this width (see weld), in length, shading that was
-///        continuous stays so.
+/// @param seam_distance across seams of this width (see weld), in length, shading that was continuous stays so.
 /// @returns remarks for the user, in sentences: normals that could not be updated, rounding.
 /// @throws OutputError naming the file; also if the mesh does not fit the file that was read.
 /// @throws InputError if that file has been changed in place since. Replacing or removing it does not matter.
@@ -94,7 +93,7 @@ FileFields read_fields(const MeshSource& source, std::span<const std::string> na
 ///
 /// @param fields finite, except that floats and new properties may be NaN.
 /// @returns remarks; also for numbers beyond the range of their type.
-/// @throws OutputError also for a field for which the format has no place, with what to do instead.
+/// @throws OutputError also for a field that the format cannot hold, with a remedy.
 /// @throws InputError also naming the line where a colour is missing.
 std::vector<std::string> write_mesh_like(const MeshSource& source, const std::filesystem::path& path,
                                          const PolygonMesh& mesh, const FileFields& fields,

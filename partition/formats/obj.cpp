@@ -19,10 +19,10 @@ namespace seamflow {
 
 namespace {
 
-/// Reads a slice of a file. Besides vertices and faces, all is passed over.
+/// Reads a slice of a file. Statements other than vertices and faces are skipped.
 class ObjReader {
   public:
-    /// @param n_vertices of the whole file.
+    /// @param n_vertices the number of vertices of the whole file.
     ObjReader(const TextScanner& scanner, Index n_vertices, const MeshSlice& slice, FaultLog* faults)
         : scanner_(scanner)
         , n_vertices_(n_vertices)
@@ -31,7 +31,7 @@ class ObjReader {
         scanner_.note_faults_in(faults);
     }
 
-    /// Reads all lines.
+    /// Reads all lines of the slice.
     void read(const ObjCounts& before)
     {
         scan_obj(scanner_, *this, before);
@@ -56,7 +56,7 @@ class ObjReader {
     Index n_vertices_;
     MeshBuilder builder_;
     std::vector<Index> corners_;
-    /// The highest number of a vertex so far that the file does not have.
+    /// The highest number of a missing vertex that a face has named so far.
     std::int64_t highest_missing_ = 0;
 };
 
@@ -109,7 +109,7 @@ Index ObjReader::read_corner(std::int64_t n)
     return static_cast<Index>(number - 1);
 }
 
-/// The numbers of a texture coordinate and a normal: /t, //n, /t/n, and the empty / and //.
+/// Checks the numbers of a texture coordinate and a normal: /t, //n, /t/n, and the empty / and //.
 void ObjReader::require_attributes(std::string_view attributes)
 {
     int slashes = 0;
@@ -136,7 +136,7 @@ PolygonMesh read_slices(const TextScanner& whole, std::span<const std::string_vi
     return mesh;
 }
 
-/// Collects what there is besides the surface; see scan_obj.
+/// Collects the content of a file besides the surface; see scan_obj.
 struct ExtrasVisitor {
     std::vector<std::string> extras = {};
 

@@ -45,8 +45,8 @@ std::vector<std::string> rewrite_obj(OutputFile& file, const std::filesystem::pa
 FileFields read_obj_fields(const std::filesystem::path& path, std::string_view text, std::span<const std::string> names,
                            const Slicing& slicing);
 
-/// For each normal (`vn`) of a file read by `read_obj`, the corners that name it, numbered as in
-/// PolygonMesh::face_vertices, in ascending order. Numbers of missing normals do not count.
+/// For each normal (`vn`) of a file read by `read_obj`: the corners that name it, numbered as in
+/// PolygonMesh::face_vertices, in ascending order. Corners that name missing normals are not listed.
 /// @param path for messages only.
 IndexLists corners_of_obj_normals(const std::filesystem::path& path, std::string_view text,
                                   const Slicing& slicing = {});

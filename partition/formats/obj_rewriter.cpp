@@ -21,8 +21,8 @@ namespace {
 
 constexpr Index none = -1;
 
-/// A number as written, counted from 0; `none` if it is 0.
-/// @param n how many precede; negative numbers count back from there.
+/// Converts a number as written to one counted from 0; `none` if it is 0.
+/// @param n the number of elements before it, from which negative numbers count back.
 Index counted_from_0(std::int64_t number, std::int64_t n)
 {
     return static_cast<Index>(number > 0 ? number - 1 : number < 0 ? number + n : none);
@@ -43,7 +43,7 @@ Index normal_of(std::string_view attributes, std::int64_t n)
     return counted_from_0(number, n);
 }
 
-/// How many normals stay although the surface has moved.
+/// The number of normals that stay although the surface has moved, by reason.
 struct StayingNormals {
     Index n_shared = 0;
     Index n_unused = 0;
@@ -52,7 +52,7 @@ struct StayingNormals {
 /// The normals of a file for the current surface.
 class NormalUpdate {
   public:
-    /// @param normals see corners_of_obj_normals. @param before #V by 3, where the vertices were.
+    /// @param normals see corners_of_obj_normals. @param before #V by 3: the positions in the file.
     NormalUpdate(IndexLists normals, const PolygonMesh& mesh, Points before, const Executor& exec, double seam_distance)
         : normals_(std::move(normals))
         , mesh_(mesh)
@@ -60,7 +60,7 @@ class NormalUpdate {
     {
     }
 
-    /// The new normal; nothing if it stays.
+    /// The new normal; nothing if the normal does not change.
     std::optional<Point> operator()(Index normal, const Point& given, StayingNormals& staying) const
     {
         const auto corners = normals_[normal];
@@ -79,8 +79,8 @@ class NormalUpdate {
         return std::nullopt;
     }
 
-    /// A sentence about those that would have to change, but cannot.
-    /// @param staying of each slice.
+    /// A sentence about the normals that should change but cannot.
+    /// @param staying one per slice.
     [[nodiscard]] std::vector<std::string> remarks(const std::filesystem::path& path,
                                                    std::span<const StayingNormals> staying) const;
 
@@ -110,14 +110,14 @@ std::vector<std::string> NormalUpdate::remarks(const std::filesystem::path& path
                         all.n_shared + all.n_unused, reasons)};
 }
 
-/// Collects the normal that each corner of a slice refers to, or `none`; without the faces that are left out of the
-/// mesh. See scan_obj.
+/// Collects the normal that each corner of a slice names, or `none`, without faces that are left out of the mesh. See
+/// scan_obj.
 struct CornerNormals {
     std::vector<Index> normals = {};
 
     void face(TextScanner& scanner, const ObjCounts& before);
 
-    /// Scratch: of a face.
+    /// Scratch: the vertices of a face.
     std::vector<Index> vertices = {};
     std::vector<Index> normals_of_face = {};
     std::vector<Index> distinct = {};

@@ -19,7 +19,7 @@ namespace seamflow {
 
 inline constexpr TextSyntax obj_syntax = {.comment = '#', .continuation = true};
 
-/// How many lines `v` and `vn` there are up to a place in a file.
+/// The numbers of lines `v` and `vn` up to a position in a file.
 struct ObjCounts {
     std::int64_t n_vertices = 0;
     std::int64_t n_normals = 0;
@@ -27,11 +27,11 @@ struct ObjCounts {
     friend bool operator==(const ObjCounts&, const ObjCounts&) = default;
 };
 
-/// A corner of a face, or of a polyline, as written.
+/// A corner of a face or polyline, as written in the file.
 struct ObjCorner {
-    /// From 1; a negative one is counted back from the line.
+    /// The number of the vertex, from 1; a negative number counts back from the line.
     std::int64_t vertex;
-    /// What follows the vertex, as in 7/1, 7//2 or 7/1/2; it may be anything.
+    /// The text after the vertex, as in 7/1, 7//2 or 7/1/2; any text is allowed.
     std::string_view attributes;
 };
 
@@ -43,7 +43,7 @@ ObjCorner read_obj_corner(TextScanner& scanner, const char* what);
 /// @param n number of vertices before the line. @param remedy what to do.
 std::string counted_back_too_far(std::int64_t vertex, std::int64_t n, const char* remedy);
 
-/// A visitor of nothing, for the counts.
+/// A visitor without functions, which only counts.
 struct ObjCounter {};
 
 /// Whether a line that begins with this word describes a face.
@@ -82,16 +82,16 @@ bool scan_plain_obj_line(TextScanner& scanner, Visitor& visitor, ObjCounts& coun
     return false;
 }
 
-/// Scans a file, or a slice of it, with a TextScanner. Of these functions the visitor has those that it needs, besides
-/// those of scan_vertex for lines `v`:
-/// - normal(n, scanner): reads the line `vn` number n from its first number on;
-/// - face(scanner, counts): reads a face from its first corner on; the counts are those before it;
-/// - line(scanner, counts): the same for a polyline;
-/// - other(keyword): any other statement;
-/// - plain_vertex(v, coordinates) and perhaps plain_face(vertices): get vertices, and faces of vertices before them,
-///   whose lines are in the commonest form; then the functions above get only other lines.
-/// @param counts of what precedes the slice. @param end of what precedes the next one, for a visitor of vertices and
-/// normals alone: it is done when it has seen the last of them.
+/// Scans a file, or a slice of it, with a TextScanner. The visitor has those of the following functions that it needs,
+/// besides those of scan_vertex for lines `v`:
+/// - normal(n, scanner): reads the n-th line `vn`, beginning at its first number;
+/// - face(scanner, counts): reads a face, beginning at its first corner; `counts` are those before the line;
+/// - line(scanner, counts): reads a polyline in the same way;
+/// - other(keyword): gets the keyword of any other statement;
+/// - plain_vertex(v, coordinates) and perhaps plain_face(vertices): get vertices, and faces that name only vertices
+///    before them, from lines in the commonest form; the functions above then get the other lines only.
+/// @param counts before the slice. @param end the counts before the next slice, for a visitor of vertices and normals
+/// alone: the scan ends after the last of them.
 /// @returns the counts at the end.
 template <class Visitor>
 ObjCounts scan_obj(auto&& scanner, Visitor& visitor, ObjCounts counts = {}, const ObjCounts& end = {-1, -1})

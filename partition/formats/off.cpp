@@ -22,8 +22,9 @@ namespace seamflow {
 
 namespace {
 
-/// Goes to the next line. @param what are on such lines. @param i, n number of the present one, and of all.
-/// @throws InputError if there is none.
+/// Goes to the next line. @param what the content of such lines. @param i, n the number of the present line, and of
+/// all.
+/// @throws InputError if there is no further line.
 void next_line(TextScanner& scanner, const char* what, std::int64_t i, std::int64_t n)
 {
     if (!scanner.next_line())
@@ -34,7 +35,7 @@ void next_line(TextScanner& scanner, const char* what, std::int64_t i, std::int6
 
 /// Scans lines of text OFF after its header, which are vertices, then faces. Besides the functions of scan_vertex the
 /// visitor may have
-/// - face(scanner): reads a face from its number of corners on.
+/// - face(scanner): reads a face, beginning at its number of corners.
 /// @param begin, end the lines, counted from 0.
 /// @throws InputError if the file ends too early.
 template <class Visitor>
@@ -66,7 +67,7 @@ class OffReader {
     /// Reads vertices and faces, which are counted together.
     void read(std::int64_t begin, std::int64_t end) { scan_off(scanner_, header_, begin, end, *this); }
 
-    /// Nothing may follow.
+    /// Checks that nothing follows.
     void require_end();
 
     /// See scan_off.
@@ -151,7 +152,7 @@ TextColours read_off_colours(const std::filesystem::path& path, std::string_view
     });
 }
 
-/// Collects what there is besides the surface; see scan_off.
+/// Collects the content of a file besides the surface; see scan_off.
 struct OffExtrasVisitor {
     const OffHeader& header;
     std::vector<std::string>& extras;
@@ -186,8 +187,8 @@ PolygonMesh read_by_lines(const std::filesystem::path& path, std::string_view te
     return read_in_slices_if_faultless(in_slices, in_one_go);
 }
 
-/// Whether a file lacks one line per vertex and face, or its header only makes sense with line breaks as blanks. A file
-/// with these lines is only ever read line by line, so that it is written line by line, too.
+/// Whether a file does not have one line per vertex and face, or has a header that is valid only if line breaks count
+/// as blanks. A file with one line each is only ever read line by line, so that it is written line by line, too.
 bool breaks_lines_freely(const std::filesystem::path& path, std::string_view text, const Slicing& slicing)
 {
     TextScanner scanner(path, text);
@@ -200,8 +201,8 @@ bool breaks_lines_freely(const std::filesystem::path& path, std::string_view tex
     }
 }
 
-/// Reads a file with line breaks as blanks; nothing if that fails, or if it is not unambiguous: all vertices must have
-/// equally many numbers, and faces nothing but corners.
+/// Reads a file in which line breaks count as blanks; nothing if that fails or is ambiguous: all vertices must have
+/// equally many numbers, and faces only corners.
 std::optional<PolygonMesh> read_across_lines(const std::filesystem::path& path, std::string_view text,
                                              const Slicing& slicing)
 {

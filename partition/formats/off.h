@@ -50,17 +50,17 @@ FileFields read_off_fields(const std::filesystem::path& path, std::string_view t
 /// @param path for messages only.
 std::vector<std::string> extras_of_off(const std::filesystem::path& path, std::string_view content);
 
-/// Reads what follows the line `OFF BINARY`: 32-bit integers and floats. Geomview writes them most significant byte
-/// first and a number of colour components after each face, others the other way round or without: whichever of the
-/// four fits the length of the file is used.
+/// Reads the binary data after the line `OFF BINARY`: 32-bit integers and floats. Geomview writes the most significant
+/// byte first and a number of colour components after each face; other programs write the least significant byte first,
+/// or no colours. Of the four layouts, the one that fits the length of the file is used.
 /// @param path for messages only. @param faults see read_off.
 /// @param file the whole file.
-/// @param offset where the binary data begin.
+/// @param offset of the first binary data.
 /// @throws InputError naming the byte.
 PolygonMesh read_binary_off(const std::filesystem::path& path, std::string_view file, std::size_t offset,
                             const Slicing& slicing, FaultLog* faults);
 
-/// Rewrites such a file with the positions of `mesh`, rounded to floats; every other byte stays.
+/// Rewrites a binary OFF file with the positions of `mesh`, rounded to floats; every other byte stays.
 /// @param mesh with the faces of the file.
 /// @returns whether rounding changed any coordinate.
 /// @throws OutputError; also for coordinates beyond single precision.

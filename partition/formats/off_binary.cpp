@@ -17,7 +17,7 @@ namespace seamflow {
 namespace {
 
 constexpr std::size_t word_size = 4;
-/// Bytes of the counts before the vertices.
+/// The bytes of the three counts before the vertices.
 constexpr std::size_t counts_bytes = 3 * word_size;
 
 /// An element with a count at `counts`.

@@ -37,6 +37,7 @@ void require_known_variant(const TextScanner& scanner, std::string_view prefix)
                      " is unknown; convert the mesh to OFF, COFF or NOFF");
 }
 
+/// Reads the keyword OFF with its prefix.
 /// @returns the prefix before OFF.
 std::string_view read_keyword(TextScanner& scanner)
 {

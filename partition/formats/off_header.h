@@ -10,10 +10,10 @@
 
 namespace seamflow {
 
-/// The beginning of a text OFF file.
+/// The header of a text OFF file.
 struct OffHeader {
-    /// The prefix of OFF: ST, C, N, each optional, in any order, mean texture coordinates, colours and normals of the
-    /// vertices; their numbers follow the coordinates in the order normals, colours, texture coordinates.
+    /// The prefix of OFF: ST, C and N, each optional, in any order, stand for texture coordinates, colours and normals
+    /// of the vertices. Their numbers follow the coordinates in the order normals, colours, texture coordinates.
     std::string_view prefix;
     std::int64_t n_vertices = 0;
     std::int64_t n_faces = 0;
@@ -26,7 +26,7 @@ struct OffHeader {
     [[nodiscard]] VertexLayout layout() const { return {has_normals(), has_texture() ? 2 : 0}; }
 };
 
-/// Where the data begin if the first line is `OFF BINARY`, else nothing.
+/// The offset of the data if the first line is `OFF BINARY`; otherwise nothing.
 std::optional<std::size_t> start_of_binary_off(std::string_view content);
 
 /// Reads from the beginning of the file to the end of the counts.

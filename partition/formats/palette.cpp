@@ -25,17 +25,17 @@ constexpr Colour green{0, 255, 0};
 constexpr Colour yellow{255, 255, 0};
 constexpr Colour red{255, 0, 0};
 
-/// @param stops at least two, the first at 0 and the last at 1, equally spaced.
+/// @param stops at least two colours, for 0, …, 1, equally spaced.
 Colour interpolate(std::span<const Colour> stops, double value)
 {
     if (std::isnan(value))
         return grey;
-    const double place = std::clamp(value, 0.0, 1.0) * static_cast<double>(stops.size() - 1);
-    const std::size_t k = std::min(static_cast<std::size_t>(place), stops.size() - 2);
-    const double part = place - static_cast<double>(k);
+    const double position = std::clamp(value, 0.0, 1.0) * static_cast<double>(stops.size() - 1);
+    const std::size_t k = std::min(static_cast<std::size_t>(position), stops.size() - 2);
+    const double fraction = position - static_cast<double>(k);
     Colour colour{};
     for (std::size_t c = 0; c < colour.size(); ++c)
-        colour[c] = static_cast<std::uint8_t>(std::lround((1.0 - part) * stops[k][c] + part * stops[k + 1][c]));
+        colour[c] = static_cast<std::uint8_t>(std::lround((1.0 - fraction) * stops[k][c] + fraction * stops[k + 1][c]));
     return colour;
 }
 

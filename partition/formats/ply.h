@@ -26,22 +26,22 @@ namespace seamflow {
 MeshFile read_ply(const std::filesystem::path& path, std::string_view file, const Slicing& slicing,
                   FaultLog* faults = nullptr);
 
-/// A named number for each vertex, owned elsewhere.
+/// A number for each vertex, with a name. The numbers are owned elsewhere.
 struct NamedColumn {
     std::string_view name;
     /// #V.
     std::span<const double> values;
 };
 
-/// Content of a PLY file besides the mesh; omitted if empty.
+/// Content of a PLY file besides the mesh; an empty member is not written.
 struct PlyExtras {
-    /// #F; each face has the properties red, green, blue (uchar) and label (int) too.
+    /// #F; each face also gets the properties red, green, blue (uchar) and label (int).
     std::span<const Index> face_labels = {};
-    /// #F each; each face has a property (int) for each of them.
+    /// #F numbers each; each face gets a property (int) for each of them.
     std::span<const FaceNumbers> face_numbers = {};
-    /// #V; each vertex has the properties red, green, blue (uchar) too.
+    /// #V; each vertex also gets the properties red, green, blue (uchar).
     std::span<const Colour> vertex_colours = {};
-    /// Each vertex has a property (double) for each of them.
+    /// Each vertex gets a property (double) for each of them.
     std::span<const NamedColumn> vertex_values = {};
 };
 
@@ -50,11 +50,11 @@ struct PlyExtras {
 void write_ply(OutputFile& file, const PolygonMesh& mesh, Encoding encoding, const Slicing& slicing,
                const PlyExtras& extras = {});
 
-/// The same with fields: those that were read as colours become red, green and blue (uchar), the others double.
+/// Writes PLY with fields: fields that were read as colours become red, green and blue (uchar), others double.
 void write_ply(OutputFile& file, const PolygonMesh& mesh, Encoding encoding, const Slicing& slicing,
                const FileFields& fields);
 
-/// How a property of the vertices holds numbers. @param type not of whole numbers.
+/// The precision in which a property of the vertices holds numbers. @param type not of whole numbers.
 Decimals decimals_of(PlyType type, Encoding encoding);
 
 /// Reads properties of the vertices of a file read by `read_ply`; see read_fields.

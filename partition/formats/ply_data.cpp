@@ -4,7 +4,7 @@ namespace seamflow {
 
 namespace {
 
-/// About how many bytes an element takes in a binary file.
+/// The approximate number of bytes of an element in a binary file.
 std::size_t typical_bytes(const PlyElement& element)
 {
     std::size_t n = 0;

@@ -18,11 +18,11 @@ struct PlySlice {
     std::uint64_t begin = 0;
     std::uint64_t end = 0;
     std::string_view bytes = {};
-    /// Whether this is a whole text file without one line per element, so that line ends only count as blanks.
+    /// Whether this is a whole text file that does not have one line per element, so that line ends count as blanks.
     bool crosses_lines = false;
 };
 
-/// What a PLY file is read for.
+/// The purpose for which a PLY file is read.
 enum class PlyUse {
     /// A mesh, or data of a mesh that has been read from the file.
     Mesh,
@@ -32,29 +32,29 @@ enum class PlyUse {
 
 /// The elements of a PLY file, or bytes with the same layout in a file of another format.
 struct PlyData {
-    /// For messages only.
+    /// The path of the file, for messages only.
     const std::filesystem::path& path;
     /// The whole file.
     std::string_view file;
     const PlyHeader& header;
-    /// Of a text file: stands at the last line of the header.
+    /// Only for a text file: a scanner at the last line of the header.
     const TextScanner& after_header;
-    /// What follows the header.
+    /// The content after the header.
     std::string_view bytes = after_header.rest();
     PlyUse use = PlyUse::Mesh;
 
     /// All elements.
     [[nodiscard]] PlySlice whole() const;
 
-    /// Slices of the first kinds of elements; in a text file they go on to its end.
-    /// @returns one slice at least, an empty one if there are no elements.
-    /// @throws InputError, with no useful message, if a binary file lacks some of them.
+    /// Divides the first kinds of elements into slices; in a text file the last slice extends to the end.
+    /// @returns at least one slice, an empty one if there are no elements.
+    /// @throws InputError, without a useful message, if a binary file lacks some of them.
     [[nodiscard]] std::vector<PlySlice> slices(std::span<const PlyElement> kinds, const Slicing& slicing) const;
 
-    /// The numbers of a slice. The lines in its messages are right if there is one slice.
+    /// A source of the numbers of a slice. The lines in its messages are right if there is one slice.
     [[nodiscard]] PlySource source(const PlySlice& slice) const;
 
-    /// The kinds of elements before the end of one of them.
+    /// The kinds of elements up to one of them, which is included.
     [[nodiscard]] std::span<const PlyElement> up_to(const PlyElement& kind) const
     {
         return {header.elements.data(), &kind + 1};
@@ -74,10 +74,10 @@ struct PlyData {
         }
     }
 
-    /// Reads the elements of one kind in a slice, and passes over those before them and, in data of a mesh, over the
-    /// faults that its reader has accepted.
-    /// @param columns, read, act see PlySource::scan; both are called with the source first, and end_element after
-    /// `act`.
+    /// Reads the elements of one kind in a slice. Skips the elements before them and, in data of a mesh, faults that
+    /// the reader of the mesh has accepted.
+    /// @param columns, read, act see PlySource::scan; both functions get the source as an additional first argument,
+    /// and end_element is called after `act`.
     void scan(const PlySlice& slice, const PlyElement& wanted, const std::vector<Index>& columns, const auto& read,
               const auto& act) const
     {

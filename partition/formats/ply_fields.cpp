@@ -48,8 +48,8 @@ std::optional<WholeRange> whole_range_of(PlyType type)
     });
 }
 
-/// Fields of a file, without values.
-/// @throws InputError for names that it does not have.
+/// The fields of a file, without values.
+/// @throws InputError for names that the file does not have.
 FileFields find_fields(const TextScanner& scanner, const std::filesystem::path& path, const PlyHeader& header,
                        std::span<const std::string> names)
 {

@@ -47,7 +47,7 @@ PlyType read_type(TextScanner& scanner)
     return found->type;
 }
 
-/// A name that is not yet in the list, which holds the `what` declared so far.
+/// Reads a name that is not yet in `declared`. @param what the word for the declared things.
 std::string read_new_name(TextScanner& scanner, const auto& declared, const std::string& what)
 {
     std::string name(scanner.token());
@@ -104,7 +104,7 @@ PlyProperty read_property(TextScanner& scanner, PlyHeader& header)
     return property;
 }
 
-/// The fewest bytes that one element takes.
+/// The fewest bytes of one element.
 std::uint64_t shortest(const PlyElement& element, Encoding encoding)
 {
     std::uint64_t result = 0;
@@ -129,7 +129,7 @@ void require_room(const TextScanner& scanner, const PlyHeader& header)
     }
 }
 
-/// The names of those that are passed over.
+/// The names of the properties of an element that are skipped.
 std::string properties_of(const PlyElement& element, const std::vector<Index>& columns)
 {
     std::string names;

@@ -63,13 +63,13 @@ inline bool is_integer(PlyType type)
     return type != PlyType::Float32 && type != PlyType::Float64;
 }
 
-/// One number, or one list of numbers, that every element of a kind has.
+/// A property of every element of a kind: one number, or one list of numbers.
 struct PlyProperty {
     std::string name;
     PlyType type = PlyType::Float32;
-    /// Lists only: the type of their lengths.
+    /// Only for lists: the type of their lengths.
     std::optional<PlyType> length_type;
-    /// The line that declares it.
+    /// The line of the header that declares the property.
     std::size_t line = 0;
     /// The word for `type` in the header; valid as long as the file.
     std::string_view type_word = {};
@@ -80,15 +80,15 @@ struct PlyElement {
     std::string name;
     std::uint64_t count = 0;
     std::vector<PlyProperty> properties;
-    /// The line that declares it.
+    /// The line of the header that declares the element.
     std::size_t line = 0;
 
     /// The property of the wanted name, or null.
     [[nodiscard]] const PlyProperty* property(std::string_view wanted) const;
 };
 
-/// For each property of an element, in order, what `column` makes of it: where its number goes, or -1 if it is passed
-/// over.
+/// For each property of an element, in order: the column of its number, as `column` gives it; -1 if the property is
+/// skipped.
 std::vector<Index> columns_of(const PlyElement& element, const auto& column)
 {
     std::vector<Index> columns;
@@ -97,25 +97,25 @@ std::vector<Index> columns_of(const PlyElement& element, const auto& column)
     return columns;
 }
 
-/// The columns of coordinates: 0 to 2 for x, y and z.
+/// The columns of coordinates: 0 to 2 for x, y and z; -1 for other properties.
 std::vector<Index> coordinates_in(const PlyElement& vertices);
 
-/// The columns of corners: 0 for the list of them.
+/// The columns of corners: 0 for the list of corners; -1 for other properties.
 std::vector<Index> corners_in(const PlyElement& faces);
 
 struct PlyHeader {
     Encoding encoding = Encoding::Ascii;
-    /// In the order in which they follow the header.
+    /// The kinds of elements, in the order of their data.
     std::vector<PlyElement> elements;
 
-    /// Of all kinds together.
+    /// The number of elements of all kinds together.
     [[nodiscard]] std::uint64_t n_elements() const;
 
     /// The element of that name, or null.
     [[nodiscard]] const PlyElement* element(std::string_view name) const;
 };
 
-/// Reads the header of a PLY file, up to and including the line end_header; what follows is scanner.rest().
+/// Reads the header of a PLY file, up to and including the line end_header; the data are scanner.rest().
 /// @throws InputError naming the line; also for counts that the rest of the file is too short for.
 PlyHeader read_ply_header(TextScanner& scanner);
 

@@ -7,11 +7,11 @@
 
 #include "partition/formats/ply_header.h"
 
-/// Which numbers the types of a PLY file can hold.
+/// The ranges of the types of numbers in a PLY file.
 namespace seamflow {
 
-/// The number that a property of that type stores for a field: whole numbers are rounded to the nearest, and those
-/// beyond the range of their type become its ends.
+/// The number that a property of this type stores for the value of a field: whole numbers are rounded to the nearest,
+/// and clamped to the range of the type.
 template <class Number>
 Number stored_as(double number)
 {
@@ -26,7 +26,7 @@ Number stored_as(double number)
     }
 }
 
-/// Whether that type reaches as far as the numbers. NaN does not matter.
+/// Whether the range of the type includes all numbers. NaN is ignored.
 bool reaches(PlyType type, const auto& numbers)
 {
     return with_type(type, [&numbers](auto zero) {

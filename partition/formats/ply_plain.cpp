@@ -11,7 +11,7 @@ namespace {
 
 /// @param slots without lists.
 void read_plain_vertices(const std::vector<PlySlot>& slots, const PlySlice& slice, std::endian order,
-                         const MeshSlice& place)
+                         const MeshSlice& mesh_slice)
 {
     const auto n = static_cast<Index>(slice.end - slice.begin);
     const std::size_t stride = slice.bytes.size() / usize(n);
@@ -20,7 +20,7 @@ void read_plain_vertices(const std::vector<PlySlot>& slots, const PlySlice& slic
         if (slot.property == nullptr)
             break;
         first += slot.n_bytes;
-        auto coordinates = place.vertices.col(slot.column).segment(place.first_vertex, n);
+        auto coordinates = mesh_slice.vertices.col(slot.column).segment(mesh_slice.first_vertex, n);
         with_type(slot.property->type, [&](auto zero) {
             for (Index v = 0; v < n; ++v)
                 coordinates[v] = static_cast<double>(from_bytes<decltype(zero)>(first + usize(v) * stride, order));
@@ -34,17 +34,17 @@ void read_plain_vertices(const std::vector<PlySlot>& slots, const PlySlice& slic
 /// @tparam Length, Number the types in the list of corners. @param slots the list and the end.
 template <class Length, class Number>
 void read_plain_faces(const std::vector<PlySlot>& slots, std::string_view bytes, std::endian order,
-                      const MeshSlice& place)
+                      const MeshSlice& mesh_slice)
 {
     const NoPosition position;
-    MeshBuilder builder(position, 0, place);
+    MeshBuilder builder(position, 0, mesh_slice);
     std::vector<Index> corners;
     for (const char* next = bytes.data(); next < bytes.data() + bytes.size(); next += slots.back().n_bytes) {
         next += slots.front().n_bytes;
         corners.resize(static_cast<std::size_t>(from_bytes<Length>(next, order)));
         next += sizeof(Length);
         for (Index& corner : corners) {
-            corner = builder.vertex(from_bytes<Number>(next, order), place.vertices.rows());
+            corner = builder.vertex(from_bytes<Number>(next, order), mesh_slice.vertices.rows());
             next += sizeof(Number);
         }
         builder.add_face(corners);
@@ -53,7 +53,7 @@ void read_plain_faces(const std::vector<PlySlot>& slots, std::string_view bytes,
 
 }  // namespace
 
-bool read_plain_slice(const PlyHeader& header, const PlySlice& slice, const MeshSlice& place)
+bool read_plain_slice(const PlyHeader& header, const PlySlice& slice, const MeshSlice& mesh_slice)
 {
     bool is_plain = false;
     const std::endian order = order_of(header.encoding);
@@ -64,12 +64,12 @@ bool read_plain_slice(const PlyHeader& header, const PlySlice& slice, const Mesh
         if (!is_plain)
             return;
         if (n_lists == 0)
-            return read_plain_vertices(slots_of(element, coordinates_in(element)), slice, order, place);
+            return read_plain_vertices(slots_of(element, coordinates_in(element)), slice, order, mesh_slice);
         const std::vector<PlySlot> slots = slots_of(element, corners_in(element));
         with_type(*slots.front().property->length_type, [&](auto length) {
             with_type(slots.front().property->type, [&](auto number) {
                 if constexpr (std::is_integral_v<decltype(length)> && std::is_integral_v<decltype(number)>)
-                    read_plain_faces<decltype(length), decltype(number)>(slots, slice.bytes, order, place);
+                    read_plain_faces<decltype(length), decltype(number)>(slots, slice.bytes, order, mesh_slice);
             });
         });
     });

@@ -68,11 +68,11 @@ void require_corners(const TextScanner& scanner, const PlyHeader& header, std::s
                         n_found));
 }
 
-/// In place of a corner.
+/// Stands in a list of corners for the end of a triangle strip.
 constexpr Index end_of_strip = -2;
 
-/// Every vertex of a strip except the first two forms a triangle with the two before it, every other one reversed.
-/// Those that name a vertex twice join strips, and are skipped.
+/// Adds the triangles of strips. Every vertex of a strip except the first two forms a triangle with the two before it,
+/// every other triangle reversed. Triangles that name a vertex twice join strips, and are skipped.
 void add_strips(MeshBuilder& builder, const std::vector<Index>& corners)
 {
     std::size_t begin = 0;
@@ -102,7 +102,7 @@ void read_vertices(PlySource& source, MeshBuilder& builder, const PlyElement& ve
         });
 }
 
-/// @param n_vertices of the whole file.
+/// @param n_vertices the number of vertices of the whole file.
 void read_faces(PlySource& source, MeshBuilder& builder, std::int64_t n_vertices, const PlyElement& faces,
                 std::uint64_t begin, std::uint64_t end)
 {
@@ -140,7 +140,7 @@ void read_slice(PlySource& source, MeshBuilder& builder, const PlyHeader& header
                            });
 }
 
-/// How many of the first `end` elements of a file are vertices.
+/// The number of vertices among the first `end` elements of a file.
 std::uint64_t vertices_before(std::uint64_t end, const PlyHeader& header)
 {
     std::uint64_t n = 0;
@@ -151,7 +151,7 @@ std::uint64_t vertices_before(std::uint64_t end, const PlyHeader& header)
     return n;
 }
 
-/// @param faults see read_ply. @throws InputError if there is any fault; naming it if there is one slice.
+/// @param faults see read_ply. @throws InputError if there is any fault; the message names it if there is one slice.
 PolygonMesh read_slices(const PlyData& data, std::span<const PlySlice> slices, const Executor& exec, FaultLog* faults)
 {
     const std::uint64_t n_vertices = data.header.element("vertex")->count;
@@ -166,13 +166,13 @@ PolygonMesh read_slices(const PlyData& data, std::span<const PlySlice> slices, c
     mesh.face_offsets.reserve(faces_of_file != nullptr ? faces_of_file->count + 1 : 1);
     append_faces(mesh, static_cast<Index>(slices.size()), exec, [&](Index i, PolygonMesh& faces) {
         const auto first = static_cast<Index>(vertices_before(slices[i].begin, data.header));
-        const MeshSlice place{mesh.vertices, first, faces};
+        const MeshSlice mesh_slice{mesh.vertices, first, faces};
         const bool may_be_plain = data.header.encoding != Encoding::Ascii && slices.size() > 1;
-        if (may_be_plain && read_plain_slice(data.header, slices[i], place))
+        if (may_be_plain && read_plain_slice(data.header, slices[i], mesh_slice))
             return;
         PlySource source = data.source(slices[i]);
         source.note_faults_in(faults);
-        MeshBuilder builder(source.position(), 0, place);
+        MeshBuilder builder(source.position(), 0, mesh_slice);
         read_slice(source, builder, data.header, slices[i]);
         if (slices.size() == 1)
             source.finish();
@@ -183,8 +183,8 @@ PolygonMesh read_slices(const PlyData& data, std::span<const PlySlice> slices, c
     return mesh;
 }
 
-/// Reads a file that may have faults. Where it has not one line per element, and cannot be read across lines either, it
-/// is read as if it had, for the messages.
+/// Reads a file that may have faults, in one slice. If the file does not have one line per element, and cannot be read
+/// across lines either, it is read as if it had one line each, so that messages name lines.
 PolygonMesh read_in_one_go(const PlyData& data, FaultLog* faults)
 {
     PlySlice whole = data.whole();

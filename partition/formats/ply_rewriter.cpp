@@ -23,16 +23,16 @@ namespace seamflow {
 
 namespace {
 
-/// The numbers of a vertex that are rewritten; those of FileFields follow them.
+/// The names of the first columns of vertices that are rewritten; the columns of FileFields follow.
 constexpr std::array<std::string_view, 6> names_of_columns = {"x", "y", "z", "nx", "ny", "nz"};
 constexpr auto first_field = static_cast<Index>(names_of_columns.size());
 
-/// How one property of the vertices changes when a file is rewritten. Changes beyond the last property are properties
-/// that are added.
+/// The change of one property of the vertices when a file is rewritten. Changes after those of the file's properties
+/// add properties.
 struct Change {
-    /// Of `names_of_columns`; from 6 on: a column of FileFields; -1: it stays.
+    /// An index in names_of_columns; from 6 on: a column of FileFields; -1: the property does not change.
     Index column = -1;
-    /// The type of the number in the file that is written.
+    /// The type of the number in the written file.
     PlyType type = PlyType::Float64;
 };
 
@@ -41,7 +41,7 @@ enum class Normals {
     None,
     /// Floating-point numbers.
     Usable,
-    /// Not all three, or integers, whose scale is unknown, or lists.
+    /// Not all three exist, or they are integers, whose scale is unknown, or lists.
     Other
 };
 
@@ -75,7 +75,7 @@ std::vector<Change> changes_of(const PlyElement& vertices, const std::array<bool
     return changes;
 }
 
-/// Makes a property that the file has that of a field.
+/// The change of a property that the file has to the values of a field.
 /// @param remarks gets sentences for the user.
 /// @throws OutputError naming `target`, the file to write.
 Change change_of_field(const PlyProperty& property, Index column, const FileFields& fields,
@@ -99,8 +99,8 @@ Change change_of_field(const PlyProperty& property, Index column, const FileFiel
     return {first_field + column, property.type};
 }
 
-/// Adds the changes of fields: in place of those of properties of their names, or of new properties.
-/// @param target, and what is returned: see change_of_field.
+/// Adds the changes of fields: of properties with their names, or of new properties.
+/// @param target, and the returned remarks: see change_of_field.
 std::vector<std::string> add_fields(std::vector<Change>& changes, const PlyElement& vertices, const FileFields& fields,
                                     const std::filesystem::path& target)
 {
@@ -123,10 +123,10 @@ std::vector<std::string> add_fields(std::vector<Change>& changes, const PlyEleme
     return remarks;
 }
 
-/// New numbers of the vertices.
+/// The new numbers of the vertices.
 struct NewVertices {
     const Points& positions;
-    /// Nothing: they stay as they are.
+    /// Nothing: normals do not change.
     const std::optional<MovedNormals>& normals;
     /// See FileFields::values.
     const Eigen::MatrixXd& fields;
@@ -163,7 +163,7 @@ class VertexRewriter {
     const std::vector<Change>& changes_;
     const NewVertices& now_;
     const PlyElement& vertices_;
-    /// One for each property.
+    /// One per property.
     std::vector<Number> numbers_;
     Point normal_ = Point::Zero();
     bool rounded_ = false;
@@ -187,7 +187,7 @@ bool VertexRewriter::rewrite(const PlySlice& slice)
     return rounded_;
 }
 
-/// @param end the place behind the vertex.
+/// @param end an empty piece of text after the vertex.
 void VertexRewriter::write_vertex(Index v, std::string_view end)
 {
     const bool is_text = data_.header.encoding == Encoding::Ascii;
@@ -227,14 +227,14 @@ void VertexRewriter::write(ByteWriter& file, const Change& change, double number
 }
 
 /// The end of a line of the header.
-/// @param place in it.
+/// @param place a piece of that line.
 std::string_view line_end_behind(std::string_view header, std::string_view place)
 {
     const std::size_t begin = header.find_first_of("\r\n", static_cast<std::size_t>(place.data() - header.data()));
     return header.substr(begin, header.substr(begin).starts_with("\r\n") ? 2 : 1);
 }
 
-/// Declares wider types where that is necessary, and new properties.
+/// Writes the header, with wider types where they are necessary, and with new properties.
 std::vector<std::string> rewrite_header(ByteWriter& file, const std::filesystem::path& path, std::string_view header,
                                         const PlyElement& vertices, const std::vector<Change>& changes,
                                         const FileFields& fields)
@@ -260,7 +260,7 @@ std::vector<std::string> rewrite_header(ByteWriter& file, const std::filesystem:
     return remarks;
 }
 
-/// Writes all that follows the header.
+/// Writes the elements after the header.
 /// @returns whether positions were rounded.
 bool rewrite_elements(OutputFile& file, const PlyData& data, const std::vector<Change>& changes, const NewVertices& now,
                       const Slicing& slicing)
@@ -275,7 +275,7 @@ bool rewrite_elements(OutputFile& file, const PlyData& data, const std::vector<C
     return std::ranges::find(rounded, 1) != rounded.end();
 }
 
-/// Whether the properties x, y and z can hold the coordinates, floats after rounding.
+/// Whether the types of the properties x, y and z can hold the coordinates, floats after rounding.
 std::array<bool, 3> coordinates_fit(const PlyElement& vertices, const Points& positions)
 {
     std::array<bool, 3> fits{};

@@ -22,15 +22,15 @@ inline std::endian order_of(Encoding encoding)
     return encoding == Encoding::BinaryBigEndian ? std::endian::big : std::endian::little;
 }
 
-/// A property of an element that is read, or a list, and what is passed over before it.
+/// A property of an element that is read, and the properties before it that are skipped.
 struct PlySlot {
-    /// Numbers, not lists.
+    /// The skipped properties, which are numbers, not lists.
     std::span<const PlyProperty> passed_over;
-    /// Their bytes in a binary file.
+    /// The bytes of the skipped properties in a binary file.
     std::size_t n_bytes = 0;
-    /// Null at the end of the element.
+    /// The property; null at the end of the element.
     const PlyProperty* property = nullptr;
-    /// Where its numbers go; -1: it is passed over.
+    /// The column of its numbers; -1: a list that is skipped.
     Index column = -1;
 };
 
@@ -38,20 +38,20 @@ struct PlySlot {
 std::vector<PlySlot> slots_of(const PlyElement& element, const std::vector<Index>& columns);
 
 /// The numbers of a PLY file, one after another. In text an element is a line, and types do not matter. All functions
-/// throw InputError, naming the line, or element and byte, if the file holds something else.
+/// throw InputError, naming the line, or element and byte, if the file has something else.
 class PlySource {
   public:
-    /// Of a text file.
-    /// @param scanner stands before the first line, that is, at the last line of the header.
-    /// @param what is to be exported again if the length of a list is negative.
+    /// The numbers of a text file.
+    /// @param scanner at the last line of the header.
+    /// @param what the thing to export again if the length of a list is negative.
     PlySource(const TextScanner& scanner, const char* what)
         : scanner_(scanner)
         , what_(what)
     {
     }
 
-    /// Of a binary file.
-    /// @param scanner stands at the first number.
+    /// The numbers of a binary file.
+    /// @param scanner at the first number.
     PlySource(const ByteScanner& scanner, const char* what)
         : scanner_(scanner)
         , what_(what)
@@ -95,7 +95,7 @@ class PlySource {
     /// To be called after the last element.
     void finish();
 
-    /// The next number, which is finite, unless faults are noted.
+    /// The next number, which must be finite, unless faults are collected.
     double real(PlyType type)
     {
         if (is_text())
@@ -106,7 +106,7 @@ class PlySource {
         return value;
     }
 
-    /// The next number, finite or not; NaN if it is none.
+    /// The next number, finite or not; NaN if the text is no number.
     double number(PlyType type)
     {
         if (is_text())
@@ -114,7 +114,7 @@ class PlySource {
         return with_type(type, [&](auto zero) { return static_cast<double>(bytes().template read<decltype(zero)>()); });
     }
 
-    /// The next number of a field (see FileFields), which is not infinite.
+    /// The next number of a field (see FileFields), which must not be infinite.
     /// @param name of the field, in messages.
     double field(PlyType type, const char* name);
 
@@ -167,7 +167,7 @@ class PlySource {
     /// The characters or bytes of the next number.
     std::string_view peek(PlyType type) { return is_text() ? text().peek() : bytes().peek(size_in_bytes(type)); }
 
-    /// The place behind the number before: no characters.
+    /// An empty piece of text after the last number.
     [[nodiscard]] std::string_view behind();
 
   private:
@@ -183,7 +183,7 @@ class PlySource {
             bytes().enter(element.name, i);
     }
 
-    /// Passes over the numbers before the property of a slot.
+    /// Skips the properties before that of a slot.
     void pass_over(const PlySlot& slot)
     {
         if (slot.passed_over.empty())

@@ -150,20 +150,20 @@ void write_ply(OutputFile& file, const PolygonMesh& mesh, Encoding encoding, con
 
 namespace {
 
-/// Of a column that was read.
+/// The range of a column that was read.
 std::optional<WholeRange> range_of(const FileFields& fields, Index column)
 {
     return usize(column) < fields.whole.size() ? fields.whole[column] : std::nullopt;
 }
 
-/// The columns red, green and blue, where they were read as colours and each vertex has one.
+/// The columns red, green and blue, if they were read as colours and each vertex has a colour.
 std::optional<std::array<Index, 3>> columns_of_colours(const FileFields& fields)
 {
-    std::array<Index, 3> places{};
-    std::ranges::transform(std::array{"red", "green", "blue"}, places.begin(),
+    std::array<Index, 3> columns{};
+    std::ranges::transform(std::array{"red", "green", "blue"}, columns.begin(),
                            [&](const char* name) { return fields.column(name); });
     constexpr double most_whole = 65535.0;
-    for (const Index c : places) {
+    for (const Index c : columns) {
         if (c < 0 || fields.values.col(c).hasNaN())
             return {};
         const auto range = range_of(fields, c);
@@ -171,18 +171,18 @@ std::optional<std::array<Index, 3>> columns_of_colours(const FileFields& fields)
         if (!is_whole && (usize(c) >= fields.decimals.size() || fields.decimals[c] != Decimals::SingleText))
             return {};
     }
-    return places;
+    return columns;
 }
 
-/// @param places see columns_of_colours. @returns #V.
-std::vector<Colour> colours_in(const FileFields& fields, const std::array<Index, 3>& places)
+/// @param columns see columns_of_colours. @returns #V.
+std::vector<Colour> colours_in(const FileFields& fields, const std::array<Index, 3>& columns)
 {
     std::vector<Colour> colours(static_cast<std::size_t>(fields.values.rows()));
-    for (std::size_t k = 0; k < places.size(); ++k) {
-        const double all = range_of(fields, places[k]).value_or(WholeRange{0.0, 1.0}).largest;
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+        const double all = range_of(fields, columns[k]).value_or(WholeRange{0.0, 1.0}).largest;
         for (std::size_t v = 0; v < colours.size(); ++v)
             colours[v][k] = static_cast<std::uint8_t>(
-                std::lround(255.0 * std::clamp(fields.values(static_cast<Index>(v), places[k]) / all, 0.0, 1.0)));
+                std::lround(255.0 * std::clamp(fields.values(static_cast<Index>(v), columns[k]) / all, 0.0, 1.0)));
     }
     return colours;
 }
@@ -192,11 +192,11 @@ std::vector<Colour> colours_in(const FileFields& fields, const std::array<Index,
 void write_ply(OutputFile& file, const PolygonMesh& mesh, Encoding encoding, const Slicing& slicing,
                const FileFields& fields)
 {
-    const auto places = columns_of_colours(fields);
-    const std::vector<Colour> colours = places ? colours_in(fields, *places) : std::vector<Colour>();
+    const auto columns = columns_of_colours(fields);
+    const std::vector<Colour> colours = columns ? colours_in(fields, *columns) : std::vector<Colour>();
     std::vector<NamedColumn> others;
     for (Index c = 0; c < std::ssize(fields.names); ++c)
-        if (!places || std::ranges::find(*places, c) == places->end())
+        if (!columns || std::ranges::find(*columns, c) == columns->end())
             others.push_back({fields.names[c], {fields.values.col(c).data(), usize(mesh.n_vertices())}});
     write_ply(file, mesh, encoding, slicing, {.vertex_colours = colours, .vertex_values = others});
 }

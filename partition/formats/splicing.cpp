@@ -16,7 +16,7 @@ std::optional<Point> on_the_side_of(const Point& given, const Point& before, con
     if (after == before || after == Point::Zero())
         return std::nullopt;
     const double side = given.dot(before) < 0.0 ? -1.0 : 1.0;
-    // The sum has no negative zeros, which nobody likes to read.
+    // Adding 0 turns -0 into 0, which is easier to read.
     return Point(side * after + Point::Zero());
 }
 
@@ -88,7 +88,7 @@ MovedNormals::MovedNormals(const PolygonMesh& mesh, Points before, const Executo
 std::optional<Point> MovedNormals::around_vertex(Index v, const Point& given) const
 {
     if (welded_) {
-        const Index first = welded_->first[v];
+        const Index first = welded_->representative[v];
         const Point across = (*across_seams_)(first, before_);
         if (std::abs(given.dot(across)) > std::abs(given.dot(normals_(v, before_))))
             return on_the_side_of(given, across, (*across_seams_)(first, mesh_.vertices));

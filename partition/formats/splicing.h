@@ -40,13 +40,13 @@ class Splicer {
 /// Whether two numbers differ in any bit: 0 and -0 do, a NaN and itself do not.
 bool differ(double a, double b);
 
-/// The same for data, of which any NaN means that there are none.
+/// Whether two data differ in any bit. All NaN are equal: they stand for missing data.
 bool differ_as_data(double a, double b);
 
 /// Reads the next three numbers of the line.
 WrittenNumbers read_position(TextScanner& scanner);
 
-/// Replaces those coordinates that differ from the ones written.
+/// Writes the coordinates that differ from the ones in the file.
 void exchange_position(Splicer& splicer, const WrittenNumbers& before, const Point& after);
 
 /// Reads the next three tokens of the line, whatever they are.
@@ -55,26 +55,29 @@ WrittenNumbers read_normal(TextScanner& scanner);
 /// Writes a normal, in single precision, in place of another.
 void exchange_normal(Splicer& splicer, const WrittenNumbers& before, const Point& after);
 
-/// New normals for a file after its vertices have moved. A normal that pointed to the back of its faces still does.
+/// The new normals of a file after its vertices have moved. A normal that pointed to the back of its faces still does.
 class MovedNormals {
   public:
-    /// @param mesh where the vertices are now; must outlive this object.
-    /// @param before #V by 3, where they were. @param seam_distance see weld.
+    /// @param mesh with the new positions; must outlive this object.
+    /// @param before #V by 3, the positions in the file. @param seam_distance see weld.
     MovedNormals(const PolygonMesh& mesh, Points before, const Executor& exec = run_serially,
                  double seam_distance = 0.0);
     MovedNormals(const MovedNormals&) = delete;
     MovedNormals& operator=(const MovedNormals&) = delete;
 
-    /// The normal of the faces of some corners at one vertex (see VertexNormals), of length 1.
-    /// @param given the normal before; NaN does not matter.
-    /// @returns nothing if it stays: the faces have not moved, or have no normal now.
+    /// The new normal of the faces of some corners at one vertex (see VertexNormals), of length 1.
+    /// @param given the normal in the file; may be NaN.
+    /// @returns nothing if the normal does not change: the faces have not moved, or have no normal now.
     [[nodiscard]] std::optional<Point> around_vertex(std::span<const Index> corners, const Point& given) const;
 
-    /// The same for all corners at vertex v. Along a seam (see weld) those of all copies count if the normal before was
-    /// closer to theirs than to that of v alone: shading that was continuous across the seam stays so.
+    /// The new normal of all faces at vertex v. Along a seam (see weld) the faces at all vertices joined with v count
+    /// if the normal in the file was closer to their common normal than to that of v alone: shading that was continuous
+    /// across the seam stays continuous.
+    /// @returns nothing if the normal does not change.
     [[nodiscard]] std::optional<Point> around_vertex(Index v, const Point& given) const;
 
-    /// The same for one face.
+    /// The new normal of one face.
+    /// @returns nothing if the normal does not change.
     [[nodiscard]] std::optional<Point> of_face(Index f, const Point& given) const;
 
     [[nodiscard]] Index face_of(Index corner) const { return topology_.face_of[corner]; }
@@ -87,7 +90,7 @@ class MovedNormals {
     Points before_;
     Topology topology_;
     VertexNormals normals_;
-    /// Where the mesh has seams.
+    /// The welded mesh, if the mesh has seams.
     std::optional<Weld> welded_;
     std::optional<VertexNormals> across_seams_;
 };
@@ -95,12 +98,12 @@ class MovedNormals {
 /// The message for a file changed since it was read.
 std::string changed_since_read(const std::filesystem::path& source);
 
-/// A sentence for the user of whole numbers that are too small or too large.
-/// @param name of the field. @param range in which they must be, or the type that has it.
+/// A sentence for the user on whole numbers that are too small or too large.
+/// @param name of the field. @param range of the numbers, or the type that has it.
 std::string clamping_remark(std::string_view name, std::string_view range);
 
-/// A sentence for the user of a file less precise than the results.
-/// @param source the file that decides about their type.
+/// A sentence for the user on a file that is less precise than the results.
+/// @param source the file that determines the type.
 std::string rounding_remark(const std::filesystem::path& source);
 
 }  // namespace seamflow

@@ -27,29 +27,30 @@ namespace seamflow {
 MeshFile read_stl(const std::filesystem::path& path, std::string_view file, const Slicing& slicing,
                   FaultLog* faults = nullptr);
 
-/// Reads text, as above.
+/// Reads text STL (see read_stl).
 /// @param text begins with `solid`.
 PolygonMesh read_text_stl(const std::filesystem::path& path, std::string_view text, const Slicing& slicing,
                           FaultLog* faults);
 
-/// A binary file begins with a title and the number of facets, each with a normal, three corners and an attribute.
+/// The parts of a binary file: a title and the number of facets, then facets, each with a normal, three corners and an
+/// attribute.
 constexpr std::size_t stl_header_bytes = 84;
 constexpr std::size_t stl_facet_bytes = 50;
 
 /// The bytes of the facets of a binary file, which has all of them.
 std::string_view stl_facets(std::string_view file);
 
-/// Whether it is text rather than binary (see read_stl).
+/// Whether the file is text and not binary (see read_stl).
 bool is_text_stl(std::string_view file);
 
-/// Whether `read_stl` can read it: the size is that of a binary file, or the text begins with `solid`.
+/// Whether `read_stl` can read the file: the size is that of a binary file, or the text begins with `solid`.
 bool is_stl(std::string_view file);
 
 /// Checks that STL can hold the mesh: triangles only, no vertex without faces, and for the binary encoding all
-/// coordinates within single precision. Facets with coinciding corners are written, too: they are lines, which readers
-/// skip. Vertices that coincide without having a face in common become one vertex when the file is read again: STL has
-/// points only, and no numbers for them.
-/// @returns a remark on these.
+/// coordinates within single precision. Facets with coinciding corners are also written: they are lines, which readers
+/// skip. Vertices that coincide without having a face in common become one vertex when the file is read again, because
+/// STL has points without numbers.
+/// @returns a remark on such vertices.
 /// @throws OutputError naming the face or vertex, and the remedy.
 std::vector<std::string> require_fits_stl(const std::filesystem::path& path, const PolygonMesh& mesh,
                                           Encoding encoding);
@@ -60,13 +61,13 @@ using StlFacet = std::array<Point, 3>;
 /// The corners of face f, a triangle.
 StlFacet facet_of(const PolygonMesh& mesh, Index f);
 
-/// Whether two corners are in the same place.
+/// Whether two corners coincide.
 bool is_line(const StlFacet& facet);
 
-/// In single precision.
+/// The facet rounded to single precision.
 StlFacet rounded(const StlFacet& facet);
 
-/// Of unit length, in single precision; zero for a triangle without area.
+/// The normal of a facet: of unit length, in single precision; zero for a triangle without area.
 Point normal_of_facet(const StlFacet& triangle);
 
 /// Writes STL with unit normals (0 0 0 where a face has no area).

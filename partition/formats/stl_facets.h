@@ -24,7 +24,7 @@ class FacetCollector {
   public:
     using Corner = std::array<Real, 3>;
 
-    /// @param slice without vertices: those of the faces are the points in it.
+    /// @param slice without vertices: its faces have the numbers of points of the slice.
     FacetCollector(const InputPosition& position, const MeshSlice& slice)
         : position_(position)
         , builder_(position, 0, slice)
@@ -45,8 +45,9 @@ class FacetCollector {
         last_corners_ = corners;
     }
 
-    /// The points, by their numbers.
-    /// @param is_whole whether there are no other slices. @throws InputError if there are none then.
+    /// Moves out the points, in the order of their numbers.
+    /// @param is_whole whether there are no other slices. @throws InputError if there are no points, and no other
+    /// slices.
     [[nodiscard]] std::vector<Corner> take_points(bool is_whole)
     {
         if (is_whole)
@@ -54,14 +55,14 @@ class FacetCollector {
         return numbers_.take_points();
     }
 
-    /// Makes room for as many points as there are facets, about twice as many as there are: a table with much room is
-    /// faster.
+    /// Reserves memory for as many points as there are facets, about twice as many as there are points: a table with
+    /// much room is faster.
     void expect_facets(std::size_t n) { numbers_.reserve(n); }
 
   private:
-    static constexpr Real no_place = std::numeric_limits<Real>::quiet_NaN();
+    static constexpr Real no_coordinate = std::numeric_limits<Real>::quiet_NaN();
 
-    /// Most facets share corners with the one before them.
+    /// Compares with the last facet first, because most facets share corners with the one before them.
     Index number_of(const Corner& point)
     {
         for (std::size_t i = 0; i < last_points_.size(); ++i)
@@ -73,18 +74,18 @@ class FacetCollector {
     const InputPosition& position_;
     MeshBuilder builder_;
     BasicPointNumbers<Real> numbers_;
-    /// Of the last facet; at first equal to nothing.
-    std::array<Corner, 3> last_points_ = {Corner{no_place}, Corner{no_place}, Corner{no_place}};
+    /// The corners of the last facet; before the first facet NaN, which equals no corner.
+    std::array<Corner, 3> last_points_ = {Corner{no_coordinate}, Corner{no_coordinate}, Corner{no_coordinate}};
     std::array<Index, 3> last_corners_ = {};
     Index n_facets_ = 0;
 };
 
 /// Reads slices, several at a time. Points are numbered within each slice, and then for all slices.
-/// @param read called with a slice and where its faces go; returns its points.
+/// @param read called with a slice, and with a MeshSlice for its faces; returns its points.
 template <class Real>
 PolygonMesh
 join_facets(Index n_slices, const Executor& exec,
-            const std::function<std::vector<std::array<Real, 3>>(Index slice, const MeshSlice& place)>& read)
+            const std::function<std::vector<std::array<Real, 3>>(Index slice, const MeshSlice& mesh_slice)>& read)
 {
     PolygonMesh mesh;
     std::vector<std::vector<std::array<Real, 3>>> of_slice(usize(n_slices));

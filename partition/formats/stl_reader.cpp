@@ -53,7 +53,7 @@ Corner read_point(ByteScanner& scanner)
     return {x, y, z};
 }
 
-/// The corners of a facet that is known to be there; empty if a coordinate is not finite, and perhaps if it is huge.
+/// The corners of a facet within the file; empty if a coordinate is not finite, and perhaps if it is huge.
 std::optional<std::array<Corner, 3>> corners_of(std::string_view facet)
 {
     std::array<Corner, 3> corners;
@@ -100,8 +100,8 @@ void read_facets(ByteScanner& scanner, std::uint64_t begin, std::uint64_t end, B
     }
 }
 
-/// @param per_slice number of facets that are read at a time. @param faults see read_stl.
-/// @throws InputError if there is any fault; naming it if all are read at a time.
+/// @param per_slice the number of facets of a slice. @param faults see read_stl.
+/// @throws InputError if there is any fault; the message names it if all facets are in one slice.
 PolygonMesh read_binary(const std::filesystem::path& path, std::string_view file, std::uint64_t per_slice,
                         const Executor& exec, FaultLog* faults)
 {
@@ -109,15 +109,15 @@ PolygonMesh read_binary(const std::filesystem::path& path, std::string_view file
     require_room_for_facets(all, file);
     const std::uint64_t n = all.read<std::uint32_t>();
     const std::uint64_t n_slices = std::max<std::uint64_t>((n + per_slice - 1) / per_slice, 1);
-    return join_facets<float>(static_cast<Index>(n_slices), exec, [&](Index i, const MeshSlice& place) {
+    return join_facets<float>(static_cast<Index>(n_slices), exec, [&](Index i, const MeshSlice& mesh_slice) {
         const std::uint64_t begin = usize(i) * per_slice;
         const std::uint64_t end = std::min(begin + per_slice, n);
         ByteScanner scanner(path, file, header_bytes + facet_bytes * begin, std::endian::little);
         scanner.note_faults_in(faults);
-        BinaryFacets collector(scanner, place);
+        BinaryFacets collector(scanner, mesh_slice);
         collector.expect_facets(end - begin);
-        place.faces.face_offsets.reserve(end - begin + 1);
-        place.faces.face_vertices.reserve(3 * (end - begin));
+        mesh_slice.faces.face_offsets.reserve(end - begin + 1);
+        mesh_slice.faces.face_vertices.reserve(3 * (end - begin));
         read_facets(scanner, begin, end, collector);
         if (end == n)
             scanner.require_end();
@@ -157,7 +157,7 @@ MeshFile read_stl(const std::filesystem::path& path, std::string_view file, cons
         const auto in_one_go = [&] {
             return read_binary(path, file, std::numeric_limits<std::uint32_t>::max(), run_serially, faults);
         };
-        // Longer than slices of other files: the points that two have in common are looked for in both.
+        // Longer than slices of other files, because the points that two slices have in common are looked up in both.
         const std::uint64_t per_slice = 2 * static_cast<std::uint64_t>(elements_per_slice(slicing, facet_bytes));
         const auto in_slices = [&] { return read_binary(path, file, per_slice, slicing.exec, nullptr); };
         return {file.size() <= slicing.bytes ? in_one_go() : read_in_slices_if_faultless(in_slices, in_one_go),

@@ -60,7 +60,7 @@ struct NameFinder {
     void solid(TextScanner& scanner) { has_name |= scanner.has_token(); }
 };
 
-/// A file read by read_stl, as the template for one with other positions.
+/// The form of a file read by read_stl, as the template for one with other positions.
 struct StlForm {
     StlForm(const std::filesystem::path& path, std::string_view content, const Slicing& slicing)
         : whole(path, content, stl_syntax)
@@ -95,12 +95,12 @@ struct StlForm {
 
     TextScanner whole;
     bool is_text;
-    /// In text, all except a byte order mark; and in pieces of whole facets.
+    /// The facets: in text, everything except a byte order mark; and pieces of whole facets.
     std::string_view facets;
     std::vector<std::string_view> pieces = {};
 };
 
-/// Writes a facet with other corners in place of one.
+/// Writes a facet with other corners in place of one in the file.
 void exchange_facet(Splicer& splicer, const WrittenFacet& before, const StlFacet& after, bool is_text)
 {
     const auto exchange = [&](std::string_view part, auto value) {
@@ -111,7 +111,7 @@ void exchange_facet(Splicer& splicer, const WrittenFacet& before, const StlFacet
             there.binary(static_cast<float>(value), std::endian::little);
     };
     const double side = before.normal.values.dot(normal_of_facet(before.values())) < 0.0 ? -1.0 : 1.0;
-    // The sum has no negative zeros, which nobody likes to read.
+    // Adding 0 turns -0 into 0, which is easier to read.
     const Point normal = side * normal_of_facet(after) + Point::Zero();
     for (Index k = 0; k < 3; ++k)
         if (!before.normal.parts[k].empty())
@@ -139,7 +139,7 @@ std::vector<std::string> rewrite_stl(OutputFile& file, const std::filesystem::pa
     const StlForm form(path, content, slicing);
     if (!form.is_text)
         require_floats(file.path(), mesh.vertices, slicing.exec, "binary STL");
-    // How many facets before each piece are triangles, and so faces of the mesh.
+    // The number of facets before each piece that are triangles, and so faces of the mesh.
     std::vector<Index> first(form.pieces.size() + 1, 0);
     for_each(slicing.exec, form.n_pieces(), [&](Index i) {
         form.for_each_facet(i, [&](const WrittenFacet& facet) { first[i + 1] += is_line(facet.values()) ? 0 : 1; });

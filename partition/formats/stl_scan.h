@@ -22,22 +22,23 @@ void next_stl_line(TextScanner& scanner, std::string_view keyword);
 /// @throws InputError if there is something else.
 void pass_over_keyword(TextScanner& scanner, std::string_view keyword);
 
-/// Whether the line ends something: some programs write "end loop" for "endloop".
+/// Whether the line ends `what`: some programs write "end loop" for "endloop".
 bool is_end_of(TextScanner& scanner, std::string_view what);
 
-/// Goes to the line behind the corners of a facet, and to its end.
-/// @throws InputError if there are more corners, or something else.
+/// Skips the lines after the corners of a facet, up to its end.
+/// @throws InputError if there are more corners, or other words.
 void end_stl_facet(TextScanner& scanner);
 
 /// @throws InputError unless the line ends here.
 void end_stl_corner(TextScanner& scanner);
 
-/// Scans a text, or a slice of it (see stl_slices_at_facets). Of these functions the visitor has those that it needs:
-/// - solid(scanner): reads the line `solid` from the name on;
-/// - normal(scanner): reads the line `facet` from the word `normal` on;
-/// - corner(k, scanner): reads the three coordinates of a corner, which it must if it has it;
-/// - facet(): is told that all of a facet has been read.
-/// @param in_solid whether it begins within a solid. @returns whether it ends within one.
+/// Scans a text, or a slice of it (see stl_slices_at_facets). The visitor has those of the following functions that it
+/// needs:
+/// - solid(scanner): reads the line `solid`, beginning at the name;
+/// - normal(scanner): reads the line `facet`, beginning at the word `normal`;
+/// - corner(k, scanner): must read the three coordinates of a corner;
+/// - facet(): called when a facet has been read.
+/// @param in_solid whether the text begins within a solid. @returns whether it ends within one.
 template <class Visitor>
 bool scan_text_stl(TextScanner& scanner, bool in_solid, Visitor& visitor)
 {
@@ -72,7 +73,7 @@ bool scan_text_stl(TextScanner& scanner, bool in_solid, Visitor& visitor)
     return in_solid;
 }
 
-/// Slices of a text that begin at facets, except for the first.
+/// Divides a text into slices that begin at facets, except for the first slice.
 std::vector<std::string_view> stl_slices_at_facets(const TextScanner& whole, std::size_t bytes);
 
 }  // namespace seamflow

@@ -102,15 +102,15 @@ struct TextFacetReader {
     void facet() { collector.add(corners); }
 };
 
-/// @param faults see read_stl. @throws InputError if there is any fault; naming it if there is one slice.
+/// @param faults see read_stl. @throws InputError if there is any fault; the message names it if there is one slice.
 PolygonMesh read_slices(const TextScanner& whole, std::span<const std::string_view> slices, const Executor& exec,
                         FaultLog* faults)
 {
     const auto n = static_cast<Index>(slices.size());
-    return join_facets<double>(n, exec, [&](Index i, const MeshSlice& place) {
+    return join_facets<double>(n, exec, [&](Index i, const MeshSlice& mesh_slice) {
         TextScanner scanner(whole, slices[i]);
         scanner.note_faults_in(faults);
-        FacetCollector<double> collector(scanner, place);
+        FacetCollector<double> collector(scanner, mesh_slice);
         TextFacetReader reader{collector};
         const bool is_open = scan_text_stl(scanner, i > 0, reader);
         if (is_open && i + 1 == n)

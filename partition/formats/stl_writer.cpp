@@ -68,7 +68,7 @@ StlFacet facet_of(const PolygonMesh& mesh, Index f)
     return {mesh.vertices.row(corners[0]), mesh.vertices.row(corners[1]), mesh.vertices.row(corners[2])};
 }
 
-/// Scaled first, so that products of large or small coordinates do not overflow or vanish.
+/// The coordinates are scaled first, so that products of large or small ones do not overflow or vanish.
 Point normal_of_facet(const StlFacet& triangle)
 {
     const double scale = std::max({triangle[0].cwiseAbs().maxCoeff(), triangle[1].cwiseAbs().maxCoeff(),

@@ -20,15 +20,15 @@ struct WrittenNumber {
     double value;
 };
 
-/// A colour as written, as far as there are numbers.
+/// The numbers of a colour in the file, as far as they exist.
 struct WrittenColour {
     std::array<WrittenNumber, colour_names.size()> numbers = {};
-    /// There may be more than fit above.
+    /// The number of numbers in the line, which may exceed the size of the array.
     std::size_t count = 0;
 };
 
-/// Reads the numbers up to the end of the line. What is no finite number is NaN.
-/// @param n_behind how many of them follow the colour.
+/// Reads the numbers up to the end of the line. A text that is no finite number becomes NaN.
+/// @param n_behind the number of them that follow the colour.
 WrittenColour read_colour(TextScanner& scanner, std::size_t n_behind)
 {
     WrittenColour colour;
@@ -46,7 +46,7 @@ bool is_colour(std::string_view name)
     return std::ranges::find(colour_names, name) != colour_names.end();
 }
 
-/// The largest whole number of a colour, if that is what colours are: see NewColours.
+/// The largest value of a colour if colours are whole numbers; otherwise nothing (see NewColours).
 std::optional<double> largest_whole(const TextColours& written)
 {
     const auto is_whole = [](double value) { return std::trunc(value) == value; };
@@ -134,7 +134,7 @@ void NewColours::exchange(TextScanner& scanner, Splicer& splicer, Index v, std::
         if (!differ(colour.numbers[k].value, after))
             continue;
         ByteWriter& file = splicer.exchange(colour.numbers[k].part);
-        // The sum is not -0.
+        // Adding 0 turns -0 into 0.
         if (largest_)
             file.number(std::clamp(std::round(after), 0.0, *largest_) + 0.0);
         else if (std::abs(after) <= double{std::numeric_limits<float>::max()})

@@ -19,21 +19,22 @@ namespace seamflow {
 
 inline constexpr std::array<std::string_view, 4> colour_names = {"red", "green", "blue", "alpha"};
 
-/// #V by 4. The alpha of a colour that has none is 0.
+/// #V by 4: red, green, blue, alpha. The alpha of a colour without alpha is 0.
 using TextColours = Eigen::Matrix<double, Eigen::Dynamic, colour_names.size()>;
 
-/// Reads the colours of vertices; see scan_vertex. Several threads may use one.
+/// Reads the colours of vertices; see scan_vertex. Several threads may use one reader.
 struct ColourReader {
-    /// Has a row for each vertex.
+    /// One row per vertex.
     TextColours& colours;
-    /// 3, or 4: all colours must have alpha.
+    /// 3; or 4 if all colours must have alpha.
     Index n_components;
 
     /// @throws InputError for a vertex without colour.
     void colour(Index v, TextScanner& scanner, std::size_t n_behind) const;
 };
 
-/// Reads the slices of a text several at a time; if they have a fault, all in one, which names the line.
+/// Reads the slices of a text, several at a time. If they have a fault, reads them again in one, for a message with the
+/// line.
 /// @param read called with slices and an executor.
 TextColours read_text_colours(const TextScanner& after_header, const Slicing& slicing, const auto& read)
 {
@@ -41,17 +42,17 @@ TextColours read_text_colours(const TextScanner& after_header, const Slicing& sl
                                        [&] { return read({after_header.rest()}, Executor(run_serially)); });
 }
 
-/// Colours as fields.
-/// @param read gives the colours of a file, for a number of components as above.
+/// Returns colours as fields.
+/// @param read gives the colours of a file, for a number of components (see ColourReader).
 /// @throws InputError also for other names than colour_names and their groups; see names_of_fields.
 FileFields fields_of_colours(const std::filesystem::path& path, std::span<const std::string> names,
                              const std::function<TextColours(Index n_components)>& read);
 
-/// The colours of `fields` for a text file.
+/// The new colours of a text file.
 class NewColours {
   public:
-    /// @param target the file to write. @param fields must outlive this object.
-    /// @param read gives the colours that the file has, see fields_of_colours.
+    /// @param target the file to write. @param fields with colours; must outlive this object.
+    /// @param read gives the colours of the file that was read (see fields_of_colours).
     /// @throws OutputError for fields that are no colours, and for NaN.
     NewColours(const std::filesystem::path& target, const FileFields& fields,
                const std::function<TextColours(Index n_components)>& read);
@@ -59,18 +60,18 @@ class NewColours {
     [[nodiscard]] bool has_any() const { return columns_ != no_columns; }
 
     /// Replaces the colour of vertex v.
-    /// @param scanner stands before it. @param n_behind how many numbers of the line follow the colour.
+    /// @param scanner at the colour. @param n_behind the number of numbers of the line that follow the colour.
     void exchange(TextScanner& scanner, Splicer& splicer, Index v, std::size_t n_behind) const;
 
-    /// Sentences for the user: colours that are kept within their range.
+    /// Sentences for the user on colours that were clamped to their range.
     [[nodiscard]] std::vector<std::string> remarks() const;
 
   private:
     static constexpr std::array<Index, colour_names.size()> no_columns = {-1, -1, -1, -1};
     const FileFields& fields_;
     std::array<Index, colour_names.size()> columns_ = no_columns;
-    /// Colours are whole numbers if all those of the file are and some exceed 1. They reach from 0 to 255, or to the
-    /// largest of the file. Nothing if they are not whole.
+    /// The largest value of a colour if colours are whole numbers: all colours of the file are whole and some exceed 1.
+    /// It is 255, or the largest value in the file. Nothing if colours are not whole.
     std::optional<double> largest_;
 };
 
@@ -79,7 +80,7 @@ struct VertexRewriter {
     Splicer splicer;
     const Points& positions;
     const NewColours& colours;
-    /// Returns the new value of the n-th normal, which is `given` in the file; empty: the normal stays.
+    /// Returns the new value of the n-th normal, which is `given` in the file; nothing: the normal does not change.
     std::function<std::optional<Point>(Index n, const Point& given)> new_normal;
 
     void plain_vertex(Index v, const WrittenNumbers& given) { exchange_position(splicer, given, positions.row(v)); }

@@ -7,28 +7,28 @@
 #include "partition/io/text_scanner.h"
 #include "partition/vector_area.h"
 
-/// Vertices in lines of text: what the scans of OBJ and OFF have in common.
+/// Vertices in lines of text: the common part of the scans of OBJ and OFF.
 namespace seamflow {
 
-/// Three numbers of a line, and how they are written.
+/// Three numbers of a line, with their texts.
 struct WrittenNumbers {
     std::array<std::string_view, 3> parts;
     Point values;
 };
 
-/// What follows the coordinates of a vertex: perhaps a normal, then as many numbers of a colour as there are.
+/// The numbers after the coordinates of a vertex: perhaps a normal, then the numbers of a colour.
 struct VertexLayout {
     bool has_normal = false;
-    /// How many numbers follow the colour.
+    /// The number of numbers after the colour.
     Index n_behind_colour = 0;
 };
 
-/// Visits the numbers of a vertex. Of these functions the visitor has those that it needs:
+/// Visits the numbers of a vertex. The visitor has those of the following functions that it needs:
 /// - position(v, scanner): reads the three coordinates;
 /// - normal(v, scanner): reads the three numbers of the normal;
 /// - colour(v, scanner, n_behind): reads the rest of the line, whose last n_behind numbers are no colour.
-/// @param scanner stands before the coordinates. Where line ends are blanks, it is taken past the vertex, which then
-/// has no colour.
+/// @param scanner before the coordinates. If line ends count as blanks, it is moved past the vertex, which then has no
+/// colour.
 template <class Visitor>
 void scan_vertex(TextScanner& scanner, Index v, const VertexLayout& layout, Visitor& visitor)
 {

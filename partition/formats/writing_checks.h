@@ -7,10 +7,10 @@
 #include "partition/executor.h"
 #include "partition/polygon_mesh.h"
 
-/// Whether a format can hold a mesh, for the writers of several formats.
+/// Checks for the writers of several formats that a format can hold a mesh.
 namespace seamflow {
 
-/// "write .obj, .off or .ply, which can hold this mesh".
+/// The remedy "write .obj, .off or .ply, which can hold this mesh".
 std::string write_polygons_instead();
 
 /// Checks that single precision can hold all coordinates.

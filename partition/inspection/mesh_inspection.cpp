@@ -29,7 +29,7 @@ struct Surface {
     [[nodiscard]] Index start(Index h) const { return mesh.face_vertices[h]; }
     [[nodiscard]] Index end(Index h) const { return mesh.face_vertices[topology.next(mesh, h)]; }
     [[nodiscard]] Edge edge(Index h) const { return {std::min(start(h), end(h)), std::max(start(h), end(h))}; }
-    /// Whether both ends have finite positions.
+    /// Whether both ends of a half-edge have finite positions.
     [[nodiscard]] bool is_finite(Index h) const
     {
         return mesh.vertices.row(start(h)).allFinite() && mesh.vertices.row(end(h)).allFinite();
@@ -48,7 +48,7 @@ std::vector<Edge> edges_where(const Surface& s, const Executor& exec, Predicate&
     return edges;
 }
 
-/// Half-edges without a twin are on edges of one face, or of three or more.
+/// A half-edge without a twin is on an edge of one face, or of three or more.
 void inspect_edges(const Surface& s, const Executor& exec, MeshInspection& found)
 {
     const auto alone = select(exec, s.mesh.n_corners(), [&](Index h) { return s.topology.twin[h] < 0; });
@@ -129,7 +129,7 @@ bool run_opposite(std::span<const Index> face, std::span<const Index> other)
     return other[(begin + 1) % other.size()] != face[1];
 }
 
-/// Also counts components and pairs of faces that cross, as they are without duplicates.
+/// Also counts components, and pairs of faces that cross, without duplicate faces.
 void inspect_duplicates(const Surface& s, const Executor& exec, MeshInspection& found)
 {
     std::vector<Index> faces(s.mesh.n_faces());
@@ -154,7 +154,7 @@ void inspect_duplicates(const Surface& s, const Executor& exec, MeshInspection& 
         found.defects.self_intersections.push_back({faces[pair[0]], faces[pair[1]]});
 }
 
-/// Orients faces one after the other consistently with those before; whether all are consistent in the end.
+/// Orients the faces one after the other, consistently with the faces before. Returns whether all are consistent.
 bool is_orientable(const Surface& s)
 {
     std::vector<signed char> sense(s.mesh.n_faces(), 0);
@@ -185,7 +185,7 @@ bool is_orientable(const Surface& s)
 
 std::vector<RepeatedFace> find_repeated_faces(const PolygonMesh& mesh, const std::vector<Index>& candidates)
 {
-    // The vertices of each candidate, ascending.
+    // The vertices of each candidate face, ascending.
     IndexLists vertices;
     for (const Index f : candidates) {
         const auto begin = static_cast<std::ptrdiff_t>(vertices.values.size());

@@ -19,11 +19,12 @@ inline constexpr std::string_view padding("\0 \t\r\n", 5);
 class ByteScanner final : public InputPosition {
   public:
     /// @param path for messages only.
-    /// @param file the whole file; must outlive the scanner, as must what is given to `enter`.
-    /// @param offset where to begin.
+    /// @param file the whole file; must outlive the scanner, as must the text given to `enter`.
+    /// @param offset of the first number. @param order of the bytes.
     ByteScanner(const std::filesystem::path& path, std::string_view file, std::size_t offset, std::endian order);
 
-    /// Sets, for messages, the element (numbered from 0) of the following bytes.
+    /// Sets the element to which the following bytes belong, for messages.
+    /// @param i its number, from 0.
     void enter(std::string_view element, std::uint64_t i)
     {
         element_ = element;
@@ -48,7 +49,7 @@ class ByteScanner final : public InputPosition {
         return file_.data() + last_;
     }
 
-    /// Skips n bytes, which the caller knows to be there.
+    /// Skips n bytes, which the caller knows to exist.
     /// @param size of the last number among them, to which messages refer.
     void skip(std::size_t n, std::size_t size)
     {
@@ -56,7 +57,7 @@ class ByteScanner final : public InputPosition {
         last_ = next_ - size;
     }
 
-    /// The next n bytes, which the caller knows to be there.
+    /// The next n bytes, which the caller knows to exist.
     [[nodiscard]] std::string_view peek(std::size_t n) const { return file_.substr(next_, n); }
 
     [[nodiscard]] std::size_t remaining() const { return file_.size() - next_; }

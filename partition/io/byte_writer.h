@@ -28,11 +28,11 @@ class ByteWriter {
         used_ += text.size();
     }
 
-    /// A whole number in decimal.
+    /// Writes a whole number in decimal.
     void number(std::integral auto value) { append_chars(value); }
 
-    /// A number with the fewest digits (at most 17) that read back to the same value, independently of the locale.
-    /// NaN has no sign.
+    /// Writes a number with the fewest digits (at most 17) that read back to the same value, whatever the locale. NaN
+    /// is written without a sign.
     void number(std::floating_point auto value)
     {
         if (std::abs(value) < 1e17)
@@ -43,7 +43,7 @@ class ByteWriter {
             append_chars(value, std::chars_format::scientific);
     }
 
-    /// A line of the word, which may be empty, and the numbers, separated by blanks.
+    /// Writes a line: the word, which may be empty, and the numbers, separated by blanks.
     void line(std::string_view word, const auto& numbers)
     {
         text(word);
@@ -56,7 +56,7 @@ class ByteWriter {
         text("\n");
     }
 
-    /// The bytes of a number.
+    /// Writes the bytes of a number.
     template <class Number>
     void binary(Number value, std::endian order)
     {
@@ -64,7 +64,7 @@ class ByteWriter {
         text({bytes.data(), bytes.size()});
     }
 
-    /// The bytes of several numbers.
+    /// Writes the bytes of several numbers.
     template <class Number>
     void binary(std::span<const Number> values, std::endian order)
     {
@@ -84,17 +84,17 @@ class ByteWriter {
     ByteWriter& operator=(ByteWriter&&) = default;
     ~ByteWriter() = default;
 
-    /// The bytes written and not yet given up.
+    /// The bytes that have been written, as far as they are still in memory.
     [[nodiscard]] std::string_view kept() const { return {bytes_.get(), used_}; }
     void give_up() { used_ = 0; }
 
-    /// Makes room for n more bytes.
+    /// Reserves memory for n more bytes.
     void grow(std::size_t n);
 
     static constexpr std::size_t longest_number = 32;
 
   private:
-    /// Takes a text for which there is no room, and makes room for a number.
+    /// Writes a text that does not fit into the memory, and makes room for a number.
     virtual void overflow(std::string_view text) = 0;
 
     void append_chars(auto... value_and_format)
@@ -111,7 +111,7 @@ class ByteWriter {
     std::size_t used_ = 0;
 };
 
-/// Bytes in memory.
+/// Bytes that are written to memory.
 class OutputBuffer final : public ByteWriter {
   public:
     OutputBuffer()
@@ -124,7 +124,7 @@ class OutputBuffer final : public ByteWriter {
 
     [[nodiscard]] std::string_view content() const { return kept(); }
 
-    /// Empties it, but keeps the memory.
+    /// Removes all bytes, but keeps the memory.
     void clear() { give_up(); }
 
   private:

@@ -12,17 +12,18 @@ namespace seamflow {
 
 /// The faults of a file that was read as far as possible.
 struct FaultLog {
-    /// Whether only faults of a face or a row that leave no doubt about the rest are noted, and others thrown.
+    /// Whether only such faults of faces and rows are collected as leave no doubt about the rest; other faults are
+    /// thrown.
     bool of_faces_alone = false;
     static constexpr std::size_t most_messages = 1000;
-    /// The first ones, in the order of the file, as InputError would report them.
+    /// The messages of the first faults, in the order of the file, as those of InputError.
     std::vector<std::string> messages = {};
-    /// All of them.
+    /// The number of all faults.
     std::uint64_t count = 0;
-    /// Those of them that are noted even where only faults of faces and rows are.
+    /// The number of those faults that are collected even with of_faces_alone.
     std::uint64_t n_harmless = 0;
-    /// Ascending: the numbers, from 0 in the file, of faces that were left out because they had fewer than three
-    /// corners or one of them twice.
+    /// The faces that were left out because they had fewer than three corners or one of them twice: their numbers in
+    /// the file, from 0, ascending.
     std::vector<Index> faces_left_out = {};
 
     void add(std::string message)

@@ -18,7 +18,8 @@ namespace seamflow {
 
 namespace {
 
-/// deflate compresses to a thousandth at most; meshes in text to a twentieth or so. Small files are unpacked anyway.
+/// The largest ratio of unpacked to packed size that is accepted: deflate packs to a thousandth at most, meshes in text
+/// to about a twentieth. Small files are unpacked in any case.
 constexpr std::size_t plausible_ratio = 250;
 constexpr std::size_t always_plausible = std::size_t{1} << 26;
 
@@ -103,13 +104,13 @@ PackedPiece pack_piece(std::string_view bytes)
     PackedPiece piece{.bytes = {}, .checksum = 0, .size = bytes.size()};
     piece.checksum =
         static_cast<std::uint32_t>(::crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
-    // A flush takes at most 6 bytes.
+    // A flush adds at most 6 bytes.
     piece.bytes.resize(::deflateBound(&stream, bytes.size()) + 6);
     stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
     stream.avail_in = static_cast<uInt>(bytes.size());
     stream.next_out = reinterpret_cast<Bytef*>(piece.bytes.data());
     stream.avail_out = static_cast<uInt>(piece.bytes.size());
-    // Flushed to whole bytes, and without an end: other pieces follow.
+    // The piece is flushed to whole bytes, without an end, because other pieces follow.
     ::deflate(&stream, Z_FULL_FLUSH);
     piece.bytes.resize(piece.bytes.size() - stream.avail_out);
     return piece;
@@ -117,7 +118,7 @@ PackedPiece pack_piece(std::string_view bytes)
 
 std::string_view GzipMember::head()
 {
-    // deflate, no name, no time, made on Unix
+    // The header: deflate, no name, no time, made on Unix.
     constexpr std::string_view bytes("\x1f\x8b\x08\x00\x00\x00\x00\x00\x00\x03", 10);
     return bytes;
 }
@@ -131,7 +132,7 @@ void GzipMember::add(const PackedPiece& piece)
 
 std::string GzipMember::tail() const
 {
-    // An empty final block, the checksum, and the size modulo 2^32.
+    // The tail: an empty final block, the checksum, and the size modulo 2^32.
     std::string bytes("\x03\x00", 2);
     for (const std::uint32_t number : {checksum_, static_cast<std::uint32_t>(size_)}) {
         const auto of_number = to_bytes(number, std::endian::little);

@@ -9,7 +9,7 @@
 
 namespace seamflow {
 
-/// Whether these bytes begin as a gzip file does.
+/// Whether these bytes begin like a gzip file.
 inline bool is_gzip(std::string_view bytes)
 {
     return bytes.starts_with("\x1f\x8b");
@@ -18,16 +18,16 @@ inline bool is_gzip(std::string_view bytes)
 /// Whether a file of this name is to be packed: its extension is `.gz`, in upper or lower case.
 bool is_gzip_name(const std::filesystem::path& path);
 
-/// Unpacks a gzip file of one member or several.
+/// Unpacks a gzip file of one or several members.
 /// @param path for messages only. @param take called with unpacked data, piece by piece.
-/// @throws InputError if it is damaged or cut off, or if the result is implausibly large.
+/// @throws InputError if the file is damaged or cut off, or if the result is implausibly large.
 void unpack_gzip(const std::filesystem::path& path, std::string_view packed,
                  const std::function<void(std::string_view piece)>& take);
 
-/// Some bytes of a gzip file, packed independently of others.
+/// A piece of a gzip file, packed independently of other pieces.
 struct PackedPiece {
     std::string bytes;
-    /// Of the input.
+    /// The checksum of the unpacked bytes.
     std::uint32_t checksum = 0;
     std::size_t size = 0;
 };

@@ -27,7 +27,7 @@ namespace {
                      "; check the name and the permissions of the file");
 }
 
-/// Checked before the file is opened, because opening a pipe would wait for a writer.
+/// The type is checked before the file is opened, because opening a pipe would wait for a writer.
 void require_regular(const std::filesystem::path& path)
 {
     struct stat status = {};
@@ -41,6 +41,7 @@ void require_regular(const std::filesystem::path& path)
         throw InputError(path.string() + ": the file is empty; export the mesh again");
 }
 
+/// Reads bytes.
 /// @returns the number of bytes read; 0 at the end.
 std::size_t read_some(const std::filesystem::path& path, int descriptor, std::span<char> bytes)
 {

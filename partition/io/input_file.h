@@ -15,7 +15,7 @@ inline bool is_standard_stream(const std::filesystem::path& path)
 }
 
 /// Whether a path names something already open, perhaps a pipe: `-`, /dev/stdin, or a shell's substitute for
-/// <(command). It has no name that could give the format, and can be read only once.
+/// <(command). It has no name that could determine the format, and can be read only once.
 bool is_input_stream(const std::filesystem::path& path);
 
 /// A regular file, open for reading: its content can be read even after it was renamed, replaced or removed. A file
@@ -23,14 +23,14 @@ bool is_input_stream(const std::filesystem::path& path);
 /// memory.
 class OpenFile {
   public:
-    /// Whether a file that begins as gzip does is unpacked.
+    /// Whether a gzip file is unpacked.
     enum class Packing { Unpack, Keep };
 
     /// @param path `-` for standard input.
     /// @throws InputError naming the file and the system's reason; also if it is empty, or not a regular file.
     explicit OpenFile(const std::filesystem::path& path, Packing packing = Packing::Unpack);
 
-    /// Pieces of content, one after the other, in memory.
+    /// A file made of pieces of content in memory, one after the other.
     /// @param path for messages only.
     /// @throws InputError
     static OpenFile in_memory(const std::filesystem::path& path, std::span<const std::string_view> pieces);
@@ -41,15 +41,15 @@ class OpenFile {
     OpenFile& operator=(const OpenFile&) = delete;
     ~OpenFile();
 
-    /// As it was opened, for messages; "standard input" for that.
+    /// The path with which the file was opened, for messages; "standard input" for `-`.
     [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 
-    /// In bytes, as it is now.
+    /// The present size, in bytes.
     /// @throws InputError
     [[nodiscard]] std::size_t size() const;
 
     /// Maps the first n bytes into memory, for reading from front to back.
-    /// @returns null if the system cannot do that.
+    /// @returns null if the system cannot map them.
     [[nodiscard]] const char* map(std::size_t n) const;
 
     /// Reads n bytes from `offset` on, or a few less; 0 at the end of the file.
@@ -67,7 +67,8 @@ class OpenFile {
     int descriptor_ = -1;
 };
 
-/// A whole file in memory. A large one is mapped: another program that truncates it meanwhile ends this one.
+/// The content of a whole file in memory. A large file is mapped: if another program truncates it meanwhile, this
+/// process ends.
 class InputFile {
   public:
     /// @throws InputError
@@ -82,7 +83,7 @@ class InputFile {
     [[nodiscard]] std::string_view content() const { return {mapped_ != nullptr ? mapped_ : bytes_.get(), size_}; }
 
   private:
-    /// Null: `bytes_` has the content.
+    /// Null: the content is in `bytes_`.
     const char* mapped_ = nullptr;
     std::unique_ptr<char[]> bytes_;
     std::size_t size_ = 0;

@@ -11,29 +11,29 @@
 namespace seamflow {
 
 /// Whether there are at least three corners, all different.
-/// @param sorted scratch: receives the corners, sorted, where they may be alike.
+/// @param sorted scratch: receives the sorted corners, if sorting is necessary.
 bool are_corners_of_face(std::span<const Index> corners, std::vector<Index>& sorted);
 
-/// Leaves out corners that repeat the one before them, also across the end: some programs write triangles as a b c c.
-/// @param positions those of `corners` that are left.
+/// Leaves out corners that repeat the previous corner, also across the end: some programs write triangles as a b c c.
+/// @param positions receives the positions in `corners` that are left.
 void find_distinct_corners(std::span<const Index> corners, std::vector<Index>& positions);
 
 /// Checks that a file has a vertex.
-/// @param position at its end. @param n vertices of the file.
+/// @param position at the end of the file. @param n the number of vertices.
 void require_vertices(const InputPosition& position, std::int64_t n);
 
-/// Where the elements of one slice of a file belong; the whole file may be one.
+/// The arrays for the elements of one slice of a file, or of the whole file.
 struct MeshSlice {
-    /// Those of the whole file, with room for all.
+    /// The vertices of the whole file, with all rows allocated.
     Points& vertices;
-    /// The first of the slice.
+    /// The number of the first vertex of the slice.
     Index first_vertex;
-    /// Gets the faces of the slice.
+    /// Receives the faces of the slice.
     PolygonMesh& faces;
 };
 
-/// Collects the vertices and faces that a reader finds, and checks each face on its way in. Where faults are noted
-/// instead of thrown, faulty faces are left out.
+/// Collects the vertices and faces that a reader finds, and checks each face. If faults are collected and not thrown,
+/// faulty faces are left out.
 class MeshBuilder {
   public:
     /// @param position of the reader, for messages; must outlive the builder.
@@ -48,16 +48,16 @@ class MeshBuilder {
         vertices_.row(n_vertices_++) << position[0], position[1], position[2];
     }
 
-    /// Corners that repeat the one before them count once.
-    /// @param corners vertices from 0, which need not have been added yet, or -1 for those that `vertex` refused.
+    /// Adds a face. Corners that repeat the previous corner count once.
+    /// @param corners vertices from 0, which need not have been added yet, or -1 for vertices that `vertex` refused.
     /// @throws InputError for fewer than three corners and for other repeated vertices, unless such faces are left out
     ///         (see InputPosition::harmless_fault), and for more than 2^31 - 1 corners in all.
     void add_face(std::span<const Index> corners);
 
     /// Checks that 0 <= index < n.
-    /// @param n number of vertices to choose from.
+    /// @param n the number of vertices.
     /// @throws InputError
-    /// @returns the index; -1 if this fails and faults are noted.
+    /// @returns the index; -1 if the check fails and faults are collected.
     [[nodiscard]] Index vertex(std::int64_t index, std::int64_t n) const
     {
         return index >= 0 && index < n ? static_cast<Index>(index) : refuse_vertex(index, n);
@@ -69,9 +69,9 @@ class MeshBuilder {
 
     const InputPosition& position_;
     Index first_number_;
-    /// How many there are so far, those before the slice included.
+    /// The number of vertices so far, including those before the slice.
     Index n_vertices_;
-    /// How many faces were read, those included that were left out.
+    /// The number of faces read so far, including those that were left out.
     Index n_faces_ = 0;
     Points& vertices_;
     PolygonMesh& mesh_;

@@ -13,8 +13,8 @@ namespace seamflow {
 
 namespace {
 
-/// Points are divided by the upper bits of their hashes (a table of points uses the lower ones) into shares that are
-/// looked through one by one.
+/// Points are divided by the upper bits of their hashes (a table of points uses the lower bits) into shares that are
+/// searched one by one.
 constexpr unsigned share_bits = 6;
 constexpr Index n_shares = 1 << share_bits;
 
@@ -24,13 +24,13 @@ Index share_of(const std::array<Real, 3>& point)
     return static_cast<Index>(BasicPointNumbers<Real>::hash_of(point) >> (64U - share_bits));
 }
 
-/// The points of all lists, one share after the other, within a share as they come.
+/// The points of all lists, one share after the other; within a share in their order.
 template <class Real>
 struct Shares {
-    /// Where each begins; then the number of all points.
+    /// The index of the first point of each share; then the number of all points.
     std::vector<Index> begin;
     std::unique_ptr<std::array<Real, 3>[]> points;
-    /// Where each comes from: its index among the points of all lists.
+    /// For each point, its index among the points of all lists.
     std::unique_ptr<Index[]> origins;
 };
 
@@ -39,35 +39,35 @@ Shares<Real> divide(std::span<const std::vector<std::array<Real, 3>>> lists, con
                     const Executor& exec)
 {
     const auto n_lists = static_cast<Index>(lists.size());
-    // Of each share, the points of each list; then where these begin.
-    std::vector<Index> places(usize(n_shares) * lists.size() + 1, 0);
+    // For each share and each list the number of points; then the index of the first of them.
+    std::vector<Index> counts(usize(n_shares) * lists.size() + 1, 0);
     for_each(exec, n_lists, [&](Index i) {
         std::array<Index, n_shares> n_points{};
         for (const auto& point : lists[i])
             ++n_points[share_of(point)];
         for (Index share = 0; share < n_shares; ++share)
-            places[usize(share) * lists.size() + usize(i) + 1] = n_points[share];
+            counts[usize(share) * lists.size() + usize(i) + 1] = n_points[share];
     });
-    std::partial_sum(places.begin(), places.end(), places.begin());
+    std::partial_sum(counts.begin(), counts.end(), counts.begin());
     Shares<Real> shares;
     for (Index share = 0; share <= n_shares; ++share)
-        shares.begin.push_back(places[usize(share) * lists.size()]);
+        shares.begin.push_back(counts[usize(share) * lists.size()]);
     shares.points = uninitialised<std::array<Real, 3>>(usize(begin.back()));
     shares.origins = uninitialised<Index>(usize(begin.back()));
     for_each(exec, n_lists, [&](Index i) {
         std::array<Index, n_shares> next{};
         for (Index share = 0; share < n_shares; ++share)
-            next[share] = places[usize(share) * lists.size() + usize(i)];
+            next[share] = counts[usize(share) * lists.size() + usize(i)];
         for (Index k = 0; k < std::ssize(lists[i]); ++k) {
-            const Index place = next[share_of(lists[i][k])]++;
-            shares.points[place] = lists[i][k];
-            shares.origins[place] = begin[i] + k;
+            const Index index = next[share_of(lists[i][k])]++;
+            shares.points[index] = lists[i][k];
+            shares.origins[index] = begin[i] + k;
         }
     });
     return shares;
 }
 
-/// For each point of all lists, the first that equals it.
+/// For each point of all lists, the index of the first point that equals it.
 template <class Real>
 std::unique_ptr<Index[]> first_equal(std::span<const std::vector<std::array<Real, 3>>> lists,
                                      const std::vector<Index>& begin, const Executor& exec)
@@ -96,7 +96,7 @@ NumberedPoints number_together(std::span<const std::vector<std::array<Real, 3>>>
     for (Index i = 0; i < n_lists; ++i)
         result.begin[i + 1] = sum_of_counts(result.begin[i], std::ssize(lists[i]));
     const std::unique_ptr<Index[]> first = first_equal(lists, result.begin, exec);
-    // New points of each list, and before it.
+    // For each list the number of new points; then the number of new points before the list.
     std::vector<Index> n_new(lists.size() + 1, 0);
     for_each(exec, n_lists, [&](Index i) {
         for (Index k = result.begin[i]; k < result.begin[i + 1]; ++k)

@@ -12,11 +12,11 @@ namespace seamflow {
 
 /// Points of several lists that are numbered together.
 struct NumberedPoints {
-    /// #V by 3, by their numbers.
+    /// #V by 3, in the order of their numbers.
     Points points;
     /// The numbers of the points of all lists, one list after the other.
     std::unique_ptr<Index[]> numbers;
-    /// For each list, where its points begin among those; then their count.
+    /// For each list, the index of its first point in `numbers`; then the number of all points.
     std::vector<Index> begin;
 };
 

@@ -27,7 +27,7 @@ std::filesystem::path folder_of(const std::filesystem::path& file)
     return file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
 }
 
-/// A name that no other file of this program has; if another program uses it, the next one is taken.
+/// A name that no other file of this program has; if another program uses it, the next name is tried.
 std::filesystem::path temporary_name(const std::filesystem::path& target)
 {
     static std::atomic<unsigned> counter = 0;
@@ -41,7 +41,7 @@ std::string name_of_descriptor(int descriptor)
 }
 
 /// Opens an unnamed file, which disappears with the process, however that ends.
-/// @returns -1 where the system cannot do that, or could not give it a name later.
+/// @returns -1 if the system does not support this, or could not name the file later.
 int open_unnamed(const std::filesystem::path& folder)
 {
 #ifdef O_TMPFILE
@@ -53,14 +53,14 @@ int open_unnamed(const std::filesystem::path& folder)
     return -1;
 }
 
-/// Some file systems do not support this, which is no reason to fail.
+/// A file system that does not support this is no reason to fail.
 int synchronise(int descriptor)
 {
     const bool done = ::fsync(descriptor) == 0 || errno == EINVAL || errno == ENOTSUP || errno == EROFS;
     return done ? 0 : errno;
 }
 
-/// Makes the new name survive a power cut as well. The file is complete in any case: errors do not matter.
+/// Makes the new name of a file survive a power cut. The file is complete in any case: errors are ignored.
 void synchronise_folder(const std::filesystem::path& folder)
 {
     const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -232,14 +232,14 @@ void OutputFile::slices(Index n, const Executor& exec, const std::function<void(
             std::swap(slice.made, slice.to_write);
         }
 #ifdef SYNC_FILE_RANGE_WRITE
-        // Leaves less for `commit` to wait for.
+        // Starts writing to the disk now, so that `commit` has less to wait for.
         static_cast<void>(::sync_file_range(descriptor_, 0, 0, SYNC_FILE_RANGE_WRITE));
 #endif
     }
 }
 
-/// A temporary name: a file can replace another only by being renamed. Once it is given, nothing may fail before that
-/// is recorded.
+/// Gives the file a temporary name, because only renaming can replace another file. After that, nothing may fail before
+/// the name is recorded.
 void OutputFile::give_temporary_name()
 {
     const std::string source = name_of_descriptor(descriptor_);
@@ -254,7 +254,7 @@ void OutputFile::give_temporary_name()
     temporary_ = std::move(name);
 }
 
-/// All that may fail.
+/// Does everything that may fail.
 void OutputFile::finish()
 {
     flush();
@@ -270,7 +270,7 @@ void OutputFile::finish()
         fail(errno);
 }
 
-/// Once the file has its name, it exists, and nothing may fail any more: without allocations.
+/// Renames the file. After that the file exists and nothing may fail any more: this allocates no memory.
 void OutputFile::take_name()
 {
     if (::rename(temporary_.c_str(), target_.c_str()) != 0)

@@ -13,7 +13,7 @@
 
 namespace seamflow {
 
-/// The file that a path leads to: symbolic links are followed, even to files that do not exist.
+/// The file to which a path leads: symbolic links are followed, even to files that do not exist.
 /// @returns the path of a link only if links form a cycle.
 std::filesystem::path file_behind(const std::filesystem::path& path);
 
@@ -22,35 +22,35 @@ std::filesystem::path file_behind(const std::filesystem::path& path);
 /// @throws OutputError
 [[noreturn]] void fail_to_write(const std::filesystem::path& path, int error);
 
-/// A file that appears whole or not at all: written without a name, or under a temporary one where the file system
-/// cannot do that, in the folder of its target, and given its name by `commit`. Without `commit` nothing remains of it,
-/// and a file that was there before remains as it was. A file that is replaced hands on its permissions; a symbolic
-/// link stays, and the file it points to is replaced. Where the extension is `.gz` the file is packed. All functions
-/// throw OutputError if the file cannot be written.
+/// A file that appears whole or not at all. It is written without a name, or under a temporary name if the file system
+/// requires one, in the folder of its target; `commit` gives it its name. Without `commit` nothing of it remains, and
+/// an existing file does not change. A replaced file passes on its permissions; a symbolic link stays, and the file to
+/// which it points is replaced. If the extension is `.gz` the file is packed. All functions throw OutputError if the
+/// file cannot be written.
 class OutputFile final : public ByteWriter {
   public:
     /// @param path `-` for standard output, which gets everything at once and irrevocably.
-    /// @throws OutputError naming the file and the system's reason; also if `path` is there but no regular file.
+    /// @throws OutputError naming the file and the system's reason; also if `path` exists and is no regular file.
     explicit OutputFile(const std::filesystem::path& path);
     OutputFile(const OutputFile&) = delete;
     OutputFile& operator=(const OutputFile&) = delete;
     ~OutputFile();
 
-    /// As it was named, for messages; "standard output" for that.
+    /// The path with which the file was opened, for messages; "standard output" for `-`.
     [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 
-    /// Whether it is standard output.
+    /// Whether the file is standard output.
     [[nodiscard]] bool is_stream() const { return is_stream_; }
 
-    /// Writes n consecutive slices, each of which `make` puts into a buffer; several are made and written at a time.
+    /// Writes n consecutive slices; `make` writes each into a buffer. Several are made and written at a time.
     void slices(Index n, const Executor& exec, const std::function<void(Index slice, OutputBuffer& buffer)>& make);
 
-    /// Begins another file, which `commit` of this one writes and names with it.
+    /// Begins another file; `commit` of this file also writes and names it.
     /// @pre this is not standard output.
     OutputFile& beside(const std::filesystem::path& path);
 
-    /// Writes what is left to the disk and gives the file its name; those beside it get theirs just before. To be
-    /// called once, at the end.
+    /// Writes all remaining data to the disk and gives the file its name; files begun by `beside` get their names just
+    /// before. To be called once, at the end.
     void commit();
 
   private:
@@ -68,13 +68,13 @@ class OutputFile final : public ByteWriter {
     std::filesystem::path path_;
     std::filesystem::path target_;
     std::filesystem::path folder_;
-    /// Empty as long as the file has no name.
+    /// The temporary name; empty while the file has none.
     std::filesystem::path temporary_;
     int descriptor_ = -1;
     bool is_stream_ = false;
-    /// Null: nothing is packed.
+    /// Null if nothing is packed.
     std::unique_ptr<GzipMember> gzip_;
-    /// Number of bytes handed to the system.
+    /// The number of bytes handed to the system.
     std::size_t n_written_ = 0;
     std::vector<std::unique_ptr<OutputFile>> beside_;
 };

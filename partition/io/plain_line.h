@@ -8,8 +8,8 @@
 
 namespace seamflow {
 
-/// A line in its commonest form: tokens with spaces between them, without a comment and not continued. The functions
-/// that read return false if what they are for does not come next; then no more can be read.
+/// A line in its commonest form: tokens with spaces between them, without a comment and not continued. A reading
+/// function returns false if its kind of token does not come next; then nothing more can be read.
 class PlainLine {
   public:
     /// @param begin of the line. @param end of the text.
@@ -20,7 +20,7 @@ class PlainLine {
     {
     }
 
-    /// Reads a word of one letter with which the line begins.
+    /// Reads a word of one letter at the beginning of the line.
     bool keyword(char letter)
     {
         const bool is_here = end_ - next_ > 1 && next_[0] == letter && next_[1] == ' ';
@@ -41,7 +41,7 @@ class PlainLine {
         return true;
     }
 
-    /// Reads a whole number without a sign and passes over up to two others, after slashes: as in 7, 7/1, 7//2, 7/1/2.
+    /// Reads a whole number without a sign and skips up to two others, after slashes: as in 7, 7/1, 7//2, 7/1/2.
     bool corner(std::uint64_t& number)
     {
         skip_spaces();
@@ -59,7 +59,7 @@ class PlainLine {
         return ends_token();
     }
 
-    /// Whether the line ends here; then its line break is passed over.
+    /// Whether the line ends here; if it does, skips its line break.
     bool ends()
     {
         skip_spaces();
@@ -72,7 +72,7 @@ class PlainLine {
         return true;
     }
 
-    /// What comes next.
+    /// The rest of the text.
     [[nodiscard]] const char* rest() const { return next_; }
 
   private:
@@ -82,7 +82,7 @@ class PlainLine {
             ++next_;
     }
 
-    /// Any other character than a space or a line end makes the next reading fail.
+    /// Whether a token ends here; any other character makes the next reading fail.
     [[nodiscard]] bool ends_token() const { return static_cast<unsigned char>(*next_) <= ' '; }
 
     const char* next_;

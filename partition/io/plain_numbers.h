@@ -23,8 +23,8 @@ constexpr std::array<Number, N> powers_of_ten = [] {
     return powers;
 }();
 
-/// The number of eight digits 0 to 9, the first in the lowest byte: neighbours are joined to numbers of two digits,
-/// these to numbers of four, and these to one.
+/// The number of eight digits 0 to 9, with the first in the lowest byte. Neighbouring digits are joined to numbers of
+/// two digits, these to numbers of four digits, and these to one.
 inline std::uint64_t joined_digits(std::uint64_t digits)
 {
     constexpr std::uint64_t every_other_pair = 0x000000FF000000FFU;
@@ -34,16 +34,16 @@ inline std::uint64_t joined_digits(std::uint64_t digits)
            32U;
 }
 
-/// Reads digits, if any.
+/// Reads digits, if there are any.
 /// @param end of the text, not of the digits.
-/// @param number they are appended to it.
-/// @returns where they end; null if the number gets more than 18 digits or the text ends soon.
+/// @param number receives the digits, appended to it.
+/// @returns the end of the digits; null if the number gets more than 18 digits or the text ends soon.
 inline const char* read_plain_digits(const char* first, const char* end, std::uint64_t& number)
 {
     constexpr std::size_t most_digits = 18;
     constexpr auto& powers = powers_of_ten<std::uint64_t, most_digits + 1>;
     while (end - first >= 8) {
-        // The digits become 0 to 9. Of the other bytes the first is the lowest that gets its upper bit set.
+        // Digits become 0 to 9. In the other bytes the lowest one gets its upper bits set.
         const std::uint64_t digits = from_bytes<std::uint64_t>(first, std::endian::little) ^ 0x3030303030303030U;
         const std::uint64_t others = ((digits + 0x7676767676767676U) | digits) & 0x8080808080808080U;
         const auto n = static_cast<unsigned>(std::countr_zero(others)) / 8U;
@@ -60,12 +60,12 @@ inline const char* read_plain_digits(const char* first, const char* end, std::ui
 
 /// Reads a number such as -12 or 0.125, correctly rounded.
 /// @param end of the text, not of the number.
-/// @returns where it ends; null if it has another form (but it may go on with an exponent), too many digits, or the
-///          text ends soon.
+/// @returns the end of the number, after which an exponent may follow; null if the number has another form or too many
+///          digits, or if the text ends soon.
 inline const char* read_plain_real(const char* first, const char* end, double& value)
 {
-    // Digits and power of ten are exact, and so only the quotient is rounded: at once to a double, or to a wider number
-    // first. This does no harm unless that lies half way between two doubles.
+    // Digits and power of ten are exact, so that only the quotient is rounded: directly to a double, or to a wider
+    // number first. The latter is safe unless the wider number lies half way between two doubles.
     constexpr bool is_wide = std::numeric_limits<long double>::digits == 64;
     using Number = std::conditional_t<is_wide, long double, double>;
     constexpr std::size_t most_decimals = is_wide ? 27 : 22;

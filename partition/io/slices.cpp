@@ -13,7 +13,8 @@ namespace seamflow {
 
 namespace {
 
-/// Makes room for the parts, and for as much in each of the following slices, up to a multiple of the current size.
+/// Reserves memory for the parts, and for as much in each of the following slices, up to a multiple of the current
+/// size.
 template <class Value>
 void make_room(std::vector<Value>& values, std::span<const PolygonMesh> parts, Index n_to_follow,
                std::vector<Value> PolygonMesh::*member)
@@ -30,7 +31,7 @@ void make_room(std::vector<Value>& values, std::span<const PolygonMesh> parts, I
     reserve_large(values, sum + std::min(usize(n_to_follow) * largest, most_growth * sum));
 }
 
-/// @param n_to_follow number of parts that will be appended afterwards.
+/// @param n_to_follow the number of parts that will be appended afterwards.
 void append(PolygonMesh& mesh, std::span<const PolygonMesh> parts, Index n_to_follow)
 {
     make_room(mesh.face_offsets, parts, n_to_follow, &PolygonMesh::face_offsets);
@@ -72,13 +73,14 @@ void append_faces(PolygonMesh& mesh, Index n, const Executor& exec,
 {
     if (n == 1)
         return read(0, mesh);
-    // Enough that few threads wait, and few enough that they need little memory.
+    // The number of slices that are read at once: enough that few threads wait, and few enough that they need little
+    // memory.
     constexpr Index at_once = 32;
     std::vector<PolygonMesh> parts;
     std::vector<PolygonMesh> parts_before;
     for (Index begin = 0; begin < n; begin += at_once) {
         parts.resize(usize(std::min(at_once, n - begin)));
-        // One thread appends the parts that were read before, while others read these.
+        // One thread appends the parts that were read before, while other threads read the next parts.
         for_each(exec, static_cast<Index>(parts.size()) + 1, [&](Index i) {
             if (i == 0)
                 return append(mesh, parts_before, n - begin);

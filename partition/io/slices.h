@@ -17,14 +17,14 @@
 
 namespace seamflow {
 
-/// How several threads read and write files: slice by slice.
+/// How several threads read and write files slice by slice.
 struct Slicing {
     Executor exec = run_serially;
     /// Approximate size of a slice in bytes.
     std::size_t bytes = std::size_t{1} << 18;
 };
 
-/// How many elements of about `size` bytes make a slice; at least 1.
+/// The number of elements of about `size` bytes in a slice; at least 1.
 inline Index elements_per_slice(const Slicing& slicing, std::size_t size)
 {
     return static_cast<Index>(slicing.bytes / size + 1);
@@ -47,7 +47,7 @@ void write_elements(OutputFile& file, Index n, Index per_slice, const Executor& 
 /// @throws InputError if there are more than 2^31 - 1.
 Index sum_of_counts(std::int64_t a, std::int64_t b);
 
-/// How many lines with a token there are before each slice of a text and, at the end, in all of them.
+/// The number of lines with a token before each slice of a text and, at the end, in the whole text.
 std::vector<std::int64_t> count_lines(const TextScanner& whole, std::span<const std::string_view> slices,
                                       const Executor& exec);
 
@@ -58,7 +58,7 @@ std::vector<std::int64_t> count_lines(const TextScanner& whole, std::span<const 
 void append_faces(PolygonMesh& mesh, Index n, const Executor& exec,
                   const std::function<void(Index slice, PolygonMesh& faces)>& read);
 
-/// For faults of slices, which nobody gets to read (see read_in_slices_if_faultless).
+/// A position for faults of slices, whose messages are not shown (see read_in_slices_if_faultless).
 class NoPosition final : public InputPosition {
   private:
     [[nodiscard]] std::string position() const override { return {}; }

@@ -19,7 +19,8 @@ bool is_blank(char c)
     return c == ' ' || (c >= '\t' && c <= '\r');
 }
 
-/// CR if the first line ends with it and the text has no LF, or none that counts; else LF.
+/// The line break: CR if the first line ends with CR and the text has no LF, or only the first line counts; otherwise
+/// LF.
 char line_break_of(std::string_view text, bool first_line_end_decides)
 {
     const auto first = text.find_first_of("\r\n");
@@ -75,7 +76,7 @@ TextScanner::TextScanner(const TextScanner& whole, std::string_view slice, std::
     line_ = lines_before;
 }
 
-/// The position after the line break of the line that continues from there.
+/// The end of the line that contains `from`, after its line break.
 const char* TextScanner::end_of_line(const char* from) const
 {
     const auto* const line_break =
@@ -192,7 +193,7 @@ std::string_view TextScanner::next_keyword()
     const char* last = first;
     while (last < end && !is_blank(*last) && *last != syntax_.comment)
         ++last;
-    // A comment may follow the word, but may not end it.
+    // A comment may follow the keyword, but may not touch it.
     if (last == first || (last < end && !is_blank(*last)) || end[-1] == '\\')
         return next_line() ? token() : std::string_view();
     pass_over_line(next);

@@ -13,13 +13,13 @@
 
 namespace seamflow {
 
-/// Special characters of a text format, besides blanks and line ends.
+/// The special characters of a text format, besides blanks and line ends.
 struct TextSyntax {
-    /// From this character to the end of the line is a comment; 0: there are no comments.
+    /// A comment extends from this character to the end of the line; 0: there are no comments.
     char comment = '#';
-    /// Whether a backslash at the end of a line joins it to the next.
+    /// Whether a backslash at the end of a line joins it to the next line.
     bool continuation = false;
-    /// Whether the first line end determines all others, as binary data may follow the text.
+    /// Whether the first line end determines all others, because binary data may follow the text.
     bool first_line_end_decides = false;
 };
 
@@ -32,27 +32,28 @@ class TextScanner final : public InputPosition {
     /// @param text must outlive the scanner.
     TextScanner(const std::filesystem::path& path, std::string_view text, TextSyntax syntax = {});
 
-    /// A scanner for a slice of the text of another: its lines end alike.
-    /// @param lines_before number of lines before the slice; 0: lines are numbered within the slice.
+    /// A scanner for a slice of the text of another scanner, with the same line breaks.
+    /// @param lines_before the number of lines before the slice; 0: lines are numbered within the slice.
     TextScanner(const TextScanner& whole, std::string_view slice, std::size_t lines_before = 0);
 
     /// The rest of the text in slices that begin and end at line boundaries, none within a continued line.
     /// @param bytes their size, up to the end of a line.
     [[nodiscard]] std::vector<std::string_view> slices(std::size_t bytes) const;
 
-    /// From now on line ends are blanks: tokens go on in the next line, and next_line stays while there are any.
+    /// Treats line ends as blanks from now on: tokens continue in the next line, and next_line does nothing while there
+    /// are any.
     void cross_lines() { crosses_lines_ = true; }
     [[nodiscard]] bool crosses_lines() const { return crosses_lines_; }
 
     /// Goes to the next line with a token, skipping the rest of this one. False at the end of the text.
     bool next_line();
 
-    /// Goes to the next line with a token and gives that; empty at the end of the text. Faster than `next_line` and
-    /// `token`, but the rest of the line may be gone.
+    /// Goes to the next line with a token and returns this token; empty at the end of the text. Faster than `next_line`
+    /// and `token`, but the rest of the line may be lost.
     std::string_view next_keyword();
 
-    /// Reads the next line if it is in its commonest form. Otherwise nothing happens, and next_line finds it.
-    /// @param read called with a PlainLine; returns whether it could read it to its end.
+    /// Reads the next line if it is in its commonest form. Otherwise nothing changes, and next_line finds the line.
+    /// @param read called with a PlainLine; returns whether it could read the line to its end.
     template <class Read>
     bool next_plain_line(Read&& read)
     {
@@ -68,23 +69,23 @@ class TextScanner final : public InputPosition {
     /// The next token of the line; empty if there is none left.
     std::string_view token();
 
-    /// The token that `token` would give.
+    /// The token that `token` would return; the scanner does not move.
     [[nodiscard]] std::string_view peek();
 
     /// Whether a token of the line is left.
     [[nodiscard]] bool has_token();
 
-    /// Skips the remaining tokens of the line. @returns how many.
+    /// Skips the remaining tokens of the line. @returns their number.
     std::size_t pass_over_rest();
 
-    /// The rest of the token from which a number has just been read; empty if it is used up.
+    /// The rest of the token from which a number has just been read; empty if nothing is left.
     [[nodiscard]] std::string_view rest_of_token() const;
 
-    /// Skips n characters of the token that `peek` or `rest_of_token` gives.
+    /// Skips n characters of the token that `peek` or `rest_of_token` returns.
     void skip(std::size_t n) { cursor_ += n; }
 
-    /// The next token as a finite number, correctly rounded. If too small to represent, it is zero.
-    /// @param what is expected ("a coordinate"), for the message.
+    /// Reads the next token as a finite number, correctly rounded. A number too small to represent is zero.
+    /// @param what the expected thing ("a coordinate"), for the message.
     /// @throws InputError if no token is left or it is not a finite number.
     double real(const char* what);
 
@@ -92,7 +93,8 @@ class TextScanner final : public InputPosition {
     /// @throws InputError as for `real`.
     std::array<double, 3> coordinates();
 
-    /// The same, where a number may also be NaN: "nan" in upper or lower case, perhaps with a sign.
+    /// Reads the next token as a finite number or NaN: "nan" in upper or lower case, perhaps with a sign.
+    /// @throws InputError as for `real`.
     double real_or_nan(const char* what);
 
     /// The next token as a number; NaN if it is missing or not a finite number.
@@ -112,7 +114,7 @@ class TextScanner final : public InputPosition {
     /// The number of the present line, from 1.
     [[nodiscard]] std::size_t line() const { return line_; }
 
-    /// "path:line" of any line; 0: "path".
+    /// "path:line" of any line; "path" for 0.
     [[nodiscard]] std::string position_of(std::size_t line) const;
 
   private:
@@ -120,9 +122,9 @@ class TextScanner final : public InputPosition {
     [[nodiscard]] const char* end_of_line(const char* from) const;
     [[nodiscard]] bool ends_token(const char* c) const;
     void load_line();
-    /// Whether a line is left that begins in itself.
+    /// Whether a line is left that does not continue another line.
     [[nodiscard]] bool may_be_plain() const { return next_ < end_ && !continued_ && !crosses_lines_; }
-    /// Counts a line. @param next where the following one begins.
+    /// Counts a line. @param next the beginning of the following line.
     void pass_over_line(const char* next)
     {
         ++line_;
@@ -134,10 +136,10 @@ class TextScanner final : public InputPosition {
     std::string path_;
     TextSyntax syntax_;
     char line_break_ = '\n';
-    /// The line without its end and comment; from cursor_ on it is still to be read.
+    /// The part of the line that has not been read, without the line's end and comment.
     const char* cursor_;
     const char* line_end_;
-    /// The next line, and the end of the text.
+    /// The beginning of the next line, and the end of the text.
     const char* next_;
     const char* end_;
     bool continued_ = false;

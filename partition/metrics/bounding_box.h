@@ -14,24 +14,24 @@ struct BoundingBox {
     Point low = Point::Zero();
     Point high = Point::Zero();
 
-    /// From corner to corner, in units of length.
+    /// The length from corner to corner, in units of length.
     [[nodiscard]] double diagonal() const { return (high - low).norm(); }
 };
 
-/// The box around the vertices that faces use; others may lie anywhere. Positions that are not finite are left out. A
-/// point where nothing is left.
+/// The bounding box of the vertices that faces use. Positions that are not finite are ignored. A point if no position
+/// is left.
 /// @param positions #V by 3. @pre every vertex named by a face exists.
 BoundingBox box_of_faces(const PolygonMesh& mesh, const Points& positions, const Executor& exec = run_serially);
 
-/// The same where it is known already which vertices these are.
+/// The bounding box of given vertices.
 /// @param is_used #V (see used_by_faces).
 BoundingBox box_of_vertices(const Points& positions, std::span<const std::uint8_t> is_used,
                             const Executor& exec = run_serially);
 
-/// The same for the mesh's own positions.
+/// The bounding box of the vertices that faces use, at the mesh's own positions.
 BoundingBox box_of_faces(const PolygonMesh& mesh, const Executor& exec = run_serially);
 
-/// @returns those of some vertices that lie further from the box around the faces than its diagonal is long.
+/// @returns the vertices whose distance to the box around the faces is larger than its diagonal.
 /// @param vertices without faces, ascending.
 std::vector<Index> far_from_faces(const PolygonMesh& mesh, std::span<const Index> vertices,
                                   const Executor& exec = run_serially);

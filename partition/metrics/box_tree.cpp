@@ -7,14 +7,14 @@ namespace seamflow {
 
 namespace {
 
-/// Moves the lower part along the longest side to the front.
+/// Moves the lower part of the points along the longest side to the front.
 void divide(std::span<Index> order, std::size_t n_lower, std::span<const Point> points)
 {
     Box box;
     for (const Index i : order)
         box.add(points[i]);
     Eigen::Index axis = 0;
-    // Halved, because differences of large numbers overflow.
+    // Lengths are halved, because differences of large numbers overflow.
     Point(0.5 * box.high - 0.5 * box.low).maxCoeff(&axis);
     std::ranges::nth_element(order, order.begin() + static_cast<std::ptrdiff_t>(n_lower), {},
                              [&](Index i) { return points[i][axis]; });

@@ -49,13 +49,13 @@ inline double squared_distance(const Box& box, const Point& p)
     return (box.low - p).cwiseMax(p - box.high).cwiseMax(0.0).squaredNorm();
 }
 
-/// The numbers of points, neighbours together: halved again and again across the longest side of their box, where the
-/// nodes of a BoxTree begin (Bentley, Multidimensional Binary Search Trees, 1975).
+/// The numbers of points in an order that keeps neighbours together: halved again and again across the longest side of
+/// their box, at the beginnings of the nodes of a BoxTree (Bentley, Multidimensional Binary Search Trees, 1975).
 /// @param points finite.
 std::vector<Index> order_of_neighbours(std::span<const Point> points, const Executor& exec = run_serially);
 
-/// A binary tree over boxes in an order that keeps neighbours together. Node k of a level spans the nodes 2k and 2k + 1
-/// of the level below, as far as these exist.
+/// A binary tree over boxes in an order that keeps neighbours together. Node k of a level has the children 2k and 2k +
+/// 1 in the level below, as far as these exist.
 class BoxTree {
   public:
     /// A node of a level; leaves have level 0.
@@ -107,7 +107,7 @@ class BoxTree {
         }
     }
 
-    /// Calls visit(i) for the leaves of a node whose squared distance from p is less than a bound, near ones first.
+    /// Calls visit(i) for the leaves i of a node whose squared distance from p is less than a bound, near leaves first.
     /// @param bound visits may lower it.
     template <class Visit>
     void for_each_nearer(const Point& p, Node from, const double& bound, Visit&& visit) const
@@ -148,7 +148,7 @@ class BoxTree {
         return parents;
     }
 
-    /// The leaves first, the root last.
+    /// The boxes of each level; leaves are the first level, the root is the last.
     std::vector<std::vector<Box>> levels_;
 };
 

@@ -16,24 +16,24 @@ namespace seamflow {
 
 namespace {
 
-/// What the faces of a mesh divide space into, found by walking around edges: from the side of a face to the side of
-/// the next face that looks at it, and at an edge of one face to its other side. Sides are numbered 2 f for the side of
-/// face f that its normal points to, and 2 f + 1 for the other. A region has one surface around it: what a hollow body
-/// encloses between its two surfaces is two regions here.
+/// The regions into which the faces of a mesh divide space, found by walking around edges: from the side of a face to
+/// the side of the next face that faces it, and at an edge of one face to the other side of the face. Sides are
+/// numbered 2 f for the side of face f to which its normal points, and 2 f + 1 for the other. A region is bounded by
+/// one connected surface: the space between the two surfaces of a hollow body counts as two regions here.
 struct Regions {
     /// #2F: the region at each side, numbered by their lowest sides.
     std::vector<Index> of_side;
-    /// The sides of each region, ascending, without faces that have it on both sides.
+    /// The sides of each region, ascending. Faces with both sides in one region are left out.
     IndexLists sides;
-    /// In length³: positive if the region lies within its surface, negative if it lies around it, 0 if it may be merely
-    /// rounding of positions in single precision, as between repeated faces.
+    /// In length³: positive if the region lies within its surface, negative if it lies around it, 0 if the volume may
+    /// be rounding of positions in single precision, as between repeated faces.
     std::vector<double> volumes;
-    /// Sides of faces on which the next face around an edge where sheets meet lies. If the two are parts of two sheets
-    /// on each other, the region at the side has the volume 0.
+    /// Sides of faces on which the next face around an edge, where sheets meet, lies. If the two faces belong to two
+    /// sheets that lie on each other, the region at the side has the volume 0.
     std::vector<Index> contacts;
 };
 
-/// Joins the sides that look at each other across the half-edges of a face, except where sheets meet.
+/// Joins the sides that face each other across the half-edges of a face, except where sheets meet.
 void join_at_face(const PolygonMesh& mesh, const Topology& topology, Index f, DisjointSets& sides)
 {
     for (Index h = mesh.face_offsets[f]; h < mesh.face_offsets[f + 1]; ++h) {
@@ -43,18 +43,18 @@ void join_at_face(const PolygonMesh& mesh, const Topology& topology, Index f, Di
                 2 * topology.face_of[twin] + (mesh.face_vertices[twin] == mesh.face_vertices[h] ? 1 : 0);
             sides.join(2 * f, front);
             sides.join(2 * f + 1, front ^ 1);
-        } else if (twin < 0 && topology.place_at_junction(h) < 0) {
+        } else if (twin < 0 && topology.junction_index(h) < 0) {
             sides.join(2 * f, 2 * f + 1);
         }
     }
 }
 
-/// Joins the sides that look at each other around the edge of half-edge h, where sheets meet.
-/// @param contacts receives the sides of faces on which the next one lies.
+/// Joins the sides that face each other around the edge of half-edge h, where sheets meet.
+/// @param contacts receives the sides of faces on which the next face lies.
 void join_around(const SheetOrder& order, const Topology& topology, Index h, DisjointSets& sides,
                  std::vector<Index>& contacts)
 {
-    // The front of a face is where angles about its own half-edge grow.
+    // The front of a face is the side towards which angles around its own half-edge grow.
     const auto side_forwards = [&](Index other) {
         return 2 * topology.face_of[other] + (order.runs_up(other) ? 0 : 1);
     };
@@ -103,7 +103,7 @@ double certain_volume_on(std::span<const Index> sides, const PolygonMesh& mesh, 
     return std::abs(volume) > 1e-7 * area * std::sqrt(area) ? volume : 0.0;
 }
 
-/// The sides of each region, without faces that have it on both sides.
+/// The sides of each region. Faces with both sides in one region are left out.
 IndexLists sides_of(const std::vector<Index>& region_of, Index n_regions)
 {
     return make_lists(n_regions, [&](auto&& add) {

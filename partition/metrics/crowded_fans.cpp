@@ -12,10 +12,10 @@ namespace seamflow {
 
 namespace {
 
-/// Edges, or vertices twice, with one of their triangles each.
+/// Edges, or vertices twice for a vertex, each with one of their triangles.
 using Crowd = std::vector<std::pair<Edge, Index>>;
 
-/// Moves a crowd's triangles that are in no fan yet into fans of their own.
+/// Moves the triangles of a crowd that are in no fan yet into fans.
 void add_fans(Crowd crowd, std::vector<bool>& is_in_fan, std::vector<CrowdedFan>& fans)
 {
     std::ranges::sort(crowd);
@@ -42,7 +42,8 @@ Box all_directions()
     return {Point::Constant(-1.0), Point::Constant(1.0)};
 }
 
-/// The direction from an edge to a point, upright on the edge, as a box around it that no rounding leaves.
+/// The directions from an edge to a point, perpendicular to the edge, as a box that contains all of them despite
+/// rounding.
 Box direction_from(const std::array<Point, 2>& edge, const Point& point)
 {
     const Point axis = Point(edge[1] - edge[0]).stableNormalized();
@@ -50,7 +51,7 @@ Box direction_from(const std::array<Point, 2>& edge, const Point& point)
     const Point upright = offset - offset.dot(axis) * axis;
     const double length = upright.stableNorm();
     const double error = direction_rounding * (1.0 + offset.stableNorm() / length);
-    // Also if it is not a number.
+    // The condition is also true if the error is not a number.
     if (!(error < 1.0))
         return all_directions();
     const Point direction = upright / length;
@@ -64,13 +65,13 @@ Box directions_from(const Point& vertex, const std::array<Point, 2>& edge)
     const Point other = Point(edge[1] - vertex).stableNormalized();
     const double bulge = 1.0 - std::sqrt(std::max(0.0, 1.0 - 0.25 * (one - other).squaredNorm())) + direction_rounding;
     const bool have_length = one.squaredNorm() > 0.5 && other.squaredNorm() > 0.5;
-    // Also if they are not numbers.
+    // The condition is also true if the numbers are not numbers.
     if (!have_length || !(bulge < 1.0))
         return all_directions();
     return {one.cwiseMin(other) - Point::Constant(bulge), one.cwiseMax(other) + Point::Constant(bulge)};
 }
 
-/// The third corner of a triangle at an edge, or both others of one at a vertex.
+/// The third corner of a triangle at an edge, or the two other corners of a triangle at a vertex.
 std::array<Index, 2> others_of(const Triangle& triangle, const Edge& edge)
 {
     std::array<Index, 2> others{};

@@ -12,7 +12,7 @@ namespace seamflow {
 Displacement split_displacement(const Point& displacement, const Point& normal_before, const Point& normal_after)
 {
     const Point sum = normal_before + normal_after;
-    // The sum of unit vectors more nearly opposite than this is only rounding error.
+    // A sum of two unit vectors shorter than this is only rounding error: they are opposite.
     constexpr double shortest = 1e-12;
     const double length = sum.norm();
     if (!(length > shortest))

@@ -7,26 +7,28 @@
 
 namespace seamflow {
 
-/// How a vertex moved from one state of a mesh to another, split into what changes the shape and what only drags the
-/// texture along the surface. In units of length.
+/// The motion of a vertex from one state of a mesh to another, in units of length, split into a normal component, which
+/// changes the shape, and a tangential component, which only drags the texture along the surface.
 struct Displacement {
     Point tangential = Point::Zero();
-    /// Along the normal, negative against it.
+    /// The component along the normal, negative against it.
     double normal = 0.0;
-    /// False for a vertex that has no normal in either state, or turned over: both parts are 0 then.
+    /// False for a vertex that has no normal in either state, or that turned over: both components are 0 then.
     bool defined = false;
 };
 
 /// Splits the displacement V′ − V of a vertex along the direction n + n′, the sum of the unit normals of both states.
-/// The normal of one state alone would count the sagitta of every finite move along a curved surface as a move out of
-/// it; with n + n′ any rotation of a sphere about its centre is tangential, and neither state is preferred.
-/// @param normal_before, normal_after n and n′, of length 1, or 0 where there is none: then only the other counts.
+/// With the normal of one state alone, the sagitta of every finite motion along a curved surface would count as a
+/// normal component; with n + n′ any rotation of a sphere about its centre is tangential, and neither state is
+/// preferred.
+/// @param normal_before, normal_after n and n′, of length 1, or 0 if there is no normal: then only the other one is
+/// used.
 Displacement split_displacement(const Point& displacement, const Point& normal_before, const Point& normal_after);
 
-/// The parts of the displacements of all vertices.
+/// The components of the displacements of all vertices.
 struct DisplacementField {
-    /// #V: length of the tangential part, and signed normal part, in units of length; not a number where the split is
-    /// not defined.
+    /// #V: the length of the tangential component, and the signed normal component, in units of length; NaN where the
+    /// split is not defined.
     std::vector<double> tangential;
     std::vector<double> normal;
 };
@@ -35,7 +37,7 @@ struct DisplacementField {
 /// @throws InputError if the numbers of vertices differ.
 DisplacementField displacement_field(const PolygonMesh& mesh, const Points& before, const Points& after);
 
-/// Both parts over all vertices where they are defined, including vertices that stay in place.
+/// Statistics of both components over all vertices where they are defined, including vertices that do not move.
 struct DisplacementStatistics {
     LengthStatistics tangential;
     LengthStatistics normal;

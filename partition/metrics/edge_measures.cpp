@@ -19,7 +19,7 @@ struct LengthsOfEdges {
     bool has_needles = false;
 };
 
-/// @param is_left_out #V, or empty: vertices whose edges do not count.
+/// @param is_left_out #V, or empty: 1 for vertices whose edges do not count.
 LengthsOfEdges add_up_edges(const PolygonMesh& mesh, const Points& positions, std::span<const std::uint8_t> is_left_out,
                             const Executor& exec)
 {
@@ -41,7 +41,7 @@ LengthsOfEdges add_up_edges(const PolygonMesh& mesh, const Points& positions, st
         }
         lengths.total += around;
         lengths.longest = std::max(lengths.longest, longest);
-        // Few faces have edges that differ so much.
+        // The ratio of edges in a face that counts as large: few faces have it.
         constexpr double much = 5.0;
         if (is_left_out.empty() && longest > much * shortest)
             lengths.has_needles = lengths.has_needles || has_needle(corners, positions);
@@ -60,7 +60,7 @@ double mean_of(const LengthsOfEdges& edges)
     return edges.n > 0 ? edges.total / edges.n : 0.0;
 }
 
-/// Whether spikes would count much in the mean.
+/// Whether edges of spikes would change the mean much.
 bool has_long_edges(const LengthsOfEdges& edges)
 {
     constexpr double long_in_means = 4.0;

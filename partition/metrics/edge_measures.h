@@ -8,7 +8,7 @@
 
 namespace seamflow {
 
-/// Found in one look at all edges.
+/// The measures of edges that need all edges to be visited, once.
 struct EdgeMeasures {
     /// See mean_edge_length.
     double mean = 0.0;
@@ -16,6 +16,7 @@ struct EdgeMeasures {
     std::vector<Spike> spikes;
 };
 
+/// Measures all edges.
 /// @param positions #V by 3.
 EdgeMeasures measure_edges(const PolygonMesh& mesh, const Points& positions, const Executor& exec = run_serially);
 

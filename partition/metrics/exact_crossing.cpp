@@ -15,7 +15,7 @@ __extension__ using Wide = unsigned __int128;
 /// A sum of products of three finite doubles without any rounding, as an integer in units of 2⁻³³⁹².
 class ExactSum {
   public:
-    /// Adds x y z, or subtracts it.
+    /// Adds sign · x y z.
     void add(int sign, double x, double y, double z)
     {
         int exponent = 3392;
@@ -40,7 +40,7 @@ class ExactSum {
             digit[2 + i] += factor * static_cast<std::uint32_t>(high_shifted >> (i * bits));
     }
 
-    /// Adds the determinant of three rows, or subtracts it.
+    /// Adds sign times the determinant of three rows.
     void add_determinant(int sign, const Point& p, const Point& q, const Point& r)
     {
         for (int i = 0; i < 3; ++i) {
@@ -51,7 +51,7 @@ class ExactSum {
         }
     }
 
-    /// 1, 0 or -1.
+    /// The sign of the sum: 1, 0 or -1.
     [[nodiscard]] int sign() const
     {
         std::int64_t carry = 0;
@@ -66,11 +66,11 @@ class ExactSum {
 
   private:
     static constexpr int bits = 32;
-    /// The lowest first, each the sum of its parts of the products so far.
+    /// The digits, the lowest first; each is the sum of its parts of all products so far.
     std::array<std::int64_t, 208> digits_{};
 };
 
-/// On which side of the plane through a, b and c d lies: 1, -1, or 0 in that plane.
+/// The side of the plane through a, b and c on which d lies: 1, -1, or 0 in that plane.
 int side_of_plane(const Point& a, const Point& b, const Point& c, const Point& d)
 {
     ExactSum sum;
@@ -81,7 +81,7 @@ int side_of_plane(const Point& a, const Point& b, const Point& c, const Point& d
     return sum.sign();
 }
 
-/// On which side of the line through a and b c lies, seen along a coordinate axis: 1, -1, or 0 on that line.
+/// The side of the line through a and b on which c lies, seen along a coordinate axis: 1, -1, or 0 on that line.
 int side_of_line(int axis, const Point& a, const Point& b, const Point& c)
 {
     const Point along = Point::Unit(axis);
@@ -92,7 +92,7 @@ int side_of_line(int axis, const Point& a, const Point& b, const Point& c)
     return sum.sign();
 }
 
-/// The first coordinate axis along which a triangle is seen with an area; 3: none.
+/// The first coordinate axis along which a triangle is seen with an area; 3: there is none.
 int axis_of_view(const TriangleCorners& t)
 {
     int axis = 0;
@@ -126,7 +126,7 @@ bool meets(const Point& p, const Point& q, const TriangleCorners& t)
         return false;
     if (side_of_p == 0 && side_of_q == 0)
         return meets_in_plane(p, q, t);
-    // The line through p and q passes all edges on the same side.
+    // The line through p and q passes all three edges on the same side.
     const auto [least, most] = std::minmax(
         {side_of_plane(p, q, t[0], t[1]), side_of_plane(p, q, t[1], t[2]), side_of_plane(p, q, t[2], t[0])});
     return least * most >= 0;

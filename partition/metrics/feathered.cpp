@@ -22,8 +22,8 @@ namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
 
-/// When a front reaches w that is straight in the triangle and reaches u and v at given distances; infinite where it
-/// does not come from between them.
+/// The time when a front that is straight in the triangle, and reaches u and v at given distances, reaches w; infinite
+/// if it does not come from between u and v.
 double reach_across(const Point& u, double at_u, const Point& v, double at_v, const Point& w)
 {
     const double edge = (v - u).norm();
@@ -72,7 +72,7 @@ class Front {
     }
 
   private:
-    /// From the vertex at a corner to the others of its face.
+    /// Moves the front from the vertex at a corner to the other corners of its face.
     void cross_face(Index corner)
     {
         const Index v = mesh_.face_vertices[corner];
@@ -81,14 +81,14 @@ class Front {
         for (const Index w : mesh_.face(topology_.face_of[corner])) {
             if (is_reached_[w] != 0)
                 continue;
-            put(w, distances_[v] + (place(w) - place(v)).norm());
+            put(w, distances_[v] + (position(w) - position(v)).norm());
             for (const Index u : beside)
                 if (is_reached_[u] != 0)
-                    put(w, reach_across(place(u), distances_[u], place(v), distances_[v], place(w)));
+                    put(w, reach_across(position(u), distances_[u], position(v), distances_[v], position(w)));
         }
     }
 
-    [[nodiscard]] Point place(Index v) const { return mesh_.vertices.row(v); }
+    [[nodiscard]] Point position(Index v) const { return mesh_.vertices.row(v); }
 
     using Candidate = std::pair<double, Index>;
     const PolygonMesh& mesh_;
@@ -131,24 +131,24 @@ std::vector<double> feathered(const PolygonMesh& mesh, std::vector<double> stren
     const Topology topology = make_topology(mesh, exec);
     const std::optional<Weld> welded =
         joined_within ? weld(mesh, topology, *joined_within, exec) : std::optional<Weld>();
-    std::vector<Index> first(strength.size());
-    std::iota(first.begin(), first.end(), 0);
+    std::vector<Index> representative(strength.size());
+    std::iota(representative.begin(), representative.end(), 0);
     if (welded)
-        first = welded->first;
-    for (std::size_t v = 0; v < first.size(); ++v)
-        strength[first[v]] = std::min(strength[first[v]], strength[v]);
+        representative = welded->representative;
+    for (std::size_t v = 0; v < representative.size(); ++v)
+        strength[representative[v]] = std::min(strength[representative[v]], strength[v]);
     const PolygonMesh& joined = welded ? welded->mesh : mesh;
     const Topology& of_joined = welded ? welded->topology : topology;
     const std::vector<Index> rim =
         select(exec, mesh.n_vertices(), [&](Index v) { return is_on_rim(joined, of_joined, strength, v); });
     const std::vector<double> distances = distances_from(joined, of_joined, rim, length);
     for_each(exec, mesh.n_vertices(), [&](Index v) {
-        const double t = std::min(distances[first[v]] / length, 1.0);
-        if (first[v] == v)
+        const double t = std::min(distances[representative[v]] / length, 1.0);
+        if (representative[v] == v)
             strength[v] *= t * t * t * (10.0 + t * (6.0 * t - 15.0));
     });
-    for (std::size_t v = 0; v < first.size(); ++v)
-        strength[v] = strength[first[v]];
+    for (std::size_t v = 0; v < representative.size(); ++v)
+        strength[v] = strength[representative[v]];
     return strength;
 }
 

@@ -10,7 +10,7 @@ namespace seamflow {
 std::vector<Index> flipped_faces(const PolygonMesh& mesh, const Points& before, const Points& after,
                                  const Executor& exec)
 {
-    // Normalised, because the product of the areas of small faces may be 0.
+    // The direction is normalised, because the product of the areas of small faces may be 0.
     const auto normal = [&](Index f, const Points& positions) -> Point {
         return vector_area(mesh.face(f), positions).stableNormalized();
     };
@@ -24,7 +24,7 @@ std::vector<Index> folded_faces(const PolygonMesh& mesh, const Points& before, c
     for (const Index f : flipped)
         for (const Index v : mesh.face(f))
             has_flipped[v] = 1;
-    // The sums of the areas of the faces around these vertices.
+    // Per vertex, the sum of the vector areas of its faces.
     Points around_before = Points::Zero(mesh.n_vertices(), 3);
     Points around_after = Points::Zero(mesh.n_vertices(), 3);
     for (Index f = 0; f < mesh.n_faces(); ++f) {

@@ -15,11 +15,11 @@ struct LengthStatistics {
 /// Accumulates the sums for statistics of some lengths.
 class LengthSums {
   public:
-    /// Adds the absolute value of a length; NaN is left out.
+    /// Adds the absolute value of a length; NaN is ignored.
     void add(double length);
-    /// Adds those of `others`.
+    /// Adds all lengths that were added to `others`.
     void add(const LengthSums& others);
-    /// All 0 if none was added.
+    /// The statistics; all 0 if no length was added.
     [[nodiscard]] LengthStatistics statistics() const;
 
   private:
@@ -29,7 +29,7 @@ class LengthSums {
     double largest_ = 0.0;
 };
 
-/// Statistics of the absolute values of `lengths` without NaNs; all 0 if none is left. Summed in order, so that the
+/// Statistics of the absolute values of `lengths` without NaNs; all 0 if there are none. Summed in order, so that the
 /// bits are always the same.
 LengthStatistics length_statistics(std::span<const double> lengths);
 

@@ -13,7 +13,7 @@ namespace seamflow {
 
 namespace {
 
-/// In degrees; NaN if one of them has no direction.
+/// The angle in degrees; NaN if one of the vectors has no direction.
 double angle_between(const Point& a, const Point& b)
 {
     if (!(a.norm() > 0.0) || !(b.norm() > 0.0))
@@ -21,7 +21,7 @@ double angle_between(const Point& a, const Point& b)
     return std::atan2(a.cross(b).norm(), a.dot(b)) * 180.0 / std::numbers::pi;
 }
 
-/// Between the triangles on both sides of every edge.
+/// The angles between the triangles on both sides of every edge, in degrees.
 std::vector<double> angles(const PolygonMesh& triangles)
 {
     const Topology topology = make_topology(triangles);
@@ -55,9 +55,9 @@ Roughness roughness(const PolygonMesh& mesh, const Points& positions)
     double squares = 0.0;
     for (const double angle : all)
         squares += angle * angle;
-    const auto place = all.begin() + static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(all.size() - 1));
-    std::nth_element(all.begin(), place, all.end());
-    return {.rms = std::sqrt(squares / static_cast<double>(all.size())), .percentile_95 = *place};
+    const auto percentile = all.begin() + static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(all.size() - 1));
+    std::nth_element(all.begin(), percentile, all.end());
+    return {.rms = std::sqrt(squares / static_cast<double>(all.size())), .percentile_95 = *percentile};
 }
 
 }  // namespace seamflow

@@ -25,13 +25,13 @@ constexpr Index tasks_of_round = 64;
 struct Piece {
     Triangle vertices;
     Index face;
-    /// The number of its crowded fan, no_fan for most.
+    /// The number of its crowded fan; no_fan for most triangles.
     Index fan;
 };
 
 constexpr Index no_fan = std::numeric_limits<Index>::max();
 
-/// A crowded fan, and where its triangles are among the sorted pieces.
+/// A crowded fan, and the range of its triangles among the sorted pieces.
 struct PiecesOfFan {
     CrowdedFan fan;
     Index begin;
@@ -64,7 +64,7 @@ class CrossingSearch {
     {
     }
 
-    /// Unsorted, and pairs of polygons possibly several times.
+    /// Returns the pairs, unsorted; pairs of polygons possibly several times.
     [[nodiscard]] std::vector<FacePair> run(const Executor& exec) const
     {
         std::vector<FacePair> found;
@@ -108,13 +108,13 @@ class CrossingSearch {
     }
 
     const Points& positions_;
-    /// Those of fans first, one fan after the other.
+    /// The pieces: those of crowded fans first, one fan after the other.
     std::vector<Piece> pieces_;
     std::vector<PiecesOfFan> fans_;
     BoxTree tree_;
 };
 
-/// Fans as they will be when pieces are sorted.
+/// Marks the triangles of crowded fans. Returns the fans with their ranges after sorting.
 std::vector<PiecesOfFan> CrossingSearch::mark_fans()
 {
     std::vector<Triangle> triangles;
@@ -133,7 +133,7 @@ std::vector<PiecesOfFan> CrossingSearch::mark_fans()
     return fans;
 }
 
-/// Fan by fan, then all others; neighbours together in each.
+/// Sorts the pieces: fan by fan, then all others; neighbours together in each.
 void CrossingSearch::sort_pieces(const Executor& exec)
 {
     const auto n = static_cast<Index>(pieces_.size());
@@ -163,8 +163,8 @@ std::vector<Box> CrossingSearch::boxes_of_leaves(const Executor& exec) const
     return leaves;
 }
 
-/// Searches for pairs with a triangle in the leaves from `first` to the end of a round, and one in the same leaf or a
-/// later one.
+/// Searches for crossing pairs of which one triangle is in the leaves from `first` to the end of a round, and the other
+/// in the same leaf or a later one.
 void CrossingSearch::run_round(Index first, std::vector<FacePair>& found, const Executor& exec) const
 {
     std::vector<std::vector<FacePair>> of_task(tasks_of_round);
@@ -195,7 +195,7 @@ void CrossingSearch::search_within(const PiecesOfFan& fan, std::vector<FacePair>
     });
 }
 
-/// From which leaf on pieces may cross those of a leaf that are not of the same fan.
+/// The first leaf with pieces that may cross those of a leaf without being in the same fan.
 Index CrossingSearch::first_to_search(Index leaf) const
 {
     const Index fan = pieces_[begin_of(leaf)].fan;

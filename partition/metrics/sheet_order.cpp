@@ -12,16 +12,17 @@ namespace seamflow {
 
 namespace {
 
-/// Faces at a smaller angle, in radians, lie on each other: rounding is far below that, unless faces are needles.
+/// Faces at a smaller angle, in radians, lie on each other: rounding is far smaller, except for needles.
 constexpr double smallest_angle = 1e-10;
 
-/// Of length 1; 0 for a vector without length or too long for a double.
+/// The vector scaled to length 1; 0 for a vector without length or too long for a double.
 Point direction_of(const Point& vector)
 {
     return vector.allFinite() ? vector.stableNormalized() : Point(Point::Zero());
 }
 
-/// Where a vertex would be displaced to: in each coordinate a number from -½ to ½ that its number decides.
+/// The pseudorandom displacement of a vertex: in each coordinate a number from -½ to ½ that depends on the number of
+/// the vertex.
 Point displacement_of(Index v)
 {
     constexpr int n_bits = 21;
@@ -30,7 +31,7 @@ Point displacement_of(Index v)
     return Point(part(0), part(1), part(2)) / (1U << n_bits) - Point::Constant(0.5);
 }
 
-/// The derivative of vector_area as all vertices are displaced.
+/// The derivative of vector_area while all vertices move along displacement_of.
 Point vector_area_rate(std::span<const Index> corners, const Points& positions)
 {
     Point sum = Point::Zero();
@@ -42,8 +43,8 @@ Point vector_area_rate(std::span<const Index> corners, const Points& positions)
     return 0.5 * sum;
 }
 
-/// The corners of a face from its lowest one on, towards the lower of the two beside it, so that repeated faces have
-/// the same; and whether that is the sense of the face.
+/// The corners of a face, beginning at its lowest corner and running towards the lower one of its two neighbours, so
+/// that repeated faces have the same list; and whether the list runs in the sense of the face.
 std::pair<std::vector<Index>, bool> sorted_corners(std::span<const Index> face)
 {
     std::vector<Index> corners(face.begin(), face.end());
@@ -54,7 +55,7 @@ std::pair<std::vector<Index>, bool> sorted_corners(std::span<const Index> face)
     return {std::move(corners), is_same_sense};
 }
 
-/// Begins the cycle behind a gap, so that no faces that lie on each other are at both ends.
+/// Begins the cycle after a gap, so that no faces that lie on each other are at both ends of the list.
 void begin_behind_gap(std::vector<SheetSpoke>& spokes)
 {
     if (spokes.front().angle + 2.0 * std::numbers::pi - spokes.back().angle > smallest_angle)
@@ -65,7 +66,7 @@ void begin_behind_gap(std::vector<SheetSpoke>& spokes)
         std::rotate(spokes.begin(), gap + 1, spokes.end());
 }
 
-/// Calls action with the runs of spokes each of which belongs to the one before it.
+/// Calls action with the runs of spokes in which each spoke belongs to the one before it.
 template <class Belongs, class Action>
 void for_each_run(std::span<SheetSpoke> spokes, Belongs&& belongs, Action&& action)
 {
@@ -80,8 +81,9 @@ void for_each_run(std::span<SheetSpoke> spokes, Belongs&& belongs, Action&& acti
 
 }  // namespace
 
-/// Its angle is that of the direction from the edge into the face, upright on the edge, from the first one that is not
-/// zero. The bits depend neither on the first corner of the face nor on its sense.
+/// The spoke of half-edge h. Its angle is that of the direction from the edge into the face, perpendicular to the edge,
+/// relative to the first such direction that is not zero. The bits depend neither on the first corner of the face nor
+/// on its sense.
 SheetSpoke SheetOrder::spoke_of(Index h, const Point& axis, Point& first) const
 {
     const auto [corners, is_same_sense] = sorted_corners(mesh_.face(topology_.face_of[h]));
@@ -107,7 +109,7 @@ std::vector<SheetSpoke> SheetOrder::around(Index h) const
         spokes.push_back(spoke_of(other, axis, first));
     std::ranges::sort(spokes, {}, [](const SheetSpoke& s) { return std::tuple(s.angle, s.halfedge); });
     begin_behind_gap(spokes);
-    // Where angles start again from -π, the gap is small.
+    // Across -π, where angles begin again, the gap is also small.
     const auto lies_on = [](const SheetSpoke& one, const SheetSpoke& next) {
         return next.angle - one.angle <= smallest_angle;
     };

@@ -10,12 +10,12 @@ namespace seamflow {
 
 /// A half-edge among all those at one edge.
 struct SheetSpoke {
-    /// Of its face about the edge, in radians, from -π to π.
+    /// The angle of its face around the edge, in radians, from -π to π.
     double angle;
-    /// How fast the angle grows if each vertex moves in a direction of its own: a tie-breaker.
+    /// The derivative of the angle while each vertex moves in a direction of its own: decides between equal angles.
     double rate;
     Index halfedge;
-    /// Whether the face has the direction of the one before it, so that they lie on each other.
+    /// Whether the face has the direction of the previous one, so that the two lie on each other.
     bool lies_on_previous;
 };
 

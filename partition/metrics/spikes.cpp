@@ -18,7 +18,7 @@ namespace {
 
 constexpr double least_in_edges = 10.0;
 constexpr double least_in_boxes = 3.0;
-/// More vertices than this part of the surface beside them are a part of its shape.
+/// A block with more vertices than this fraction of the block beside it is part of the shape of the surface.
 constexpr double most_of_neighbour = 0.1;
 
 double squared_length(const Points& positions, Index v, Index w)
@@ -73,10 +73,10 @@ class Blocks {
     }
 
   private:
-    /// Squares of lengths around a block.
+    /// Squared lengths around a block.
     struct Around {
         Index n_vertices = 0;
-        /// That of the largest block beside it.
+        /// The number of vertices of the largest block beside it.
         Index n_beside = 0;
         double shortest = std::numeric_limits<double>::infinity();
         double longest_of_others = 0.0;
@@ -118,7 +118,7 @@ class Blocks {
     const Points& positions_;
     /// #V: the squared length of the shortest edge.
     std::vector<double> shortest_;
-    /// #V.
+    /// #V: the block of each vertex.
     std::vector<Index> block_of_;
     Index n_blocks_ = 0;
     std::vector<Around> around_;

@@ -17,7 +17,7 @@ namespace {
 
 const Point nowhere = Point::Constant(std::numeric_limits<double>::infinity());
 
-/// The foot of the origin in the plane of the triangle, nowhere if that lies outside.
+/// The point of the plane of the triangle that is nearest to the origin; nothing if it lies outside the triangle.
 Point foot_inside(const Point& a, const Point& b, const Point& c)
 {
     const Point u = b - a;
@@ -35,7 +35,7 @@ Point foot_inside(const Point& a, const Point& b, const Point& c)
         t += dt;
         foot = a + s * u + t * w;
     }
-    // Not a number for a triangle without area: that is not inside either.
+    // The comparison is false for a triangle without area, whose numbers are NaN.
     const bool inside = s >= 0.0 && t >= 0.0 && s + t <= 1.0;
     return inside ? foot : nowhere;
 }
@@ -53,7 +53,7 @@ struct Foot {
         }
     }
 
-    /// The closest point of the segment between a and b, which may be one point.
+    /// Uses the nearest point of the segment between a and b, which may be one point, if it is closer.
     void use_if_closer(const Point& a, const Point& b)
     {
         const Point u = b - a;
@@ -83,7 +83,7 @@ double squared_distance_to_triangle(const Point& a, const Point& b, const Point&
 
 namespace {
 
-/// A search that examines more triangles and nodes for one point is slow.
+/// The number of examined triangles and nodes above which the search for one point counts as slow.
 constexpr std::size_t few_candidates = 256;
 
 Box box_of(const TriangleCorners& t)
@@ -94,7 +94,7 @@ Box box_of(const TriangleCorners& t)
     return box;
 }
 
-/// In an order of neighbours.
+/// The triangles in an order that keeps neighbours together.
 std::vector<TriangleCorners> triangles_of(const PolygonMesh& surface, const Executor& exec)
 {
     if (surface.n_faces() == 0)
@@ -125,7 +125,7 @@ TriangleCorners relative_to(const Point& origin, const TriangleCorners& t)
     return {t[0] - origin, t[1] - origin, t[2] - origin};
 }
 
-/// Whether the plane of a triangle is certainly further from the origin than a bound, squared.
+/// Whether the plane of a triangle is certainly further from the origin than a bound, which is squared.
 bool is_plane_beyond(const TriangleCorners& t, double squared_bound)
 {
     // Rounding tilts the planes of thinner triangles, and those of tiny ones.
@@ -172,8 +172,8 @@ class SurfaceDistance::Tree {
         Point foot = Point::Zero();
         double distance = 0.0;
 
-        /// No point is further from the surface than the centre and the radius: what is further from the centre than
-        /// this is not the closest for any.
+        /// The largest distance from the centre at which a triangle can be the closest for a point of the group: no
+        /// point is further from the surface than the sum of distance and radius.
         [[nodiscard]] double reach() const { return distance + 2.0 * radius; }
 
         /// The same for triangles in a plane in this direction from the centre. Seen from the point at p from the
@@ -183,7 +183,7 @@ class SurfaceDistance::Tree {
         {
             const double bound =
                 distance + radius * (direction - foot / distance).norm() + radius * radius / (2.0 * distance);
-            // Not a number on the surface.
+            // The bound is NaN if the centre is on the surface; then the other reach is used.
             return bound < reach() ? bound : reach();
         }
     };
@@ -194,7 +194,7 @@ class SurfaceDistance::Tree {
         BoxTree::Node node;
     };
 
-    /// The nodes that may hold the closest points of all points of a group.
+    /// The nodes that may contain the closest points of all points of a group.
     struct Candidates {
         Group group;
         std::vector<Candidate> nodes;
@@ -202,7 +202,7 @@ class SurfaceDistance::Tree {
 
     struct Answer {
         double distance;
-        /// How many candidates were examined.
+        /// The number of candidates that were examined.
         std::size_t n_examined;
     };
 
@@ -217,7 +217,7 @@ class SurfaceDistance::Tree {
     BoxTree tree_;
 };
 
-/// @param closest the triangle to begin with, then the closest one.
+/// @param closest in: the triangle to begin with; out: the closest triangle.
 SurfaceDistance::Tree::Answer SurfaceDistance::Tree::distance(const Point& p, const Candidates& candidates,
                                                               Index& closest) const
 {
@@ -242,7 +242,7 @@ SurfaceDistance::Tree::Answer SurfaceDistance::Tree::distance(const Point& p, co
     return {std::sqrt(squared), n_examined};
 }
 
-/// Adds the parts of a node within reach of the group that are triangles or no larger than the group.
+/// Adds the nodes below `node` within reach of the group that are triangles or no larger than the group.
 void SurfaceDistance::Tree::add_within_reach(BoxTree::Node node, Candidates& found) const
 {
     const Group& group = found.group;
@@ -287,8 +287,9 @@ SurfaceDistance::Tree::Candidates SurfaceDistance::Tree::narrowed(std::span<cons
     return found;
 }
 
-/// Point by point, each beginning with the closest triangle of the one before, as long as this is fast. Where it is
-/// not, because many triangles are about as far away, halves of the group first find out in common what is too far.
+/// Measures point by point, each search beginning with the closest triangle of the previous point, as long as this is
+/// fast. If it is slow, because many triangles are about as far away, halves of the group are searched first for the
+/// triangles within reach of all their points.
 void SurfaceDistance::Tree::measure(std::span<const Point> points, std::span<const Index> group,
                                     const Candidates& candidates, Index& closest, std::vector<double>& distances) const
 {

@@ -40,13 +40,12 @@ class SurfaceDistance {
 };
 
 /// H_mean, H_RMS and H_max of the paper (section Evaluation), in units of length: the distances of the vertices of
-/// `from` to the closest points of the surface of `to`. Vertices of `from` without faces are not part of its surface
-/// and not counted: a mesh has distance 0 from itself.
+/// `from` to the closest points of the surface of `to`. Vertices of `from` without faces are not counted: a mesh has
+/// distance 0 from itself.
 /// @throws InputError if one of the meshes has no faces.
 LengthStatistics surface_distance(const PolygonMesh& from, const PolygonMesh& to, const Executor& exec = run_serially);
 
-/// The larger of each pair of numbers. Of H in both directions, this is the measure that is symmetric in the two
-/// meshes.
+/// The larger of each pair of numbers. Applied to H in both directions, it is symmetric in the two meshes.
 LengthStatistics larger_of(const LengthStatistics& a, const LengthStatistics& b);
 
 }  // namespace seamflow

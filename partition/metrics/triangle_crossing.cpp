@@ -13,7 +13,7 @@ namespace {
 /// A bound of the rounding error of all sums of products here, relative to the sum of their absolute values: no term
 /// has more than a dozen roundings of half an epsilon.
 constexpr double rounding = 16.0 * std::numeric_limits<double>::epsilon();
-/// A bound of the error where products are not normal doubles.
+/// A bound of the rounding error of products that are not normal doubles.
 constexpr double underflow = 1e-290;
 
 /// A number and a bound of its error.
@@ -26,7 +26,7 @@ struct Estimate {
     [[nodiscard]] bool has_sign() const { return is_positive() || is_negative(); }
 };
 
-/// If the numbers are so large that their products overflow: anything.
+/// A scalar product. If products overflow, the result can be anything.
 Estimate dot(const Point& d, const Point& p)
 {
     constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -73,9 +73,9 @@ TriangleCorners edges_of(const TriangleCorners& t)
     return {t[1] - t[0], t[2] - t[1], t[0] - t[2]};
 }
 
-/// Whether a plane separates the triangles: along one of their edges and normal to the triangle, as on a smooth
-/// surface, parallel to one of them, or parallel to an edge of each. Exact numbers would miss none; rounding misses
-/// triangles that nearly touch.
+/// Whether a plane separates the triangles: a plane along one of their edges and normal to the triangle, as on a smooth
+/// surface; parallel to one of them; or parallel to an edge of each. With exact numbers, one of these separates any two
+/// disjoint triangles; with rounding, triangles that nearly touch may be missed.
 bool are_apart(const TriangleCorners& a, const TriangleCorners& b)
 {
     const TriangleCorners edges_a = edges_of(a);
@@ -98,8 +98,8 @@ bool are_on_one_side(const Point& a, const Point& b, const Point& p, const Point
     return (of_p.is_positive() && of_q.is_positive()) || (of_p.is_negative() && of_q.is_negative());
 }
 
-/// For triangles whose first corner is the origin: whether a plane through it separates them, or contains one of them
-/// and has the other on one side.
+/// For triangles whose first corner is the origin: whether a plane through the origin separates them, or contains one
+/// of them and has the other on one side.
 bool are_apart_beyond_corner(const TriangleCorners& a, const TriangleCorners& b)
 {
     const auto middle = [](const TriangleCorners& t) -> Point { return t[1].normalized() + t[2].normalized(); };
@@ -109,8 +109,8 @@ bool are_apart_beyond_corner(const TriangleCorners& a, const TriangleCorners& b)
            are_on_one_side(a[1], a[2], b[1], b[2]) || are_on_one_side(b[1], b[2], a[1], a[2]);
 }
 
-/// For triangles with their first corner at the origin and the second one in common: whether they span a volume, or lie
-/// on different sides of their edge.
+/// For triangles that share their first corner, the origin, and the second: whether they span a volume, or lie on
+/// different sides of their edge.
 bool are_apart_beyond_edge(const TriangleCorners& a, const TriangleCorners& b)
 {
     const Estimate same_side{a[1].cross(a[2]).dot(a[1].cross(b[2])),
@@ -118,8 +118,8 @@ bool are_apart_beyond_edge(const TriangleCorners& a, const TriangleCorners& b)
     return same_side.is_negative() || volume(a[1], a[2], b[2]).has_sign();
 }
 
-/// Moves corners of the same position to the front, in the same order.
-/// @returns how many there are.
+/// Moves corners with equal positions to the front, in the same order in both triangles.
+/// @returns the number of such corners.
 std::size_t bring_shared_to_front(TriangleCorners& a, TriangleCorners& b)
 {
     std::size_t n = 0;
@@ -134,7 +134,7 @@ std::size_t bring_shared_to_front(TriangleCorners& a, TriangleCorners& b)
     return n;
 }
 
-/// Relative to a point near both.
+/// The corners relative to a point near both triangles.
 TriangleCorners seen_from(const Point& origin, const TriangleCorners& t)
 {
     return {t[0] - origin, t[1] - origin, t[2] - origin};

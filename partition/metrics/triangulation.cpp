@@ -12,13 +12,13 @@ namespace {
 
 using Point2 = Eigen::RowVector2d;
 
-/// Better ears first.
+/// The quality of an ear; better qualities first.
 enum class Quality {
-    /// Turns left, and no other corner lies in its triangle.
+    /// The corner turns left, and no other corner lies in its triangle.
     Clean,
-    /// Collinear, or so nearly that rounding decides.
+    /// The corner is collinear with its neighbours, or so nearly that rounding decides.
     Flat,
-    /// Neither: only a polygon that crosses itself has no others.
+    /// Neither; only a polygon that crosses itself has no better ears.
     None,
 };
 
@@ -38,7 +38,7 @@ double turn(const Point2& a, const Point2& b, const Point2& c)
     return u.x() * w.y() - u.y() * w.x();
 }
 
-/// The remaining polygon, seen along the vector area of the whole one, and its ears.
+/// The remaining polygon, seen along the vector area of the whole polygon, and its ears.
 class EarClipper {
   public:
     EarClipper(std::span<const Index> corners, const Points& positions);
@@ -56,9 +56,9 @@ class EarClipper {
 
     std::span<const Index> corners_;
     const Points& positions_;
-    /// One per corner of the polygon.
+    /// One point per corner of the polygon.
     std::vector<Point2> flat_;
-    /// The remaining corners: places in `corners_`, and the ear at each.
+    /// The remaining corners, as indices in `corners_`; and the ear at each.
     std::vector<std::size_t> left_;
     std::vector<Ear> ears_;
 };
@@ -78,7 +78,8 @@ EarClipper::EarClipper(std::span<const Index> corners, const Points& positions)
     }
 }
 
-/// Whether no remaining corner lies in the triangle or on its border; those that coincide with its corners may.
+/// Whether no remaining corner lies in the triangle or on its border, except corners that coincide with those of the
+/// triangle.
 bool EarClipper::is_empty(const Point2& a, const Point2& b, const Point2& c) const
 {
     return std::ranges::none_of(left_, [&](std::size_t k) {
@@ -105,8 +106,8 @@ void EarClipper::examine(std::size_t k)
     ears_[k] = {quality_of(k), diagonal.squaredNorm(), vertex(k)};
 }
 
-/// After the corner at k has been removed. Removing a clean ear only affects its neighbours; a collinear corner,
-/// however, may have been on the diagonal of any other.
+/// Examines ears again after the corner at k has been removed. Removing a clean ear only affects its neighbours; a
+/// collinear corner, however, may have been on the diagonal of any other ear.
 void EarClipper::examine_around(std::size_t k, Quality quality)
 {
     const std::size_t next = k == left_.size() ? 0 : k;

@@ -15,17 +15,17 @@ struct VertexDistance {
     double mean_edge = 0.0;
 };
 
-/// Mean length over the half-edges of a mesh, so that an interior edge counts twice; 0 without faces. Edges of spikes
-/// (see find_spikes) are left out where one is longer than four times the mean: one height that stands for no data
-/// would make all others short.
+/// The mean length over the half-edges of a mesh, so that an interior edge counts twice; 0 without faces. Edges of
+/// spikes (see find_spikes) are left out if one is longer than four times the mean: a single height that stands for
+/// missing data would make all other edges short in comparison.
 double mean_edge_length(const PolygonMesh& mesh);
 
-/// As above for positions other than the mesh's own, #V by 3.
+/// The mean edge length (see above) at given positions, #V by 3.
 double mean_edge_length(const PolygonMesh& mesh, const Points& positions, const Executor& exec = run_serially);
 
-/// Distances between `candidate` and `reference`, #V by 3 each, over all vertices that faces use, and over
-/// all where there are no faces; `mesh` gives the faces.
-/// @throws InputError if the numbers of vertices differ, those of `mesh` included.
+/// Distances between `candidate` and `reference`, #V by 3 each, over all vertices that faces use, or over all vertices
+/// if there are no faces; `mesh` has the faces.
+/// @throws InputError if the numbers of vertices differ, including that of `mesh`.
 VertexDistance vertex_distance(const PolygonMesh& mesh, const Points& reference, const Points& candidate);
 
 }  // namespace seamflow

@@ -6,8 +6,8 @@ namespace seamflow {
 
 namespace {
 
-/// Orients the faces of a fan consistently. Its corners are in order around the vertex: a face that is oriented the
-/// same way has its previous vertex on the edge to the face before.
+/// Orients the faces of a fan consistently. The corners of the fan are in order around the vertex: a face with the
+/// orientation of the fan has its previous vertex on the edge to the face before.
 void align(const PolygonMesh& mesh, const Topology& topology, const Fan& fan, std::vector<std::int8_t>& sense)
 {
     Index shared = fan.first;

@@ -12,7 +12,7 @@ namespace seamflow {
 
 namespace {
 
-/// The hash of the opposite half-edge is the negative.
+/// The hash of a half-edge; that of the opposite half-edge is the negative.
 XXH64_hash_t hash_of_half_edge(Index from, Index to)
 {
     const std::array ends{std::min(from, to), std::max(from, to)};
@@ -33,7 +33,7 @@ XXH64_hash_t hash_of_face(std::span<const Index> corners)
 
 }  // namespace
 
-/// Half-edges and their opposites cancel each other: the sum of their hashes is then 0, and hardly ever otherwise.
+/// Half-edges and their opposites cancel each other: then the sum of all hashes is 0, and hardly ever otherwise.
 bool encloses_volume(const PolygonMesh& mesh, const Executor& exec)
 {
     const auto hash_of = [&](Index f) { return hash_of_face(mesh.face(f)); };

@@ -17,17 +17,17 @@ inline double cone_volume(std::span<const Index> corners, const Points& position
     return vector_area(corners, positions).dot(mean) / (3.0 * static_cast<double>(corners.size()));
 }
 
-/// The volume between an origin and the faces, in length³: that of the cones from it to them, negative for faces turned
-/// towards it. Polygons that are not planar are fans around the mean of their corners. If a surface encloses a volume,
-/// this is the same from any origin.
+/// The volume between an origin and the faces, in length³: the sum of the cones from the origin to the faces, negative
+/// for faces turned towards it. Polygons that are not planar are fans around the mean of their corners. If a surface
+/// encloses a volume, the result is the same for any origin.
 /// @param positions #V by 3, not necessarily those of the mesh.
 double volume_of_cones(const PolygonMesh& mesh, const Points& positions, const Point& origin, const Executor& exec);
 
-/// Whether the faces run along each edge as often in one direction as in the other; if not, the surface is open, or its
-/// faces are not oriented alike. False without faces.
+/// Whether the faces run along each edge as often in one direction as in the other; otherwise the surface is open, or
+/// its faces are not oriented alike. False without faces.
 bool encloses_volume(const PolygonMesh& mesh, const Executor& exec);
 
-/// The same for some of the faces.
+/// Whether some of the faces, taken alone, enclose a volume.
 bool encloses_volume(const PolygonMesh& mesh, std::span<const Index> faces);
 
 }  // namespace seamflow

@@ -15,7 +15,7 @@ namespace {
 constexpr Index settled = -1;
 constexpr Index unvisited = -2;
 
-/// The loose components of the suspect parts and how they are joined.
+/// The loose components of the suspect parts, and the procedure that joins them.
 class LooseComponents {
   public:
     LooseComponents(const PolygonMesh& mesh, const Topology& topology, std::vector<Index>& labels, std::size_t n_labels)
@@ -64,7 +64,7 @@ void LooseComponents::collect_component(Index f, IndexLists& components)
     components.close();
 }
 
-/// All components of a part except the largest.
+/// Keeps all components of a part except the largest.
 void LooseComponents::keep_loose_components(const IndexLists& components)
 {
     Index largest = 0;
@@ -132,7 +132,8 @@ Index LooseComponents::best_neighbour(Index component)
             double& length = shared_length_[labels_[g]];
             if (length == 0)
                 candidates_.push_back(labels_[g]);
-            // Not zero even for an edge without length, so that each part becomes a candidate once.
+            // The length is not zero even for an edge without length, so that each neighbouring part becomes a
+            // candidate once.
             length += 1e-300 + edge_length(mesh_, topology_, h);
         });
     const Index best = *std::max_element(candidates_.begin(), candidates_.end(),
@@ -142,7 +143,7 @@ Index LooseComponents::best_neighbour(Index component)
     return best;
 }
 
-/// Joins the loose components in rings around the settled ones.
+/// Joins the loose components, ring by ring around the settled parts.
 std::vector<Index> LooseComponents::join()
 {
     std::vector<Index> moved;
@@ -186,7 +187,7 @@ Index split_by_component(const PolygonMesh& mesh, const Topology& topology, Inde
     std::iota(by_component.begin(), by_component.end(), 0);
     std::stable_sort(by_component.begin(), by_component.end(),
                      [&](Index f, Index g) { return components.component_of[f] < components.component_of[g]; });
-    // For each label, the component seen last and the label's name there.
+    // For each label, the component in which it was seen last, and its new label there.
     std::vector<Index> component_of(n_labels, -1);
     std::vector<Index> name(n_labels, -1);
     Index n_names = n_labels;

@@ -8,9 +8,9 @@
 
 namespace seamflow {
 
-/// Makes parts connected through edges: each keeps its largest connected component (of equals the one with the lowest
-/// face), and every other one goes to the neighbouring part with which it shares the longest boundary.
-/// @param suspects one entry per label: the parts to check; the others are assumed to be connected.
+/// Makes parts connected through edges: each part keeps its largest connected component (of equals the one with the
+/// lowest face); every other component moves to the neighbouring part with which it shares the longest boundary.
+/// @param suspects one entry per label: the parts to check; other parts are assumed to be connected.
 /// @param labels #F, in the range of `suspects`; no part may lie in several connected components of the mesh.
 /// @returns the faces that changed their label.
 std::vector<Index> join_loose_components(const PolygonMesh& mesh, const Topology& topology,

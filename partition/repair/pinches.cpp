@@ -23,7 +23,7 @@ Index excess_runs_at_interior(const PolygonMesh& mesh, const Topology& topology,
             n_half_joints += label_of(topology.twin[spoke]) == label_of(corner) ? 1 : 0;
     // Each run has one face more than edges between two of its faces.
     const std::size_t n_runs = corners.size() - n_half_joints / 2;
-    // There are at least two labels: with one run each, none is pinched.
+    // There are at least two labels, so that with two runs none is pinched.
     if (n_runs == 2)
         return 0;
     std::vector<Index> around;
@@ -81,7 +81,7 @@ void PinchMender::find_runs(const Fan& fan)
     }
 }
 
-/// The number of runs minus the number of labels; sets pinched_label_ if that is not zero.
+/// Returns the number of runs minus the number of labels; sets pinched_label_ if that is not zero.
 Index PinchMender::count_excess_runs()
 {
     ++count_;
@@ -110,7 +110,7 @@ Index PinchMender::pinches_at(Index v)
     return excess;
 }
 
-/// The first fan at v with a pinch, and its runs in runs_; no faces if there is none.
+/// The first fan at v with a pinch; its runs are in runs_. A fan without faces if there is no pinch.
 Fan PinchMender::find_pinch(Index v)
 {
     if (pinches_at(v) > 0)
@@ -122,8 +122,8 @@ Fan PinchMender::find_pinch(Index v)
     return {};
 }
 
-/// Candidate move: the faces of the runs first_run to last_run - 1 get another label. Runs beyond the last one of the
-/// fan are its first ones again.
+/// A candidate move: the faces of the runs first_run to last_run - 1 get another label. Run numbers beyond the last run
+/// of the fan begin again at its first.
 void PinchMender::propose(const Fan& fan, std::size_t first_run, std::size_t last_run, Index label)
 {
     Move& move = moves_.emplace_back();
@@ -255,7 +255,8 @@ std::pair<Index, Index> PinchMender::pinched_and_between(Index v)
     std::size_t last = n;
     while (runs_[last - 1].label != pinched_label_)
         --last;
-    // Next to a run of the pinched part, so that the two share an edge; in an open fan between two of its runs.
+    // The smallest part that may be merged: a part next to a run of the pinched part, so that the two share an edge. In
+    // an open fan it lies between two runs of that part.
     Index between = -1;
     for (std::size_t r = fan.closed ? 0 : first; r < (fan.closed ? n : last); ++r) {
         const Index label = runs_[r].label;

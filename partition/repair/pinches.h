@@ -10,14 +10,14 @@
 
 namespace seamflow {
 
-/// Whether v may be pinched (see PinchMender), found without walking around it; exact at interior vertices.
+/// Whether v may be pinched (see PinchMender), decided without walking around v; exact at interior vertices.
 /// @param labels #F.
 bool may_be_pinched(const PolygonMesh& mesh, const Topology& topology, const std::vector<Index>& labels, Index v);
 
 /// Finds and mends pinched vertices: those at which the faces of one part form several runs within one fan of the mesh.
 class PinchMender {
   public:
-    /// Mesh, topology and labels must outlive the object. @param n_labels all labels are below it.
+    /// @param mesh, topology, labels must outlive the object. @param n_labels all labels are below it.
     PinchMender(const PolygonMesh& mesh, const Topology& topology, std::vector<Index>& labels, Index n_labels);
 
     /// Counts the faces of the parts. To be called before faces are moved or parts compared, and after outside changes
@@ -27,17 +27,18 @@ class PinchMender {
     /// The number of excess runs at v.
     Index pinches_at(Index v);
 
-    /// Moves faces at v to other parts until v is not pinched, in small steps, each the best of a few by the parts it
-    /// empties, the pinches it leaves nearby, the number of faces moved and the length of the cut.
+    /// Moves faces at v to other parts until v is not pinched, in small steps. Each step is the best of a few
+    /// candidates, by the number of parts that it empties, the pinches that it leaves nearby, the number of faces moved
+    /// and the length of the cut.
     /// @param moved gets the faces that changed their label, @param labels_before the labels they had.
     void mend(Index v, std::vector<Index>& moved, std::vector<Index>& labels_before);
 
-    /// A part pinched at v and the smallest of the parts next to its runs there, the larger of the two first.
-    /// v must be pinched.
+    /// A part pinched at v, and the smallest of the parts next to its runs there; the larger of the two first. v must
+    /// be pinched.
     std::pair<Index, Index> pinched_and_between(Index v);
 
   private:
-    /// Neighbouring faces of one label: positions in their fan, which may wrap around.
+    /// Consecutive faces of one label: positions in their fan, which may wrap around.
     struct Run {
         Index label;
         std::size_t begin;
@@ -70,11 +71,11 @@ class PinchMender {
     const PolygonMesh& mesh_;
     const Topology& topology_;
     std::vector<Index>& labels_;
-    /// One entry per label.
+    /// One entry per label: its number of faces.
     std::vector<std::int64_t> n_faces_;
     std::vector<std::size_t> met_in_count_;
     std::size_t count_ = 0;
-    /// The runs of the fan examined last, in order, and the label that occurs in several.
+    /// The runs of the fan examined last, in order; and the label that occurs in several runs.
     std::vector<Run> runs_;
     Index pinched_label_ = -1;
     std::vector<Move> moves_;
@@ -83,9 +84,9 @@ class PinchMender {
 };
 
 /// Merges pairs of neighbouring parts at pinched vertices, the smaller into the larger, until no vertex is pinched.
-/// Connected parts stay connected, and each round leaves fewer: at worst there is one part for each connected component
-/// of the mesh.
-/// @param labels #F, from 0 to n_labels - 1; labels of parts that are merged into others no longer occur.
+/// Connected parts stay connected, and each round leaves fewer parts: at worst one for each connected component of the
+/// mesh.
+/// @param labels #F, from 0 to n_labels - 1; labels of parts that were merged into others no longer occur.
 void merge_pinched(const PolygonMesh& mesh, const Topology& topology, Index n_labels, std::vector<Index>& labels);
 
 }  // namespace seamflow

@@ -15,7 +15,8 @@ namespace seamflow {
 
 namespace {
 
-/// Cuts by METIS need two or three rounds; a cut that needs more than this gets its pinched parts merged.
+/// The most rounds of repair. Cuts by METIS need two or three; a cut that needs more than this gets its pinched parts
+/// merged.
 constexpr int max_repair_rounds = 12;
 
 /// Vertices to examine, each once.
@@ -52,11 +53,11 @@ class VertexQueue {
     std::vector<Index> vertices_;
 };
 
-/// What to examine first.
+/// The parts and vertices to examine first.
 struct Suspects {
     /// See join_loose_components.
     std::vector<bool> parts;
-    /// All that are pinched, and perhaps others, ascending.
+    /// The vertices that are pinched, and perhaps others, ascending.
     std::vector<Index> vertices;
 };
 
@@ -77,7 +78,8 @@ Suspects suspects_of(const PolygonMesh& mesh, const Topology& topology, const Su
         for (const Index v : mesh.face(suspected.faces[i]))
             std::atomic_ref(is_corner[v]).store(1, std::memory_order_relaxed);
     });
-    // Not all at once: if memory runs out for a later member, GCC 12 destroys members made from {} twice.
+    // The members are set one by one: if memory runs out for a later member, GCC 12 destroys members made from {}
+    // twice.
     Suspects suspects;
     suspects.parts = suspected.parts;
     suspects.vertices = select(exec, mesh.n_vertices(),
@@ -85,7 +87,7 @@ Suspects suspects_of(const PolygonMesh& mesh, const Topology& topology, const Su
     return suspects;
 }
 
-/// Mends loose components and pinches in turn, as either may cause the other. Leaves all parts connected.
+/// Repairs loose components and pinches in turn, because each may cause the other. Leaves all parts connected.
 /// @returns whether no vertex is pinched any more.
 bool mend_in_rounds(const PolygonMesh& mesh, const Topology& topology, Suspects found, std::vector<Index>& labels,
                     const Executor& exec)
@@ -121,9 +123,9 @@ std::unique_ptr<Index[]> copy_of(const std::vector<Index>& labels, const Executo
     return copy;
 }
 
-/// @param suspects their parts are those of all labels, each within one component.
-/// @param before #F, the labels at first.
-/// @returns the number of faces whose labels differ from them.
+/// @param suspects with one entry per label, each label within one component.
+/// @param before #F, the initial labels.
+/// @returns the number of faces whose labels differ from the initial ones.
 Index mend(const PolygonMesh& mesh, const Topology& topology, Suspects suspects, const Index* before,
            std::vector<Index>& labels, const Executor& exec)
 {

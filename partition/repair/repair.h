@@ -8,12 +8,12 @@
 
 namespace seamflow {
 
-/// Where a cut may have defects (see repair); elsewhere it is known to have none.
+/// The parts and faces of a cut that may have defects (see repair); the others are known to have none.
 struct SuspectedDefects {
     /// One entry per label: whether the part may not be connected.
     std::vector<bool> parts;
-    /// A vertex at which a part may be pinched is a corner of one of these faces. In any order; repetitions are
-    /// allowed.
+    /// Faces such that each vertex at which a part may be pinched is a corner of one of them. In any order; repetitions
+    /// are allowed.
     std::vector<Index> faces;
 };
 
@@ -28,11 +28,11 @@ struct SuspectedDefects {
 Index repair(const PolygonMesh& mesh, const Topology& topology, std::vector<Index>& labels,
              const Executor& exec = run_serially);
 
-/// The same for a cut whose parts are each known to lie within one connected component of the mesh.
+/// Repairs a cut whose parts are each known to lie within one connected component of the mesh.
 Index repair_within_components(const PolygonMesh& mesh, const Topology& topology, std::vector<Index>& labels,
                                const Executor& exec = run_serially);
 
-/// The same for such a cut that is known to have defects only where they are suspected.
+/// Repairs a cut, as repair_within_components does, that is known to have defects only where they are suspected.
 /// @param labels #F, from 0 to n_parts - 1 without gaps, as many as suspected.parts has entries.
 Index repair_where_suspected(const PolygonMesh& mesh, const Topology& topology, const SuspectedDefects& suspected,
                              std::vector<Index>& labels, const Executor& exec = run_serially);

@@ -286,10 +286,10 @@ void define_changes(py::class_<FlowCall>& flow)
 {
     using Vertices = Array<Index>;
     flow.def("hold",
-             [](FlowCall& call, const Vertices& vertices, bool is_held) {
+             [](FlowCall& call, const Vertices& vertices, bool is_fixed) {
                  const std::vector<Index> list = to_vector(vertices);
                  const py::gil_scoped_release release;
-                 call.change([&](Flow& of_call) { is_held ? of_call.hold(list) : of_call.release(list); });
+                 call.change([&](Flow& of_call) { is_fixed ? of_call.hold(list) : of_call.release(list); });
              })
         .def("move",
              [](FlowCall& call, const Vertices& vertices, const Array<double>& to) {

@@ -32,8 +32,8 @@ class JoinedBorders {
     [[nodiscard]] Index lowest(Index i) const
     {
         // Behind the faces here the surface of a tile goes on: where they end there, no seam is.
-        const bool is_joined = joined_ && is_on_border(i) && is_on_border(joined_->first[i]);
-        return is_joined ? joined_->first[i] : i;
+        const bool is_joined = joined_ && is_on_border(i) && is_on_border(joined_->representative[i]);
+        return is_joined ? joined_->representative[i] : i;
     }
 
   private:
@@ -95,7 +95,7 @@ TileBorder border_of(const PolygonMesh& mesh, const Topology& topology, const Ex
     }
     for (const Index f : faces) {
         for (const Index v : mesh.face(f))
-            border.face_vertices.push_back(position_in(border.vertices, v));
+            border.face_vertices.push_back(find_in(border.vertices, v));
         border.face_offsets.push_back(static_cast<Index>(border.face_vertices.size()));
     }
     return border;
@@ -119,7 +119,7 @@ TileOwners owners_of(Index tile, std::span<const BorderOfTile> near, double dist
             continue;
         }
         // That vertex may have an owner in a tile lower still, which is not near.
-        const Index place = position_in(first.owners.vertices, all.vertex_of(lowest));
+        const Index place = find_in(first.owners.vertices, all.vertex_of(lowest));
         owners.tiles.push_back(first.owners.tiles.at(usize(place)));
         owners.numbers.push_back(first.owners.numbers.at(usize(place)));
     }

@@ -27,8 +27,8 @@ NO_SIGNS = np.zeros(8)
 # Which labels speak for each kind of noise, and which against it.
 MODELS = {
     "weights_of_independent_noise": (("noise",), ("shape",), AGAINST_SHAPE),
-    "weights_of_alike_noise": (("alike", "scan"), ("shape",), AGAINST_SHAPE),
-    "weights_of_alike_against_independent_noise": (("alike", "scan"), ("noise",), NO_SIGNS),
+    "weights_of_correlated_noise": (("alike", "scan"), ("shape",), AGAINST_SHAPE),
+    "weights_of_correlated_against_independent_noise": (("alike", "scan"), ("noise",), NO_SIGNS),
 }
 # How many meshes each side counts as.
 MESHES_OF_SIDE = 100.0

@@ -7,7 +7,7 @@ namespace seamflow {
 
 namespace {
 
-/// Mean length of the edges at the i-th vertex of Γ.
+/// The mean length of the edges at the i-th vertex of Γ.
 double mean_edge_at(const SubMesh& sub_mesh, Index i, const Points& positions)
 {
     double sum = 0.0;
@@ -16,7 +16,8 @@ double mean_edge_at(const SubMesh& sub_mesh, Index i, const Points& positions)
     return sum / static_cast<double>(sub_mesh.corrected.neighbours[i].size());
 }
 
-/// Whether the coefficients of a fan's ∂n are neither vanishing nor huge relative to 1 / edge, by measured bounds.
+/// Whether the coefficients of the fan's ∂n are neither nearly 0 nor huge relative to 1 / edge. The bounds are
+/// measured.
 bool is_in_proportion(std::span<const Index> fan, const IndexLists& faces, const Conormal& conormal, double edge)
 {
     constexpr double least_diagonal = 0.2;

@@ -11,9 +11,9 @@ namespace seamflow {
 
 /// The positions on Γ for which a right-hand side is computed.
 enum class RightSide {
-    /// The sub-mesh's own.
+    /// The sub-mesh's own positions.
     Own,
-    /// The other side's copy, with its tangential derivative.
+    /// The copy of Γ of the sub-mesh on the other side, with the tangential derivative along it.
     OthersCopy,
 };
 
@@ -22,11 +22,11 @@ enum class RightSide {
 /// \f[ (I + dt\, (p\, \partial_{n_A} + q\, \partial_t))\, V_A^{k+1} = (I - dt\, p\, \partial_{n_B})\, V_B , \f]
 ///
 /// with A the sub-mesh and B the complement fan, each with its own outward conormal, α and ‖N‖ from Vᵏ. In the paper
-/// V_B is V_B^k. Where one of the two conormals does not exist, p counts as 0 and the vertex keeps its place. And the
+/// V_B is V_B^k. Where one of the two conormals does not exist, p counts as 0 and the vertex does not move. And the
 /// classical ones (see make_ventcell).
 class AdaptedRobin final : public TransmissionCondition {
   public:
-    /// @param sub_mesh must outlive the condition. @param q not negative, without dimension.
+    /// @param sub_mesh must outlive the condition. @param q at least 0, without dimension.
     explicit AdaptedRobin(const SubMesh& sub_mesh, double q = 0.0, RightSide right_side = RightSide::Own);
 
     [[nodiscard]] const IndexLists& columns() const override { return stencils_.columns; }
@@ -37,12 +37,13 @@ class AdaptedRobin final : public TransmissionCondition {
     /// The stencils of the derivatives, whose columns are the condition's.
     [[nodiscard]] const DerivativeStencils& stencils() const { return stencils_; }
 
-    /// Whether the two conormals at the i-th vertex exist, point away from each other, and belong to derivatives whose
-    /// coefficients are in proportion to the edges around: otherwise the condition lets vertices jump.
+    /// Whether the condition can be used at the i-th vertex: the two conormals exist, point away from each other, and
+    /// have derivatives whose coefficients are in proportion to the edges around. Otherwise the condition would let the
+    /// vertex jump.
     [[nodiscard]] bool is_well_defined(Index i, const Points& positions) const;
 
   private:
-    /// Both sides at one vertex of Γ.
+    /// The conormals of both sides at one vertex of Γ.
     struct Conormals {
         Conormal own;
         Conormal other;
@@ -54,9 +55,9 @@ class AdaptedRobin final : public TransmissionCondition {
     DerivativeStencils stencils_;
     double dt_p_ = 0.0;
     double dt_q_ = 0.0;
-    /// Per vertex of Γ; empty if one of them does not exist.
+    /// Per vertex of Γ; empty if one of the two conormals does not exist.
     std::vector<std::optional<Conormals>> conormals_;
-    /// Per vertex of Γ, of the other side's copy.
+    /// Per vertex of Γ, the weights along the copy of Γ of the other side.
     std::vector<TangentialWeights> others_weights_;
 };
 

@@ -9,7 +9,8 @@ namespace seamflow {
 
 namespace {
 
-/// For the fan of the given faces at a vertex with neighbours `before` and `after` along the fan's boundary.
+/// The conormal of the fan of the given faces at a vertex with neighbours `before` and `after` along the fan's
+/// boundary.
 std::optional<Conormal> conormal_of(std::span<const Index> fan, const IndexLists& faces, Index vertex, Index before,
                                     Index after, const Points& positions)
 {
@@ -43,13 +44,13 @@ DerivativeStencils make_derivative_stencils(const SubMesh& sub_mesh)
         sort_unique(columns);
         for (const Index f : interface.own_faces[i])
             for (const Index v : sub_mesh.face_vertices[f])
-                stencils.corner_places.values.push_back(place_in(columns, v));
+                stencils.corner_columns.values.push_back(place_in(columns, v));
         stencils.centre.push_back(place_in(columns, interface.vertices[i]));
         stencils.before.push_back(place_in(columns, interface.before[i]));
         stencils.after.push_back(place_in(columns, interface.after[i]));
         stencils.columns.values.insert(stencils.columns.values.end(), columns.begin(), columns.end());
         stencils.columns.close();
-        stencils.corner_places.close();
+        stencils.corner_columns.close();
     }
     return stencils;
 }
@@ -72,12 +73,12 @@ void normal_derivative_row(const SubMesh& sub_mesh, const DerivativeStencils& st
                            const Conormal& conormal, std::span<double> row)
 {
     std::fill(row.begin(), row.end(), 0.0);
-    auto place = stencils.corner_places[i].begin();
+    auto column = stencils.corner_columns[i].begin();
     for (const Index f : sub_mesh.interface.own_faces[i]) {
         const std::size_t p = sub_mesh.face_vertices[f].size();
         row[stencils.centre[i]] += 1.0;
         for (std::size_t k = 0; k < p; ++k)
-            row[*place++] -= 1.0 / static_cast<double>(p);
+            row[*column++] -= 1.0 / static_cast<double>(p);
     }
     row[stencils.after[i]] -= conormal.alpha;
     row[stencils.before[i]] += conormal.alpha;

@@ -10,11 +10,11 @@ namespace seamflow {
 
 /// The stencil of a derivative at each vertex of a sub-mesh's Γ: the vertices of its own faces there.
 struct DerivativeStencils {
-    /// One list per vertex of Γ, ascending.
+    /// Per vertex of Γ: the vertices of the stencil, ascending.
     IndexLists columns;
-    /// One list per vertex of Γ: the places in `columns` of the corners of its own faces, face after face.
-    IndexLists corner_places;
-    /// Places in `columns` of the vertex itself and of its neighbours along the boundary; one per vertex of Γ.
+    /// Per vertex of Γ: the indices in `columns` of the corners of its own faces, face after face.
+    IndexLists corner_columns;
+    /// Per vertex of Γ: the indices in `columns` of the vertex itself and of its two neighbours along the boundary.
     std::vector<Index> centre;
     std::vector<Index> before;
     std::vector<Index> after;
@@ -40,13 +40,15 @@ std::optional<Conormal> own_conormal(const SubMesh& sub_mesh, Index i, const Poi
 /// The conormal of the other side: that of the complement fan.
 std::optional<Conormal> complement_conormal(const SubMesh& sub_mesh, Index i, const Points& positions);
 
-/// The row of ∂n at the i-th vertex of Γ, linear in the positions with α and ‖N‖ held: (Σ_f (e_i - Σ_{k∈f} e_k / p_f)
-/// - α (e_after - e_before)) / ‖N‖, in 1/length. Applied to the positions it was made from it gives the conormal.
+/// The row of ∂n at the i-th vertex of Γ, linear in the positions because α and ‖N‖ are constants: (Σ_f (e_i - Σ_{k∈f}
+/// e_k / p_f) - α (e_after - e_before)) / ‖N‖, in 1/length. Applied to the positions from which the conormal was
+/// computed, the row gives the conormal.
 /// @param row receives one coefficient per vertex of the stencil.
 void normal_derivative_row(const SubMesh& sub_mesh, const DerivativeStencils& stencils, Index i,
                            const Conormal& conormal, std::span<double> row);
 
-/// ∂n of the other side at the i-th vertex of Γ, applied to positions, α and ‖N‖ held as above. Without dimension.
+/// ∂n of the other side at the i-th vertex of Γ, applied to positions, with constant α and ‖N‖ as in
+/// normal_derivative_row. Without dimension.
 /// @param other_side #local by 3, the halo included.
 Point complement_normal_derivative(const SubMesh& sub_mesh, Index i, const Conormal& conormal,
                                    const Points& other_side);
@@ -61,12 +63,12 @@ struct TangentialWeights {
 /// The weights at the i-th vertex of Γ, with l₁ and l₂ the lengths of its two edges along Γ.
 TangentialWeights tangential_weights(const SubMesh& sub_mesh, Index i, const Points& positions);
 
-/// Adds a multiple of the row of ∂t at the i-th vertex of Γ, weights held.
+/// Adds a multiple of the row of ∂t at the i-th vertex of Γ, with constant weights.
 /// @param row one coefficient per vertex of the stencil.
 void add_tangential_derivative(const DerivativeStencils& stencils, Index i, const TangentialWeights& weights,
                                double factor, std::span<double> row);
 
-/// ∂t at the i-th vertex of Γ, applied to positions, weights held. In 1/length.
+/// ∂t at the i-th vertex of Γ, applied to positions, with constant weights. In 1/length.
 Point tangential_derivative(const SubMesh& sub_mesh, Index i, const TangentialWeights& weights,
                             const Points& positions);
 

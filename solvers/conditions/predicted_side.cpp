@@ -13,12 +13,12 @@ namespace seamflow {
 
 namespace {
 
-/// The kind of row of a vertex in this step.
+/// The kind of the row at a vertex of Γ in the present step.
 enum class RowKind : std::uint8_t {
-    /// That of the undecomposed step, with the other side responding to Γ.
+    /// The row of the undecomposed step, in which the other side responds to the movement of Γ.
     Responding,
-    /// That of the undecomposed step, with the other side as predicted.
-    Held,
+    /// The row of the undecomposed step, in which the other side has the predicted positions.
+    Fixed,
     Robin,
 };
 
@@ -82,7 +82,7 @@ class PredictedSide final : public TransmissionCondition {
     }
 
   private:
-    /// All vertices that either kind of row may depend on.
+    /// Lists all vertices on which the row can depend, whatever its kind.
     void list_columns(Index i)
     {
         std::vector<Index> columns(robin_.columns()[i].begin(), robin_.columns()[i].end());
@@ -97,11 +97,11 @@ class PredictedSide final : public TransmissionCondition {
     [[nodiscard]] RowKind choose_kind(Index i, const Points& positions) const
     {
         if (!responds_[i])
-            return robin_.is_well_defined(i, positions) ? RowKind::Robin : RowKind::Held;
-        return remaining_diagonal(i, positions) >= 0.0 ? RowKind::Responding : RowKind::Held;
+            return robin_.is_well_defined(i, positions) ? RowKind::Robin : RowKind::Fixed;
+        return remaining_diagonal(i, positions) >= 0.0 ? RowKind::Responding : RowKind::Fixed;
     }
 
-    /// The remaining diagonal of the Laplacian when the other side responds. Obtuse triangles can make it negative.
+    /// The diagonal of the Laplacian that remains when the other side responds. Obtuse triangles can make it negative.
     [[nodiscard]] double remaining_diagonal(Index i, const Points& positions) const
     {
         const auto star = star_.row(i);
@@ -116,7 +116,7 @@ class PredictedSide final : public TransmissionCondition {
         return sum;
     }
 
-    /// ρ of the vertices beyond Γ in all rows where the other side responds.
+    /// Stores ρ of the vertices beyond Γ in all rows where the other side responds.
     void keep_responses(const Points& positions)
     {
         responses_.assign(star_.columns().values.size(), 0.0);
@@ -129,13 +129,14 @@ class PredictedSide final : public TransmissionCondition {
         }
     }
 
-    /// The responses of row i, one per entry of its star; 0 where the other side is held.
+    /// The responses in row i, one per entry of its star; 0 where the other side has the predicted positions.
     [[nodiscard]] std::span<const double> responses(Index i) const
     {
         return std::span(responses_).subspan(usize(star_.columns().offsets[i]), star_.columns()[i].size());
     }
 
-    /// Robin's columns are a subset of this condition's: its row is computed in front, then spread from the end.
+    /// The columns of Robin's row are a subset of this condition's columns: the row is computed at the beginning of
+    /// `row`, and then spread to its columns from the end.
     void robin_left_hand_side(Index i, const Points& positions, std::span<double> row) const
     {
         const auto columns = robin_.columns()[i];
@@ -153,7 +154,7 @@ class PredictedSide final : public TransmissionCondition {
     std::vector<RowKind> kinds_;
     /// Per vertex of Γ, whether the Laplacian lets the other side respond there.
     std::vector<bool> responds_;
-    /// One per entry of the star.
+    /// The responses ρ of all rows, one per entry of the star.
     std::vector<double> responses_;
     double time_step_ = 0.0;
 };

@@ -16,7 +16,8 @@ namespace seamflow {
 
 namespace {
 
-/// The edges of a sub-mesh by vertex, each at both of its ends (and twice where it has two faces), with lengths.
+/// The edges of a sub-mesh by vertex, with lengths. Each edge is listed at both of its ends, and twice where it has two
+/// faces.
 struct EdgeLists {
     IndexLists neighbours;
     std::vector<double> lengths;
@@ -41,7 +42,7 @@ EdgeLists list_edges(const SubMesh& sub_mesh, const Points& positions)
     return lists;
 }
 
-/// The edge that represents ‖e‖; infinite if none has a positive length.
+/// The length of the edge that represents ‖e‖; infinite if no edge has a positive length.
 double representative_edge(const EdgeLists& edges, PEdge which)
 {
     constexpr double percentile = 0.05;

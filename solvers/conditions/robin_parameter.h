@@ -8,14 +8,14 @@ struct SubMesh;
 
 /// Which edge of a sub-mesh stands for ‖e‖ in k_max = π / ‖e‖.
 enum class PEdge {
-    /// Minimum where the shortest edge is in proportion, at least a tenth of Percentile; Percentile where it is that of
-    /// a sliver.
+    /// The shortest edge if it has at least a tenth of the length of Percentile; otherwise it is that of a sliver, and
+    /// Percentile is used.
     Automatic,
-    /// The shortest, as in the paper. One sliver makes p* huge.
+    /// The shortest edge, as in the paper. One sliver makes p* huge.
     Minimum,
-    /// The edge that 5 % of all are shorter than.
+    /// The edge than which 5 % of all edges are shorter.
     Percentile,
-    /// The mean over half-edges.
+    /// The mean length over half-edges.
     Mean,
 };
 

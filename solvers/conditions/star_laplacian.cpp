@@ -9,7 +9,7 @@ namespace seamflow {
 
 namespace {
 
-/// The own faces that touch Γ, then those of other sub-meshes.
+/// The own faces that touch Γ, then the faces of other sub-meshes that touch Γ.
 PolygonMesh faces_around_interface(const SubMesh& sub_mesh)
 {
     const auto& interface = sub_mesh.interface;
@@ -39,7 +39,7 @@ StarLaplacian::StarLaplacian(const SubMesh& sub_mesh, const ScaledLaplacian& lap
 void StarLaplacian::make_slots(const SubMeshInterface& interface)
 {
     const auto entries = assembler_->entries();
-    const auto row_of = [&](Index vertex) { return position_in(interface.vertices, vertex); };
+    const auto row_of = [&](Index vertex) { return find_in(interface.vertices, vertex); };
     std::vector<std::vector<Index>> columns(interface.vertices.size());
     for (const MatrixEntry& entry : entries)
         if (const Index row = row_of(entry.row); row >= 0)

@@ -16,7 +16,7 @@ class StarLaplacian {
   public:
     /// @param sub_mesh needed only during construction.
     /// @param laplacian one that reaches no further than the faces of a vertex (see Reach).
-    /// @param stiffness_at #local by 3, the halo included: positions of which K is kept; nullptr: K follows the mesh.
+    /// @param stiffness_at #local by 3, the halo included: positions whose K is kept; nullptr: K follows the mesh.
     StarLaplacian(const SubMesh& sub_mesh, const ScaledLaplacian& laplacian, const Points* stiffness_at = nullptr);
 
     /// The vertices (local, the halo included) on which each row depends, ascending; one list per vertex of Γ.
@@ -41,7 +41,7 @@ class StarLaplacian {
     std::unique_ptr<LaplacianAssembler> assembler_;
     IndexLists columns_;
     std::vector<Index> slots_;
-    /// One per entry of columns_, and an unused one.
+    /// One value per entry of columns_, and a last one that is never read.
     std::vector<double> values_;
 };
 

@@ -7,7 +7,7 @@ namespace seamflow {
 
 namespace {
 
-/// (L - 1) x at place i: L x is x minus the mean of the neighbours, or 0.
+/// (L - 1) x at vertex i of the sample: L x is x minus the mean over the neighbours, or 0 if the vertex does not move.
 Eigen::RowVector4d shifted_laplacian(const FilterSample& sample, const Signals& x, Index i)
 {
     const auto neighbours = sample.neighbours[i];

@@ -21,7 +21,7 @@ class ChebyshevExpansion {
     [[nodiscard]] Eigen::VectorXd coefficients(const std::function<double(double)>& f) const;
 
   private:
-    /// Where f is evaluated, in [0, 2].
+    /// The points at which f is evaluated, in [0, 2].
     Eigen::VectorXd nodes_;
     /// Number of terms by number of nodes.
     Eigen::MatrixXd weights_;
@@ -31,7 +31,8 @@ class ChebyshevExpansion {
 using VisitTerm = std::function<void(Index j, const Signals& term)>;
 
 /// Makes the signals Tⱼ(L - 1) X: any filter f(L) X is a linear combination of them. L = D⁻¹ K is the Laplacian of the
-/// graph, D its degrees and K of ones, whose spectrum is in [0, 2]; rows of vertices that stay are 0.
+/// graph, D being its degrees and K having weights of 1; its spectrum is in [0, 2]. Rows of vertices that do not move
+/// are 0.
 void visit_chebyshev_basis(const FilterSample& sample, const Signals& signals, Index n_terms, const VisitTerm& visit,
                            const Executor& exec = run_serially);
 

@@ -16,16 +16,16 @@ namespace seamflow {
 
 namespace {
 
-/// Of fits between the stages, which need not be exact.
+/// The relaxation of vertices when they are fitted between two networks, which need not be exact.
 constexpr double relaxation_between = 0.1;
 constexpr int relaxing_rounds_between = 5;
 constexpr int plain_rounds_between = 8;
-/// How far from a boundary normals are averaged once more, in rings of faces; and the chord of unit normals that is σ
-/// of that average (see FaceAverages). On five range scans errors there fell by 3 to 6 %.
+/// Normals within this many rings of faces of a boundary are averaged once more; and σ of that average, a chord of unit
+/// normals (see FaceAverages). On five range scans, the errors there fell by 3 to 6 %.
 constexpr int rings_near_rims = 3;
-constexpr float alike_near_rims = 0.4F;
+constexpr float sigma_near_rims = 0.4F;
 
-/// On the sides of the faces' own normals.
+/// The normals, each turned to the side of the face's own normal.
 Points own_sides(const FaceVectors& normals, const std::vector<std::int8_t>& signs, const Executor& exec)
 {
     Points result(normals.rows(), 3);
@@ -37,7 +37,7 @@ Points own_sides(const FaceVectors& normals, const std::vector<std::int8_t>& sig
     return result;
 }
 
-/// #F: 1 for the faces within that many rings of a boundary.
+/// #F: 1 for faces within `rings_near_rims` rings of a boundary.
 std::vector<std::uint8_t> faces_near_rims(const PolygonMesh& mesh, const Topology& topology, const Executor& exec)
 {
     std::vector<std::uint8_t> is_near(usize(mesh.n_faces()), 0);
@@ -56,7 +56,8 @@ std::vector<std::uint8_t> faces_near_rims(const PolygonMesh& mesh, const Topolog
     return is_near;
 }
 
-/// Filters have fewer faces to rest on near rims. There, the bilateral mean of what they give is nearer to the truth.
+/// Near a boundary, filters have fewer faces to average over. There, the bilateral mean of the estimated normals is
+/// nearer to the true normal.
 void average_near_rims(const PolygonMesh& mesh, const Topology& topology, const FaceAverages& averages,
                        FaceVectors& normals, const Executor& exec)
 {
@@ -64,7 +65,7 @@ void average_near_rims(const PolygonMesh& mesh, const Topology& topology, const 
         return;
     const std::vector<std::uint8_t> is_near = faces_near_rims(mesh, topology, exec);
     FaceVectors means;
-    averages.average(alike_near_rims, normals, means, exec);
+    averages.average(sigma_near_rims, normals, means, exec);
     normalise(means, exec);
     for_each(exec, mesh.n_faces(), [&](Index f) {
         if (is_near[f] != 0 && !means.row(f).isZero(0.0F))
@@ -72,6 +73,7 @@ void average_near_rims(const PolygonMesh& mesh, const Topology& topology, const 
     });
 }
 
+/// Denoises the normals of a whole mesh or piece.
 /// @param topology with twins.
 DenoisedNormals denoise_at_once(const PolygonMesh& mesh, const Topology& topology, const Executor& exec)
 {

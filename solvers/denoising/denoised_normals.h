@@ -9,9 +9,10 @@
 
 namespace seamflow {
 
-/// The true surface as far as it can be told from a noisy one.
+/// Estimates of the true surface of a noisy mesh.
 struct DenoisedNormals {
-    /// #F by 3: of length 1, on the side of the face's own normal in oriented meshes; 0 for faces without area.
+    /// #F by 3: estimated normals, of length 1, on the side of the face's own normal in oriented meshes; 0 for faces
+    /// without area.
     Points normals;
     /// #F: the standard deviation of the noise along the normals around each face, in lengths of the edges there.
     std::vector<float> noise;
@@ -19,17 +20,19 @@ struct DenoisedNormals {
 
 /// Estimates the true normals of a noisy surface, and the noise.
 ///
-/// Several filters give estimates of each normal (see NormalEstimates): strong and weak ones, filters that keep edges
-/// and filters that keep round shapes. A network, which looks at how these estimates differ at the face and around it,
-/// says how much each of them counts (MixingNetwork). The mix guides the filters of the next of a few stages. Such
-/// cascades are known from regression of normals (Wang, Liu, Tong, Mesh denoising via cascaded normal regression,
-/// 2016). In between, vertices are fitted to the normals, so that areas and distances have less noise, too.
+/// Several filters give estimates of each normal (see NormalEstimates): strong and weak filters, filters that keep
+/// edges and filters that keep round shapes. A network mixes them (MixingNetwork): from the differences of these
+/// estimates at the face and around it, it computes a weight for each. The mixed normals guide the filters of the next
+/// network. A few networks follow each other in such a cascade (Wang, Liu, Tong, Mesh denoising via cascaded normal
+/// regression, 2016). Between two of them, vertices are fitted to the normals, so that areas and distances have less
+/// noise, too.
 ///
-/// A face's normal depends on the faces around it alone, and on nothing that depends on how the mesh is turned, scaled,
-/// moved or numbered, except for rounding. Faces may have any number of sides. Bits do not depend on how loops are run.
+/// The normal of a face depends only on the faces around it, and except for rounding not on the orientation, scale,
+/// position and numbering of the mesh. Faces may have any number of sides. Bits do not depend on how loops are run.
 ///
-/// A large mesh is denoised in pieces, one after the other, which overlap so far that hardly anything changes.
-/// @param mesh its vertices are not used. @param topology twins are not used; vertices that it fixes stay.
+/// A large mesh is denoised in pieces, one after the other. The pieces overlap so far that the result hardly changes.
+/// @param mesh its vertices are not used. @param topology twins are not used; vertices that it fixes keep their
+/// positions.
 /// @param positions #V by 3. @param most_faces see PieceSizes.
 DenoisedNormals denoise_normals(const PolygonMesh& mesh, const Topology& topology, const Points& positions,
                                 const Executor& exec = run_serially, Index most_faces = PieceSizes().most_faces);

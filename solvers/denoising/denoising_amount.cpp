@@ -16,22 +16,24 @@ namespace seamflow {
 
 namespace {
 
-/// Of the Chebyshev basis: exact to 1e-4 for the largest amount.
+/// The number of terms of the Chebyshev basis, which is exact to 1e-4 for the largest amount; and the amounts that are
+/// compared.
 constexpr Index n_terms = 48;
 constexpr double smallest_amount = 0.25;
 constexpr double largest_amount = 12.0;
 constexpr Index n_amounts = 52;
-/// The normals are first those of this filter, then those of the filter found with them.
+/// In the first round, the normals are those of the filter with this amount; in the second, those of the filter found
+/// in the first.
 constexpr double first_amount = 1.5;
 constexpr int n_rounds = 2;
-/// The noise is within these factors of the given value.
+/// The true noise is assumed to be within these factors of the given value.
 constexpr double least_noise = 0.9;
 constexpr double most_noise = 1.15;
-/// Regrets that differ by less are alike.
+/// Two regrets that differ by less count as equal.
 constexpr double same_regret = 0.02;
-/// Factor on the amount that comes nearest, for the normals.
+/// The factor on the amount of least regret: a little more is better for normals.
 constexpr double for_normals = 1.2;
-/// There is a gain if the risk is below this fraction of that of the unchanged mesh, σ².
+/// A filter is used only if its risk is below this fraction of σ², the risk of the unchanged mesh.
 constexpr double clear_gain = 0.9;
 
 constexpr int probe_column = 3;
@@ -47,13 +49,13 @@ double amount_at(double place)
     return smallest_amount * std::pow(largest_amount / smallest_amount, place / (n_amounts - 1));
 }
 
-/// 1 or -1, depending only on the number of a vertex.
+/// 1 or -1, pseudorandom, depending only on the number of a vertex.
 double random_sign(Index v)
 {
     return mixed((static_cast<std::uint64_t>(v) + 1) * 0x9e3779b97f4a7c15ULL) >> 63U == 0 ? 1.0 : -1.0;
 }
 
-/// The positions relative to their mean, and the random vector.
+/// The positions relative to their mean, and the random vector in the last column.
 Signals signals_of(const PolygonMesh& mesh, const FilterSample& sample)
 {
     Signals signals(static_cast<Eigen::Index>(sample.vertices.size()), Signals::ColsAtCompileTime);
@@ -66,28 +68,31 @@ Signals signals_of(const PolygonMesh& mesh, const FilterSample& sample)
     return signals;
 }
 
-/// Risks of all amounts, from the basis along given normals.
+/// The risks of all amounts, from the basis along given normals.
 class Risks {
   public:
-    /// @param products n_terms by n_terms: of the changes Tⱼ X - (-1)ʲ X along the normals, mean over the measured
-    /// vertices. @param traces n_terms: tr(Tⱼ - (-1)ʲ) / #V. @param filters n_terms by n_amounts: the coefficients.
+    /// @param products n_terms by n_terms: the products of the changes Tⱼ X - (-1)ʲ X along the normals, averaged over
+    /// the measured vertices. @param traces n_terms: tr(Tⱼ - (-1)ʲ) / #V. @param filters n_terms by n_amounts: the
+    /// Chebyshev coefficients of the filters.
     Risks(const Eigen::MatrixXd& products, const Eigen::VectorXd& traces, const Eigen::MatrixXd& filters)
     {
         squared_moves_ = filters.cwiseProduct(products * filters).colwise().sum().cwiseMax(0.0);
         traces_ = (traces.transpose() * filters).array() + 1.0;
     }
 
-    /// Along the normals, mean over the vertices: length².
+    /// The mean squared displacement along the normals, in length².
+    /// @param place a position in the list of amounts, which need not be whole.
     [[nodiscard]] double squared_move(double place) const { return interpolate(squared_moves_, place); }
 
-    /// length².
+    /// The risk at such a position, in length².
     [[nodiscard]] double risk(double place, double noise) const
     {
         return squared_move(place) + noise * noise * (2.0 * interpolate(traces_, place) - 1.0);
     }
 
-    /// Where the regret is least, the risk over the least one at that noise, in squares of it, at the worst of two
-    /// noises: the mean of all places, each the heavier the less its regret.
+    /// The position of least regret. The regret is the excess of the risk over the least risk at a noise, over the
+    /// square of the noise, at the worse of two noises. The result is the mean of all positions, weighted more the less
+    /// their regret.
     [[nodiscard]] double place_of_least_regret(double least, double most) const
     {
         const auto regrets = [&](double noise) -> Eigen::RowVectorXd {
@@ -99,7 +104,7 @@ class Risks {
         return weights.dot(Eigen::RowVectorXd::LinSpaced(n_amounts, 0.0, n_amounts - 1.0)) / weights.sum();
     }
 
-    /// The last place up to the given one where vertices move by no more than the noise.
+    /// The last position up to the given one where the mean displacement is at most the noise.
     [[nodiscard]] double within(double noise, double place) const
     {
         constexpr int n_halvings = 40;
@@ -141,7 +146,7 @@ class FilteredSample {
 
     [[nodiscard]] bool empty() const { return sample_.measured.empty(); }
 
-    /// Along the normals of the filtered mesh.
+    /// The risks of all amounts along the normals of the mesh that is filtered with one amount.
     [[nodiscard]] Risks risks(double amount)
     {
         filter_positions(coefficients(amount));
@@ -172,8 +177,8 @@ class FilteredSample {
             [amount](double eigenvalue) { return filter_of_order_three(amount, eigenvalue); });
     }
 
-    /// Tⱼ X - (-1)ʲ X, which is 0 for constants: filters leave these unchanged, however large they are and however few
-    /// terms the filters have.
+    /// Tⱼ X - (-1)ʲ X at a vertex, which is 0 if X is constant: filters leave constants unchanged, whatever their size
+    /// and however few terms the filters have.
     [[nodiscard]] Eigen::RowVector4d change(Index j, const Signals& term, Index place) const
     {
         return term.row(place) + (j % 2 == 0 ? -1.0 : 1.0) * signals_.row(place);
@@ -192,7 +197,7 @@ class FilteredSample {
         for_each(exec_, n, [&](Index i) { positions_.row(sample_.vertices[i]) = filtered.row(i).head<3>(); });
     }
 
-    /// Products of all columns with all columns.
+    /// The products of all columns with each other, averaged.
     [[nodiscard]] Eigen::MatrixXd products(const Eigen::MatrixXd& columns) const
     {
         const auto n = static_cast<Index>(columns.rows());
@@ -210,10 +215,10 @@ class FilteredSample {
     VertexNormals normals_;
     FilterSample sample_;
     Signals signals_;
-    /// #V by 3: filtered positions, only of the sample.
+    /// #V by 3: filtered positions; only those of the sample are set.
     Points positions_;
     ChebyshevExpansion expansion_{n_terms};
-    /// n_terms by n_amounts.
+    /// n_terms by n_amounts: the coefficients of the filters.
     Eigen::MatrixXd filters_;
     const Executor& exec_;
 };

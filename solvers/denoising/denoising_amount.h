@@ -8,11 +8,11 @@ namespace seamflow {
 
 /// How much to smooth, and the expected result.
 struct DenoisingAmount {
-    /// t of the filter H = (1 + (t L)³)⁻¹, without a unit; 0: nothing is gained.
+    /// t of the filter H = (1 + (t L)³)⁻¹, without a unit; 0: no filter reduces the risk.
     double amount = 0.0;
-    /// The mean squared distance from the true surface, along the normals, that is expected after the filter: length².
+    /// The expected mean squared distance from the true surface, along the normals, after the filter: length².
     double risk = 0.0;
-    /// Root mean square displacement of vertices along the normals by the filter, in units of length. At most the
+    /// The root mean square displacement of vertices along the normals by the filter, in units of length. At most the
     /// noise.
     double move = 0.0;
 };
@@ -25,7 +25,7 @@ struct DenoisingAmount {
 /// along the normals n of H X, whatever the true surface is (Stein, Estimation of the Mean of a Multivariate Normal
 /// Distribution, 1981), the trace by a random vector of ±1 (Hutchinson, 1990). With σ known to some 15 % t has the
 /// least regret: the risk over the least possible one, at the worse end of that range (Savage, The Theory of
-/// Statistical Decision, 1951). Where noise is alike at neighbours, many t are nearly as good as the best: t is their
+/// Statistical Decision, 1951). With correlated noise, many t are nearly as good as the best: t is their
 /// mean, so that it does not jump from one to another. A little more is better for normals and hardly worse for
 /// distances. No t is taken that moves vertices by more than σ (Morozov, On the Solution of Functional Equations by the
 /// Method of Regularization, 1966).

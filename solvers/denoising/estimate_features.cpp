@@ -9,13 +9,14 @@ namespace {
 
 constexpr int near_rounds = 5;
 constexpr int further_rounds = 18;
-/// Added before logarithms are taken, and to the chord of noise by which chords are divided.
+/// Added to numbers before their logarithms are taken, and to the chord of noise by which chords are divided.
 constexpr float least_feature = 0.004F;
 constexpr float least_chord = 0.01F;
-/// Numbers x beyond a few times the noise become x / (1 + x / 4).
+/// A number x of several times the noise is reduced to x / (1 + x / 4).
 constexpr float large_part = 0.25F;
 
-/// How much shorter than 1 a vector is: the root, so that it is about in proportion to angles.
+/// The square root of how much shorter than 1 a vector is. It is about proportional to the angle between the averaged
+/// vectors.
 float shortness(float length)
 {
     return std::sqrt(std::max(0.0F, 1.0F - length));
@@ -61,7 +62,7 @@ void append_mixing_inputs(const NormalEstimates& estimates, const EstimateFeatur
         numbers.push_back(features.near(f, i));
         numbers.push_back(features.around(f, i));
     }
-    // The mean chord between the first two estimates measures the noise.
+    // The mean chord between the first two estimates is the unit of the noise.
     const float chord = std::exp(features.around(f, n_estimates)) - least_feature;
     const float scale = 1.0F / (chord + least_chord);
     for (Index i = 0; i < n_estimates; ++i) {

@@ -71,7 +71,7 @@ void FaceAverages::measure(const Points& positions, const Executor& exec)
             const Index g = neighbours_.faces[k];
             const double squared = (centroids.row(f) - centroids.row(g)).squaredNorm();
             const double scale = reach[f] * reach[g];
-            // Times b_f, as is the weight of the face itself, a_f.
+            // All weights at face f are multiplied by b_f, so that the face itself has the weight a_f.
             near_[k] = scale > 0.0 && areas_[g] > 0.0F
                            ? areas_[g] * (mean_areas[f] / mean_areas[g]) * decay(static_cast<float>(squared / scale))
                            : 0.0F;
@@ -192,7 +192,8 @@ void FaceAverages::average_far(const AverageWeights& weights, const FaceVectors&
 
 void FaceAverages::average_best_patch(const FaceVectors& vectors, FaceVectors& means, const Executor& exec) const
 {
-    // Patches that agree nearly as well as the best count, too: rounding decides nothing.
+    // Patches whose vectors agree nearly as well as those of the best patch count, too: rounding must not decide
+    // between them.
     constexpr float tie = 0.01F;
     means.resize(n_faces(), 4);
     FaceVectors of_patches(n_faces(), 4);

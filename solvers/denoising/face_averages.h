@@ -12,15 +12,15 @@
 
 namespace seamflow {
 
-/// #F by 4: one vector per face; the last number is 0, so that rows fill registers.
+/// #F by 4: one vector per face. The fourth number is 0, so that rows fill registers.
 using FaceVectors = Eigen::Matrix<float, Eigen::Dynamic, 4, Eigen::RowMajor>;
 using FaceVector = Eigen::Matrix<float, 1, 4>;
 
-/// How much each neighbour of each face counts in an average.
+/// The weights of the neighbours of each face in an average.
 struct AverageWeights {
-    /// As FaceNeighbours::faces.
+    /// One weight per entry of FaceNeighbours::faces.
     std::vector<float> of_neighbours;
-    /// #F: one over the weight of the face itself and of its neighbours; 0 where all weights are 0.
+    /// #F: the inverse of the sum of the weights of the face itself and of its neighbours; 0 if all weights are 0.
     std::vector<float> inverse_sums;
 };
 
@@ -35,50 +35,51 @@ struct AverageWeights {
 /// filtering for mesh denoising, 2011). Several rounds reach further. Bits do not depend on how loops are run.
 class FaceAverages {
   public:
-    /// Nothing is measured yet.
+    /// Prepares the neighbours. `measure` must be called before anything is averaged.
     /// @param mesh its vertices are not used. @param topology with twins, which are not needed later. Both must outlive
     /// the object.
     FaceAverages(const PolygonMesh& mesh, const Topology& topology, const Executor& exec = run_serially);
 
-    /// Takes areas and centroids from these positions, #V by 3, from now on.
+    /// Sets areas and centroids to those at these positions, #V by 3.
     void measure(const Points& positions, const Executor& exec = run_serially);
 
-    /// Unit normals in these positions, on the same side of the surface where faces share an edge. A face without area
-    /// has the direction of the mean around it, weighed as without a guide; 0 if there is none.
+    /// The unit normals at these positions, on the same side of the surface where faces share an edge. A face without
+    /// area gets the mean direction of its neighbours, with the weights without a guide; 0 if there is none.
     void measure_normals(const Points& positions, FaceVectors& normals, const Executor& exec = run_serially) const;
 
-    /// 1 or -1 for the faces whose normals are turned; empty: none is.
+    /// 1 or -1 per face: the normals of faces with -1 are turned. Empty if no normal is turned.
     [[nodiscard]] const std::vector<std::int8_t>& signs() const { return signs_; }
 
-    // The results of the following replace what their last arguments had, whose memory is used again.
+    // The following functions write their results to their last arguments, whose memory is used again.
 
-    /// Weights without a guide.
+    /// Computes the weights without a guide.
     void weigh(AverageWeights& weights, const Executor& exec = run_serially) const;
 
+    /// Computes the weights with a guide.
     /// @param guide of length 1 or 0. @param sigma σ: a chord of unit normals.
     void weigh(const FaceVectors& guide, float sigma, AverageWeights& weights,
                const Executor& exec = run_serially) const;
 
-    /// The mean around each face. Unit vectors that differ have a mean that is shorter than 1.
+    /// The mean around each face. The mean of unit vectors is shorter than 1 if they differ.
     void average(const AverageWeights& weights, const FaceVectors& vectors, FaceVectors& means,
                  const Executor& exec = run_serially) const;
 
-    /// The bilateral mean: vectors of length 1 or 0 are their own guide.
+    /// The bilateral mean, in which the vectors, of length 1 or 0, are their own guide.
     void average(float sigma, const FaceVectors& vectors, FaceVectors& means,
                  const Executor& exec = run_serially) const;
 
-    /// Means that reach further, with weights that fall with distance: X of (1 + t) X - t P X = N, where N are the
-    /// vectors and P X the means around each face. It takes some rounds of the Chebyshev iteration, the same for every
-    /// mesh.
+    /// Means over a wider neighbourhood, with weights that fall with distance: the solution X of (1 + t) X - t P X = N,
+    /// N being the vectors and P X the means around each face. Takes a fixed number of rounds of the Chebyshev
+    /// iteration.
     void average_far(const AverageWeights& weights, const FaceVectors& vectors, FaceVectors& means,
                      std::array<FaceVectors, 2>& scratch, const Executor& exec = run_serially) const;
 
-    /// The mean of that patch, a face and its neighbours, around the face or around one of its neighbours, whose
-    /// vectors agree best (Zhang et al., Guided mesh normal filtering, 2015).
+    /// The mean over the patch whose vectors agree best, among those around the face and around each of its neighbours;
+    /// a patch is a face and its neighbours (Zhang et al., Guided mesh normal filtering, 2015).
     void average_best_patch(const FaceVectors& vectors, FaceVectors& means, const Executor& exec = run_serially) const;
 
-    /// #F: how rough the surface is around each face: the mean squared chord between its vector and those of its
-    /// neighbours, of which each counts at most as `largest`.
+    /// #F: the roughness of the surface around each face: the mean squared chord between its vector and those of its
+    /// neighbours, each chord counting as at most `largest`.
     /// @param normals of length 1 or 0.
     [[nodiscard]] std::vector<float> roughness(const FaceVectors& normals, float largest,
                                                const Executor& exec = run_serially) const;
@@ -90,13 +91,13 @@ class FaceAverages {
     const Topology* topology_;
     FaceNeighbours neighbours_;
     std::vector<std::int8_t> signs_;
-    /// #F: in mean face areas.
+    /// #F: the areas, in mean face areas.
     std::vector<float> areas_;
-    /// As FaceNeighbours::faces: the weights without a guide.
+    /// One weight without a guide per entry of FaceNeighbours::faces.
     std::vector<float> near_;
 };
 
-/// Scales each vector to length 1; those of length 0 stay.
+/// Scales each vector to length 1; vectors of length 0 stay 0.
 void normalise(FaceVectors& vectors, const Executor& exec = run_serially);
 
 }  // namespace seamflow

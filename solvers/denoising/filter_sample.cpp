@@ -18,14 +18,14 @@ constexpr int patch_rings = 18;
 constexpr int measured_rings = 8;
 constexpr int outside_patches = patch_rings + 1;
 
-/// #V: the distance to the nearest middle of a patch in rings of faces; `outside_patches` further out.
+/// #V: the distance in rings of faces to the nearest middle of a patch; `outside_patches` for vertices further away.
 std::vector<std::int8_t> rings_around_middles(const PolygonMesh& mesh, const Topology& topology)
 {
     const Index n = mesh.n_vertices();
     std::vector<std::int8_t> rings(usize(n), outside_patches);
     std::vector<Index> front;
     for (Index i = 0; i < n_patches; ++i) {
-        // Evenly spread, and out of step with any grid.
+        // The sequence is evenly spread, and has no common period with any grid.
         double whole = 0.0;
         const double place = std::modf((i + 1) * (std::numbers::phi - 1.0), &whole);
         const auto v = static_cast<Index>(place * n);
@@ -55,9 +55,9 @@ FilterSample take_filter_sample(const PolygonMesh& mesh, const Topology& topolog
         n <= most_vertices ? std::vector<std::int8_t>(usize(n), 0) : rings_around_middles(mesh, topology);
     FilterSample sample;
     sample.vertices = select(exec, n, [&](Index v) { return rings[v] < outside_patches; });
-    const auto n_places = static_cast<Index>(sample.vertices.size());
-    std::vector<std::vector<Index>> neighbours(usize(n_places));
-    for_each(exec, n_places, [&](Index i) {
+    const auto n_vertices = static_cast<Index>(sample.vertices.size());
+    std::vector<std::vector<Index>> neighbours(usize(n_vertices));
+    for_each(exec, n_vertices, [&](Index i) {
         const Index v = sample.vertices[i];
         if (!topology.moves(v) || rings[v] >= patch_rings)
             return;
@@ -65,7 +65,7 @@ FilterSample take_filter_sample(const PolygonMesh& mesh, const Topology& topolog
         for (Index& w : neighbours[i])
             w = place_in(sample.vertices, w);
     });
-    for (Index i = 0; i < n_places; ++i) {
+    for (Index i = 0; i < n_vertices; ++i) {
         sample.neighbours.values.insert(sample.neighbours.values.end(), neighbours[i].begin(), neighbours[i].end());
         sample.neighbours.close();
         if (!neighbours[i].empty() && rings[sample.vertices[i]] <= measured_rings)

@@ -9,21 +9,22 @@
 
 namespace seamflow {
 
-/// A mesh, or patches spread all over it if it is large, as a graph on which filters are tested.
+/// A mesh as a graph on which filters are tried; of a large mesh, patches spread all over it.
 struct FilterSample {
-    /// The vertices, in ascending order.
+    /// The numbers of the vertices in the mesh, ascending.
     std::vector<Index> vertices;
-    /// For each of them its neighbours along edges, as places among the vertices; none for those that stay fixed, such
-    /// as rims of patches.
+    /// For each vertex of the sample, its neighbours along edges, as indices in `vertices`. Vertices that do not move,
+    /// such as those at rims of patches, have none.
     IndexLists neighbours;
-    /// The places of vertices that move and are far enough from rims of patches not to be affected.
+    /// The indices in `vertices` of vertices that move and are too far from rims of patches to be affected by them.
     std::vector<Index> measured;
 };
 
-/// The whole mesh up to 30,000 vertices; else 32 patches of 18 rings of faces, measured within 8.
+/// Takes the whole mesh if it has up to 30,000 vertices; otherwise 32 patches of 18 rings of faces, measured within 8
+/// rings.
 FilterSample take_filter_sample(const PolygonMesh& mesh, const Topology& topology, const Executor& exec = run_serially);
 
-/// The faces all of whose vertices are in a sample, ascending.
+/// The faces whose vertices are all in a sample, ascending.
 std::vector<Index> faces_of(const FilterSample& sample, const PolygonMesh& mesh, const Executor& exec = run_serially);
 
 }  // namespace seamflow

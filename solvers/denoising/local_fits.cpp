@@ -15,14 +15,14 @@ namespace seamflow {
 
 namespace {
 
-/// The numbers of a quadratic polynomial of two variables.
+/// The number of coefficients of a quadratic polynomial in two variables.
 constexpr int n_quadratic = 6;
 using QuadraticTerms = Eigen::Matrix<double, n_quadratic, 1>;
 using QuadraticProducts = Eigen::Matrix<double, n_quadratic, n_quadratic>;
 
-/// Of chords of normals.
+/// σ of the Gaussian weights, a chord of normals.
 constexpr double width_of_normals = 0.35;
-/// Relative to the sum of the weights: of no account unless the vertices do not determine a polynomial.
+/// A ridge relative to the sum of the weights. It only matters if the vertices do not determine a polynomial.
 constexpr double fit_ridge = 1e-6;
 
 QuadraticTerms quadratic_terms(double x, double y)
@@ -30,15 +30,15 @@ QuadraticTerms quadratic_terms(double x, double y)
     return {1.0, x, y, x * x, x * y, y * y};
 }
 
-/// The biweight. @param squared distance over radius.
+/// The biweight function. @param squared the square of distance over radius.
 double biweight(double squared)
 {
     return (1.0 - squared) * (1.0 - squared);
 }
 
 /// Fits a polynomial at one vertex.
-/// @param nearest from the vertex on; the last one has no weight.
-/// @returns how far it is above the vertex.
+/// @param nearest the vertex itself, then its neighbours by distance; the last one has no weight.
+/// @returns the height of the polynomial above the vertex.
 std::optional<double> fit_quadratic(const Points& positions, const Points& normals,
                                     std::span<const std::pair<double, Index>> nearest)
 {
@@ -110,25 +110,25 @@ std::size_t LocalFits::n_within(double radius)
 LocalFits::Kernel LocalFits::kernel(double radius)
 {
     Kernel kernel;
-    kernel.places.emplace_back(0.0, 0.0);
+    kernel.offsets.emplace_back(0.0, 0.0);
     const auto most = static_cast<int>(std::ceil(2.0 * radius));
     for (int i = -most; i <= most; ++i)
         for (int j = -most; j <= most; ++j)
-            if (const Eigen::Vector2d place(i + 0.5 * j, 0.5 * std::numbers::sqrt3 * j);
-                place.norm() < radius && (i != 0 || j != 0))
-                kernel.places.push_back(place);
-    const auto terms_of = [&](const Eigen::Vector2d& place) {
-        return quadratic_terms(place[0] / radius, place[1] / radius);
+            if (const Eigen::Vector2d offset(i + 0.5 * j, 0.5 * std::numbers::sqrt3 * j);
+                offset.norm() < radius && (i != 0 || j != 0))
+                kernel.offsets.push_back(offset);
+    const auto terms_of = [&](const Eigen::Vector2d& offset) {
+        return quadratic_terms(offset[0] / radius, offset[1] / radius);
     };
-    const auto weight_of = [&](const Eigen::Vector2d& place) {
-        return biweight(place.squaredNorm() / (radius * radius));
+    const auto weight_of = [&](const Eigen::Vector2d& offset) {
+        return biweight(offset.squaredNorm() / (radius * radius));
     };
     QuadraticProducts products = QuadraticProducts::Zero();
-    for (const Eigen::Vector2d& place : kernel.places)
-        products += weight_of(place) * terms_of(place) * terms_of(place).transpose();
+    for (const Eigen::Vector2d& offset : kernel.offsets)
+        products += weight_of(offset) * terms_of(offset) * terms_of(offset).transpose();
     const QuadraticTerms row = products.ldlt().solve(QuadraticTerms::Unit(0));
-    for (const Eigen::Vector2d& place : kernel.places)
-        kernel.parts.push_back(weight_of(place) * row.dot(terms_of(place)));
+    for (const Eigen::Vector2d& offset : kernel.offsets)
+        kernel.weights.push_back(weight_of(offset) * row.dot(terms_of(offset)));
     return kernel;
 }
 

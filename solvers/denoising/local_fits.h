@@ -12,16 +12,16 @@
 
 namespace seamflow {
 
-/// Local quadratic regression on a surface: around each vertex a polynomial of the heights over the tangent plane is
-/// fitted to the vertices that are nearest, with weights that fall to 0 at the last of them (Cleveland, Devlin, Locally
-/// weighted regression, 1988; Levin, Mesh-independent surface interpolation, 2003). Unlike a mean, a fit follows what
-/// bends, and at a rim, where its neighbours are all on one side, it neither shrinks nor lags. What lies across an edge
-/// or a thin wall counts less, as its normals differ (Öztireli, Guennebaud, Gross, Feature preserving point set
-/// surfaces based on non-linear kernel regression, 2009). Bits do not depend on how loops are run.
+/// Local quadratic regression on a surface: around each vertex, a polynomial for the heights over the tangent plane is
+/// fitted to the nearest vertices, with weights that fall to 0 at the last of them (Cleveland, Devlin, Locally weighted
+/// regression, 1988; Levin, Mesh-independent surface interpolation, 2003). Unlike a mean, a fit follows curvature, and
+/// at a rim, where all neighbours are on one side, it does not shrink the surface. Vertices across an edge or a thin
+/// wall count less, because their normals differ (Öztireli, Guennebaud, Gross, Feature preserving point set surfaces
+/// based on non-linear kernel regression, 2009). Bits do not depend on how loops are run.
 class LocalFits {
   public:
-    /// @param neighbours per vertex, along edges. @param positions #V by 3. @param normals #V by 3: of length 1, or 0:
-    /// nothing is fitted there. All must outlive the object.
+    /// @param neighbours per vertex, along edges. @param positions #V by 3. @param normals #V by 3: of length 1; where
+    /// they are 0, nothing is fitted. All of these must outlive the object.
     LocalFits(const IndexLists& neighbours, const Points& positions, const Points& normals)
         : neighbours_(&neighbours)
         , positions_(&positions)
@@ -31,22 +31,24 @@ class LocalFits {
 
     using Heights = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-    /// #V by number of radii: how far above the vertices the fits are; 0 where there are too few.
-    /// @param radii ascending, in edges of a regular mesh: as many vertices are fitted as there are within.
+    /// #V by number of radii: the heights of the fits above the vertices, in length; 0 where there are too few
+    /// vertices.
+    /// @param radii ascending, in edges of a regular mesh: a fit has as many vertices as a regular mesh has within the
+    /// radius.
     [[nodiscard]] Heights heights(std::span<const double> radii, const Executor& exec = run_serially) const;
 
-    /// #V: the same with a radius for each vertex.
+    /// #V: the heights of fits with a radius of its own for each vertex.
     [[nodiscard]] std::vector<double> heights_within(std::span<const double> radii,
                                                      const Executor& exec = run_serially) const;
 
-    /// How many vertices of a regular mesh of triangles are within a radius, in edges.
+    /// The number of vertices of a regular mesh of triangles within a radius, in edges.
     static std::size_t n_within(double radius);
 
-    /// Vertices of a flat regular mesh of triangles around one of them, which has the first place, and their parts in
-    /// the height that is fitted there.
+    /// A fit on a flat regular mesh of triangles: the positions of its vertices relative to the first, which is the
+    /// middle, and the weight of each vertex's height in the fitted height at the middle.
     struct Kernel {
-        std::vector<Eigen::Vector2d> places;
-        std::vector<double> parts;
+        std::vector<Eigen::Vector2d> offsets;
+        std::vector<double> weights;
     };
 
     /// @param radius in edges.

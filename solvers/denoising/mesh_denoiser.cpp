@@ -8,7 +8,7 @@
 
 #include "partition/metrics/triangulation.h"
 #include "partition/vector_area.h"
-#include "solvers/denoising/alike_noise.h"
+#include "solvers/denoising/correlated_noise.h"
 #include "solvers/denoising/filter_sample.h"
 #include "solvers/denoising/mesh_piece.h"
 #include "solvers/denoising/normal_motion.h"
@@ -22,10 +22,10 @@ namespace seamflow {
 
 namespace {
 
-/// The most relaxation of vertices along the surface, as for edges that are kept.
+/// The most relaxation of vertices along the surface, as in fit_vertices.
 constexpr double most_relaxation = 0.1;
-/// The standard deviation of the noise over that of the motions: some noise stays. Measured on eight surfaces of the
-/// literature with noise of 0.2 to 0.47 mean edges, where it was 1.03 to 1.065.
+/// The standard deviation of the noise over that of the motions. It is above 1 because some noise stays. Eight surfaces
+/// of the literature with noise of 0.2 to 0.47 mean edges had 1.03 to 1.065.
 constexpr double noise_by_motion = 1.045;
 
 /// After much noise, one fit does not reach the wanted normals. Vertices are fitted again, at most so often, until the
@@ -33,13 +33,14 @@ constexpr double noise_by_motion = 1.045;
 constexpr int most_further_fits = 3;
 constexpr double near_enough = 0.025;
 
-/// How often meshes are thinned out; components of how many faces are; and how many thinned meshes there are each time:
-/// nearly all vertices are in one then, most in two. (With ten results were no nearer to the truth.)
+/// The most times that a mesh is thinned, one time after another; the fewest faces of a component that is thinned; and
+/// the number of thinned meshes each time: nearly all vertices are in one of these, most are in two. (Ten meshes gave
+/// results no nearer to the truth.)
 constexpr int most_thinned = 2;
 constexpr Index fewest_to_thin = 3000;
 constexpr int rounds_of_thinning = 6;
-/// The evidence on a mesh thinned once that proves noise which is only possible on the whole. Of clean surfaces where
-/// it is possible, none had more than 2.5 (thinned twice: 0.9, see NoisyPlaces).
+/// The evidence on a mesh thinned once that proves noise where the whole mesh has Correlation::Possible. No clean
+/// surface with this had more than 2.5 (thinned twice: 0.9, see NoisyPlaces).
 constexpr float proof_by_thinned = 3.0F;
 /// Where places are doubtful, local fits are taken if their risk is below this, and the noise above this, in edges. Of
 /// reliefs under white noise, those with so little risk had 0.1 at most.
@@ -152,7 +153,7 @@ Points MeshDenoiser::without_noise(const Points& before, std::span<const double>
     const auto strength = [&](Index v) { return strengths.empty() ? 1.0 : strengths[v]; };
     Findings found = examine(before, exec);
     Points begun = before;
-    if (const std::optional<Points> without = without_alike_noise(before, found.places, exec)) {
+    if (const std::optional<Points> without = without_correlated_noise(before, found.places, exec)) {
         for_each(exec, mesh_->n_vertices(),
                  [&](Index v) { begun.row(v) += strength(v) * (without->row(v) - before.row(v)); });
         keep_all_facing(before, found.normals.normals, begun, exec);
@@ -160,11 +161,11 @@ Points MeshDenoiser::without_noise(const Points& before, std::span<const double>
     }
     const KeptStructure kept = n_thinned_ == 0 ? put_back_structure(before, begun, found, exec) : KeptStructure{};
     const Points& normals = found.normals.normals;
-    if (n_thinned_ == 0 && std::ranges::any_of(found.places.parts, [](double part) { return part > 0.0; }))
+    if (n_thinned_ == 0 && std::ranges::any_of(found.places.shares, [](double part) { return part > 0.0; }))
         fit_further(normals, found.fitted, exec);
-    std::vector<double>& parts = found.places.parts;
+    std::vector<double>& shares = found.places.shares;
     Points& fitted = found.fitted;
-    std::vector<double> has_noise = parts;
+    std::vector<double> has_noise = shares;
     for_each(exec, mesh_->n_vertices(), [&](Index v) {
         if (begun.row(v) != before.row(v))
             has_noise[v] = 1.0;
@@ -172,17 +173,17 @@ Points MeshDenoiser::without_noise(const Points& before, std::span<const double>
     measure_noise(fitted - before, has_noise, found.is_flat, normals, fitted, exec);
     noise_.kept = kept;
     for_each(exec, mesh_->n_vertices(), [&](Index v) {
-        parts[v] *= strength(v);
-        if (parts[v] < 1.0)
-            fitted.row(v) = begun.row(v) + parts[v] * (fitted.row(v) - begun.row(v));
+        shares[v] *= strength(v);
+        if (shares[v] < 1.0)
+            fitted.row(v) = begun.row(v) + shares[v] * (fitted.row(v) - begun.row(v));
     });
     Points result = along_normals(*mesh_, *topology_, begun, fitted, normals, exec);
     if (edge_angle_)
-        take_smoother_places({*mesh_, *topology_, begun, normals, parts}, places_.components(), *edge_angle_, result,
+        take_smoother_places({*mesh_, *topology_, begun, normals, shares}, places_.components(), *edge_angle_, result,
                              exec);
-    // The rims of thinned meshes are jagged by their making.
+    // The rims of thinned meshes are jagged because vertices were left out.
     if (n_thinned_ == 0 && !keeps_rims_) {
-        const Points motions = rims_.motions(*mesh_, *topology_, normals, parts, before);
+        const Points motions = rims_.motions(*mesh_, *topology_, normals, shares, before);
         for_each(exec, mesh_->n_vertices(), [&](Index v) {
             if (!motions.row(v).isZero(0.0))
                 result.row(v) += strength(v) * motions.row(v);
@@ -195,53 +196,53 @@ Points MeshDenoiser::without_noise(const Points& before, std::span<const double>
     return result;
 }
 
-std::optional<Points> MeshDenoiser::without_alike_noise(const Points& before, const NoisyPlaces::Found& places,
-                                                        const Executor& exec) const
+std::optional<Points> MeshDenoiser::without_correlated_noise(const Points& before, const NoisyPlaces::Found& places,
+                                                             const Executor& exec) const
 {
     if (n_thinned_ >= most_thinned)
         return {};
     const Components& components = places_.components();
-    using Alikeness = NoisyPlaces::Alikeness;
-    std::vector<Alikeness> wanted(places.alike.size(), Alikeness::None);
+    using Correlation = NoisyPlaces::Correlation;
+    std::vector<Correlation> wanted(places.correlated.size(), Correlation::None);
     for (Index c = 0; c < components.count(); ++c)
         if (components.nodes[c].size() >= usize(fewest_to_thin))
             for (const Index f : components.nodes[c])
                 for (const Index v : mesh_->face(f))
-                    wanted[v] = places.alike[v];
-    if (std::ranges::all_of(wanted, [](Alikeness one) { return one == Alikeness::None; }))
+                    wanted[v] = places.correlated[v];
+    if (std::ranges::all_of(wanted, [](Correlation one) { return one == Correlation::None; }))
         return {};
     Points result = before;
     std::vector<std::uint8_t> is_fitted(wanted.size(), 0);
     for (std::size_t v = 0; v < wanted.size() && n_thinned_ == 0; ++v)
         is_fitted[v] =
-            (wanted[v] == Alikeness::Found || wanted[v] == Alikeness::Doubtful) && places.parts[v] > 0.0 ? 1 : 0;
+            (wanted[v] == Correlation::Found || wanted[v] == Correlation::Doubtful) && places.shares[v] > 0.0 ? 1 : 0;
     if (std::ranges::find(is_fitted, 1) != is_fitted.end()) {
-        const AlikeNoise noise(*mesh_, *topology_, averages_, signs_, before, exec);
+        const CorrelatedNoise noise(*mesh_, *topology_, averages_, signs_, before, exec);
         const std::optional<Points> without = noise.is_plausible() ? std::optional(noise.without(exec)) : std::nullopt;
         const bool is_clear = without && noise.least_risk() < clear_risk && noise.deviation() > clear_deviation;
         for_each(exec, mesh_->n_vertices(), [&](Index v) {
             if (is_fitted[v] == 0)
                 return;
-            const bool is_doubtful = wanted[v] == Alikeness::Doubtful;
+            const bool is_doubtful = wanted[v] == Correlation::Doubtful;
             if (is_doubtful ? is_clear : without.has_value())
                 result.row(v) = without->row(v);
-            wanted[v] = is_doubtful || without ? Alikeness::None : Alikeness::Possible;
+            wanted[v] = is_doubtful || without ? Correlation::None : Correlation::Possible;
         });
     }
-    remove_on_thinned(before, wanted, Alikeness::Found, result, exec);
-    remove_on_thinned(before, wanted, Alikeness::Possible, result, exec);
+    remove_on_thinned(before, wanted, Correlation::Found, result, exec);
+    remove_on_thinned(before, wanted, Correlation::Possible, result, exec);
     return result == before ? std::nullopt : std::optional(result);
 }
 
-void MeshDenoiser::remove_on_thinned(const Points& before, std::span<const NoisyPlaces::Alikeness> alike,
-                                     NoisyPlaces::Alikeness which, Points& result, const Executor& exec) const
+void MeshDenoiser::remove_on_thinned(const Points& before, std::span<const NoisyPlaces::Correlation> correlated,
+                                     NoisyPlaces::Correlation which, Points& result, const Executor& exec) const
 {
-    if (std::ranges::find(alike, which) == alike.end())
+    if (std::ranges::find(correlated, which) == correlated.end())
         return;
-    const bool needs_proof = which == NoisyPlaces::Alikeness::Possible && n_thinned_ == 0;
+    const bool needs_proof = which == NoisyPlaces::Correlation::Possible && n_thinned_ == 0;
     const float least_evidence = needs_proof ? proof_by_thinned : 0.0F;
-    std::vector<int> n_chosen(alike.size(), 0);
-    std::vector<int> n_moved(alike.size(), 0);
+    std::vector<int> n_chosen(correlated.size(), 0);
+    std::vector<int> n_moved(correlated.size(), 0);
     Points sums = Points::Zero(before.rows(), 3);
     for (int round = 0; round < rounds_of_thinning; ++round) {
         const ThinnedMesh thinned =
@@ -253,7 +254,7 @@ void MeshDenoiser::remove_on_thinned(const Points& before, std::span<const Noisy
         for (Index i = 0; i < thinned.mesh.n_vertices(); ++i) {
             const Index v = thinned.vertices[i];
             ++n_chosen[v];
-            if (alike[v] != which || !thinned.topology.moves(i))
+            if (correlated[v] != which || !thinned.topology.moves(i))
                 continue;
             ++n_moved[v];
             sums.row(v) += moved.row(i) - before.row(v);
@@ -278,14 +279,14 @@ void MeshDenoiser::fit_further(const Points& normals, Points& fitted, const Exec
 KeptStructure MeshDenoiser::put_back_structure(const Points& before, Points& begun, Findings& found,
                                                const Executor& exec) const
 {
-    std::vector<double>& parts = found.places.parts;
+    std::vector<double>& shares = found.places.shares;
     Points after(before.rows(), 3);
     for_each(exec, mesh_->n_vertices(),
-             [&](Index v) { after.row(v) = begun.row(v) + parts[v] * (found.fitted.row(v) - begun.row(v)); });
+             [&](Index v) { after.row(v) = begun.row(v) + shares[v] * (found.fitted.row(v) - begun.row(v)); });
     KeptStructure kept;
     if (after == before)
         return kept;
-    std::vector<std::uint8_t> is_kept(parts.size(), 0);
+    std::vector<std::uint8_t> is_kept(shares.size(), 0);
     for (const auto& [component, place] :
          places_.find_structure({*mesh_, *topology_, averages_, before, after, found.normals, found.is_flat}, exec)) {
         kept.place = before.row(place);
@@ -300,7 +301,7 @@ KeptStructure MeshDenoiser::put_back_structure(const Points& before, Points& beg
             ++kept.vertices;
         kept.height = std::max(kept.height, (after.row(v) - before.row(v)).norm());
         begun.row(v) = before.row(v);
-        parts[v] = 0.0;
+        shares[v] = 0.0;
     }
     return kept;
 }
@@ -311,18 +312,19 @@ void MeshDenoiser::keep_all_facing(const Points& before, Points wanted, Points& 
     keep_facing(signs_.empty() ? *mesh_ : oriented_, *topology_, before, wanted, positions, exec);
 }
 
-void MeshDenoiser::measure_noise(const Points& motions, std::span<const double> parts,
+void MeshDenoiser::measure_noise(const Points& motions, std::span<const double> shares,
                                  std::span<const std::uint8_t> is_flat, const Points& normals, const Points& after,
                                  const Executor& exec)
 {
-    // Squares of motions and of edges, and the numbers of vertices with noise and of all on faces.
+    // The sums of squared motions and of squared edges; the numbers of vertices with noise, and of all vertices of
+    // faces.
     using Sums = Eigen::Array4d;
     const Sums sums = sum(
         exec, mesh_->n_vertices(),
         [&](Index v) -> Sums {
             if (topology_->corners_at(v).empty())
                 return Sums::Zero();
-            if (parts[v] <= 0.0 || is_flat[v] != 0)
+            if (shares[v] <= 0.0 || is_flat[v] != 0)
                 return Sums(0.0, 0.0, 0.0, 1.0);
             const double motion = motion_along_normal(*topology_, normals, v, motions.row(v));
             return Sums(motion * motion, mean_squared_edge(*polygons_, *polygon_topology_, v, after), 1.0, 1.0);

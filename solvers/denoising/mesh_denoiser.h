@@ -18,20 +18,21 @@
 
 namespace seamflow {
 
-/// What looked like noise at first, but has structure: it was put back.
+/// Structure that looked like noise at first. It was put back into the surface.
 struct KeptStructure {
-    /// How many vertices have it.
+    /// The number of vertices that have structure.
     double vertices = 0.0;
-    /// How far they would have gone at most, and where it looks most like structure: in units of length.
+    /// The largest displacement that would have been removed there, in units of length; and the position of the vertex
+    /// that looks most like structure.
     double height = 0.0;
     Point place = Point::Zero();
 };
 
 /// The noise of a surface.
 struct SurfaceNoise {
-    /// The standard deviation of the vertices along the normals, where there is noise: in units of length.
+    /// The standard deviation of the noise along the normals, over the vertices that have noise, in units of length.
     double deviation = 0.0;
-    /// The root mean square length of edges there, in the result.
+    /// The root mean square length of the edges at these vertices, in the result.
     double edge = 0.0;
     /// The fraction of vertices that have noise.
     double part = 0.0;
@@ -41,40 +42,42 @@ struct SurfaceNoise {
 };
 
 /// Removes noise: face normals are estimated, and the vertices move to fit them, along the normals unless a face would
-/// fold; each as far as there is noise (see denoise_normals, NoisyPlaces, along_normals). Rims lose theirs within the
-/// surface. No face turns over. Noise that is alike at neighbours looks like shape. Where there is other noise as well,
-/// local fits take it first (see AlikeNoise); elsewhere it is looked for on thinned meshes, where few vertices are
-/// left, far from each other, and removed there (as Zhou and others, When AWGN-Based Denoiser Meets Real Noises, 2020,
-/// do with pictures); then what is left of it is removed as above. Polygons count as the triangles into which their
-/// diagonals cut them (see triangulate): estimates of normals are trained on triangles. Bits do not depend on how loops
-/// are run.
+/// fold; each vertex moves as far as there is noise (see denoise_normals, NoisyPlaces, along_normals). Rims lose their
+/// noise within the surface (see RimFilter). No face turns over. Correlated noise looks like shape. Where there is
+/// other noise as well, local fits remove it first (see CorrelatedNoise). Elsewhere it is sought and removed on thinned
+/// meshes, whose vertices are few and far from each other (as Zhou and others, When AWGN-Based Denoiser Meets Real
+/// Noises, 2020, do with pictures); then the rest of the noise is removed as above. Polygons are cut into triangles by
+/// diagonals (see triangulate), because the estimates of normals are trained on triangles. Bits do not depend on how
+/// loops are run.
 class MeshDenoiser {
   public:
     /// @param mesh, topology must outlive the object; the twins of the topology are not needed later.
-    /// @param edge_angle between the normals of faces, in degrees: the edges that stay where noise is small (see
-    /// take_smoother_places), if that is to be used. @param as_one whether all components have noise or none.
-    /// @param n_thinned how often the mesh has been thinned out. @param least_evidence see NoisyPlaces.
+    /// @param edge_angle between the normals of faces, in degrees: the angle of the edges that take_smoother_places
+    /// keeps; empty: that is not called. @param as_one whether all components together have noise or none.
+    /// @param n_thinned how often the mesh has been thinned. @param least_evidence see NoisyPlaces.
     MeshDenoiser(const PolygonMesh& mesh, const Topology& topology, const Executor& exec = run_serially,
                  std::optional<double> edge_angle = default_edge_angle, bool as_one = false, int n_thinned = 0,
                  float least_evidence = 0.0F);
 
     static constexpr double default_edge_angle = 30.0;
 
-    /// Rims keep their noise: what moves them within the surface is no use where vertices move in given directions.
+    /// Leaves the noise of rims, for flows in which vertices move only in given directions.
     void keep_rims() { keeps_rims_ = true; }
 
-    /// @param before #V by 3. @param strengths #V: the part of each displacement that vertices go; empty: 1.
+    /// @param before #V by 3. @param strengths #V: the fraction of its displacement that each vertex moves by; empty:
+    /// 1.
     /// @returns #V by 3.
     Points denoise(const Points& before, std::span<const double> strengths = {}, const Executor& exec = run_serially);
 
-    /// What is taken away around some places, of which noise is told from shape: for the training of this decision.
-    /// @param most how many at most, spread over the mesh in its positions.
+    /// Measures the displacements around some places, by which noise and shape are distinguished: for the training of
+    /// this decision.
+    /// @param most the largest number of places; they are spread over the mesh.
     [[nodiscard]] std::vector<PlaceStatistics> measure_places(Index most, const Executor& exec = run_serially) const;
 
-    /// That was found by the last call of denoise.
+    /// The noise that the last call of denoise found.
     [[nodiscard]] const SurfaceNoise& noise() const { return noise_; }
 
-    /// The vertices that stayed then as spikes, ascending (see find_spikes).
+    /// The vertices that the last call of denoise left unchanged as spikes, ascending (see find_spikes).
     [[nodiscard]] const std::vector<Spike>& spikes() const { return spikes_; }
 
   private:
@@ -83,53 +86,60 @@ class MeshDenoiser {
         Topology topology;
     };
 
-    /// What is found in some positions.
+    /// The analysis of the noise at some positions.
     struct Findings {
         DenoisedNormals normals;
-        /// #V by 3: where vertices would go.
+        /// #V by 3: the denoised positions.
         Points fitted;
-        /// #V.
+        /// #V: see flat_vertices.
         std::vector<std::uint8_t> is_flat;
         NoisyPlaces::Found places;
     };
 
+    /// Analyses the noise.
     /// @param before #V by 3, without spikes.
     [[nodiscard]] Findings examine(const Points& before, const Executor& exec) const;
     [[nodiscard]] NoisyPlaces::Denoised denoised(const Points& before, const Findings& found) const;
-    /// @param strengths #V, or empty.
+    /// Removes noise.
+    /// @param before #V by 3, without spikes. @param strengths #V, or empty.
     Points without_noise(const Points& before, std::span<const double> strengths, const Executor& exec);
-    /// Removes noise that is alike at neighbours: by local fits where there is other noise as well, which tells it from
-    /// shape, and on thinned meshes elsewhere. @returns #V by 3; nothing if there is no such noise.
-    [[nodiscard]] std::optional<Points> without_alike_noise(const Points& before, const NoisyPlaces::Found& places,
-                                                            const Executor& exec) const;
-    /// @param alike #V. @param which vertices are wanted. @param result #V by 3: where noise is found on thinned
-    /// meshes, positions without it.
-    void remove_on_thinned(const Points& before, std::span<const NoisyPlaces::Alikeness> alike,
-                           NoisyPlaces::Alikeness which, Points& result, const Executor& exec) const;
-    /// Fits vertices to normals again where one fit was not enough. @param normals #F by 3. @param fitted #V by 3.
+    /// Removes correlated noise: where there is other noise as well, which shows that it is not shape, by local fits,
+    /// and on thinned meshes elsewhere. @returns #V by 3; nothing if there is no correlated noise.
+    [[nodiscard]] std::optional<Points> without_correlated_noise(const Points& before, const NoisyPlaces::Found& places,
+                                                                 const Executor& exec) const;
+    /// Removes correlated noise on thinned meshes.
+    /// @param correlated #V. @param which the vertices with this value of `correlated` are wanted. @param result #V by
+    /// 3: receives positions without noise where thinned meshes have noise.
+    void remove_on_thinned(const Points& before, std::span<const NoisyPlaces::Correlation> correlated,
+                           NoisyPlaces::Correlation which, Points& result, const Executor& exec) const;
+    /// Fits vertices to normals again where one fit was not enough.
+    /// @param normals #F by 3. @param fitted #V by 3.
     void fit_further(const Points& normals, Points& fitted, const Executor& exec) const;
-    /// Puts back what was taken where it has structure: there nothing has begun, nor will any part go.
-    /// @param begun #V by 3: without noise that is alike at neighbours.
+    /// Puts back structure: at its vertices, `begun` becomes `before` again, and the shares of the further
+    /// displacements become 0.
+    /// @param begun #V by 3: without correlated noise.
     [[nodiscard]] KeptStructure put_back_structure(const Points& before, Points& begun, Findings& found,
                                                    const Executor& exec) const;
-    /// See keep_facing.
+    /// Applies keep_facing with respect to the normals of the wanted positions.
     void keep_all_facing(const Points& before, Points wanted, Points& positions, const Executor& exec) const;
-    /// @param motions #V by 3, to the positions after. @param parts #V: 0 where there is no noise, nor where is_flat.
-    /// @param normals #F by 3.
-    void measure_noise(const Points& motions, std::span<const double> parts, std::span<const std::uint8_t> is_flat,
+    /// Measures the noise for noise().
+    /// @param motions #V by 3, to the positions after. @param shares #V: 0 for vertices without noise. @param is_flat
+    /// #V: see flat_vertices. @param normals #F by 3.
+    void measure_noise(const Points& motions, std::span<const double> shares, std::span<const std::uint8_t> is_flat,
                        const Points& normals, const Points& after, const Executor& exec);
 
-    /// Null if the mesh itself has no other faces.
+    /// Cuts polygons into triangles. Null if all faces of the mesh are triangles.
     static std::unique_ptr<const Triangles> cut_polygons(const PolygonMesh& mesh, const Topology& topology,
                                                          const Executor& exec);
 
     std::unique_ptr<const Triangles> triangles_;
     const PolygonMesh* polygons_;
     const Topology* polygon_topology_;
-    /// The triangles that polygons are cut into, or the mesh itself if it has no others.
+    /// The triangles that polygons are cut into, or the mesh itself if all its faces are triangles.
     const PolygonMesh* mesh_;
     const Topology* topology_;
-    /// #F: -1 for the faces that are turned round in oriented_, so that all look to the same side; both empty: none is.
+    /// #F: -1 for faces that are reversed in oriented_, so that all faces look to the same side. Both members are empty
+    /// if no face is reversed.
     std::vector<std::int8_t> signs_;
     PolygonMesh oriented_;
     VertexAverages averages_;
@@ -143,7 +153,7 @@ class MeshDenoiser {
     std::vector<Spike> spikes_;
 };
 
-/// The noise of a mesh, or of patches spread all over it if it is large (see take_filter_sample).
+/// The noise of a mesh; of a large mesh, that of patches spread all over it (see take_filter_sample).
 /// @param topology with twins.
 SurfaceNoise measure_noise(const PolygonMesh& mesh, const Topology& topology, const Executor& exec = run_serially);
 

@@ -11,13 +11,13 @@
 
 namespace seamflow {
 
-/// A few faces of a mesh as a mesh of its own.
+/// Some faces of a mesh as a mesh of their own.
 struct MeshPiece {
-    /// Its vertices have the positions that were given.
+    /// The piece, with the given positions.
     PolygonMesh mesh;
-    /// With twins, and the kinds and held vertices of the whole mesh.
+    /// With twins, and with the kinds and the fixed vertices of the whole mesh.
     Topology topology;
-    /// #F and #V of the piece, ascending: their numbers in the whole mesh.
+    /// #F and #V of the piece: the numbers of its faces and vertices in the whole mesh, ascending.
     std::vector<Index> faces;
     std::vector<Index> vertices;
 };
@@ -28,19 +28,20 @@ MeshPiece cut_out(const PolygonMesh& mesh, const Topology& topology, const Point
 
 /// How faces are divided into pieces.
 struct PieceSizes {
-    /// Of a piece before it grows, about. As many faces or fewer are one piece, which does not grow.
+    /// The approximate number of faces of a piece before it grows. Fewer faces in all are one piece, which does not
+    /// grow.
     Index most_faces = 1'000'000;
-    /// How far pieces grow, so that they overlap: in rings of faces. With 16, denoised normals of six meshes cut into
-    /// three and six pieces differed from those of the whole mesh no more than if its faces came in another order,
-    /// which changes the rounding.
+    /// The number of rings of faces by which a piece grows, so that pieces overlap. With 16, denoised normals of six
+    /// meshes cut into three and six pieces differed from those of the whole mesh no more than if its faces came in
+    /// another order, which changes the rounding.
     int overlap = 16;
 };
 
-/// Divides faces into compact pieces (see divide_into_boxes) and does something with each of them, one after the other:
-/// what takes much memory takes no more than for one piece.
-/// @param positions #V by 3, all finite. @param faces ascending; pieces grow into no others.
-/// @param action called with each piece and, #F of the piece, 1 for the faces that it had before it grew. Every face is
-///        such a face of one piece.
+/// Divides faces into compact pieces (see divide_into_boxes) and calls action for one piece after the other, so that
+/// action needs memory for one piece at a time.
+/// @param positions #V by 3, all finite. @param faces ascending; pieces grow into no other faces.
+/// @param action called with each piece and, per face of the piece, 1 for the faces that it had before it grew. Each
+///        face is such a face of exactly one piece.
 void for_each_piece(const PolygonMesh& mesh, const Topology& topology, const Points& positions,
                     std::vector<Index> faces, const PieceSizes& sizes, const Executor& exec,
                     const std::function<void(const MeshPiece&, std::span<const std::uint8_t> is_own)>& action);

@@ -10,9 +10,9 @@ namespace seamflow {
 
 namespace {
 
-/// Two faces at a time share what is loaded of the weights.
+/// Two faces are evaluated at a time, so that the loaded weights are used twice.
 constexpr Index faces_at_once = 2;
-/// Outputs of a layer are computed in groups of as many.
+/// The number of outputs of a layer that are computed together.
 constexpr Index outputs_at_once = 32;
 
 struct MultiplyKernel {
@@ -33,13 +33,13 @@ struct MultiplyKernel {
                     sums[k].add_product(inputs[k * n_inputs + i], row);
             }
             for (Index k = 0; k < faces_at_once; ++k)
-                for (Index p = 0; p < Outputs::n_parts; ++p)
-                    store(sums[k].part[p], outputs + k * n_outputs + first + p * Outputs::lanes_of_part);
+                for (Index p = 0; p < Outputs::n_registers; ++p)
+                    store(sums[k].registers[p], outputs + k * n_outputs + first + p * Outputs::lanes_of_register);
         }
     }
 };
 
-/// Takes the next numbers from bytes.
+/// Takes the next n numbers from bytes.
 template <class Number>
 std::vector<Number> take(std::string_view& bytes, std::size_t n)
 {

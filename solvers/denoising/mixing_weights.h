@@ -5,14 +5,15 @@
 
 namespace seamflow {
 
-/// The weights of one network for each stage (see denoised_normals). mixing_weights.cpp is the output of
+/// The weights of each network of the cascade (see denoised_normals). mixing_weights.cpp is the output of
 /// samples/training, not to be changed by hand.
 ///
 /// Layer by layer: the numbers of its inputs and outputs; a scale for each input, a scale and a bias for each output;
-/// then a whole number for each pair, all outputs of an input together, whose product with both scales is the weight.
+/// then an integer for each pair of input and output, all outputs of an input together, whose product with both scales
+/// is the weight.
 std::span<const std::string> mixing_weights();
 
-/// Those of a network that gives the logarithm of the noise (see MixingNetwork::apply).
+/// The weights of a network whose output is the logarithm of the noise (see MixingNetwork::apply).
 const std::string& noise_weights();
 
 }  // namespace seamflow

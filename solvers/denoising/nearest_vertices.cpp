@@ -7,7 +7,8 @@ namespace seamflow {
 std::span<const std::pair<double, Index>> NearestVertices::find(const IndexLists& neighbours, const Points& positions,
                                                                 Index centre, std::size_t count)
 {
-    // Whole rings, until they hold half as many again: the nearest ones need not be in the first rings.
+    // Whole rings are searched until 1.5 times `count` vertices are found: the nearest vertices need not be in the
+    // first rings.
     clear(8 * count);
     insert(centre);
     std::size_t first = 0;
@@ -37,7 +38,7 @@ void NearestVertices::clear(std::size_t n_slots)
 void NearestVertices::insert(Index v)
 {
     constexpr std::size_t multiplier = 2654435761U;
-    // Half of the slots stay empty; rings of so many vertices are those of hubs.
+    // Half of the slots stay empty. The table grows for rings around hubs, vertices of very many edges.
     if (2 * found_.size() >= slots_.size())
         return;
     std::size_t slot = static_cast<std::size_t>(v) * multiplier % slots_.size();

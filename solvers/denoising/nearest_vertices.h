@@ -10,12 +10,13 @@
 
 namespace seamflow {
 
-/// Finds the vertices that are nearest to one, among those around it on the surface. Keeps its memory between searches.
+/// Finds the vertices nearest to a vertex, among those around it on the surface. Keeps its memory between searches.
 class NearestVertices {
   public:
-    /// @param neighbours per vertex, along edges. @param positions #V by 3. @param count how many, besides the centre.
-    /// @returns with squared distances, nearest first, from the centre on; fewer where the surface has no more. Valid
-    /// until the next search.
+    /// @param neighbours per vertex, along edges. @param positions #V by 3. @param count the number of vertices besides
+    /// the centre.
+    /// @returns squared distances and vertices, nearest first, beginning with the centre; fewer than count + 1 where
+    /// the surface has no more. Valid until the next search.
     std::span<const std::pair<double, Index>> find(const IndexLists& neighbours, const Points& positions, Index centre,
                                                    std::size_t count);
 
@@ -24,7 +25,7 @@ class NearestVertices {
     void insert(Index v);
 
     std::vector<Index> found_;
-    /// A hash table of them: -1 where none is.
+    /// A hash table of the vertices found; -1 in empty slots.
     std::vector<Index> slots_;
     std::vector<std::size_t> used_;
     std::vector<std::pair<double, Index>> nearest_;

@@ -9,15 +9,15 @@ namespace seamflow {
 
 namespace {
 
-/// Added before logarithms are taken, in edge lengths and as kurtosis.
+/// Added before logarithms are taken, to numbers in edge lengths and to the kurtosis.
 constexpr float added_to_length = 0.001F;
 constexpr float added_to_kurtosis = 0.5F;
-/// Smoothness says nothing beyond these, nor correlations below this one.
+/// Smoothness is clamped to these bounds, and correlations are at least this: values beyond do not help to decide.
 constexpr float most_smoothness = 3.0F;
 constexpr float least_smoothness = -0.5F;
 constexpr float least_correlation = -0.05F;
-/// Revivals up to which nothing is told: of independent noise 99 of 100 places have less than about the first, and 90
-/// less than the second, after a low-pass filter.
+/// The revivals up to which noise and shape do not differ. Independent noise is below the first at 99 of 100 places,
+/// and after a low-pass filter below the second at 90 of 100.
 constexpr float revival_of_noise = 0.35F;
 constexpr float wide_revival_of_noise = 0.6F;
 
@@ -50,14 +50,14 @@ float evidence_of_noise(const PlaceStatistics& place)
     return evidence(weights_of_independent_noise, place);
 }
 
-float evidence_of_alike_noise(const PlaceStatistics& place)
+float evidence_of_correlated_noise(const PlaceStatistics& place)
 {
-    return evidence(weights_of_alike_noise, place);
+    return evidence(weights_of_correlated_noise, place);
 }
 
 float evidence_against_independent_noise(const PlaceStatistics& place)
 {
-    return evidence(weights_of_alike_against_independent_noise, place);
+    return evidence(weights_of_correlated_against_independent_noise, place);
 }
 
 }  // namespace seamflow

@@ -19,44 +19,46 @@ namespace seamflow {
 
 namespace {
 
-/// A component has noise if this part of its places has evidence for it; a small one, whose places are few and bend
-/// more from edge to edge, if they have clear evidence, and so a surface that was thinned twice.
+/// A component has noise if this fraction of its places has evidence for it. A component of few faces, whose few places
+/// bend more from edge to edge, needs clear evidence, and so does a surface that was thinned twice.
 constexpr double part_with_evidence = 0.75;
 constexpr Index few_faces = 2500;
-/// Or if half of the places have so much evidence (of clean surfaces none had more than 0.8), and not more than a
-/// quarter of them as much against it.
+/// A component also has noise if half of its places have this much evidence (of clean surfaces none had more than 0.8),
+/// and at most a quarter of its places this much evidence against it.
 constexpr float evidence_of_half = 1.0F;
 constexpr float evidence_against_of_quarter = -2.5F;
-/// Noise that is alike at neighbours looks more like shape where there is no other noise.
-constexpr float evidence_of_alike_noise_alone = 1.0F;
-/// Beside other noise, with less evidence for it, fits must show that it is clear of shape.
+/// The evidence that correlated noise needs where there is no other noise, because it looks more like shape there.
+constexpr float evidence_of_correlated_noise_alone = 1.0F;
+/// Beside other noise, places with more evidence than this are doubtful: fits must show that the noise is no shape.
 constexpr float evidence_of_doubtful_noise = -1.0F;
-/// The evidence that outweighs that of the component. For noise: so much more than the median of the component, but
-/// within clear evidence and a limit above the 5.1 that places of clean surfaces in the training data reached. Against
-/// it: chosen by hand. Thinned surfaces, which bend more, are judged as a whole.
+/// The evidence at a place that outweighs that of its component. For noise: the median of the component plus this
+/// difference, but at least clear evidence and at most this limit, which is above the 5.1 that places of clean surfaces
+/// in the training data reached. Against noise: chosen by hand. Thinned surfaces, which bend more, are judged as a
+/// whole.
 constexpr float outweighing_difference = 9.0F;
 constexpr float most_outweighing_evidence = 6.5F;
 constexpr float outweighing_evidence_against = -4.0F;
-/// With fewer faces nothing can be told; nor at a place with fewer vertices.
+/// Components of fewer faces, and places of fewer vertices, are not judged.
 constexpr Index fewest_faces = 200;
 constexpr Index fewest_of_place = 80;
-/// Rounds of means of the low-pass filter (see PositionFilters).
+/// The rounds of averages of the low-pass filter (see PositionFilters).
 constexpr int wide_rounds = 16;
-/// Single edges that reach far do not count for more than this many medians of the edges at a vertex.
+/// An edge counts as at most this many medians of the edges at a vertex.
 constexpr double most_medians_of_edge = 1.5;
-/// Squared chord of normals that are equal up to rounding.
+/// The squared chord of two normals that are equal up to rounding.
 constexpr double same_normal = 1e-12;
-/// The mean displacement around a vertex, in edge lengths, up to which it stays, and from which on it goes all the way;
-/// and the rounds over which means are taken.
+/// A vertex stays if the mean displacement around it, in edge lengths, is below the first number, and moves by its
+/// whole displacement above the second; and the rounds over which displacements are averaged.
 constexpr float calm = 0.002F;
 constexpr float restless = 0.005F;
 constexpr int displacement_rounds = 24;
-/// What is taken is averaged over so many rounds, and is a pattern if the median revival of its places is above this.
-/// Of noise of all kinds it was 0.79 at most, and of reliefs under noise that went with it 0.9 to 1.
+/// The removed displacements are averaged over this many rounds, and are a pattern if the median revival of their
+/// places is above this. Noise of all kinds had 0.79 at most; reliefs that were removed with the noise above them had
+/// 0.9 to 1.
 constexpr int rounds_of_taken = 2;
 constexpr float revival_of_structure = 0.87F;
 constexpr std::size_t fewest_places_with_structure = 5;
-/// Rounds over which places with noise and others are blended.
+/// The rounds over which places with and without noise are blended.
 constexpr int rounds_of_blended_places = 4;
 
 /// The median length of the edges at a vertex.
@@ -72,7 +74,7 @@ double median_edge(const NoisyPlaces::Denoised& denoised, Index v)
     return *middle;
 }
 
-/// From 0 to 1 without a bend at either end.
+/// A smooth step from 0 to 1, with slope 0 at both ends.
 double smooth_step(double x)
 {
     const double t = std::clamp(x, 0.0, 1.0);
@@ -89,7 +91,7 @@ Components all_together(const PolygonMesh& mesh)
     return all;
 }
 
-/// #V by 3, of length 1 or 0: the means of face normals that may look to either side.
+/// #V by 3, of length 1 or 0: the means of the face normals around each vertex, whatever side these are on.
 Points mean_normals(const Topology& topology, const Points& normals, const Executor& exec)
 {
     Points means(static_cast<Index>(topology.kind.size()), 3);
@@ -104,7 +106,7 @@ Points mean_normals(const Topology& topology, const Points& normals, const Execu
     return means;
 }
 
-/// Per vertex: the place in the list of the nearest of some vertices along edges, or -1.
+/// Per vertex: the index of the nearest of some places, along edges; -1 if it reaches none.
 std::vector<Index> nearest_of(std::span<const Index> places, const IndexLists& neighbours)
 {
     std::vector<Index> nearest(usize(neighbours.size()), -1);
@@ -120,7 +122,7 @@ std::vector<Index> nearest_of(std::span<const Index> places, const IndexLists& n
     return nearest;
 }
 
-/// #F: the mean of numbers at vertices around each face.
+/// #F: numbers of vertices, averaged around each face.
 VertexAverages::Rows means_around(const NoisyPlaces::Denoised& denoised, int rounds, const Executor& exec,
                                   const auto& number_of)
 {
@@ -148,7 +150,7 @@ std::vector<std::uint8_t> flat_vertices(const PolygonMesh& mesh, const Topology&
         const auto corners = topology.corners_at(v);
         const Point first = corners.empty() ? Point(Point::Zero()) : normal_at(corners[0]);
         const auto is_like_first = [&](Index corner) {
-            // Faces need not be oriented alike.
+            // Normals are turned to one side, because faces need not be oriented alike.
             const Point n = normal_at(corner);
             return std::min((n - first).squaredNorm(), (n + first).squaredNorm()) <= same_normal;
         };
@@ -239,12 +241,12 @@ NoisyPlaces::Found NoisyPlaces::find(const Denoised& denoised, const Executor& e
     const IndexLists& neighbours = denoised.averages.neighbours();
     const std::vector<Index> spread = spread_places(topology, neighbours, before, rings_between_places);
     const std::vector<PlaceStatistics> measured = measure_places(denoised, spread, exec);
-    // Without those where nothing can be told.
+    // Places with too few vertices to be judged are left out.
     std::vector<Index> places;
     std::vector<Index> component_of_place;
     std::vector<float> evidence;
-    std::vector<float> alike_against_shape;
-    std::vector<float> evidence_of_alike;
+    std::vector<float> correlated_against_shape;
+    std::vector<float> evidence_of_correlated;
     for (std::size_t i = 0; i < spread.size(); ++i) {
         if (measured[i].n_vertices < fewest_of_place)
             continue;
@@ -252,9 +254,9 @@ NoisyPlaces::Found NoisyPlaces::find(const Denoised& denoised, const Executor& e
         component_of_place.push_back(
             components_.component_of[topology.face_of[topology.corners_at(spread[i]).front()]]);
         evidence.push_back(evidence_of_noise(measured[i]));
-        alike_against_shape.push_back(evidence_of_alike_noise(measured[i]));
-        evidence_of_alike.push_back(
-            std::min(alike_against_shape.back(), evidence_against_independent_noise(measured[i])));
+        correlated_against_shape.push_back(evidence_of_correlated_noise(measured[i]));
+        evidence_of_correlated.push_back(
+            std::min(correlated_against_shape.back(), evidence_against_independent_noise(measured[i])));
     }
     std::vector<Index> sizes;
     for (Index c = 0; c < components_.count(); ++c)
@@ -266,24 +268,24 @@ NoisyPlaces::Found NoisyPlaces::find(const Denoised& denoised, const Executor& e
     for (std::size_t i = 0; i < places.size(); ++i)
         if (has_noise[i] != 0)
             has_other[component_of_place[i]] = 1;
-    const std::vector<Alikeness> alike = [&] {
+    const std::vector<Correlation> correlated = [&] {
         const auto decided = [&](std::span<const float> of_places, float least) {
             return decide(component_of_place, of_places, sizes, least, false);
         };
-        const std::vector<std::uint8_t> beside_other = decided(evidence_of_alike, 0.0F);
-        const std::vector<std::uint8_t> doubtful = decided(evidence_of_alike, evidence_of_doubtful_noise);
-        const std::vector<std::uint8_t> alone = decided(evidence_of_alike, evidence_of_alike_noise_alone);
-        const std::vector<std::uint8_t> possible = decided(alike_against_shape, 0.0F);
-        std::vector<Alikeness> result(places.size(), Alikeness::None);
+        const std::vector<std::uint8_t> beside_other = decided(evidence_of_correlated, 0.0F);
+        const std::vector<std::uint8_t> doubtful = decided(evidence_of_correlated, evidence_of_doubtful_noise);
+        const std::vector<std::uint8_t> alone = decided(evidence_of_correlated, evidence_of_correlated_noise_alone);
+        const std::vector<std::uint8_t> possible = decided(correlated_against_shape, 0.0F);
+        std::vector<Correlation> result(places.size(), Correlation::None);
         for (std::size_t i = 0; i < places.size(); ++i)
             if (has_other[component_of_place[i]] != 0)
-                result[i] = beside_other[i] != 0 ? Alikeness::Found
-                            : doubtful[i] != 0   ? Alikeness::Doubtful
-                                                 : Alikeness::None;
+                result[i] = beside_other[i] != 0 ? Correlation::Found
+                            : doubtful[i] != 0   ? Correlation::Doubtful
+                                                 : Correlation::None;
             else if (alone[i] != 0)
-                result[i] = Alikeness::Found;
+                result[i] = Correlation::Found;
             else if (possible[i] != 0)
-                result[i] = Alikeness::Possible;
+                result[i] = Correlation::Possible;
         return result;
     }();
     const std::vector<Index> nearest = nearest_of(places, neighbours);
@@ -298,15 +300,15 @@ NoisyPlaces::Found NoisyPlaces::find(const Denoised& denoised, const Executor& e
         return nearest[v] >= 0 && has_noise[nearest[v]] != 0 ? 1.0F : 0.0F;
     });
     const Index n = mesh.n_vertices();
-    Found result{std::vector<double>(usize(n), 0.0), std::vector<Alikeness>(usize(n), Alikeness::None)};
+    Found result{std::vector<double>(usize(n), 0.0), std::vector<Correlation>(usize(n), Correlation::None)};
     for_each(exec, n, [&](Index v) {
         const auto corners = topology.corners_at(v);
         const auto count = static_cast<double>(corners.size());
         for (const Index corner : corners) {
             const Index f = topology.face_of[corner];
-            result.parts[v] += open(f, 0) * smooth_step((displaced(f, 0) - calm) / (restless - calm)) / count;
+            result.shares[v] += open(f, 0) * smooth_step((displaced(f, 0) - calm) / (restless - calm)) / count;
         }
-        result.alike[v] = nearest[v] >= 0 ? alike[nearest[v]] : Alikeness::None;
+        result.correlated[v] = nearest[v] >= 0 ? correlated[nearest[v]] : Correlation::None;
     });
     return result;
 }

@@ -8,16 +8,16 @@ namespace seamflow {
 
 namespace {
 
-// All rounds and widths were chosen together with the networks that mix the estimates (see mixing_network.h): they are
-// of no use with others.
+// All rounds and widths were chosen together with the networks that mix the estimates (see mixing_network.h); with
+// other networks they would not fit.
 
-/// Rounds of filters of positions, whose normals are the estimates; of the robust one for both.
+/// The rounds of low-pass filters of positions, and of robust ones. The normals of the filtered surfaces are estimates.
 const std::vector<int> rounds_of_positions{2, 3, 4, 8, 16};
 const std::vector<int> rounds_of_robust_positions{3, 6};
-/// Of the surface from which the robust filter measures distances, among rounds_of_positions.
+/// The index in rounds_of_positions of the surface from which the robust filter measures distances.
 constexpr std::size_t place_of_surface = 2;
 
-/// Replaces vectors one after the other.
+/// Replaces the vectors of a list one after the other, and appends more.
 class Writer {
   public:
     explicit Writer(NormalEstimates& estimates)
@@ -40,7 +40,7 @@ class Writer {
             copy(vectors);
     }
 
-    /// What is in the list after that is of no use.
+    /// Removes the vectors of the list that were not replaced.
     void take(std::vector<FaceVectors>& list)
     {
         for (FaceVectors& vectors : list)
@@ -54,8 +54,8 @@ class Writer {
     std::size_t count_ = 0;
 };
 
-/// Adds a part of 1 - (1 - S)³ = 3 S - 3 S² + S³, if the round is one of S, S² or S³.
-/// @param rounds those of S.
+/// Adds a term of 1 - (1 - S)³ = 3 S - 3 S² + S³, if `round` is a round after which S, S² or S³ is complete.
+/// @param rounds the number of rounds of S.
 void add_low_pass(int round, int rounds, const FaceVectors& mean, FaceVectors& total, const Executor& exec)
 {
     if (round % rounds != 0 || round > 3 * rounds)
@@ -72,7 +72,7 @@ void add_low_pass(int round, int rounds, const FaceVectors& mean, FaceVectors& t
 }
 
 /// Adds bilateral means: each round is guided by the result of the round before.
-/// @param vectors of length 1 or 0; replaced.
+/// @param vectors of length 1 or 0; replaced by the last result.
 void add_bilateral_means(const FaceAverages& averages, FaceVectors& vectors, float sigma,
                          std::initializer_list<int> wanted, Writer& found, FaceVectors& scratch, const Executor& exec)
 {

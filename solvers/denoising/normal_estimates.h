@@ -13,46 +13,46 @@
 
 namespace seamflow {
 
-/// Several estimates of the true normal of each face. Each is a vector along a normal; a mean of unit normals is
+/// Several estimates of the true normal of each face. Each is a vector along a normal. A mean of unit normals is the
 /// shorter, the less they agree.
 struct NormalEstimates {
     std::vector<FaceVectors> vectors;
-    /// Places of those that the others are compared with.
+    /// The indices of the estimates that the others are compared with.
     std::array<int, 3> anchors{};
 };
 
-/// The filters from which estimates come.
+/// The filters that make the estimates.
 class NormalEstimator {
   public:
     /// @param mesh its vertices are not used. @param topology with twins, which are not needed later. Both must outlive
     /// the estimator.
     NormalEstimator(const PolygonMesh& mesh, const Topology& topology, const Executor& exec = run_serially);
 
-    /// Begins with a noisy surface, #V by 3.
+    /// Begins with a noisy surface. @param positions #V by 3.
     void begin(const Points& positions, const Executor& exec = run_serially);
 
-    /// Estimates from the noisy surface alone: means over one to eight rounds, bilateral means of two widths, normals
-    /// of surfaces whose vertices were filtered, means of patches on one side of edges.
-    /// @param found replaced; its memory is used again, as below.
+    /// Makes estimates from the noisy surface alone: means over one to eight rounds, bilateral means of two widths,
+    /// normals of surfaces whose vertices were filtered, means of patches on one side of edges.
+    /// @param found replaced; its memory is reused, as in `further`.
     void first(NormalEstimates& found, const Executor& exec = run_serially);
 
-    /// Estimates with the help of an earlier result: the noisy normals averaged where that result says that faces
-    /// belong together, and the result averaged further. Weights and areas are those of the last `refine`.
+    /// Makes estimates with the help of an earlier result: means of the noisy normals over faces that belong together
+    /// according to this result, and further means of the result. Weights and areas are those of the last `refine`.
     /// @param normals of length 1, or 0 for faces without area.
     void further(const FaceVectors& normals, NormalEstimates& found, const Executor& exec = run_serially);
 
-    /// Takes areas and centroids from these positions, #V by 3, from now on.
+    /// Sets areas and centroids to those at these positions, #V by 3.
     void refine(const Points& positions, const Executor& exec = run_serially) { averages_.measure(positions, exec); }
 
     [[nodiscard]] const FaceAverages& averages() const { return averages_; }
     [[nodiscard]] const VertexAverages& vertex_averages() const { return of_vertices_; }
 
-    // Filters refer to averages.
+    // Not copied, because filters refer to averages_.
     NormalEstimator(const NormalEstimator&) = delete;
     NormalEstimator& operator=(const NormalEstimator&) = delete;
 
   private:
-    /// Means of some vectors over more and more rounds, by the current weights.
+    /// Averages vectors over more and more rounds, with the current weights.
     /// @param on_round called with the number of each round and its result.
     template <class OnRound>
     void take_means(const FaceVectors& vectors, int rounds, const Executor& exec, OnRound&& on_round);
@@ -62,11 +62,11 @@ class NormalEstimator {
     PositionFilters filters_;
     VertexNormals vertex_normals_;
     FaceVectors noisy_;
-    /// Normals of filtered surfaces: for `first`, which takes them, for `further`, and for both.
+    /// The normals of filtered surfaces: for `first`, which moves them to its result; for `further`; and for both.
     std::vector<FaceVectors> of_positions_;
     std::vector<FaceVectors> of_positions_further_;
     std::vector<FaceVectors> of_robust_positions_;
-    /// Used again in each round.
+    /// Scratch, reused in each round.
     AverageWeights weights_;
     std::array<FaceVectors, 2> scratch_;
 };

@@ -15,18 +15,19 @@ namespace seamflow {
 
 namespace {
 
-/// A direction is kept by half where the mean squared cosine between it and the wanted normals is this much.
+/// The mean squared cosine between a direction and the wanted normals at which half of the motion in that direction is
+/// kept.
 constexpr double half_kept = 0.04;
-/// The cosine between a face and its wanted normal below which the face may fold, and the loss that decides that the
-/// motion along normals folds it.
+/// A face whose cosine with its wanted normal is below this may have been folded; the motion along normals has folded
+/// it if the cosine has become smaller by at least this loss.
 constexpr double least_cosine = 0.7;
 constexpr double loss_of_cosine = 0.02;
-/// The cosine between a face and its wanted normal below which the face may not turn further away from it: wanted
-/// normals of slivers, whose heights noise exceeds, are themselves off by some degrees.
+/// A face whose cosine with its wanted normal is below this may not turn further away from it. Wanted normals of
+/// slivers with large noise are themselves off by some degrees.
 constexpr double least_facing = 0.1;
-/// How far vertices that move freely spread around folded faces, in rounds.
+/// The number of rounds by which the vertices that move freely spread around folded faces.
 constexpr int freeing_rounds = 6;
-/// How often motions are halved; after that vertices stay.
+/// The number of times that a motion is halved before its vertex stays.
 constexpr int halvings = 9;
 
 class FoldedFaces {
@@ -39,7 +40,8 @@ class FoldedFaces {
     {
     }
 
-    /// #F: between each face and its wanted normal; 1 where none is wanted, 0 for faces without area.
+    /// #F: the cosine between each face and its wanted normal; 1 for faces without a wanted normal, 0 for faces without
+    /// area.
     [[nodiscard]] std::vector<double> cosines(const Points& positions) const
     {
         std::vector<double> found(usize(mesh_.n_faces()));
@@ -51,7 +53,7 @@ class FoldedFaces {
         return found;
     }
 
-    /// The vertices of the faces that fulfil a condition.
+    /// The vertices of the faces for which condition(f) is true.
     template <class Condition>
     [[nodiscard]] std::vector<Index> vertices_of(Condition&& condition) const
     {
@@ -137,7 +139,7 @@ void keep_facing(const PolygonMesh& mesh, const Topology& topology, const Points
 {
     const FoldedFaces faces(mesh, topology, wanted, exec);
     const std::vector<double> of_before = faces.cosines(before);
-    // It ends: a face whose vertices are all back has not turned.
+    // The loop ends, because a face whose vertices are all back has not turned.
     for (int round = 0;; ++round) {
         const std::vector<double> cosines = faces.cosines(positions);
         std::vector<std::uint8_t> is_folded(usize(mesh.n_faces()), 0);

@@ -17,22 +17,23 @@ namespace seamflow {
 
 namespace {
 
-/// In mean edge lengths: how far vertices are near, and how far they count for the autocorrelation, which has to see a
-/// pattern of 16 edge lengths come back.
+/// The radii of a place, in mean edge lengths: of the vertices near its middle, and of the vertices in its
+/// autocorrelation, which must see a pattern of 16 edge lengths come back; and the most vertices of a place.
 constexpr double near_radius = 7.0;
 constexpr double far_radius = 13.0;
 constexpr std::size_t most_of_place = 800;
-/// Larger displacements count as this many medians in the autocorrelation, so that a sharp edge of the body does not
-/// outweigh what is beside it; and vertices do not count where the surface has turned away further than this.
+/// The autocorrelation is bounded: displacements above this many medians are reduced to it, so that a sharp edge does
+/// not outweigh its surroundings; and vertices whose normal has a smaller cosine than this with that of the middle do
+/// not count.
 constexpr float most_medians_of_height = 3.0F;
 constexpr double least_cosine_to_middle = 0.5;
 constexpr int n_directions = 12;
 constexpr int first_lag = 3;
 constexpr int last_lag = 18;
-/// Fewer vertices and fewer pairs of them at a distance say nothing; the latter per vertex.
+/// The fewest vertices of an autocorrelation; and the fewest pairs of vertices at a distance, per vertex.
 constexpr std::size_t fewest_in_correlation = 50;
 constexpr float fewest_pairs = 0.35F;
-/// How many vertices get quadratic fits, the radii of these, and the fewest vertices of one.
+/// The number of vertices with quadratic fits, the radii of the fits, and the fewest vertices of a fit.
 constexpr std::size_t n_fits = 48;
 constexpr std::array<double, 2> fit_radii{2.2, 5.0};
 constexpr int fewest_of_fit = 9;
@@ -103,7 +104,7 @@ class Autocorrelation {
 
     Cell& cell_of(const Eigen::Vector2f& difference) { return cells_[number_of(difference)]; }
 
-    /// Of both signs of a difference.
+    /// The sums over the grid cells of a difference and of its negative.
     [[nodiscard]] Cell around(const Eigen::Vector2f& difference) const
     {
         const Cell& here = cells_[number_of(difference)];
@@ -115,7 +116,7 @@ class Autocorrelation {
     std::array<Cell, static_cast<std::size_t>(width) * width> cells_{};
 };
 
-/// The vertices around a place.
+/// A place: a vertex and the vertices around it.
 class Place {
   public:
     Place(const TakenAway& taken, Index middle)
@@ -183,7 +184,7 @@ class Place {
             signs_.push_back(cosine < 0.0 ? -1.0F : 1.0F);
             counts_.push_back(taken_.is_left_out[v] == 0 && taken_.topology.moves(v) ? 1 : 0);
             is_near_.push_back(position.norm() <= near_radius * edge_ ? 1 : 0);
-            is_alike_.push_back(std::abs(cosine) >= least_cosine_to_middle ? 1 : 0);
+            is_facing_.push_back(std::abs(cosine) >= least_cosine_to_middle ? 1 : 0);
         }
     }
 
@@ -224,7 +225,7 @@ class Place {
         std::vector<float> numbers;
         std::vector<float> sizes;
         for (std::size_t i = 0; i < vertices_.size(); ++i)
-            if (counts_[i] != 0 && is_alike_[i] != 0) {
+            if (counts_[i] != 0 && is_facing_[i] != 0) {
                 points.push_back(plane_[i]);
                 numbers.push_back(heights[i]);
                 sizes.push_back(std::abs(heights[i]));
@@ -263,7 +264,7 @@ class Place {
         return squares > 0.0 ? static_cast<float>(n * fourths / (squares * squares)) : 0.0F;
     }
 
-    /// Of the best quadratic function around a vertex, in edge lengths; -1 with too few vertices.
+    /// The residual of the best quadratic function around a vertex, in edge lengths; -1 if there are too few vertices.
     [[nodiscard]] double residual(Index v, double radius) const
     {
         using Row = Eigen::Matrix<double, 6, 1>;
@@ -315,15 +316,15 @@ class Place {
     Index middle_;
     Eigen::Matrix3d frame_;
     double edge_ = 0.0;
-    /// The middle first, then those around it.
+    /// The middle, then the vertices around it.
     std::vector<Index> vertices_;
     std::unordered_map<Index, Index> place_of_;
-    /// As vertices_. In the plane of the frame, in edge lengths.
+    /// One per vertex of vertices_: its position in the plane of the frame, in edge lengths.
     std::vector<Eigen::Vector2f> plane_;
     std::vector<float> signs_;
     std::vector<std::uint8_t> counts_;
     std::vector<std::uint8_t> is_near_;
-    std::vector<std::uint8_t> is_alike_;
+    std::vector<std::uint8_t> is_facing_;
 };
 
 }  // namespace

@@ -8,12 +8,12 @@ namespace seamflow {
 
 namespace {
 
-/// A position times its weight, and the weight.
+/// Per vertex: its position times its weight, and the weight.
 using WeightedPositions = Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor>;
 using Numbers = Eigen::Matrix<double, Eigen::Dynamic, 1>;
 
-/// Rounds over which squared distances of outliers are compared, and the fraction of their mean at which a vertex has
-/// half the weight.
+/// The rounds over which the squared distances of vertices are averaged, and the fraction of this mean at which a
+/// vertex has half the weight.
 constexpr int rounds_of_spread = 4;
 constexpr double half_weight = 0.25;
 
@@ -27,7 +27,7 @@ PositionFilters::PositionFilters(const Topology& topology, const IndexLists& nei
         is_interior_[v] = topology.kind[v] == VertexKind::Interior ? 1 : 0;
 }
 
-/// Half of each row and half of the mean of its neighbours' rows.
+/// Makes each row the mean of itself and the mean of its neighbours' rows.
 template <class Rows>
 void PositionFilters::average(const Rows& from, Rows& to, const Executor& exec) const
 {
@@ -96,7 +96,7 @@ std::vector<Points> PositionFilters::robust_low_pass(const Points& positions, co
     WeightedPositions now(n, 4);
     std::vector<Points> results;
     for (const int rounds_of_step : rounds) {
-        // 1 - (1 - S)³, S of weighted means: S of the positions, then twice S of what is left.
+        // 1 - (1 - S)³, where S takes weighted means: S is applied to the positions, then twice to the difference.
         Points result = Points::Zero(n, 3);
         for (int step = 0; step < 3; ++step) {
             for_each(exec, n, [&](Index v) {

@@ -9,9 +9,9 @@
 
 namespace seamflow {
 
-/// A number for a position, as if drawn at random, so that choices do not depend on the order of vertices. It is the
-/// same in every unit of length that is a power of two times another.
-/// @param round another number draws anew.
+/// A pseudorandom number for a position, so that choices do not depend on the order of vertices. It does not change if
+/// all coordinates are multiplied by a power of two.
+/// @param round with another number, other pseudorandom numbers result.
 inline std::uint64_t random_number_of(const Point& position, std::uint64_t round)
 {
     std::uint64_t x = mixed(round + 1);

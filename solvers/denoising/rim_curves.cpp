@@ -18,15 +18,17 @@ namespace seamflow {
 
 namespace {
 
-/// Half of the weight of a bend is left where the curve turns by this much within R, in radians.
+/// The turn of a curve within R, in radians, at which half of the weight of a bend is left.
 constexpr double turn_at_corners = 0.6;
-/// Of finding corners.
+/// The number of rounds in which corners are found.
 constexpr int rounds_for_corners = 6;
-/// Edges shorter than this part of the mean count as so long: what noise folds has no edges of length 0.
+/// Edges shorter than this fraction of the mean length count as this long: noise that folds a curve leaves edges of
+/// length 0.
 constexpr double shortest_edge = 0.25;
-/// How many times as wide as the largest motion a band is: faces are squeezed by a quarter at most.
+/// The width of a band, as a multiple of the largest motion: faces are squeezed by a quarter at most.
 constexpr double widths_of_band = 4.0;
-/// The part of its area that a face keeps; by how much motions are shortened at once, and how often at most.
+/// The fraction of its area that each face keeps; the factor by which motions are shortened at a time, and how often at
+/// most.
 constexpr double least_area = 0.1;
 constexpr double shortening = 0.9;
 constexpr int most_shortenings = 40;
@@ -37,9 +39,9 @@ struct Segment {
     Index face;
 };
 
-/// Symmetric positive definite equations in which an unknown of a curve meets those next to it and the next but one.
-/// The unknowns of a closed curve are numbered from both of its ends in turn, so that all that meet are at most four
-/// numbers apart: the factors L D Lᵀ stay within that band.
+/// Symmetric positive definite equations in which an unknown of a curve is coupled with the next two unknowns on both
+/// sides. The unknowns of a closed curve are numbered from both of its ends in turn, so that numbers of coupled
+/// unknowns differ by at most four: the factors L D Lᵀ have the same band.
 class BandedEquations {
   public:
     BandedEquations(Index n, bool is_closed)
@@ -104,8 +106,8 @@ class BandedEquations {
     bool is_closed_;
 };
 
-/// One per vertex of a curve: the sum of the normals of its faces at the curve, which need not be oriented alike; where
-/// these have none, that of the vertices beside it.
+/// One normal per vertex of a curve: the sum of the normals of its faces at the curve, which need not be oriented
+/// alike; if these have none, the sum of the normals at the neighbouring vertices of the curve.
 Points normals_along(const RimCurve& curve, const Points& normals)
 {
     Points sums = Points::Zero(static_cast<Eigen::Index>(curve.vertices.size()), 3);
@@ -147,7 +149,8 @@ void visit_neighbours(const PolygonMesh& mesh, const Topology& topology, Index v
             visit(mesh.face_vertices[end]);
 }
 
-/// #V: how many rings of vertices follow each curve, at its vertices: as many as its own motions and edges ask for.
+/// #V: the number of rings of vertices that follow a curve, at the vertices of the curve: enough for the curve's
+/// largest motion, given its edges.
 std::vector<Index> rings_of_bands(const PolygonMesh& mesh, const Topology& topology, std::span<const RimCurve> curves,
                                   const Points& positions, const Points& motions)
 {
@@ -237,7 +240,8 @@ SmoothCurve smooth_curve(const RimCurve& curve, const Points& positions, double 
     };
     const double amount = std::pow(2.0 * radius / std::numbers::pi, 4);
     for (int round = 0; round < (keeps_corners ? rounds_for_corners : 1); ++round) {
-        // Ends stay: their equations are x = p, and what others have of them goes to the right-hand side.
+        // The ends of an open curve stay: their equations are x = p, and their coefficients in other equations move to
+        // the right-hand side.
         BandedEquations equations(n, curve.is_closed);
         Points right_hand_side(n, 3);
         for (Index i = 0; i < n; ++i) {

@@ -9,26 +9,28 @@
 
 namespace seamflow {
 
-/// The boundary of a surface, or a part of it, as a curve: vertices of kind Boundary in their order along edges of one
+/// The boundary of a surface, or a piece of it, as a curve: vertices of kind Boundary in their order along edges of one
 /// face.
 struct RimCurve {
     std::vector<Index> vertices;
-    /// The face at the edge from each vertex to the next one; of a closed curve also from the last to the first.
+    /// The face at the edge from each vertex to the next one; of a closed curve also at the edge from the last vertex
+    /// to the first.
     std::vector<Index> faces;
     /// One per face: 1 if the edge runs along the curve in the face, -1 if against it.
     std::vector<double> senses;
     bool is_closed = false;
 };
 
-/// Curves end where the boundary touches itself, and where it meets an edge of three faces or more.
+/// Finds the curves of the boundary. They end where the boundary touches itself, and where it meets an edge of three
+/// faces or more.
 /// @param topology with twins.
 std::vector<RimCurve> find_rim_curves(const PolygonMesh& mesh, const Topology& topology);
 
-/// A curve that follows another one, but bends less.
+/// A smoothed curve.
 struct SmoothCurve {
-    /// One per vertex, by 3.
+    /// One row per vertex, by 3.
     Points positions;
-    /// One per vertex: near 0 at corners, else near 1.
+    /// One per vertex: near 0 at corners, near 1 elsewhere.
     std::vector<double> smoothness;
 };
 
@@ -40,22 +42,25 @@ struct SmoothCurve {
 ///        they are found in a few rounds. Otherwise all are 1.
 SmoothCurve smooth_curve(const RimCurve& curve, const Points& positions, double radius, bool keeps_corners);
 
+/// The directions across a curve.
 /// @param normals #F by 3: of the faces, of any length.
 /// @returns one per vertex of the curve: of length 1, within the surface and at right angles to the curve; 0 where
-/// there is none.
+/// there is no such direction.
 Points across_curve(const RimCurve& curve, const Points& positions, const Points& normals);
 
-/// Shortens the motions of the vertices of faces that would keep less than a tenth of their areas, or turn over: near a
-/// curve, a face with two edges of the boundary has hardly any.
-/// @param normals #F by 3: of the surface, of any length. Faces that turn away from them do not matter.
+/// Shortens the motions of the vertices of faces that would turn over or keep less than a tenth of their areas: near a
+/// curve, a face with two edges of the boundary has hardly any area.
+/// @param normals #F by 3: of the surface, of any length. Faces that have turned away from them before do not matter.
 /// @param motions #V by 3; replaced.
 void keep_areas(const PolygonMesh& mesh, const Points& positions, const Points& normals, Points& motions);
 
-/// Lets the surface follow its boundary within a band: motions fall to 0 over a few times the length of the largest
-/// of their curve, and leave out what goes along the normals, so that faces keep their shapes and the surface its
-/// place.
-/// @param topology needs no twins. @param curves all that move. @param normals of the mesh. @param positions #V by 3.
-/// @param motions #V by 3: of the vertices of curves, and 0 elsewhere; receives those of all. Held vertices stay.
+/// Moves the surface within a band along its boundary together with the boundary: motions fall to 0 over a few times
+/// the length of the largest motion of their curve, and have no component along the normals, so that faces keep their
+/// shapes and the surface does not move.
+/// @param topology needs no twins. @param curves all curves that move. @param normals of the mesh. @param positions #V
+/// by 3.
+/// @param motions #V by 3. In: the motions of the vertices of curves, and 0 elsewhere. Out: the motions of all
+/// vertices. Fixed vertices do not move.
 void spread_into_band(const PolygonMesh& mesh, const Topology& topology, std::span<const RimCurve> curves,
                       const VertexNormals& normals, const Points& positions, Points& motions);
 

@@ -13,25 +13,30 @@ namespace {
 /// The radius of bumps that lose half their height, in edges of the rim: stairs have runs of several edges.
 constexpr double radius_in_edges = 4.0;
 
-// Chosen by hand on rims that are known, of which none was kept aside: stairs of discs, ellipses and polygons that were
-// cut out of grids along edges, white noise of 0.05 to 0.5 edges, toothed wheels, stars, combs and letters, the rims of
-// about 30 clean meshes, and of two range scans, which are frayed.
+// The following numbers were chosen by hand on rims whose true shape is known, all of which were used for the choice:
+// stairs of discs, ellipses and polygons that were cut out of grids along edges, white noise of 0.05 to 0.5 edges,
+// toothed wheels, stars, combs and letters, the rims of about 30 clean meshes, and of two range scans, which are
+// frayed.
 
-/// Shorter rims have no noise that could be told.
+/// The fewest vertices of a rim that is judged.
 constexpr std::size_t fewest_vertices = 48;
-/// The part of vertices at corners: noise makes none, frays and shapes of short edges many.
+/// The largest fraction of vertices at corners: noise makes no corners, frays and shapes of short edges make many.
 constexpr double most_corners = 0.08;
-/// Of the distances from the smooth curve, in edges: less is rounding, or the curve of a clean shape.
+/// The least root mean square distance of noise from the smooth curve, in edges: less is rounding, or the curve of a
+/// clean shape.
 constexpr double least_distance = 0.01;
-/// Patterns come back (see Revival): that of noise was up to 0.7, of stairs up to 1.2, of teeth 1.4 and more.
+/// The most revival of noise or stairs: a pattern comes back (see Distances::revival). Noise had up to 0.7, stairs up
+/// to 1.2, teeth 1.4 and more.
 constexpr double most_revival = 1.3;
-/// Their kurtosis is 1 for teeth, 1.8 for stairs, 3 for noise, and large where most vertices lie on the curve.
+/// The bounds of the kurtosis of the distances: it is 1 for teeth, 1.8 for stairs, 3 for noise, and large where most
+/// vertices lie on the curve.
 constexpr double least_kurtosis = 1.6;
 constexpr double least_kurtosis_of_noise = 2.2;
 constexpr double most_kurtosis = 4.2;
-/// Where the surface has noise, which may be along random directions: its part within the surface has 5.4.
+/// The upper bound where the surface has noise. Noise along random directions has 5.4 within the surface.
 constexpr double most_kurtosis_on_noise = 8.0;
-/// The correlation of neighbours: that of stairs was -0.58 and less, of noise around -0.15, of shapes above 0.
+/// The largest correlation of neighbouring distances of stairs: stairs had -0.58 and less, noise around -0.15, shapes
+/// above 0.
 constexpr double most_correlation_of_stairs = -0.5;
 
 /// The distances of the vertices of a rim from a smooth curve, in edges.
@@ -39,7 +44,8 @@ struct Distances {
     Eigen::VectorXd of_vertices;
     bool is_closed;
 
-    /// The mean product of those at two vertices that are `lag` apart, over the mean square.
+    /// The autocorrelation of the distances: the mean product of two distances whose vertices are `lag` apart, over the
+    /// mean square.
     [[nodiscard]] double correlation(Index lag) const
     {
         const auto n = static_cast<Index>(of_vertices.size());
@@ -51,7 +57,7 @@ struct Distances {
         return total / count / (of_vertices.squaredNorm() / static_cast<double>(n));
     }
 
-    /// By how much correlations rise again after they have fallen: a pattern comes back.
+    /// The largest rise of the autocorrelation after it has fallen. It is large for a pattern, which comes back.
     [[nodiscard]] double revival() const
     {
         constexpr Index nearest = 3;
@@ -75,8 +81,8 @@ struct Distances {
     }
 };
 
-/// Whether a curve has noise or stairs, and is not of a shape like this by its making.
-/// @param smoothness see SmoothCurve. @param is_on_noise whether the surface around it has noise.
+/// Whether a curve has noise or stairs, and not a shape that was made to look like that.
+/// @param smoothness see SmoothCurve. @param is_on_noise whether the surface around the curve has noise.
 bool is_noisy(const Distances& distances, const std::vector<double>& smoothness, bool is_on_noise)
 {
     double corners = 0.0;
@@ -114,7 +120,7 @@ RimFilter::RimFilter(const PolygonMesh& mesh, const Topology& topology)
 }
 
 Points RimFilter::motions(const PolygonMesh& mesh, const Topology& topology, const Points& normals,
-                          std::span<const double> parts, const Points& positions) const
+                          std::span<const double> shares, const Points& positions) const
 {
     Points motions = Points::Zero(mesh.n_vertices(), 3);
     for (const RimCurve& curve : curves_) {
@@ -125,7 +131,7 @@ Points RimFilter::motions(const PolygonMesh& mesh, const Topology& topology, con
         const Eigen::VectorXd distances = (smooth.positions - before).cwiseProduct(across).rowwise().sum();
         double on_noise = 0.0;
         for (const Index v : curve.vertices)
-            on_noise += parts[v] / static_cast<double>(curve.vertices.size());
+            on_noise += shares[v] / static_cast<double>(curve.vertices.size());
         if (!is_noisy({distances / edge, curve.is_closed}, smooth.smoothness, on_noise > 0.5))
             continue;
         for (std::size_t i = 0; i < curve.vertices.size(); ++i)

@@ -19,33 +19,36 @@ namespace seamflow {
 
 namespace {
 
-// Measured on parts, round bodies and natural shapes that are known, with noise of 0.03 to 0.4 along the normals.
+// The following numbers were measured on machine parts, round bodies and natural shapes whose true shape is known, with
+// noise of 0.03 to 0.4 along the normals.
 
-/// In squared mean edge lengths.
+/// The amounts of smoothing between edges, in squared mean edge lengths.
 constexpr std::array<double, 2> edge_keeping_amounts{8.0, 32.0};
 
-/// What is tried.
+/// The smoothing that is tried on surfaces of one size.
 struct Trial {
-    /// A larger one counts where the smaller one is better than none.
+    /// The amounts, ascending. A larger one is used only at places where the smaller one was better than none.
     std::span<const double> amounts;
     /// The mean squared motion around a place, in squares of edge lengths, up to which the place may be replaced.
     float replaced_up_to;
 };
 constexpr Trial of_small_surfaces{edge_keeping_amounts, 0.15F * 0.15F};
-/// What bends at all is wide; and with more noise it takes too long for what is left to gain.
+/// A large surface has wide bends; and with more noise, smoothing takes too long for the little that is gained.
 constexpr Trial of_large_surfaces{std::span(edge_keeping_amounts).last(1), 0.08F * 0.08F};
-/// From this many times that motion on the place may not be replaced.
+/// A place may not be replaced if the mean motion is more than this multiple of the limit; between the limit and this,
+/// results are blended.
 constexpr float replaced_below = 1.7F;
-/// The mean motion around a place over that of the first result: some noise stays in that, the more the less there is.
+/// The largest mean motion around a place, over that of the denoised surface, in which some noise is left, the more the
+/// less noise there is: the factor for little motion, and in general.
 constexpr float little_motion = 0.08F;
 constexpr float most_motion_where_little = 1.2F;
 constexpr float most_motion = 1.15F;
-/// Squared chords of normals that count at most: sharper edges are no rougher.
+/// The limit of squared chords of normals: a sharper edge counts as no rougher.
 constexpr float largest_squared_chord = 0.2F;
-/// Larger surfaces are tried out on a sample first, of which at least this part must get smoother.
+/// Surfaces with more faces are first tried on a sample, of which at least this fraction must become smoother.
 constexpr Index most_untried_faces = 100'000;
 constexpr double least_smoother_part = 0.05;
-/// Rounds over which motions and roughness are averaged, and over which results are blended.
+/// The rounds over which motions and roughness are averaged, and over which results are blended.
 constexpr int averaging_rounds = 20;
 constexpr int blending_rounds = 4;
 
@@ -64,7 +67,8 @@ class SmootherPlaces {
         faces_.measure(surface.before, exec_);
     }
 
-    /// #F by 2: squared motions along the normals, in squares of edge lengths, and roughness, both around each face.
+    /// #F by 2: squared motions along the normals, in squares of edge lengths, and roughness, both averaged around each
+    /// face.
     [[nodiscard]] FaceRows measured(const Points& positions) const
     {
         const PolygonMesh& mesh = surface_.mesh;
@@ -88,17 +92,18 @@ class SmootherPlaces {
         return around;
     }
 
-    /// The surface between edges, as far as parts and normals let vertices go.
+    /// The surface smoothed between edges, with its motions along the normals alone, times the shares.
     [[nodiscard]] Points along_normals(const Points& smoothed) const
     {
         Points there = surface_.before;
         for_each(exec_, surface_.mesh.n_vertices(),
-                 [&](Index v) { there.row(v) += surface_.parts[v] * (smoothed.row(v) - surface_.before.row(v)); });
+                 [&](Index v) { there.row(v) += surface_.shares[v] * (smoothed.row(v) - surface_.before.row(v)); });
         return seamflow::along_normals(surface_.mesh, surface_.topology, surface_.before, there, surface_.normals,
                                        exec_);
     }
 
-    /// #V: how much of each vertex to take from another result. @param of_faces #F by 1: 1 or 0.
+    /// #V: the fraction of another result that each vertex takes. @param of_faces #F by 1: 1 for faces that take the
+    /// other result, 0 for others.
     [[nodiscard]] std::vector<double> blended(FaceRows of_faces) const
     {
         FaceRows around(of_faces.rows(), 1);
@@ -121,19 +126,19 @@ class SmootherPlaces {
     Topology with_twins_;
     FaceAverages faces_;
     VertexAverages vertices_;
-    /// #V: the mean length of the edges, in length.
+    /// #V: the mean length of the edges at each vertex.
     std::vector<double> edges_;
 };
 
-/// Up to which mean squared motion a place may be replaced.
-/// @param of_first that of the first result.
+/// The mean squared motion up to which a place may be replaced.
+/// @param of_first the mean squared motion of the denoised surface.
 float most_squared_motion(float of_first)
 {
     const float ratio = of_first < little_motion * little_motion ? most_motion_where_little : most_motion;
     return of_first * (ratio * ratio);
 }
 
-/// Of the edges of some faces, each face's own.
+/// The mean length of the edges of some faces, counted in each face.
 double mean_edge_of(const DenoisedSurface& surface, std::span<const Index> faces)
 {
     double total = 0.0;
@@ -148,20 +153,21 @@ double mean_edge_of(const DenoisedSurface& surface, std::span<const Index> faces
     return total / n;
 }
 
-/// From 1 to 0.
+/// The fraction of a place that is replaced: falls smoothly from 1 to 0.
 float replaced_part(const Trial& trial, float squared_motion)
 {
     return std::clamp((replaced_below - squared_motion / trial.replaced_up_to) / (replaced_below - 1.0F), 0.0F, 1.0F);
 }
 
-/// See take_smoother_places.
+/// Replaces places as take_smoother_places does, without trying a sample first.
 void replace_places(const DenoisedSurface& surface, const Components& components, const Trial& trial, double angle,
                     Points& result, const Executor& exec)
 {
     const Index n_faces = surface.mesh.n_faces();
     const SmootherPlaces places(surface, exec);
     const FaceRows of_first = places.measured(result);
-    // Components in which some place may be replaced; then those in which some was.
+    // The components in which some place may be replaced; after the first amount, the components in which some place
+    // was replaced.
     std::vector<std::uint8_t> is_open(usize(components.count()));
     const auto open = [&](auto&& is_open_at) {
         std::ranges::fill(is_open, std::uint8_t{0});
@@ -171,7 +177,7 @@ void replace_places(const DenoisedSurface& surface, const Components& components
         return std::ranges::find(is_open, 1) != is_open.end();
     };
     const auto moves = [&](Index f) {
-        return std::ranges::any_of(surface.mesh.face(f), [&](Index v) { return surface.parts[v] > 0.0; });
+        return std::ranges::any_of(surface.mesh.face(f), [&](Index v) { return surface.shares[v] > 0.0; });
     };
     bool any = open([&](Index f) { return replaced_part(trial, of_first(f, 0)) > 0.0F && moves(f); });
     FaceRows of_result = of_first;
@@ -213,20 +219,20 @@ void replace_places(const DenoisedSurface& surface, const Components& components
     }
 }
 
-/// Whether that replaces enough of patches that are spread all over the surface (see take_filter_sample).
+/// Whether replace_places replaces enough of a sample of patches spread all over the surface (see take_filter_sample).
 bool helps_on_sample(const DenoisedSurface& surface, const Trial& trial, double angle, const Points& result,
                      const Executor& exec)
 {
     const FilterSample sample = take_filter_sample(surface.mesh, surface.topology, exec);
     const MeshPiece piece =
         cut_out(surface.mesh, surface.topology, surface.before, faces_of(sample, surface.mesh, exec), exec);
-    std::vector<double> parts;
+    std::vector<double> shares;
     for (const Index v : piece.vertices)
-        parts.push_back(surface.parts[v]);
+        shares.push_back(surface.shares[v]);
     const Points normals = surface.normals(piece.faces, Eigen::all);
     const Points first = result(piece.vertices, Eigen::all);
     Points replaced = first;
-    replace_places({piece.mesh, piece.topology, piece.mesh.vertices, normals, parts},
+    replace_places({piece.mesh, piece.topology, piece.mesh.vertices, normals, shares},
                    face_components(piece.mesh, piece.topology), trial, angle, replaced, exec);
     const auto n = std::ranges::count_if(sample.measured, [&](Index i) {
         const Index v = place_in(piece.vertices, sample.vertices[i]);
@@ -240,7 +246,7 @@ bool helps_on_sample(const DenoisedSurface& surface, const Trial& trial, double 
 void take_smoother_places(const DenoisedSurface& surface, const Components& components, double angle, Points& result,
                           const Executor& exec)
 {
-    if (std::ranges::none_of(surface.parts, [](double part) { return part > 0.0; }))
+    if (std::ranges::none_of(surface.shares, [](double part) { return part > 0.0; }))
         return;
     const bool is_large = surface.mesh.n_faces() > most_untried_faces;
     const Trial& trial = is_large ? of_large_surfaces : of_small_surfaces;

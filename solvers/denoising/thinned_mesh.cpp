@@ -11,8 +11,8 @@ namespace seamflow {
 
 namespace {
 
-/// A maximal set of vertices with faces of which no two are neighbours.
-/// @returns #V: 1 for those.
+/// A maximal set of vertices with faces, of which no two are neighbours.
+/// @returns #V: 1 for vertices of the set.
 std::vector<std::uint8_t> choose(const Topology& topology, const IndexLists& neighbours, const Points& positions,
                                  std::span<const int> n_chosen, std::uint64_t round)
 {
@@ -58,7 +58,7 @@ ThinnedMesh thin_out(const PolygonMesh& mesh, const Topology& topology, const In
             }
     }
     using Corners = std::array<Index, 3>;
-    // By their corners in ascending order.
+    // The faces, with their corners in ascending order.
     std::vector<std::pair<Corners, Index>> faces;
     const auto corners_of = [&](Index f) {
         const auto face = mesh.face(f);

@@ -10,22 +10,23 @@
 
 namespace seamflow {
 
-/// Some vertices of a mesh, of which no two are neighbours, as a mesh of their own: about a quarter of them.
+/// About a quarter of the vertices of a mesh, of which no two are neighbours, as a mesh of their own.
 struct ThinnedMesh {
     PolygonMesh mesh;
-    /// With twins. Rims may move; where a vertex is at a rim here alone, or held in the whole mesh, it is held.
+    /// With twins. Rims may move. A vertex is fixed if it is at a rim of the thinned mesh alone, or is fixed in the
+    /// whole mesh.
     Topology topology;
-    /// #V: their numbers in the whole mesh, ascending.
+    /// #V: the numbers of the vertices in the whole mesh, ascending.
     std::vector<Index> vertices;
 };
 
-/// Each other vertex belongs to the nearest neighbour that is left, and a triangle is left between three vertices where
-/// theirs met: that of the mesh whose vertices belong to all three.
-/// @param mesh of triangles. @param topology its kinds and held vertices count; twins do not.
+/// Thins a mesh. Each vertex that is left out belongs to the nearest neighbour that is kept. A triangle of the mesh
+/// whose vertices belong to three different kept vertices becomes a triangle between these.
+/// @param mesh of triangles. @param topology its kinds and fixed vertices are used; twins are not.
 /// @param neighbours per vertex, along edges. @param positions #V by 3.
-/// @param n_chosen #V: how often vertices were chosen before; those that were less often are preferred.
-/// @param round makes another choice: among vertices that were chosen as often, one that depends on their positions and
-///        not on their order.
+/// @param n_chosen #V: how often vertices were chosen before; vertices that were chosen less often are preferred.
+/// @param round with another number, another choice is made among vertices that were chosen equally often. The choice
+///        depends on the positions of vertices and not on their order.
 ThinnedMesh thin_out(const PolygonMesh& mesh, const Topology& topology, const IndexLists& neighbours,
                      const Points& positions, std::span<const int> n_chosen, std::uint64_t round);
 

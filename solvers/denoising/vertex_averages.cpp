@@ -20,7 +20,7 @@ VertexAverages::VertexAverages(const PolygonMesh& mesh, const Topology& topology
 
 void VertexAverages::spread(Rows& near, Rows& around, int rounds, int further_rounds, const Executor& exec) const
 {
-    // A few columns at a time, so that they fill registers and take little memory.
+    // Columns are spread in groups of this size, which fill registers and take little memory.
     constexpr int width = 16;
     constexpr int small_width = 4;
     if (near.cols() <= small_width)

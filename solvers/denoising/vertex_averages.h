@@ -9,27 +9,27 @@
 
 namespace seamflow {
 
-/// Averages over vertices and those at the other ends of their edges, all with the same weight. Bits do not depend on
-/// how loops are run.
+/// Averages over each vertex and the vertices at the other ends of its edges, all with the same weight. Bits do not
+/// depend on how loops are run.
 class VertexAverages {
   public:
     /// @param mesh its vertices are not used. @param topology twins are not used. Both must outlive the object.
     VertexAverages(const PolygonMesh& mesh, const Topology& topology, const Executor& exec = run_serially);
 
-    /// Numbers of faces, one row each.
+    /// Numbers of faces, one row per face.
     using Rows = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-    /// Spreads numbers over the surface: vertices take the mean of their faces, then several times that of themselves
-    /// and their neighbours, and faces that of their vertices.
-    /// @param near #F by any number; replaced by the means after some rounds, unless there are none.
-    /// @param around as large; replaced by those after further rounds.
+    /// Averages numbers of faces over the surface: each vertex takes the mean of its faces, then, several times, the
+    /// mean of itself and its neighbours; then each face takes the mean of its vertices.
+    /// @param near #F by any number of columns; replaced by the means after `rounds` rounds, unless that is 0.
+    /// @param around of the same size; receives the means after `further_rounds` more rounds.
     void spread(Rows& near, Rows& around, int rounds, int further_rounds, const Executor& exec = run_serially) const;
 
-    /// Per vertex: those at the other ends of its edges, ascending.
+    /// Per vertex: the vertices at the other ends of its edges, ascending.
     [[nodiscard]] const IndexLists& neighbours() const { return neighbours_; }
 
   private:
-    /// Spreads some columns, at most `Width`, from the first on.
+    /// Spreads at most `Width` columns, beginning with column `first`.
     template <int Width>
     void spread_columns(Rows& near, Rows& around, Eigen::Index first, int rounds, int further_rounds,
                         const Executor& exec) const;

@@ -7,7 +7,8 @@
 
 namespace seamflow {
 
-/// CHOLMOD's state with 32-bit integers and with 64-bit ones, and what cholmod_solve2 keeps for the next call.
+/// CHOLMOD's state with 32-bit integers and with 64-bit ones, and the memory that cholmod_solve2 keeps for the next
+/// call.
 struct CholmodWorkspace::State {
     cholmod_common common;
     cholmod_common long_common;
@@ -72,7 +73,7 @@ struct CholmodLong {
     static cholmod_common& common(CholmodWorkspace& workspace) { return workspace.state().long_common; }
 };
 
-/// Above this number of unknowns a factor may outgrow 32-bit integers.
+/// The number of unknowns above which a factor may outgrow 32-bit integers.
 constexpr Index most_unknowns_for_cholmod_int = 1'000'000;
 
 void require_ok(const cholmod_common& common, const char* task)
@@ -83,7 +84,7 @@ void require_ok(const cholmod_common& common, const char* task)
         throw_failure("CHOLMOD", task, common.status);
 }
 
-/// The settings that CHOLMOD needs for freeing: they take no memory, so that this cannot fail.
+/// The settings that CHOLMOD needs to free memory: they allocate no memory, so that this cannot fail.
 template <class Interface>
 struct Settings {
     cholmod_common common;
@@ -169,7 +170,7 @@ class CholmodLlt final : public DirectSolver {
         solution = Eigen::Map<const Columns>(static_cast<const double*>(kept.solution->x), right_hand_side.rows(), 3);
     }
 
-    /// Keeps the result of the analysis.
+    /// Frees the factor, but keeps the result of the analysis.
     void free_factor() override
     {
         if (upper_.n() == 0)
@@ -180,7 +181,7 @@ class CholmodLlt final : public DirectSolver {
 
     SparsePattern upper_;
     PatternView<typename Interface::Integer> view_;
-    /// Without values.
+    /// The matrix without values.
     cholmod_sparse matrix_{};
     std::unique_ptr<cholmod_factor, Free> factor_;
 };

@@ -24,8 +24,8 @@ void set_rows(Array& array, Eigen::Index n)
     array.resize(n, Array::ColsAtCompileTime);
 }
 
-/// The rows of some vertices.
-/// @param rows #V by 3. @param gathered receives #vertices by 3. @returns that.
+/// Copies the rows of some vertices.
+/// @param rows #V by 3. @param gathered receives #vertices by 3. @returns `gathered`.
 inline const Points& gather_rows(std::span<const Index> vertices, const Points& rows, Points& gathered)
 {
     set_rows(gathered, static_cast<Eigen::Index>(vertices.size()));

@@ -11,19 +11,19 @@ namespace seamflow {
 
 namespace {
 
-/// Columns in a block, rows that are used at once, and entries of L in such a tile.
+/// The columns of a block, the rows that are processed at once, and the entries of L in such a tile.
 constexpr Index block_width = 4;
 constexpr Index n_lanes = DenseFactor::lanes;
 constexpr Index tile_size = block_width * n_lanes;
-/// Tiles are prefetched this many tiles before their use: most factors come from outside the caches.
+/// The distance, in tiles, at which tiles are prefetched before their use: most factors are outside the caches.
 constexpr Index tiles_ahead = 96;
 
 using Lanes = SimdVector<float, n_lanes>;
 
-/// Compilers omit calls of functions that only do this.
+/// A prefetch at a distance after a tile. Compilers omit calls of functions that contain only a prefetch.
 [[gnu::always_inline]] inline void prefetch_after(const float* tile)
 {
-    // The last ones prefetch memory after the factor, which does no harm.
+    // The last tiles prefetch memory after the factor, which does no harm.
     const std::uintptr_t ahead =
         reinterpret_cast<std::uintptr_t>(tile) + usize(tiles_ahead * tile_size) * sizeof(float);
     for (std::size_t byte = 0; byte < usize(tile_size) * sizeof(float); byte += 64)
@@ -35,15 +35,15 @@ struct FourSums {
     float of[block_width];
 };
 
-/// The same for each of three vectors.
+/// Four sums for each of three vectors.
 struct Fours {
     FourSums x;
     FourSums y;
     FourSums z;
 };
 
-/// Some rows of three vectors. All three are used with a tile at once: a third of the loops, whose ends processors do
-/// not predict.
+/// Some rows of three vectors. All three vectors are multiplied with a tile at once: this needs a third of the loops,
+/// whose ends processors do not predict.
 struct Rows {
     Lanes x{};
     Lanes y{};
@@ -88,16 +88,16 @@ inline FourSums sums_of(const Lanes& a, const Lanes& b, const Lanes& c, const La
     return {{all[0], all[2], all[4], all[6]}};
 }
 
-/// Four columns of L, or fewer in the last block.
+/// Four columns of L; fewer in the last block.
 struct Block {
     const float* tiles;
     Index n_tiles;
-    /// The first column.
+    /// The number of the first column.
     Index begin;
 
-    /// The first row of the first tile.
+    /// The number of the first row of the first tile.
     [[nodiscard]] Index top() const { return begin / n_lanes * n_lanes; }
-    /// An entry of the block's own rows, row > column.
+    /// An entry in the block's own rows, those of its diagonal, row > column.
     [[nodiscard]] float own(Index row, Index column) const { return tiles[column * n_lanes + begin - top() + row]; }
 };
 
@@ -143,7 +143,8 @@ inline void add_multiples(const Block& block, const Fours& factors, const FloatC
     }
 }
 
-/// The block, transposed, times v. The last rows come first: those of the block itself may just have been found.
+/// The block, transposed, times v. The rows are processed from the last to the first, because the block's own rows may
+/// just have been computed.
 inline Fours multiply_transposed(const Block& block, const FloatColumns& v)
 {
     Rows a, b, c, d;
@@ -165,7 +166,7 @@ inline Fours multiply_transposed(const Block& block, const FloatColumns& v)
     return {sums_of(a.x, b.x, c.x, d.x), sums_of(a.y, b.y, c.y, d.y), sums_of(a.z, b.z, c.z, d.z)};
 }
 
-/// L as it is stored.
+/// L in its stored form.
 struct Lower {
     const float* tiles;
     Index n;
@@ -183,11 +184,12 @@ struct Lower {
     {
         return {tiles + usize(tiles_before(begin)) * usize(tile_size), n_groups() - begin / n_lanes, begin};
     }
-    /// Negative if there is none.
+    /// The first column of the last block; negative if there is none.
     [[nodiscard]] Index last_block() const { return (n + block_width - 1) / block_width * block_width - block_width; }
 };
 
-/// result += R Rᵀ v and v = Rᵀ v, where R is L with columns scaled. A block is used for both while it is in the caches.
+/// result += R Rᵀ v and v = Rᵀ v, where R is L with scaled columns. A block is used for both products while it is in
+/// the caches.
 SEAMFLOW_WIDE void multiply_twice(Lower lower, const float* scales, FloatColumns v, FloatColumns result)
 {
     for (Index begin = 0; begin < lower.n; begin += block_width) {
@@ -239,7 +241,7 @@ SEAMFLOW_WIDE void back_substitute(Lower lower, FloatColumns v, FloatColumns res
             }
             store_own_rows(block, rows, to);
         };
-        // The contribution of the own rows is still 0.
+        // The contribution of the block's own rows is still 0.
         const Fours products = multiply_transposed(block, result);
         solve(v.x, products.x, result.x);
         solve(v.y, products.y, result.y);

@@ -6,10 +6,10 @@
 
 namespace seamflow {
 
-/// Single-precision numbers, in whole cache lines.
+/// Single-precision numbers in whole cache lines.
 class AlignedFloats {
   public:
-    /// Makes room for n at least. All are 0 afterwards.
+    /// Makes room for at least n numbers. All are 0 afterwards.
     void assign(std::size_t n) { lines_.assign((n + line - 1) / line, {}); }
 
     [[nodiscard]] std::size_t size() const { return lines_.size() * line; }
@@ -39,25 +39,25 @@ inline FloatColumns columns_at(float* begin, std::size_t room)
 }
 
 /// A small dense symmetric matrix S = L D Lᵀ in single precision, for many products with S and S⁻¹. S may have any
-/// unit: it is kept as scale() S₁, so that S₁ and its inverse fit in single precision.
+/// unit: it is stored as scale() S₁, so that S₁ and its inverse fit in single precision.
 ///
-/// Products are fastest if columns are aligned to registers, as consecutive ones in AlignedFloats are.
+/// Products are fastest if columns are aligned to registers, as consecutive columns in AlignedFloats are.
 class DenseFactor {
   public:
-    /// Rows processed at once.
+    /// The number of rows processed at once.
     static constexpr Index lanes = 8;
 
     /// The padded length of a column of n numbers.
     [[nodiscard]] static std::size_t room(Index n) { return usize((n + lanes - 1) / lanes * lanes); }
 
     /// Takes over a factorisation.
-    /// @param scale by which the factor is to be multiplied: see LdlFactor::scale.
+    /// @param scale the factor is multiplied by this: see LdlFactor::scale.
     template <class Number>
     void take(const DenseLdl<Number>& factor, double scale);
 
     [[nodiscard]] Index n() const { return n_; }
 
-    /// A power of two.
+    /// The scale of S, a power of two.
     [[nodiscard]] double scale() const { return scale_; }
 
     /// result, not aliasing v, becomes S₁ v, and v becomes Rᵀ v with R = L √D₁, so that S₁ = R Rᵀ.
@@ -76,8 +76,8 @@ class DenseFactor {
   private:
     Index n_ = 0;
     double scale_ = 1.0;
-    /// L without its diagonal in blocks of four columns, each starting at the eight rows of its diagonal: for every
-    /// eight rows the four columns, one after the other, with zeros in the upper triangle.
+    /// L without its diagonal in blocks of four columns. Each block begins at the eight rows that contain its diagonal:
+    /// for every eight rows the four columns, one after the other, with zeros in the upper triangle.
     AlignedFloats lower_;
     /// √D₁ and the inverse of D₁, padded with zeros.
     std::vector<float> root_;

@@ -24,13 +24,15 @@ class DirectSolver {
     /// The kind of the current factor or the next one; never Automatic.
     [[nodiscard]] virtual Factorisation kind() const = 0;
 
-    /// Size of a factor, in bytes; for UMFPACK an estimate. CHOLMOD's and UMFPACK's are in their own memory.
+    /// The size of a factor, in bytes; for UMFPACK an estimate. The factors of CHOLMOD and UMFPACK are in these
+    /// libraries' own memory.
     [[nodiscard]] virtual std::size_t factor_bytes() const = 0;
 
+    /// Factorises a matrix.
     /// @pre no factor exists: one at a time.
-    /// @param values one per entry of the pattern; must stay as they are as long as the factor is used.
+    /// @param values one per entry of the pattern; must not change while the factor is used.
     /// @param memory must outlive the factor, as must the solver.
-    /// @returns nothing where a symmetric matrix is not positive definite.
+    /// @returns nothing if a symmetric matrix is not positive definite.
     /// @throws ComputationError if a matrix that need not be symmetric is singular, or memory runs out.
     [[nodiscard]] std::optional<Factor> factorise(std::span<const double> values, FactorMemory& memory,
                                                   SolverWorkspace& workspace);
@@ -43,7 +45,7 @@ class DirectSolver {
     virtual void free_factor() = 0;
 };
 
-/// A DirectSolver's factor of a matrix. On destruction, its memory goes back to where it was taken from.
+/// A DirectSolver's factor of a matrix. On destruction, its memory is returned to its memory resource.
 class DirectSolver::Factor {
   public:
     /// Whether a solution has three correct digits at most.

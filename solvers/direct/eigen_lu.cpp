@@ -16,14 +16,14 @@ namespace {
 template <class Integer>
 using Matrix = Eigen::SparseMatrix<double, Eigen::ColMajor, Integer>;
 
-/// How often a solution is refined at most.
+/// The most refinements of a solution.
 constexpr int most_refinements = 2;
 
-/// Eigen's factors, with what else is known of them.
+/// Eigen's factors, with further data.
 template <class Integer>
 class Factors : public Eigen::SparseLU<Matrix<Integer>, Eigen::COLAMDOrdering<Integer>> {
   public:
-    /// info() does not know of memory that runs out.
+    /// Whether the factorisation was completed. Eigen's info() does not report that memory ran out.
     [[nodiscard]] bool is_complete() const { return this->m_factorizationIsOk; }
 
     /// The smallest pivot divided by the largest.
@@ -62,7 +62,7 @@ class EigenLu final : public DirectSolver {
     [[nodiscard]] std::size_t factor_bytes() const override { return factor_bytes_; }
 
   private:
-    /// The rows are divided by their sizes, as UMFPACK does, so that pivots of different rows compare.
+    /// The rows are divided by their sizes, as in UMFPACK, so that pivots of different rows can be compared.
     bool make_factor(std::span<const double> values, FactorMemory&, SolverWorkspace&) override
     {
         const Eigen::Map<const Eigen::VectorXd> given(values.data(), matrix_.nonZeros());
@@ -76,7 +76,7 @@ class EigenLu final : public DirectSolver {
             matrix_.valuePtr()[k] = given[k] / row_sizes_[rows[k]];
         factors_.emplace().compute(matrix_);
         if (!factors_->is_complete()) {
-            // Only its words tell one from the other.
+            // Only the text of the error distinguishes the two failures.
             if (factors_->lastErrorMessage().find("MEMORY") != std::string::npos)
                 throw_out_of_memory("factorisation");
             throw_singular();
@@ -116,7 +116,7 @@ class EigenLu final : public DirectSolver {
     bool is_nearly_singular_ = false;
 };
 
-/// Above this number of unknowns a factor may outgrow 32-bit integers.
+/// The number of unknowns above which a factor may outgrow 32-bit integers.
 constexpr Index most_unknowns_for_short_integers = 100'000;
 
 }  // namespace

@@ -7,9 +7,9 @@ namespace seamflow {
 
 namespace {
 
-/// In multiplications: less is done by one thread.
+/// The least work, in multiplications, for which several threads are used.
 constexpr double least_work = 2e7;
-/// Subtrees have at most this part of all work, and groups little more.
+/// The largest share of all work that a subtree has; groups have little more.
 constexpr double largest_share = 1.0 / 32.0;
 
 /// Per supernode, the work of the subtree below it, in multiplications.
@@ -41,20 +41,20 @@ EliminationSchedule schedule_elimination(const SymbolicFactor& pattern, const st
     EliminationSchedule schedule;
     if (all < least_work)
         return schedule;
-    schedule.place_above.assign(usize(n), -1);
+    schedule.index_above.assign(usize(n), -1);
     for (Index b = 0; b < n; ++b)
         if (work[b] > largest_share * all) {
-            schedule.place_above[b] = static_cast<Index>(schedule.above.size());
+            schedule.index_above[b] = static_cast<Index>(schedule.above.size());
             schedule.above.push_back(b);
         }
-    // Subtrees in the order of their roots; a supernode has the group of its parent.
+    // Subtrees are assigned in the order of their roots; a supernode is in the group of its parent.
     std::vector<Index> group_of(usize(n), -1);
     Index n_groups = 0;
     double gathered = 0.0;
     for (Index b = n; b-- > 0;) {
-        if (schedule.place_above[b] >= 0)
+        if (schedule.index_above[b] >= 0)
             continue;
-        if (parent[b] >= 0 && schedule.place_above[parent[b]] < 0) {
+        if (parent[b] >= 0 && schedule.index_above[parent[b]] < 0) {
             group_of[b] = group_of[parent[b]];
             continue;
         }

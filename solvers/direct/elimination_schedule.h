@@ -7,16 +7,16 @@
 
 namespace seamflow {
 
-/// How several threads factorise the supernodes of a matrix: subtrees of its elimination tree at a time, which do not
-/// depend on each other, and then those above them one by one. It follows from the pattern alone. A small matrix has
-/// none, since threads would not help.
+/// A plan for several threads to factorise the supernodes of a matrix: groups of subtrees of the elimination tree,
+/// which do not depend on each other, and then the supernodes above them one by one. It follows from the pattern alone.
+/// A small matrix has no plan, because threads would not help.
 struct EliminationSchedule {
-    /// A few groups of about the same work: all supernodes of some subtrees, ascending.
+    /// Groups of about the same work: the supernodes of some subtrees, ascending.
     IndexLists groups;
-    /// The other supernodes, ascending.
+    /// The supernodes above the groups, ascending.
     std::vector<Index> above;
-    /// Per supernode, its place in `above`; -1 if it is in a group.
-    std::vector<Index> place_above;
+    /// Per supernode, its index in `above`; -1 if it is in a group.
+    std::vector<Index> index_above;
 
     [[nodiscard]] bool exists() const { return groups.size() > 1; }
 };

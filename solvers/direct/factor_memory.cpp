@@ -25,7 +25,7 @@ void* FactorPool::do_allocate(std::size_t bytes, [[maybe_unused]] std::size_t al
     return block;
 }
 
-/// The first slab is one block; later ones are as large as all blocks so far, within limits.
+/// Cuts a block off a slab. The first slab is one block; later slabs are as large as all blocks so far, within limits.
 void* FactorPool::cut_off(std::size_t size)
 {
     constexpr std::size_t largest_slab = std::size_t{1} << 24;

@@ -8,7 +8,7 @@
 
 namespace seamflow {
 
-/// Memory resource of factors. Heap: std::pmr::new_delete_resource().
+/// The memory resource of factors. The heap is std::pmr::new_delete_resource().
 using FactorMemory = std::pmr::memory_resource;
 
 /// Returns an array to its memory resource.
@@ -20,7 +20,7 @@ struct GiveBack {
     void operator()(Number* numbers) const { memory->deallocate(numbers, n * sizeof(Number), alignof(Number)); }
 };
 
-/// The numbers of a factor. On destruction, maybe in another thread, their memory returns to where it was taken from.
+/// The numbers of a factor. On destruction, maybe in another thread, their memory is returned to its memory resource.
 template <class Number>
 using FactorNumbers = std::unique_ptr<Number[], GiveBack<Number>>;
 
@@ -33,18 +33,18 @@ FactorNumbers<Number> take_numbers(FactorMemory& memory, std::size_t n)
     return {static_cast<Number*>(numbers), {&memory, n}};
 }
 
-/// Memory that is taken from the heap once and reused, each block by one factor at a time. Blocks are parts of slabs,
-/// in large pages where the system has them. For one thread at a time.
+/// Memory that is taken from the heap once and reused; each block is used by one factor at a time. Blocks are pieces of
+/// slabs, in large pages where the system has them. For one thread at a time.
 class FactorPool : public FactorMemory {
   public:
-    /// @param least_bytes of a block: those of the largest factor, so that any block fits any factor; 0: each block
+    /// @param least_bytes of a block: the size of the largest factor, so that any block fits any factor; 0: each block
     ///        fits factors of one size.
     explicit FactorPool(std::size_t least_bytes = 0)
         : least_bytes_(least_bytes)
     {
     }
 
-    /// Bytes of all blocks. Slabs have at most twice as many.
+    /// The bytes of all blocks. Slabs have at most twice as many.
     [[nodiscard]] std::size_t bytes() const { return bytes_; }
 
   protected:
@@ -54,7 +54,7 @@ class FactorPool : public FactorMemory {
   private:
     struct Blocks {
         std::size_t n = 0;
-        /// Most recently used last.
+        /// The free blocks, the most recently used last.
         std::vector<void*> free;
     };
 
@@ -66,7 +66,7 @@ class FactorPool : public FactorMemory {
     std::size_t bytes_ = 0;
     std::map<std::size_t, Blocks> blocks_of_size_;
     std::vector<std::unique_ptr<std::byte[]>> slabs_;
-    /// What is left of the last slab.
+    /// The unused rest of the last slab.
     std::byte* rest_ = nullptr;
     std::size_t rest_bytes_ = 0;
 };

@@ -4,28 +4,28 @@
 
 namespace seamflow {
 
-/// Whose factorisation solves sparse systems.
+/// The library whose factorisation solves sparse systems.
 enum class Factorisation {
-    /// The fastest for the size: the library's own, for large systems CHOLMOD's or UMFPACK's where these are there.
+    /// The fastest for the size: our own, for large systems CHOLMOD's or UMFPACK's if the build has them.
     Automatic,
-    /// The library's own: L D Lᵀ for symmetric systems, L U with diagonal pivots for others; UMFPACK's or Eigen's where
-    /// those pivots are too small.
+    /// Our own: L D Lᵀ for symmetric systems, L U with diagonal pivots for other systems; UMFPACK's or Eigen's if those
+    /// pivots are too small.
     Own,
-    /// CHOLMOD's L Lᵀ for symmetric systems, UMFPACK's L U for others.
+    /// CHOLMOD's L Lᵀ for symmetric systems, UMFPACK's L U for other systems.
     Cholmod,
-    /// UMFPACK's L U for all.
+    /// UMFPACK's L U for all systems.
     Umfpack,
-    /// Eigen's L U, which replaces UMFPACK's where that is not there. Nobody asks for it.
+    /// Eigen's L U, which replaces UMFPACK's in builds without it. Not an option for users.
     Eigen,
 };
 
-/// What this build has of libraries under the GNU General Public License, which then covers the whole: "CHOLMOD and
+/// The libraries under the GNU General Public License in this build, which then covers the whole: "CHOLMOD and
 /// UMFPACK"; or nothing (SEAMFLOW_GPL=OFF).
 std::string_view gpl_parts();
 
-/// Precision of the factors of a sub-mesh that solve for corrections, whose residual is in double precision.
+/// The precision of the factors of a sub-mesh that solve for corrections, whose residual is in double precision.
 enum class Precision {
-    /// Single where that loses few digits, else double.
+    /// Single where that loses few digits, otherwise double.
     Automatic,
     /// Single everywhere.
     Single,
@@ -33,13 +33,13 @@ enum class Precision {
     Double,
 };
 
-/// Whether another library is asked for.
+/// Whether a factorisation is foreign: that of another library.
 constexpr bool is_foreign(Factorisation factorisation)
 {
     return factorisation == Factorisation::Cholmod || factorisation == Factorisation::Umfpack;
 }
 
-/// Whether this build has it.
+/// Whether this build has the factorisation.
 inline bool is_available(Factorisation factorisation)
 {
     return !is_foreign(factorisation) || !gpl_parts().empty();

@@ -9,8 +9,9 @@
 #include "solvers/direct/direct_solver.h"
 #include "solvers/sparse/sparse_pattern.h"
 
-/// Solvers of other libraries behind the interface of direct solvers. Their factors are in their own memory. Those of
-/// CHOLMOD and UMFPACK throw std::logic_error in builds without them (see gpl_parts).
+/// Foreign solvers: solvers of other libraries behind the interface of direct solvers. Their factors are in the
+/// libraries' own memory. In builds without CHOLMOD and UMFPACK (see gpl_parts), their functions throw
+/// std::logic_error.
 namespace seamflow {
 
 /// CHOLMOD's LLᵀ of symmetric matrices by dense blocks, in the given order of the unknowns.
@@ -18,22 +19,22 @@ namespace seamflow {
 /// @throws ComputationError if CHOLMOD fails (memory).
 std::unique_ptr<DirectSolver> make_cholmod_llt(SparsePattern upper, CholmodWorkspace& workspace);
 
-/// LU by UMFPACK. Pivots are taken from the diagonal; where those would lose nearly all digits, from the largest of
-/// each column, and solutions are refined. A factor is nearly singular if the smallest pivot is still below 1e-13 of
-/// the largest. Its size is an upper bound for most matrices, as long as diagonal pivots suffice.
+/// LU by UMFPACK. Pivots are taken from the diagonal; if these would lose nearly all digits, the largest entry of each
+/// column is the pivot, and solutions are refined. A factor is nearly singular if the smallest pivot is nevertheless
+/// below 1e-13 of the largest. Its size is an upper bound for most matrices, as long as diagonal pivots suffice.
 /// @param pattern must outlive the solver.
 /// @throws ComputationError if UMFPACK fails (memory).
 std::unique_ptr<DirectSolver> make_umfpack_lu(const SparsePattern& pattern);
 
-/// LU by Eigen, with the largest pivot of each column; solutions are refined. A factor is nearly singular as UMFPACK's
-/// is. Its size is known once there is one.
+/// LU by Eigen, with the largest pivot of each column; solutions are refined. A factor is nearly singular under the
+/// condition of make_umfpack_lu. Its size is known once there is a factor.
 /// @throws ComputationError if Eigen fails (memory).
 std::unique_ptr<DirectSolver> make_eigen_lu(const SparsePattern& pattern);
 
-/// Below this ratio of the smallest pivot to the largest a solution keeps three digits or less.
+/// The ratio of the smallest pivot to the largest below which a solution has three digits or less.
 constexpr double least_condition = 1e-13;
 
-/// A pattern's own arrays, which must outlive this, or copies if SuiteSparse takes longer integers.
+/// Views of a pattern's own arrays, which must outlive this; copies if SuiteSparse takes longer integers.
 template <class Integer>
 class PatternView {
   public:

@@ -2,7 +2,7 @@
 
 #include "solvers/direct/foreign_solvers.h"
 
-// In the place of cholmod_llt.cpp and umfpack_lu.cpp in builds without libraries under the GPL.
+// Replaces cholmod_llt.cpp and umfpack_lu.cpp in builds without libraries under the GPL.
 namespace seamflow {
 
 std::string_view gpl_parts()

@@ -9,14 +9,14 @@ namespace seamflow {
 
 namespace {
 
-/// Columns that are factorised at once, and those of a source that are used at once.
+/// The columns that are factorised at once, and the columns of an earlier panel that are used at once.
 constexpr Index group = 8;
 constexpr Index chunk = 64;
-/// Targets that are computed at once, at most.
+/// The most target rows that are computed at once.
 constexpr Index most_lanes = 16;
 
-/// Some rows of a panel times D Lᵀ of as many others as there are lanes.
-/// @param rows the first row's first entry; there are `width` from one row to the next.
+/// Some rows of a panel times D Lᵀ of as many other rows as there are lanes.
+/// @param rows the first entry of the first row. @param width the distance between rows.
 /// @param use(r, sums) takes the sums of row r.
 template <Index Rows, class Vector, class Number, class Use>
 [[gnu::always_inline]] inline void multiply(const Number* rows, std::size_t width, const Number* factors, Index n,
@@ -35,11 +35,12 @@ template <Index Rows, class Vector, class Number, class Use>
 
 /// The sums of these rows fill at most eight registers.
 template <class Vector>
-constexpr Index rows_at_once = Vector::n_parts > 2 ? 2 : 4;
+constexpr Index rows_at_once = Vector::n_registers > 2 ? 2 : 4;
 
-/// Rows of a panel that are the targets of others', each in a lane of its own; other lanes are left unchanged.
+/// Consecutive rows of a panel whose products with other rows are computed, each in a lane of its own; other lanes do
+/// not change.
 struct Targets {
-    /// The first one, and the number of consecutive ones.
+    /// The first target row, and the number of target rows.
     Index first;
     Index n;
     std::array<Index, usize(most_lanes)> lane;
@@ -52,8 +53,8 @@ Targets in_order(Index first, Index n)
     return targets;
 }
 
-/// The rows from that of the first target on times D Lᵀ of the targets, over the panel's columns [first, last).
-/// @param use(i, sums) takes the sums of the i-th of the rows; more than one call for each if there are many columns.
+/// The rows from the first target row on, times D Lᵀ of the target rows, over the panel's columns [first, last).
+/// @param use(i, sums) takes the sums of the i-th row; called more than once per row if there are many columns.
 template <class Vector, class Number, class Use>
 [[gnu::always_inline]] inline void multiply_all(const LdlPanel<Number>& panel, Index first, Index last,
                                                 const Targets& targets, Use&& use)
@@ -82,7 +83,7 @@ template <class Vector, class Number, class Use>
     }
 }
 
-/// The number of leading columns, of these ascending ones, that are among `width` consecutive ones.
+/// The number of leading columns, of some ascending columns, that lie within `width` consecutive ones.
 [[gnu::always_inline]] inline Index count_neighbours(const Index* columns, Index n, Index width)
 {
     Index count = 1;
@@ -91,14 +92,15 @@ template <class Vector, class Number, class Use>
     return count;
 }
 
-/// Updates columns among as many consecutive ones as there are lanes. 0 is subtracted from those in between.
+/// Updates columns that lie within as many consecutive ones as there are lanes. In the columns in between, 0 is
+/// subtracted.
 template <class Vector, class Number>
-[[gnu::always_inline]] inline void update_columns(const LdlPanel<Number>& earlier, Index place, Index n,
+[[gnu::always_inline]] inline void update_columns(const LdlPanel<Number>& earlier, Index row_index, Index n,
                                                   const Index* target_rows, const LdlPanel<Number>& later)
 {
     const std::size_t width = usize(later.width);
     const Index begin = std::max(Index{0}, std::min(target_rows[0], later.width - Vector::lanes));
-    Targets targets{place, n, {}};
+    Targets targets{row_index, n, {}};
     for (Index t = 0; t < n; ++t)
         targets.lane[t] = target_rows[t] - begin;
     Number* columns = later.values + begin;
@@ -186,21 +188,21 @@ template <class Number>
 
 struct SubtractUpdate {
     template <Index Width, class Number>
-    void operator()(SimdWidth<Width>, const LdlPanel<Number>& earlier, Index place, Index n_columns,
+    void operator()(SimdWidth<Width>, const LdlPanel<Number>& earlier, Index row_index, Index n_columns,
                     const Index* target_rows, const LdlPanel<Number>& later) const
     {
         for (Index t = 0, n = 0; t < n_columns; t += n) {
             const auto among = [&](Index width) { return count_neighbours(target_rows + t, n_columns - t, width); };
             if constexpr (Width * sizeof(double) >= 8 * sizeof(Number))
                 if (n_columns - t > 8 && (n = among(16)) > 8) {
-                    update_columns<SimdBlock<Number, Width, 16>>(earlier, place + t, n, target_rows + t, later);
+                    update_columns<SimdBlock<Number, Width, 16>>(earlier, row_index + t, n, target_rows + t, later);
                     continue;
                 }
             if (n = among(8); n > 4)
-                update_columns<SimdBlock<Number, Width, 8>>(earlier, place + t, n, target_rows + t, later);
+                update_columns<SimdBlock<Number, Width, 8>>(earlier, row_index + t, n, target_rows + t, later);
             else {
                 n = among(4);
-                update_columns<SimdBlock<Number, Width, 4>>(earlier, place + t, n, target_rows + t, later);
+                update_columns<SimdBlock<Number, Width, 4>>(earlier, row_index + t, n, target_rows + t, later);
             }
         }
     }
@@ -232,10 +234,10 @@ struct FactorisePanel {
 }  // namespace
 
 template <class Number>
-void subtract_update(const LdlPanel<Number>& earlier, Index place, Index n_columns, const Index* target_rows,
+void subtract_update(const LdlPanel<Number>& earlier, Index row_index, Index n_columns, const Index* target_rows,
                      const LdlPanel<Number>& later, Index width)
 {
-    with_simd_width(width, SubtractUpdate(), earlier, place, n_columns, target_rows, later);
+    with_simd_width(width, SubtractUpdate(), earlier, row_index, n_columns, target_rows, later);
 }
 
 template <class Number>

@@ -7,7 +7,7 @@ namespace seamflow {
 
 namespace {
 
-/// Columns that are solved for at once.
+/// The number of columns that are solved for at once.
 constexpr Index columns_at_once = 4;
 
 /// One row of right-hand sides.
@@ -19,13 +19,13 @@ struct Row : SimdBlock<Number, Width, Length> {
     [[gnu::always_inline]] void subtract(Number factor, const Row& row) { this->add_product(-factor, row); }
     [[gnu::always_inline]] void divide(Number divisor)
     {
-        for (auto& numbers : this->part)
+        for (auto& numbers : this->registers)
             numbers /= divisor;
     }
     [[gnu::always_inline]] void store_to(Number* x) const
     {
-        for (Index p = 0; p < Row::n_parts; ++p)
-            store(this->part[p], x + p * Row::lanes_of_part);
+        for (Index p = 0; p < Row::n_registers; ++p)
+            store(this->registers[p], x + p * Row::lanes_of_register);
     }
 };
 

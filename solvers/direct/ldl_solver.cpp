@@ -15,7 +15,8 @@ namespace seamflow {
 
 namespace {
 
-/// In numbers: how far ahead of their use backward substitution prefetches numbers, and in what portions.
+/// In numbers: the distance at which backward substitution prefetches numbers before their use, and the size of a
+/// prefetched portion.
 constexpr std::ptrdiff_t substituted_ahead = 1024;
 template <class Number>
 constexpr std::ptrdiff_t cache_line = 64 / sizeof(Number);
@@ -29,7 +30,7 @@ std::vector<Index> blocks_of_unknowns(const SymbolicFactor& pattern)
     return supernode_of;
 }
 
-/// The divisor of the numbers: a power of two near the largest, and 1 in double precision.
+/// The divisor of the numbers: a power of two near the largest number; 1 in double precision.
 template <class Number>
 double scale_of(std::span<const double> values)
 {
@@ -40,7 +41,8 @@ double scale_of(std::span<const double> values)
     return power_of_two_near(largest);
 }
 
-/// Whether one of a panel's pivots is not of the expected sign, or smaller than that fraction of the matrix's diagonal.
+/// Whether a pivot of a panel does not have the expected sign, or is smaller than `least_pivot` times the matrix's
+/// diagonal.
 template <class Number>
 bool has_small_pivot(const LdlPanel<Number>& panel, const std::vector<double>& diagonal, Number least_pivot,
                      Pivots pivots)
@@ -62,7 +64,8 @@ void copy_diagonal(const LdlPanel<Number>& panel, std::vector<double>& diagonal)
         diagonal[c] = panel.values[usize(c) * usize(panel.width + 1)];
 }
 
-/// Of supernodes that several threads factorise: narrow ones have more to do at a time, wide ones less to wait for.
+/// The most columns of a supernode that several threads factorise: with narrower supernodes a thread has more to do at
+/// a time, with wider ones it waits less.
 constexpr Index most_columns_of_parallel = 64;
 
 Index most_columns(const Executor& exec)
@@ -70,15 +73,15 @@ Index most_columns(const Executor& exec)
     return exec ? most_columns_of_parallel : std::numeric_limits<Index>::max();
 }
 
-/// The place of each row of one panel among those of another, all ascending.
-void find_target_rows(std::span<const Index> rows, std::span<const Index> among, std::vector<Index>& places)
+/// The index of each row of one panel among those of another, all ascending.
+void find_target_rows(std::span<const Index> rows, std::span<const Index> among, std::vector<Index>& indices)
 {
-    places.resize(rows.size());
-    std::size_t place = 0;
+    indices.resize(rows.size());
+    std::size_t row_index = 0;
     for (std::size_t i = 0; i < rows.size(); ++i) {
-        while (among[place] != rows[i])
-            ++place;
-        places[i] = static_cast<Index>(place);
+        while (among[row_index] != rows[i])
+            ++row_index;
+        indices[i] = static_cast<Index>(row_index);
     }
 }
 
@@ -88,7 +91,7 @@ LdlSolver::LdlSolver(const SparsePattern& upper, std::optional<Index> n_last, co
                      Executor exec, Pivots pivots)
     : n_last_(n_last.value_or(0))
     , has_rows_(n_last.has_value())
-    , pattern_(make_symmetric_symbolic_factor(upper, n_last_, tree, places_, most_columns(exec)))
+    , pattern_(make_symmetric_symbolic_factor(upper, n_last_, tree, slots_, most_columns(exec)))
     , exec_(std::move(exec))
     , pivots_(pivots)
 {
@@ -102,7 +105,7 @@ LdlSolver::LdlSolver(const SparsePattern& upper, std::optional<Index> n_last, co
     }
     const std::vector<Index> supernode_of = blocks_of_unknowns(pattern_);
     list_updates(supernode_of);
-    find_places(upper, supernode_of);
+    find_slots(upper, supernode_of);
     if (exec_)
         schedule_ = schedule_elimination(pattern_, supernode_of);
     if (schedule_.exists())
@@ -115,43 +118,43 @@ void LdlSolver::list_updates(const std::vector<Index>& supernode_of)
         for (Index earlier = 0; earlier < pattern_.n_supernodes(); ++earlier) {
             const auto rows = pattern_.rows[earlier];
             const auto n_rows = static_cast<Index>(rows.size());
-            for (Index place = pattern_.width(earlier), end = place; place < n_rows; place = end) {
-                const Index later = supernode_of[rows[place]];
+            for (Index row_index = pattern_.width(earlier), end = row_index; row_index < n_rows; row_index = end) {
+                const Index later = supernode_of[rows[row_index]];
                 while (end < n_rows && supernode_of[rows[end]] == later)
                     ++end;
-                use(later, Update{earlier, place, end - place});
+                use(later, Update{earlier, row_index, end - row_index});
             }
         }
     };
     updates_ = make_lists<Update>(pattern_.n_supernodes(), for_each_update);
 }
 
-/// Takes the updates by supernodes above the groups out of those of their targets.
+/// Moves the updates by supernodes above the groups from the lists of their targets to lists of their own.
 void LdlSolver::list_targets()
 {
-    const std::vector<Index>& place_above = schedule_.place_above;
+    const std::vector<Index>& index_above = schedule_.index_above;
     targets_ = make_lists<Update>(static_cast<Index>(schedule_.above.size()), [&](auto&& add) {
         for (const Index later : schedule_.above)
             for (const Update& update : updates_[later])
-                if (place_above[update.supernode] >= 0)
-                    add(place_above[update.supernode], Update{later, update.place, update.n_columns});
+                if (index_above[update.supernode] >= 0)
+                    add(index_above[update.supernode], Update{later, update.row_index, update.n_columns});
     });
     updates_ = make_lists<Update>(pattern_.n_supernodes(), [&, all = std::move(updates_)](auto&& add) {
         for (Index later = 0; later < pattern_.n_supernodes(); ++later)
             for (const Update& update : all[later])
-                if (place_above[update.supernode] < 0)
+                if (index_above[update.supernode] < 0)
                     add(later, update);
     });
 }
 
-/// An entry of column j belongs to the supernode of its row, which is eliminated first; the place of j among the rows
-/// of that supernode is known.
-void LdlSolver::find_places(const SparsePattern& upper, const std::vector<Index>& supernode_of)
+/// Finds the index of each entry in the factor. An entry of column j belongs to the supernode of its row, which is
+/// eliminated first; the index of j among the rows of that supernode is known.
+void LdlSolver::find_slots(const SparsePattern& upper, const std::vector<Index>& supernode_of)
 {
-    for (std::size_t k = 0; k < places_.size(); ++k) {
+    for (std::size_t k = 0; k < slots_.size(); ++k) {
         const Index row = upper.rows[k];
         const Index supernode = supernode_of[row];
-        places_[k] = panels_[supernode] + places_[k] * pattern_.width(supernode) + row - pattern_.first[supernode];
+        slots_[k] = panels_[supernode] + slots_[k] * pattern_.width(supernode) + row - pattern_.first[supernode];
     }
 }
 
@@ -167,11 +170,11 @@ std::optional<LdlFactor<Number>> LdlSolver::factorise(std::span<const double> va
     last.resize(std::max(last.size(), n_in_last));
     std::fill_n(last.begin(), n_in_last, Number{});
     std::fill_n(factor, n_factor_numbers(), Number{});
-    const double scale = scale_of<Number>(values.first(places_.size()));
+    const double scale = scale_of<Number>(values.first(slots_.size()));
     const double inverse = 1.0 / scale;
-    for (std::size_t k = 0; k < places_.size(); ++k) {
-        const Index place = places_[k];
-        (place < n_factor_numbers() ? factor[place] : last[place - n_factor_numbers()]) =
+    for (std::size_t k = 0; k < slots_.size(); ++k) {
+        const Index row_index = slots_[k];
+        (row_index < n_factor_numbers() ? factor[row_index] : last[row_index - n_factor_numbers()]) =
             static_cast<Number>(inverse * values[k]);
     }
     bool has_pivots = !schedule_.exists() || factorise_by_subtrees(factor, least_pivot);
@@ -193,6 +196,7 @@ void LdlSolver::enlarge(LdlWorkspace& workspace) const
     }
 }
 
+/// Factorises one supernode.
 /// @returns whether its pivots are large enough.
 template <class Number>
 bool LdlSolver::factorise_supernode(Index supernode, const LdlPanel<Number>& panel, Number* factor,
@@ -203,7 +207,8 @@ bool LdlSolver::factorise_supernode(Index supernode, const LdlPanel<Number>& pan
     return factorise_panel(panel) && !has_small_pivot(panel, workspace.diagonal, least_pivot, pivots_);
 }
 
-/// The groups; their updates of the supernodes above them; these one by one, each with its updates of later ones.
+/// Factorises the groups; subtracts their updates from the supernodes above them; factorises these one by one, and
+/// subtracts each one's updates from later ones.
 template <class Number>
 bool LdlSolver::factorise_by_subtrees(Number* factor, Number least_pivot) const
 {
@@ -240,7 +245,7 @@ bool LdlSolver::factorise_by_subtrees(Number* factor, Number least_pivot) const
     return true;
 }
 
-/// @param above a factorised supernode, by its place in the schedule.
+/// @param above a factorised supernode, by its index in schedule_.above.
 template <class Number>
 void LdlSolver::subtract_from_targets(Index above, Number* factor) const
 {
@@ -250,8 +255,8 @@ void LdlSolver::subtract_from_targets(Index above, Number* factor) const
         std::vector<Index> target_rows;
         for (const Update& target : targets.subspan(usize(begin), usize(end - begin))) {
             const LdlPanel<Number> later = panel(factor, target.supernode);
-            find_target_rows(earlier.rows.subspan(usize(target.place)), later.rows, target_rows);
-            subtract_update(earlier, target.place, target.n_columns, target_rows.data(), later);
+            find_target_rows(earlier.rows.subspan(usize(target.row_index)), later.rows, target_rows);
+            subtract_update(earlier, target.row_index, target.n_columns, target_rows.data(), later);
         }
     });
 }
@@ -264,10 +269,10 @@ void LdlSolver::subtract_updates(const LdlPanel<Number>& later, Index supernode,
         workspace.row_of[later.rows[i]] = static_cast<Index>(i);
     for (const Update& update : updates_[supernode]) {
         const LdlPanel<Number> earlier = panel(factor, update.supernode);
-        const auto rows = earlier.rows.subspan(update.place);
+        const auto rows = earlier.rows.subspan(update.row_index);
         for (std::size_t i = 0; i < rows.size(); ++i)
             workspace.target_rows[i] = workspace.row_of[rows[i]];
-        subtract_update(earlier, update.place, update.n_columns, workspace.target_rows.data(), later);
+        subtract_update(earlier, update.row_index, update.n_columns, workspace.target_rows.data(), later);
     }
 }
 
@@ -277,7 +282,7 @@ void LdlFactor<Number>::solve(const Columns& right_hand_side, Columns& solution,
     assert(solver_->n_last_ == 0);
     const Index n = solver_->n();
     const double unit = scale_of<Number>(std::span(right_hand_side.data(), usize(3) * usize(n)));
-    // There is no last block.
+    // There is no last block to solve for.
     auto& rows_of_solution = std::get<std::vector<Number>>(workspace.last);
     rows_of_solution.resize(std::max(rows_of_solution.size(), usize(ldl_row) * usize(n)));
     Number* const x = rows_of_solution.data();
@@ -345,7 +350,7 @@ void LdlFactor<Number>::back_substitute(Number* x, Index n) const
             back_substitute_supernode<Length>(x, b);
 }
 
-/// Processors predict only forward access.
+/// Numbers are prefetched, because processors predict only forward access.
 template <class Number>
 template <Index Length>
 void LdlFactor<Number>::back_substitute_supernode(Number* x, Index supernode) const

@@ -37,21 +37,21 @@ using DenseLdl = Eigen::Map<const Eigen::Matrix<Number, Eigen::Dynamic, Eigen::D
 template <class Number>
 class LdlFactor;
 
-/// What the pivots of a matrix are expected to be: positive, as those of one that is positive definite; or of the signs
-/// of its diagonal, as those of one that is quasi-definite (Vanderbei, Symmetric Quasidefinite Matrices, 1995).
+/// The expected signs of the pivots of a matrix: positive, for a positive definite one; or those of its diagonal, for a
+/// quasi-definite one (Vanderbei, Symmetric Quasidefinite Matrices, 1995).
 enum class Pivots { Positive, LikeDiagonal };
 
-/// LDLᵀ factorisation of symmetric sparse matrices of one pattern, in the given order of the unknowns. All except the
-/// numbers is known in advance. Different threads may factorise at the same time, each with a workspace of its own; or
-/// several threads factorise one matrix, and the result does not depend on their number.
+/// LDLᵀ factorisation of symmetric sparse matrices of one pattern, in the given order of the unknowns. Everything
+/// except the numbers is known in advance. Different threads may factorise at the same time, each with a workspace of
+/// its own; or several threads factorise one matrix, and the result does not depend on their number.
 class LdlSolver {
   public:
     /// Analyses the pattern, which is needed only during the call.
     /// @param upper the entries on and above the diagonal, the whole diagonal among them.
-    /// @param n_last number of unknowns that are kept together at the end; factors have rows() then.
+    /// @param n_last the number of unknowns that are kept together at the end; factors then have rows().
     /// @param tree if already known and no unknowns are kept together; otherwise empty.
-    /// @param exec runs what several threads can do at once; empty: nothing is.
-    /// @param pivots other ones end a factorisation.
+    /// @param exec runs loops on several threads; empty: everything runs on the calling thread.
+    /// @param pivots the expected signs; other signs end a factorisation.
     /// @pre no unknowns are kept together if there is an `exec`.
     /// @throws ComputationError if the factor would have 2³¹ entries or more.
     explicit LdlSolver(const SparsePattern& upper, std::optional<Index> n_last = {}, const EliminationTree& tree = {},
@@ -75,8 +75,8 @@ class LdlSolver {
     [[nodiscard]] std::optional<LdlFactor<Number>> factorise(std::span<const double> values, FactorMemory& memory,
                                                              LdlWorkspace& workspace, Number least_pivot = {}) const;
 
-    /// The Schur complement of the most recently factorised matrix on the last unknowns, factorised too, in units of
-    /// the factor's scale: in the workspace, until that is used again.
+    /// The Schur complement of the most recently factorised matrix on the last unknowns, also factorised, in units of
+    /// the factor's scale. It is in the workspace, and valid until that is used again.
     template <class Number>
     [[nodiscard]] DenseLdl<Number> last(const LdlWorkspace& workspace) const
     {
@@ -89,23 +89,24 @@ class LdlSolver {
 
     /// An update of columns of a later supernode by an earlier one.
     struct Update {
-        /// One of the two; which one, depends on the list.
+        /// The supernode at the other end: the earlier or the later one, depending on the list.
         Index supernode;
-        /// The first of the earlier supernode's rows that belong to these columns; their number.
-        Index place;
+        /// The index of the first of the earlier supernode's rows that belong to these columns; and the number of the
+        /// columns.
+        Index row_index;
         Index n_columns;
     };
 
-    /// Where the numbers of the unknowns kept together would begin.
+    /// The number of numbers before those of the unknowns kept together.
     [[nodiscard]] Index n_factor_numbers() const { return n_last_ > 0 ? panels_.rbegin()[1] : panels_.back(); }
-    /// Of a factor, and of the three right-hand sides that one without its last block keeps.
+    /// The number of numbers of a factor; without its last block, including those of three right-hand sides.
     [[nodiscard]] std::size_t n_numbers() const
     {
         return usize(n_factor_numbers()) + (has_rows_ ? usize(ldl_row) * usize(n()) : 0);
     }
     void list_updates(const std::vector<Index>& supernode_of);
     void list_targets();
-    void find_places(const SparsePattern& upper, const std::vector<Index>& supernode_of);
+    void find_slots(const SparsePattern& upper, const std::vector<Index>& supernode_of);
     void enlarge(LdlWorkspace& workspace) const;
     template <class Number>
     [[nodiscard]] bool factorise_supernode(Index supernode, const LdlPanel<Number>& panel, Number* factor,
@@ -125,17 +126,17 @@ class LdlSolver {
 
     Index n_last_;
     bool has_rows_;
-    /// Per entry of the matrix: its place in the factor.
-    std::vector<Index> places_;
+    /// Per entry of the matrix: its index in the factor.
+    std::vector<Index> slots_;
     SymbolicFactor pattern_;
-    /// Per supernode, where it begins in the factor, and where the last one ends.
+    /// Per supernode, the index of its first number in the factor; then the end of the last supernode.
     std::vector<Index> panels_{0};
-    /// Per supernode, by earlier ones; where there is a schedule, by those that are in groups.
+    /// Per supernode, the updates by earlier supernodes; if there is a schedule, only by supernodes in groups.
     Lists<Update> updates_;
     Executor exec_;
     Pivots pivots_;
     EliminationSchedule schedule_;
-    /// Per supernode above the groups: of later ones, all above them.
+    /// Per supernode above the groups, its updates of later supernodes, which are all above the groups.
     Lists<Update> targets_;
 };
 
@@ -144,7 +145,7 @@ class LdlSolver {
 template <class Number>
 class LdlFactor {
   public:
-    /// A power of two, so that a matrix of any unit fits in single precision; 1 in double precision.
+    /// The scale: a power of two, so that a matrix of any unit fits in single precision; 1 in double precision.
     [[nodiscard]] double scale() const { return scale_; }
 
     /// Solves for three right-hand sides.
@@ -152,21 +153,21 @@ class LdlFactor {
     /// @param solution n by 3; may be the right-hand side.
     void solve(const Columns& right_hand_side, Columns& solution, LdlWorkspace& workspace) const;
 
-    /// Solves for many right-hand sides, in the thread of the caller. Each is as with `solve`.
+    /// Solves for many right-hand sides, in the thread of the caller. Each result is that of `solve`.
     /// @pre no unknowns are kept together at the end.
     /// @param x n by wide_ldl_row, row by row: right-hand sides, replaced by solutions.
     void solve_wide(Number* x) const requires std::is_same_v<Number, double>;
 
-    /// The factor's own memory for three right-hand sides or what replaces them: n by ldl_row, row by row.
+    /// The factor's own memory for three right-hand sides or their solutions: n by ldl_row, row by row.
     /// @pre the solver was constructed with n_last.
     [[nodiscard]] Number* rows() { return numbers_.get() + solver_->n_factor_numbers(); }
 
-    /// Forward substitution for all except the last unknowns: rows() become L⁻¹ rows() above, and below the rest for
-    /// the last unknowns.
+    /// Forward substitution for all except the last unknowns: the rows of these become L⁻¹ rows(), and the last rows
+    /// become the right-hand sides for the last unknowns.
     void forward_substitute();
 
-    /// Solves for all unknowns except the last, in units of 1 / scale(). rows() in: `forward_substitute`'s result and
-    /// the last ones; out: the solution.
+    /// Solves for all unknowns except the last, in units of 1 / scale(). rows() in: the result of `forward_substitute`,
+    /// with the solution in the last rows; out: the solution.
     void back_substitute();
 
   private:

@@ -9,24 +9,24 @@ namespace seamflow {
 
 namespace {
 
-/// An entry of L and the one of U across the diagonal.
+/// An entry of L and the entry of U across the diagonal.
 using Pair = Eigen::Array2d;
 constexpr Eigen::Index lower = 0;
 constexpr Eigen::Index upper = 1;
 
 /// Subtracts the contributions of some columns of a supernode from the column of L and the row of U of the unknown
-/// rows[place].
+/// rows[row_index].
 /// @param columns the first of them; each has as many entries as there are rows.
 template <std::size_t Width>
-void subtract(const Pair* columns, std::span<const Index> rows, std::size_t place, Pair* elimination)
+void subtract(const Pair* columns, std::span<const Index> rows, std::size_t row_index, Pair* elimination)
 {
     std::array<const Pair*, Width> column;
     std::array<Pair, Width> factor;
     for (std::size_t c = 0; c < Width; ++c) {
         column[c] = columns + c * rows.size();
-        factor[c] = column[c][place].reverse();
+        factor[c] = column[c][row_index].reverse();
     }
-    for (std::size_t m = place; m < rows.size(); ++m) {
+    for (std::size_t m = row_index; m < rows.size(); ++m) {
         Pair sum = elimination[rows[m]];
         for (std::size_t c = 0; c < Width; ++c)
             sum -= column[c][m] * factor[c];
@@ -34,17 +34,18 @@ void subtract(const Pair* columns, std::span<const Index> rows, std::size_t plac
     }
 }
 
-/// The same for any number of columns: four at once save memory traffic, more do not.
-void subtract(const Pair* columns, Index n_columns, std::span<const Index> rows, Index place, Pair* elimination)
+/// Subtracts the contributions of any number of columns: four at once, which saves memory traffic; more at once save
+/// nothing.
+void subtract(const Pair* columns, Index n_columns, std::span<const Index> rows, Index row_index, Pair* elimination)
 {
     for (; n_columns >= 4; n_columns -= 4, columns += 4 * rows.size())
-        subtract<4>(columns, rows, usize(place), elimination);
+        subtract<4>(columns, rows, usize(row_index), elimination);
     if (n_columns == 3)
-        subtract<3>(columns, rows, usize(place), elimination);
+        subtract<3>(columns, rows, usize(row_index), elimination);
     else if (n_columns == 2)
-        subtract<2>(columns, rows, usize(place), elimination);
+        subtract<2>(columns, rows, usize(row_index), elimination);
     else if (n_columns == 1)
-        subtract<1>(columns, rows, usize(place), elimination);
+        subtract<1>(columns, rows, usize(row_index), elimination);
 }
 
 }  // namespace
@@ -57,15 +58,15 @@ LuSolver::LuSolver(const SparsePattern& pattern)
     list_loads(pattern);
 }
 
-/// A value belongs to its row or its column, whichever is eliminated first.
+/// Lists the values to load. A value belongs to its row or its column, whichever is eliminated first.
 void LuSolver::list_loads(const SparsePattern& pattern)
 {
     loads_ = make_lists<Load>(pattern.n(), [&](auto&& add) {
         for (Index column = 0; column < pattern.n(); ++column)
             for (Index slot = pattern.column_offsets[column]; slot < pattern.column_offsets[column + 1]; ++slot) {
                 const Index row = pattern_.position[pattern.rows[slot]];
-                const Index place = pattern_.position[column];
-                add(std::min(row, place), Load{slot, row >= place ? 2 * row : 2 * place + 1});
+                const Index position = pattern_.position[column];
+                add(std::min(row, position), Load{slot, row >= position ? 2 * row : 2 * position + 1});
             }
     });
 }
@@ -90,26 +91,26 @@ void LuSolver::measure_rows(std::span<const double> values, LuWorkspace& workspa
 {
     workspace.row_sizes.assign(pattern_.n(), 0.0);
     for (Index u = 0; u < pattern_.n(); ++u)
-        for (const auto& [slot, place] : loads_[u]) {
-            const Index row = place % 2 == 0 ? place / 2 : u;
+        for (const auto& [slot, position] : loads_[u]) {
+            const Index row = position % 2 == 0 ? position / 2 : u;
             workspace.row_sizes[row] += std::abs(values[slot]);
         }
 }
 
 void LuSolver::load(Index unknown, std::span<const double> values, LuWorkspace& workspace) const
 {
-    for (const auto& [slot, place] : loads_[unknown])
-        workspace.elimination[place / 2][place % 2] = values[slot];
+    for (const auto& [slot, position] : loads_[unknown])
+        workspace.elimination[position / 2][position % 2] = values[slot];
 }
 
-/// Subtracts the contributions of earlier columns, those of the same supernode last.
+/// Subtracts the contributions of earlier columns; the columns of the same supernode are the last.
 void LuSolver::eliminate(Index supernode, Index column, const Factor& factor, LuWorkspace& workspace) const
 {
     Pair* elimination = workspace.elimination.data();
     const Index unknown = pattern_.first[supernode] + column;
     for (Index k = pattern_.update_offsets[unknown]; k < pattern_.update_offsets[unknown + 1]; ++k) {
-        const auto [earlier, place] = pattern_.updates[k];
-        subtract(factor.column_of(earlier, 0), pattern_.width(earlier), pattern_.rows[earlier], place, elimination);
+        const auto [earlier, row_index] = pattern_.updates[k];
+        subtract(factor.column_of(earlier, 0), pattern_.width(earlier), pattern_.rows[earlier], row_index, elimination);
     }
     subtract(factor.column_of(supernode, 0), column, pattern_.rows[supernode], column, elimination);
 }

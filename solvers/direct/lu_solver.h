@@ -19,8 +19,8 @@ namespace seamflow {
 /// LU factorisation of sparse matrices of one pattern with all pivots taken from the diagonal. Everything except the
 /// numbers is thus known in advance, and a column of L and the row of U across the diagonal are computed together: a
 /// factor costs hardly more than that of a symmetric matrix. For matrices that are symmetric except for a few rows, or
-/// diagonally dominant; others are detected. Different threads may factorise and solve at the same time, each with a
-/// workspace of its own.
+/// diagonally dominant; other matrices are detected. Different threads may factorise and solve at the same time, each
+/// with a workspace of its own.
 class LuSolver {
   public:
     class Factor;
@@ -32,6 +32,7 @@ class LuSolver {
     /// Size of a factor, in bytes.
     [[nodiscard]] std::size_t factor_bytes() const { return panels_.back() * sizeof(Eigen::Array2d); }
 
+    /// Factorises a matrix.
     /// @param values one per entry of the pattern; needed only during the call.
     /// @param memory must outlive the factor, as must the solver.
     /// @returns nothing if the diagonal is unsuitable: with rows divided by their sizes, a pivot is less than a
@@ -41,11 +42,11 @@ class LuSolver {
                                                   LuWorkspace& workspace) const;
 
   private:
-    /// Where a value goes before its column of L or row of U is computed.
+    /// The position of a value while its column of L and row of U are computed.
     struct Load {
         Index slot;
-        /// Twice the unknown; one more if it is for the row.
-        Index place;
+        /// Twice the unknown for the column of L; one more for the row of U.
+        Index position;
     };
 
     void list_loads(const SparsePattern& pattern);
@@ -57,12 +58,12 @@ class LuSolver {
     SymbolicFactor pattern_;
     /// Per unknown, its values to load.
     Lists<Load> loads_;
-    /// Per supernode, where its columns begin, and where the last one ends.
+    /// Per supernode, the index of its first column; then the end of the last supernode.
     std::vector<std::size_t> panels_{0};
 };
 
 /// L U of one matrix, supernode after supernode, column after column: entries of L and of Uᵀ in pairs. On the diagonal
-/// is the pivot's inverse; above it, unused entries.
+/// is the inverse of the pivot; above it are unused entries.
 class LuSolver::Factor {
   public:
     /// Solves for three right-hand sides.

@@ -11,11 +11,12 @@ namespace seamflow {
 
 namespace {
 
-/// Up to this number of unknowns ours is faster, or as fast with less memory (measured on triangles and hexagons, two
-/// threads).
+/// The number of unknowns up to which our own factorisation is faster, or as fast with less memory (measured on
+/// triangles and hexagons, two threads).
 constexpr Index most_unknowns_for_ldl = 2'000'000;
 
-/// Above this number of unknowns UMFPACK is faster where rows have many entries (measured: two-ring rows on hexagons).
+/// The number of unknowns above which UMFPACK is faster if rows have many entries (measured: two-ring rows on
+/// hexagons).
 constexpr Index most_unknowns_for_lu = 20'000;
 
 class OwnLdl final : public DirectSolver {
@@ -44,8 +45,8 @@ class OwnLdl final : public DirectSolver {
     std::optional<LdlFactor<double>> factor_;
 };
 
-/// Uses an LuSolver if the pivots on the diagonal are acceptable, and otherwise a library that searches for better
-/// ones. The choice depends only on the matrix.
+/// Uses an LuSolver if the pivots on the diagonal are acceptable, and otherwise a foreign solver, which searches for
+/// better ones. The choice depends only on the matrix.
 class OwnLu final : public DirectSolver {
   public:
     explicit OwnLu(const SparsePattern& pattern)
@@ -89,7 +90,7 @@ class OwnLu final : public DirectSolver {
     const SparsePattern* pattern_;
     LuSolver solver_;
     std::optional<LuSolver::Factor> factor_;
-    /// Empty until it is needed.
+    /// Null until it is needed.
     std::unique_ptr<DirectSolver> fallback_;
     std::optional<Factor> fallback_factor_;
 };
@@ -118,7 +119,7 @@ std::unique_ptr<DirectSolver> make_general_solver(const SparsePattern& pattern, 
                             : Factorisation::Umfpack;
     if (factorisation == Factorisation::Own)
         return std::make_unique<OwnLu>(pattern);
-    // CHOLMOD supports only symmetric matrices.
+    // UMFPACK also replaces CHOLMOD, which supports only symmetric matrices.
     return make_umfpack_lu(pattern);
 }
 

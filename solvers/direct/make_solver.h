@@ -10,18 +10,18 @@
 
 namespace seamflow {
 
-/// For symmetric matrices that are positive definite or quasi-definite (see Pivots), in the given order of the
-/// unknowns.
+/// Makes a solver for symmetric matrices that are positive definite or quasi-definite (see Pivots), in the given order
+/// of the unknowns.
 /// @param upper the entries on and above the diagonal, the whole diagonal among them.
-/// @param factorisation is_available(), and not Umfpack; CHOLMOD's takes positive pivots alone, else our own is used.
+/// @param factorisation is_available(), and not Umfpack; CHOLMOD's requires positive pivots, otherwise our own is used.
 /// @param tree if already known; otherwise empty.
-/// @param exec runs what several threads can do at once, in our own factorisation; empty: nothing is.
+/// @param exec runs loops of our own factorisation on several threads; empty: everything runs on the calling thread.
 /// @throws ComputationError if the analysis fails (memory).
 std::unique_ptr<DirectSolver> make_symmetric_solver(SparsePattern upper, Factorisation factorisation,
                                                     SolverWorkspace& workspace, const EliminationTree& tree = {},
                                                     Executor exec = {}, Pivots pivots = Pivots::Positive);
 
-/// For any matrix.
+/// Makes a solver for any matrix.
 /// @param pattern must outlive the solver.
 /// @param factorisation is_available().
 /// @throws ComputationError if the analysis fails (memory).

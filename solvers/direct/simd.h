@@ -11,8 +11,9 @@
 // Our own SIMD, because registers are chosen inside kernels that call each other: libraries (xsimd, highway) choose
 // between whole files or functions that are compiled several times, which would split the kernels.
 
-/// For a function whose loops gain from wider registers: compiled once more for machines that have them. The operations
-/// are the same, and so are the results. Such a function must not throw: GCC 12 lets no exception out of it.
+/// Marks a function whose loops gain from wider registers: it is compiled once more for machines that have them. The
+/// operations, and so the results, are the same. Such a function must not throw: with GCC 12, exceptions do not leave
+/// it.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) &&               \
     !defined(__SANITIZE_THREAD__)
 #define SEAMFLOW_WIDE __attribute__((flatten, target_clones("avx2", "default")))
@@ -31,13 +32,14 @@ struct SimdVectorOf {
 
 }  // namespace detail
 
-/// `Lanes` neighbouring numbers, in a register if one is that wide. Explicit, because compilers do not find sums in
-/// loops. Loaded into and not returned: between functions they have no registers of their own.
+/// `Lanes` neighbouring numbers, in a register if one is that wide. The type is explicit, because compilers do not
+/// vectorise sums in loops. Values are loaded into and not returned, because vectors have no registers of their own
+/// between functions.
 /// @param Lanes a power of two.
 template <class Number, Index Lanes>
 using SimdVector = typename detail::SimdVectorOf<Number, Lanes>::Type;
 
-/// Converts numbers of another type.
+/// Loads numbers of another type, converted.
 template <class Number, class Vector>
 [[gnu::always_inline]] inline void load(const Number* from, Vector& vector)
 {
@@ -59,45 +61,45 @@ template <class Number, class Vector>
 template <class Number, Index Width, Index Lanes>
 struct SimdBlock {
     static constexpr Index lanes = Lanes;
-    static constexpr Index lanes_of_part = std::min(Lanes, Width* Index{sizeof(double) / sizeof(Number)});
-    static constexpr Index n_parts = Lanes / lanes_of_part;
-    using Vector = SimdVector<Number, lanes_of_part>;
+    static constexpr Index lanes_of_register = std::min(Lanes, Width* Index{sizeof(double) / sizeof(Number)});
+    static constexpr Index n_registers = Lanes / lanes_of_register;
+    using Vector = SimdVector<Number, lanes_of_register>;
 
-    Vector part[n_parts] = {};
+    Vector registers[n_registers] = {};
 
     [[gnu::always_inline]] void load_from(const Number* from)
     {
-        for (Index p = 0; p < n_parts; ++p)
-            load(from + p * lanes_of_part, part[p]);
+        for (Index p = 0; p < n_registers; ++p)
+            load(from + p * lanes_of_register, registers[p]);
     }
     [[gnu::always_inline]] void add_product(Number factor, const SimdBlock& numbers)
     {
-        for (Index p = 0; p < n_parts; ++p)
-            part[p] += factor * numbers.part[p];
+        for (Index p = 0; p < n_registers; ++p)
+            registers[p] += factor * numbers.registers[p];
     }
-    /// Subtracts all of them from neighbouring entries.
+    /// Subtracts all numbers from neighbouring entries.
     [[gnu::always_inline]] void subtract_from(Number* target) const
     {
-        for (Index p = 0; p < n_parts; ++p) {
+        for (Index p = 0; p < n_registers; ++p) {
             Vector entries;
-            load(target + p * lanes_of_part, entries);
-            entries -= part[p];
-            store(entries, target + p * lanes_of_part);
+            load(target + p * lanes_of_register, entries);
+            entries -= registers[p];
+            store(entries, target + p * lanes_of_register);
         }
     }
-    /// The same with the first n.
+    /// Subtracts the first n numbers from neighbouring entries.
     [[gnu::always_inline]] void subtract_from(Number* target, Index n) const
     {
         for (Index t = 0; t < n; ++t)
-            target[t] -= part[t / lanes_of_part][t % lanes_of_part];
+            target[t] -= registers[t / lanes_of_register][t % lanes_of_register];
     }
 };
 
-/// How many double-precision numbers a register holds, at compile time.
+/// The number of double-precision numbers in a register, at compile time.
 template <Index Width>
 using SimdWidth = std::integral_constant<Index, Width>;
 
-/// How many double-precision numbers the widest registers of use here hold.
+/// The number of double-precision numbers in the widest registers that are of use here.
 inline Index register_width()
 {
 #if defined(__x86_64__)
@@ -129,9 +131,9 @@ template <class Kernel, class... Arguments>
 
 #endif
 
-/// kernel(SimdWidth<width>(), arguments…), compiled for registers of that width. The operations on each number, and so
-/// the results, are the same for all widths.
-/// @param kernel its callees must always be inlined: clang compiles the rest for any machine.
+/// Calls kernel(SimdWidth<width>(), arguments…), compiled for registers of that width. The operations on each number,
+/// and so the results, are the same for all widths.
+/// @param kernel all functions that it calls must be inlined: clang compiles other functions for any machine.
 /// @param width 2, 4 or 8, register_width() at most.
 template <class Kernel, class... Arguments>
 auto with_simd_width([[maybe_unused]] Index width, const Kernel& kernel, Arguments&&... arguments)

@@ -13,9 +13,9 @@ namespace seamflow {
 
 /// Working memory of an LdlSolver: one per thread. Grows to the needs of the largest matrix.
 struct LdlWorkspace {
-    /// Per unknown: its row in the block being computed.
+    /// Per unknown: the index of its row in the panel being computed.
     std::vector<Index> row_of;
-    /// Per row of an update by an earlier block of columns: its row in the block being computed.
+    /// Per row of an update by an earlier panel: the index of its row in the panel being computed.
     std::vector<Index> target_rows;
     /// The matrix's diagonal at the columns of a supernode.
     std::vector<double> diagonal;
@@ -33,10 +33,10 @@ struct LuWorkspace {
     std::vector<Eigen::Array4d> solution;
 };
 
-/// Working memory of CHOLMOD's solvers: its own state, and its memory for solving.
+/// Working memory of CHOLMOD's solvers: CHOLMOD's own state, and its memory for solving.
 class CholmodWorkspace {
   public:
-    /// Known only to the file that calls CHOLMOD.
+    /// Defined only in the file that calls CHOLMOD.
     struct State;
     [[nodiscard]] State& state();
 
@@ -45,15 +45,15 @@ class CholmodWorkspace {
     std::unique_ptr<State, void (*)(State*)> state_{nullptr, nullptr};
 };
 
-/// Temporary memory of systems: one per thread. Arrays of three columns are as long as the last system needed, the
-/// others as the largest.
+/// Temporary memory of systems: one per thread. Arrays of three columns are as long as the last system needed, other
+/// arrays as long as the largest system needed.
 struct SolverWorkspace {
     CholmodWorkspace cholmod;
     LdlWorkspace ldl;
     LuWorkspace lu;
     /// The entries of a matrix, in the order of its pattern.
     std::vector<double> values;
-    /// Per vertex.
+    /// Per vertex: the diagonal of dt K, and M.
     std::vector<double> diagonal;
     std::vector<double> mass;
     /// #local by 3: the residual of the equations.
@@ -62,11 +62,11 @@ struct SolverWorkspace {
     Points increments;
     Columns right_hand_side;
     Columns solution;
-    /// #own by 3.
+    /// #own by 3: positions.
     Points positions;
-    /// #own by 3: the data of a step instead of Vᵏ.
+    /// #own by 3: the data of a step, in place of Vᵏ.
     Points data;
-    /// #local by 3: what is known of the other side, on Γ and in the halo.
+    /// #local by 3: the latest known positions of the other side, on Γ and in the halo.
     Points other_side;
 };
 

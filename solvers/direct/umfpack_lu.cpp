@@ -80,7 +80,7 @@ class UmfpackLu final : public DirectSolver {
     struct FreeNumeric {
         void operator()(void* numeric) const { Interface::free_numeric(&numeric); }
     };
-    /// How to choose pivots: on the diagonal where this is acceptable, or the largest of every column.
+    /// A way of choosing pivots: on the diagonal if that is acceptable, or the largest of every column.
     struct Way {
         std::array<double, UMFPACK_CONTROL> control{};
         std::unique_ptr<void, FreeSymbolic> symbolic;
@@ -102,7 +102,7 @@ class UmfpackLu final : public DirectSolver {
     {
         if (do_pivots(values, fast_) == UMFPACK_OK && !numeric_.is_nearly_singular)
             return true;
-        // Iterative refinement needs more room.
+        // Iterative refinement needs more memory.
         work_.numbers.resize(5 * work_.integers.size());
         if (!careful_.symbolic)
             analyse(careful_);
@@ -134,6 +134,7 @@ class UmfpackLu final : public DirectSolver {
         way.symbolic.reset(symbolic);
     }
 
+    /// Factorises.
     /// @returns UMFPACK_OK, or the warning that the matrix is singular.
     int do_pivots(std::span<const double> values, Way& way)
     {

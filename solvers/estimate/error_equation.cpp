@@ -14,31 +14,32 @@
 namespace seamflow {
 
 ErrorEquation::ErrorEquation(const Decomposition& decomposition, const PolygonMesh& mesh, const Topology& topology,
-                             const ScaledLaplacian& laplacian, InterfacePeers& peers, const Executor& exec)
+                             const ScaledLaplacian& laplacian, InterfaceRanks& ranks, const Executor& exec)
     : decomposition_(&decomposition)
-    , peers_(&peers)
+    , ranks_(&ranks)
     , laplacian_(laplacian)
-    , tree_(peers)
+    , tree_(ranks)
 {
     std::vector<Index> kinds(topology.fixed.size());
     for_each(exec, static_cast<Index>(kinds.size()),
-             [&](Index v) { kinds[v] = topology.moves(v) ? off_interface : held_fixed; });
+             [&](Index v) { kinds[v] = topology.moves(v) ? off_interface : fixed_vertex; });
     number_own(kinds);
-    number_foreign(mesh, topology, kinds);
+    number_remote(mesh, topology, kinds);
     list_neighbours(kinds, exec);
     find_senses(mesh, topology);
     share_rows();
     rows_.couplings.resize(rows_.neighbours.values.size());
     for (auto* array : {&rows_.mass, &rows_.diagonal, &rows_.row_sum, &rows_.response})
         array->resize(numbering_.local_vertex.size());
-    rows_.response.resize(rows_.response.size() + numbering_.foreign.size());
+    rows_.response.resize(rows_.response.size() + numbering_.remote.size());
     for (Points* array : {&rows_.normal, &iteration_.residual, &iteration_.error, &iteration_.product})
         array->setZero(size(), 3);
     iteration_.direction.setZero(std::ssize(rows_.response), 3);
     if (laplacian == Laplacian::PtackovaVelho)
-        whole_.emplace(decomposition, mesh, topology, peers);
+        whole_.emplace(decomposition, mesh, topology, ranks);
 }
 
+/// Numbers the vertices of this rank's Γ.
 /// @param kinds #V: receives the numbers.
 void ErrorEquation::number_own(std::vector<Index>& kinds)
 {
@@ -55,16 +56,17 @@ void ErrorEquation::number_own(std::vector<Index>& kinds)
     }
 }
 
-/// Numbers the neighbours of own vertices that are on Γ, too, in the order in which their peers number them.
+/// Numbers the vertices of Γ that other ranks own and that are neighbours of own vertices, in the order in which the
+/// other ranks number them.
 /// @param kinds #V: receives the numbers.
-void ErrorEquation::number_foreign(const PolygonMesh& mesh, const Topology& topology, std::vector<Index>& kinds)
+void ErrorEquation::number_remote(const PolygonMesh& mesh, const Topology& topology, std::vector<Index>& kinds)
 {
     struct Neighbour {
         Index lowest;
         Index vertex;
         auto operator<=>(const Neighbour&) const = default;
     };
-    if (peers_->has_all())
+    if (ranks_->has_all())
         return;
     const auto& sub_meshes = decomposition_->sub_meshes;
     const std::vector<Index> labels = labels_by_face(*decomposition_, mesh.n_faces());
@@ -82,28 +84,28 @@ void ErrorEquation::number_foreign(const PolygonMesh& mesh, const Topology& topo
             }
     sort_unique(found);
     for (const Neighbour& neighbour : found) {
-        kinds[neighbour.vertex] = static_cast<Index>(numbering_.local_vertex.size() + numbering_.foreign.size());
-        numbering_.foreign.push_back(neighbour.lowest);
+        kinds[neighbour.vertex] = static_cast<Index>(numbering_.local_vertex.size() + numbering_.remote.size());
+        numbering_.remote.push_back(neighbour.lowest);
     }
 }
 
-/// The holder of a vertex's neighbour receives the vertex, a neighbour in turn.
+/// The rank of a vertex's neighbour receives the row of the vertex, which is a neighbour of that one in turn.
 void ErrorEquation::share_rows()
 {
     std::map<Index, SharedRows::Lists> with;
     const auto n = static_cast<Index>(numbering_.local_vertex.size());
-    for (Index i = 0; i < static_cast<Index>(numbering_.foreign.size()); ++i)
-        with[peers_->holder_of(numbering_.foreign[i])].taken.push_back(n + i);
+    for (Index i = 0; i < static_cast<Index>(numbering_.remote.size()); ++i)
+        with[ranks_->holder_of(numbering_.remote[i])].taken.push_back(n + i);
     for (Index i = 0; i < n; ++i)
         for (const Index other : rows_.neighbours[i])
             if (other >= n)
-                with[peers_->holder_of(numbering_.foreign[other - n])].given.push_back(i);
+                with[ranks_->holder_of(numbering_.remote[other - n])].given.push_back(i);
     for (auto& [other, lists] : with)
         sort_unique(lists.given);
-    shared_.emplace(*peers_, std::move(with));
+    shared_.emplace(*ranks_, std::move(with));
 }
 
-/// @param kinds #V: the number of a vertex of Γ, or see off_interface.
+/// @param kinds #V: the number of a vertex of Γ; off_interface or fixed_vertex for other vertices.
 void ErrorEquation::list_neighbours(std::span<const Index> kinds, const Executor& exec)
 {
     const auto& sub_meshes = decomposition_->sub_meshes;
@@ -117,14 +119,14 @@ void ErrorEquation::list_neighbours(std::span<const Index> kinds, const Executor
     for_each(exec, static_cast<Index>(sub_meshes.size()), [&](Index s) {
         const SubMesh& sub_mesh = sub_meshes[s];
         for (Index i = numbering_.first[s]; i < numbering_.first[s + 1]; ++i) {
-            Index place = rows_.neighbours.offsets[i];
+            Index entry = rows_.neighbours.offsets[i];
             for (const Index neighbour : sub_mesh.corrected.neighbours[numbering_.index_in_sub_mesh[i]])
-                rows_.neighbours.values[place++] = kinds[sub_mesh.local_to_global[neighbour]];
+                rows_.neighbours.values[entry++] = kinds[sub_mesh.local_to_global[neighbour]];
         }
     });
 }
 
-/// Where faces are oriented differently, how those around each vertex are.
+/// If faces are oriented differently, finds the orientation of the faces around each vertex.
 void ErrorEquation::find_senses(const PolygonMesh& mesh, const Topology& topology)
 {
     if (topology.oriented)
@@ -193,17 +195,17 @@ void ErrorEquation::stiffen(const Executor& exec)
     });
 }
 
-/// The sum of value(i) over the vertices of all peers, always in the same order.
+/// The sum of value(i) over the vertices of all ranks, always in the same order.
 template <class Value>
 double ErrorEquation::add_up(const Executor& exec, Value&& value)
 {
-    sums_.assign(usize(peers_->n_places()), 0.0);
-    for_each(exec, static_cast<Index>(peers_->places().size()), [&](Index s) {
+    sums_.assign(usize(ranks_->n_sub_meshes()), 0.0);
+    for_each(exec, static_cast<Index>(ranks_->global_numbers().size()), [&](Index s) {
         double total = 0.0;
         for (Index i = first(s); i < first(s + 1); ++i)
             total += value(i);
-        if (peers_->is_own(s))
-            sums_[peers_->places()[s]] = total;
+        if (ranks_->is_own(s))
+            sums_[ranks_->global_numbers()[s]] = total;
     });
     return tree_.add_up(sums_, 1).front();
 }

@@ -10,7 +10,7 @@
 #include "partition/index_lists.h"
 #include "partition/topology.h"
 #include "solvers/estimate/whole_rows.h"
-#include "solvers/interface/interface_peers.h"
+#include "solvers/interface/interface_ranks.h"
 #include "solvers/interface/interface_sums.h"
 #include "solvers/interface/shared_rows.h"
 #include "solvers/laplacian/geometry.h"
@@ -18,38 +18,40 @@
 
 namespace seamflow {
 
-/// The equation T e = r for the error of a decomposed step on Γ (see ErrorRow), one row per vertex of Γ. Peers solve it
-/// together, each with its own sub-meshes' rows. The bits depend neither on the loop nor on the distribution.
+/// The equation T e = r for the error of a decomposed step on Γ (see ErrorRow), one row per vertex of Γ. Ranks solve it
+/// together, each with the rows of its own sub-meshes. The bits depend neither on how loops are run nor on the number
+/// of ranks.
 class ErrorEquation {
   public:
-    /// @param decomposition, peers must outlive this. Sub-meshes do not overlap; those of other peers are fragments
-    ///        (see decompose_part), and then not for Δ_P.
+    /// @param decomposition, ranks must outlive this. Sub-meshes do not overlap. Sub-meshes of other ranks are
+    ///        fragments (see decompose_part); with fragments, the Laplacian is not Δ_P.
     ErrorEquation(const Decomposition& decomposition, const PolygonMesh& mesh, const Topology& topology,
-                  const ScaledLaplacian& laplacian, InterfacePeers& peers, const Executor& exec = run_serially);
+                  const ScaledLaplacian& laplacian, InterfaceRanks& ranks, const Executor& exec = run_serially);
 
-    /// Number of this peer's vertices on Γ, numbered sub-mesh by sub-mesh, each by the lowest that has it.
+    /// The number of vertices on Γ that this rank numbers. Each vertex is numbered by the lowest sub-mesh that has it,
+    /// sub-mesh by sub-mesh.
     [[nodiscard]] Index size() const { return static_cast<Index>(rows_.diagonal.size()); }
 
-    /// The first number of a sub-mesh; for s = #sub-meshes the number of all.
+    /// The lowest number of a vertex that sub-mesh s numbers; first(#sub-meshes) is size().
     [[nodiscard]] Index first(Index s) const { return numbering_.first[s]; }
 
     /// The local index of a vertex in the sub-mesh that numbers it.
     [[nodiscard]] Index local_vertex(Index i) const { return numbering_.local_vertex[i]; }
 
-    /// Fills in the rows of a sub-mesh's own part of Γ. Different sub-meshes may do so at the same time.
+    /// Fills in the rows at the vertices that sub-mesh s numbers. Different sub-meshes may do so at the same time.
     /// @param before, after #local by 3, the halo included: Vᵏ, and Vᵏ⁺¹ as solved.
     /// @param stiffness_at see error_row.
     /// @param time_step dt, in length².
     void assemble(Index s, const Points& before, const Points& after, const Points& stiffness_at, double time_step);
 
-    /// Replaces the right-hand side by that of Δ_P, whose rows reach too far for one sub-mesh to know. All peers call
+    /// Replaces the right-hand side by that of Δ_P, whose rows reach beyond what one sub-mesh knows. All ranks call
     /// this together.
     /// @param before, after see WholeRows::measure.
     void measure_whole_rows(const PolygonMesh& mesh, const Topology& topology, const Points& before,
                             const Points& after, double time_step, const Executor& exec);
 
-    /// Adds a vertex's attachment to V⁰.
-    /// @param weight dt w. @param distance of Vᵏ⁺¹ from V⁰, as solved.
+    /// Adds the attachment of a vertex to V⁰.
+    /// @param weight dt w. @param distance Vᵏ⁺¹ as solved minus V⁰, in length.
     void attach(Index i, double weight, const Point& distance)
     {
         const double entry = weight * rows_.mass[i];
@@ -58,25 +60,25 @@ class ErrorEquation {
         iteration_.residual.row(i) += entry * distance;
     }
 
-    /// Adds to the right-hand side a displacement of single vertices of Γ that the step spreads.
+    /// Adds to the right-hand side the displacement d of a single vertex of Γ, in length, which the step spreads.
     void add_displacement(Index i, const Point& d) { iteration_.residual.row(i) += rows_.mass[i] * d; }
 
-    /// The same for an error that dies away from Γ, so that it returns unchanged where smooth along Γ, and smoothed
-    /// where rough.
+    /// Adds to the right-hand side an error d, in length, that decays away from Γ. The equation returns it unchanged if
+    /// it is smooth along Γ, and smoothed if it is rough.
     void add_error(Index i, const Point& d) { iteration_.residual.row(i) += rows_.row_sum[i] * d; }
 
-    /// Unit normal of the surface at Vᵏ; zero where it has none.
+    /// The unit normal of the surface at Vᵏ; zero if the surface has none there.
     [[nodiscard]] Point normal(Index i) const { return rows_.normal.row(i); }
 
-    /// Solves to two digits; may be called once after the rows have been filled in. All peers call this together.
+    /// Solves to two digits; may be called once after the rows have been filled in. All ranks call this together.
     void solve(const Executor& exec);
 
-    /// #Γ by 3, in units of length: not finite where the rows are not.
+    /// #Γ by 3, in units of length. Not finite where the rows are not finite.
     [[nodiscard]] const Points& error() const { return iteration_.error; }
 
   private:
     void number_own(std::vector<Index>& kinds);
-    void number_foreign(const PolygonMesh& mesh, const Topology& topology, std::vector<Index>& kinds);
+    void number_remote(const PolygonMesh& mesh, const Topology& topology, std::vector<Index>& kinds);
     void list_neighbours(std::span<const Index> kinds, const Executor& exec);
     void find_senses(const PolygonMesh& mesh, const Topology& topology);
     void share_rows();
@@ -85,32 +87,34 @@ class ErrorEquation {
     double add_up(const Executor& exec, Value&& value);
     [[nodiscard]] Point product(Index i) const;
 
-    /// The vertices of Γ.
+    /// The numbers of the vertices of Γ.
     struct Numbering {
-        /// Per sub-mesh, and one more.
+        /// #sub-meshes + 1: see first.
         std::vector<Index> first{0};
-        /// Per vertex, its index in the interface of its sub-mesh, and see local_vertex.
+        /// Per vertex, its index in the interface of the sub-mesh that numbers it, and its local_vertex.
         std::vector<Index> index_in_sub_mesh;
         std::vector<Index> local_vertex;
-        /// The sub-meshes by which other peers number neighbours of these vertices. The numbers of such neighbours
-        /// follow the own ones.
-        std::vector<Index> foreign;
+        /// The vertices that other ranks number and that are neighbours of own vertices: for each, the sub-mesh that
+        /// numbers it. On this rank, their numbers follow the own ones.
+        std::vector<Index> remote;
     };
     struct Rows {
-        /// Per vertex of Γ, its edge neighbours: numbers on Γ, or see off_interface; and -T there.
+        /// Per vertex of Γ: its edge neighbours, as numbers on Γ, off_interface or fixed_vertex; and -T for each
+        /// neighbour.
         IndexLists neighbours;
         std::vector<double> couplings;
-        /// Per vertex of Γ, see error_row; no lists if all faces are oriented alike.
+        /// Per vertex of Γ: see error_row. No lists if all faces are oriented alike.
         Lists<std::int8_t> senses;
         std::vector<double> mass;
         std::vector<double> diagonal;
         std::vector<double> row_sum;
-        /// Of the vertices beyond Γ, to each neighbour along Γ; with those of other peers.
+        /// Per vertex of Γ, those of other ranks included: the response of the vertices beyond Γ to each neighbour
+        /// along Γ.
         std::vector<double> response;
-        /// #Γ by 3.
+        /// #Γ by 3: see normal().
         Points normal;
     };
-    /// Conjugate gradients: each #Γ by 3, the direction with rows of other peers.
+    /// The vectors of conjugate gradients, each #Γ by 3; the direction has also the rows of other ranks.
     struct Iteration {
         Points residual;
         Points error;
@@ -118,16 +122,16 @@ class ErrorEquation {
         Points product;
     };
     const Decomposition* decomposition_;
-    InterfacePeers* peers_;
+    InterfaceRanks* ranks_;
     ScaledLaplacian laplacian_;
     Numbering numbering_;
     Rows rows_;
     std::optional<SharedRows> shared_;
     SumTree tree_;
-    /// Per sub-mesh of all peers, the value to be added up.
+    /// Per sub-mesh of all ranks, the sum of its values.
     std::vector<double> sums_;
     Iteration iteration_;
-    /// With Δ_P.
+    /// Only with Δ_P: the rows of its right-hand side.
     std::optional<WholeRows> whole_;
 };
 

@@ -19,12 +19,12 @@ struct Draft {
     std::span<const Index> neighbours;
     std::span<double> couplings;
     ErrorRow row;
-    /// Couplings to vertices that share a face but no edge: their sum, and that of their products with squared
-    /// distances, across Γ and in all.
+    /// Over the couplings to vertices that share a face but no edge with v: their sum, and the sum of their products
+    /// with squared distances, for the ones across Γ and for all.
     double far = 0.0;
     double far_across = 0.0;
     double far_squares = 0.0;
-    /// Unit vector along Γ; zero where it has none.
+    /// The unit vector along Γ; zero where Γ has no direction.
     Point along = Point::Zero();
 
     [[nodiscard]] Point to(Index other) const { return before.row(other) - before.row(vertex); }
@@ -59,9 +59,9 @@ void add_edges(Kernel kernel, double time_step, Draft& draft)
 void add_coupling(Index other, double coupling, Draft& draft)
 {
     draft.row.residual -= coupling * (draft.after.row(other) - draft.after.row(draft.vertex));
-    const auto place = std::find(draft.neighbours.begin(), draft.neighbours.end(), other);
-    if (place != draft.neighbours.end()) {
-        draft.couplings[static_cast<std::size_t>(place - draft.neighbours.begin())] += coupling;
+    const auto found = std::find(draft.neighbours.begin(), draft.neighbours.end(), other);
+    if (found != draft.neighbours.end()) {
+        draft.couplings[static_cast<std::size_t>(found - draft.neighbours.begin())] += coupling;
         return;
     }
     const Point difference = draft.to(other);
@@ -85,7 +85,7 @@ void add_face(std::span<const Index> corners, std::size_t own, double time_step,
     });
 }
 
-/// Calls action(corners, k) for every face of a fan, k being the place of vertex v in it.
+/// Calls action(corners, k) for every face of a fan, k being the index of vertex v among the corners.
 template <class Action>
 void for_each_face(std::span<const Index> fan, const IndexLists& faces, Index v, Action&& action)
 {
@@ -95,8 +95,8 @@ void for_each_face(std::span<const Index> fan, const IndexLists& faces, Index v,
     }
 }
 
-/// How far a disturbance spreads in a step, squared: dt D, D = ΣK d² / 4M. It is dt for a Laplacian that is exact on
-/// quadratic functions; it is clamped, lest obtuse triangles make it meaningless.
+/// The squared distance over which a disturbance spreads in a step: dt D, D = ΣK d² / 4M. D is 1 for a Laplacian that
+/// is exact on quadratic functions. It is clamped, because obtuse triangles can make it meaningless.
 double spread(const Draft& draft, double time_step)
 {
     double squares = draft.far_squares;
@@ -105,7 +105,7 @@ double spread(const Draft& draft, double time_step)
     return std::clamp(0.25 * squares / draft.row.mass, 0.25 * time_step, 4.0 * time_step);
 }
 
-/// Fills in the diagonal, and drops the couplings that are not between vertices of Γ.
+/// Computes the diagonal, and drops the couplings to vertices that are not on Γ.
 void close_row(std::span<const Index> kinds, double spread_squared, Draft& draft)
 {
     double held = 0.0;
@@ -130,7 +130,7 @@ void close_row(std::span<const Index> kinds, double spread_squared, Draft& draft
     draft.row.diagonal += beyond - draft.row.response;
 }
 
-/// The Laplacian whose matrix replaces that of another: Δ_A for those that reach two rings.
+/// The Laplacian whose T is used: Δ_A for Laplacians that reach two rings, and otherwise the Laplacian itself.
 template <class Kernel>
 using WithinOneRing = std::conditional_t<Kernel::traits.reach == Reach::TwoRings, AlexaWardetzky, Kernel>;
 

@@ -8,25 +8,25 @@
 namespace seamflow {
 
 WholeRows::WholeRows(const Decomposition& decomposition, const PolygonMesh& mesh, const Topology& topology,
-                     InterfacePeers& peers)
+                     InterfaceRanks& ranks)
     : copies_(decomposition)
-    , shared_(shared_copies(copies_, peers))
+    , shared_(shared_copies(copies_, ranks))
 {
-    list_rows(decomposition, mesh, topology, peers);
+    list_rows(decomposition, mesh, topology, ranks);
     list_faces(mesh, topology);
     of_rows_.setZero(std::ssize(vertices_), 3);
     of_copies_.setZero(copies_.n_copies(), 3);
 }
 
-/// Sub-mesh by sub-mesh: vertices beside Γ have all their faces in one.
+/// Lists the rows sub-mesh by sub-mesh. All faces around a vertex beside Γ are in one sub-mesh.
 void WholeRows::list_rows(const Decomposition& decomposition, const PolygonMesh& mesh, const Topology& topology,
-                          const InterfacePeers& peers)
+                          const InterfaceRanks& ranks)
 {
     std::vector<Index> all_beside;
     std::vector<Index> number(usize(mesh.n_vertices()), -1);
     std::vector<Index> beside;
     for (Index s = 0; s < static_cast<Index>(decomposition.sub_meshes.size()); ++s) {
-        if (!peers.is_own(s))
+        if (!ranks.is_own(s))
             continue;
         const SubMesh& sub_mesh = decomposition.sub_meshes[s];
         const SubMeshInterface& interface = sub_mesh.interface;
@@ -44,7 +44,7 @@ void WholeRows::list_rows(const Decomposition& decomposition, const PolygonMesh&
             }
             faces_at_.close();
             vertices_.push_back(sub_mesh.local_to_global[interface.vertices[i]]);
-            copy_of_row_.push_back(copies_.first[s] + i);
+            copy_of_row_.push_back(copies_.offsets[s] + i);
             sort_unique(beside);
             for (const Index v : beside) {
                 if (number[v] < 0) {
@@ -131,7 +131,7 @@ void WholeRows::measure(const PolygonMesh& mesh, const Topology& topology, const
 Point WholeRows::residual(Index s, Index i) const
 {
     Point sum = Point::Zero();
-    for (const Index copy : copies_.of_vertex[copies_.vertex[copies_.first[s] + i]])
+    for (const Index copy : copies_.of_vertex[copies_.vertex[copies_.offsets[s] + i]])
         sum += of_copies_.row(copy);
     return sum;
 }

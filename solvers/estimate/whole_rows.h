@@ -7,66 +7,67 @@
 #include "partition/index_lists.h"
 #include "partition/topology.h"
 #include "solvers/interface/interface_copies.h"
-#include "solvers/interface/interface_peers.h"
+#include "solvers/interface/interface_ranks.h"
 #include "solvers/interface/shared_rows.h"
 #include "solvers/laplacian/geometry.h"
 
 namespace seamflow {
 
-/// The residuals of the rows at Γ of a decomposed step with Δ_P, each multiplied by the area M_v of its vertex,
-/// M_v (Vᵏ⁺¹ - Vᵏ + dt Δ_P(Vᵏ) Vᵏ⁺¹): without a matrix. They reach two rings, too far for one sub-mesh to know. The
-/// residuals at vertices beside Γ, which a sub-mesh has from its own faces alone, are distributed to the vertices of Γ
-/// with which they share a face. Every sub-mesh adds up its faces' shares of the rows; a vertex of Γ has the sum of
-/// these over its copies.
+/// The residuals of the rows at Γ of a decomposed step with Δ_P, each multiplied by the area M_v of its vertex, M_v
+/// (Vᵏ⁺¹ - Vᵏ + dt Δ_P(Vᵏ) Vᵏ⁺¹), computed without a matrix. Rows of Δ_P reach two rings, more than one sub-mesh knows.
+/// A vertex beside Γ shares a face with a vertex of Γ but is not on it: its sub-mesh knows the residual from its own
+/// faces alone, and distributes it to the vertices of Γ with which it shares a face. Every sub-mesh adds up the shares
+/// of its faces in the rows; the residual at a vertex of Γ is the sum over its copies.
 class WholeRows {
   public:
-    /// @param decomposition, peers see ErrorEquation; both must outlive this.
+    /// @param decomposition, ranks see ErrorEquation; both must outlive this.
     WholeRows(const Decomposition& decomposition, const PolygonMesh& mesh, const Topology& topology,
-              InterfacePeers& peers);
+              InterfaceRanks& ranks);
 
-    /// All peers call this together. Allocates nothing for one peer.
-    /// @param before, after #V by 3: Vᵏ, and Vᵏ⁺¹ as solved; at own faces and those that share an edge with one.
+    /// Measures all residuals; all ranks call this together. Allocates no memory if there is one rank.
+    /// @param before, after #V by 3: Vᵏ, and Vᵏ⁺¹ as solved, at the vertices of own faces and of faces that share an
+    ///        edge with one.
     /// @param time_step dt, in length².
     void measure(const PolygonMesh& mesh, const Topology& topology, const Points& before, const Points& after,
                  double time_step, const Executor& exec);
 
-    /// At the i-th vertex of an own sub-mesh's Γ.
+    /// The residual at the i-th vertex of the Γ of an own sub-mesh.
     [[nodiscard]] Point residual(Index s, Index i) const;
 
   private:
-    /// A face of the mesh, and its data.
+    /// A face of the mesh, and the data of a step in it.
     struct Face {
         Index index;
-        /// See PtackovaVelho::flux_map: b and |f| at Vᵏ, x = Vᵏ⁺¹.
+        /// See PtackovaVelho::flux_map, with b and |f| at Vᵏ, and x = Vᵏ⁺¹.
         Eigen::Matrix3d flux;
         double area;
-        /// Share of each of its corners in ΔV, times M_v.
+        /// The face's share in M_v ΔV at each of its corners.
         Point share;
     };
 
     void list_rows(const Decomposition& decomposition, const PolygonMesh& mesh, const Topology& topology,
-                   const InterfacePeers& peers);
+                   const InterfaceRanks& ranks);
     void list_faces(const PolygonMesh& mesh, const Topology& topology);
     void evaluate(const PolygonMesh& mesh, const Topology& topology, const Points& before, const Points& after,
                   double time_step, const Executor& exec);
 
     InterfaceCopies copies_;
     SharedRows shared_;
-    /// Per row at Γ its copy, and the rows beside Γ that are distributed to it. The latter follow those at Γ; each with
-    /// the number of copies sharing it.
+    /// The copy of each row at Γ. Per copy, the rows beside Γ that are distributed to it, numbered after the rows at Γ,
+    /// each with the number of copies that share it.
     std::vector<Index> copy_of_row_;
     IndexLists beside_;
     std::vector<Index> n_sharing_;
-    /// Per row: its vertex, and own faces around it, as numbers in the list below.
+    /// Per row: its vertex; and the own faces around the vertex, as indices of `faces_`.
     std::vector<Index> vertices_;
     IndexLists faces_at_;
-    /// Those of the rows, then those that share an edge with one of them.
+    /// The own faces of the rows, then the faces that share an edge with one of them.
     std::vector<Face> faces_;
     Index n_inner_ = 0;
-    /// #F: the number of a face in that list, or -1.
+    /// #F: the index of a face in `faces_`, or -1.
     std::vector<Index> number_;
     Points of_rows_;
-    /// #copies by 3.
+    /// #copies by 3: the shares of the copies' sub-meshes.
     Points of_copies_;
 };
 

@@ -18,7 +18,7 @@ namespace {
 /// since they also cancel in Z, their arbitrary coefficients do no harm.
 constexpr double regularisation = 1e-8;
 
-/// List k holds the indices i with list_of[i] = k, ascending.
+/// Inverse of list_of: list k holds the indices i with list_of[i] = k, ascending.
 IndexLists inverse_lists(std::span<const Index> list_of, Index n_lists)
 {
     return make_lists(n_lists, [&](auto&& add) {
@@ -27,7 +27,7 @@ IndexLists inverse_lists(std::span<const Index> list_of, Index n_lists)
     });
 }
 
-// Rows are used eight at a time.
+// Eight rows are processed at a time, in two of these vectors.
 using FourDoubles = SimdVector<double, 4>;
 static_assert(DenseFactor::lanes == 8);
 
@@ -37,8 +37,8 @@ inline double sum_of(const FourDoubles& low, const FourDoubles& high)
     return (sums[0] + sums[1]) + (sums[2] + sums[3]);
 }
 
-/// Multiplies the next numbers of two vectors and adds them to eight sums, which are single variables: GCC keeps arrays
-/// of them in memory.
+/// Multiplies the next eight numbers of two vectors and adds the products to eight sums. The sums are two variables:
+/// GCC would keep arrays of them in memory.
 template <class Number>
 [[gnu::always_inline]] inline void add_products(const Number* a, const double* b, FourDoubles& low, FourDoubles& high)
 {
@@ -52,15 +52,16 @@ template <class Number>
     high += of_a * of_b;
 }
 
-/// How many numbers ahead of their use products are prefetched; they have left the caches since their last use.
+/// The distance, in numbers, at which products are prefetched before their use. They have left the caches since their
+/// last use.
 constexpr std::size_t products_ahead = 2048;
 constexpr std::size_t cache_line = 64 / sizeof(float);
 
-/// column · v for three columns. Prefetches at a certain distance after the column.
+/// column · v for three columns of v. Prefetches the numbers at a certain distance after the column.
 /// @param v DenseFactor::room by 3.
 SEAMFLOW_WIDE void multiply_column(const float* column, const Columns& v, Point& result)
 {
-    // The last ones prefetch memory after the products, which does no harm.
+    // The last columns prefetch memory beyond the products, which does no harm.
     const std::uintptr_t ahead = reinterpret_cast<std::uintptr_t>(column) + products_ahead * sizeof(float);
     FourDoubles x_low{}, x_high{}, y_low{}, y_high{}, z_low{}, z_high{};
     const double* x = v.data();
@@ -75,9 +76,9 @@ SEAMFLOW_WIDE void multiply_column(const float* column, const Columns& v, Point&
     result = {sum_of(x_low, x_high), sum_of(y_low, y_high), sum_of(z_low, z_high)};
 }
 
-/// product = columnsᵀ columns. Eigen's products of matrices would depend on the size of the processor's caches.
+/// product = columnsᵀ columns, by hand: the bits of Eigen's products depend on the size of the processor's caches.
 /// @param columns DenseFactor::room by any number.
-/// @param product as large as it will be.
+/// @param product square, of the right size already.
 SEAMFLOW_WIDE void multiply_by_itself(const Eigen::MatrixXd& columns, Eigen::MatrixXd& product)
 {
     const Eigen::Index n = columns.rows();
@@ -92,9 +93,9 @@ SEAMFLOW_WIDE void multiply_by_itself(const Eigen::MatrixXd& columns, Eigen::Mat
 
 }  // namespace
 
-CoarseSpace::CoarseSpace(const InterfaceCopies& copies, InterfacePeers& peers)
+CoarseSpace::CoarseSpace(const InterfaceCopies& copies, InterfaceRanks& ranks)
     : copies_(copies)
-    , peers_(peers)
+    , ranks_(ranks)
     , shares_(copies.n_sub_meshes())
 {
     find_functions();
@@ -116,7 +117,7 @@ void CoarseSpace::find_functions()
         for (; end < copies_.n_vertices() && first_at(end) == first_at(begin); ++end) {
             std::vector<Index> sharing;
             for (const Index copy : copies_.of_vertex[end])
-                sharing.push_back(peers_.places()[copies_.sub_mesh[copy]]);
+                sharing.push_back(ranks_.global_numbers()[copies_.sub_mesh[copy]]);
             found[std::move(sharing)].push_back(end);
         }
         for (auto& [sharing, vertices] : found) {
@@ -144,31 +145,31 @@ void CoarseSpace::find_functions()
     divide_terms(classes);
 }
 
-/// The classes of all peers, ascending: each sends those that begin with a sub-mesh of its own.
-/// @param here ascending.
+/// The classes of all ranks, ascending. Each rank sends the classes whose lowest sub-mesh is its own.
+/// @param here the classes known on this rank, ascending.
 std::vector<CoarseSpace::VertexClass> CoarseSpace::classes_of_all(const std::vector<VertexClass>& here) const
 {
     std::vector<double> own;
     for (const VertexClass& vertices : here)
-        if (peers_.holders()[vertices.sharing.front()] == peers_.self()) {
+        if (ranks_.holders()[vertices.sharing.front()] == ranks_.own_rank()) {
             own.push_back(vertices.is_single ? 1.0 : 0.0);
             own.push_back(static_cast<double>(vertices.sharing.size()));
             own.insert(own.end(), vertices.sharing.begin(), vertices.sharing.end());
         }
     std::vector<VertexClass> all;
-    for (const std::vector<double>& numbers : peers_.gather(own))
+    for (const std::vector<double>& numbers : ranks_.gather(own))
         for (auto number = numbers.begin(); number != numbers.end();) {
             VertexClass& vertices = all.emplace_back();
             vertices.is_single = *number++ != 0.0;
             vertices.sharing.resize(static_cast<std::size_t>(*number++));
-            for (Index& place : vertices.sharing)
-                place = static_cast<Index>(*number++);
+            for (Index& global_number : vertices.sharing)
+                global_number = static_cast<Index>(*number++);
         }
     std::ranges::stable_sort(all, {}, &VertexClass::sharing);
     return all;
 }
 
-/// The first copy of a vertex has the constant.
+/// The function of a vertex's first copy is the constant.
 void CoarseSpace::set_functions(std::span<const double> weights, const Executor& exec)
 {
     for_each(exec, size(), [&](Index f) {
@@ -188,12 +189,12 @@ void CoarseSpace::set_functions(std::span<const double> weights, const Executor&
 
 void CoarseSpace::list_functions(const std::vector<VertexClass>& classes)
 {
-    functions_at_ = make_lists(peers_.n_places(), [&](auto&& add) {
+    functions_at_ = make_lists(ranks_.n_sub_meshes(), [&](auto&& add) {
         Index f = 0;
         for (const VertexClass& vertices : classes) {
-            for (const Index place : vertices.sharing)
+            for (const Index global_number : vertices.sharing)
                 for (Index k = 0; k < vertices.n_functions(); ++k)
-                    add(place, f + k);
+                    add(global_number, f + k);
             f += vertices.n_functions();
         }
     });
@@ -202,32 +203,32 @@ void CoarseSpace::list_functions(const std::vector<VertexClass>& classes)
 
 void CoarseSpace::divide_terms(const std::vector<VertexClass>& classes)
 {
-    const std::vector<Index>& holders = peers_.holders();
+    const std::vector<Index>& holders = ranks_.holders();
     sent_.resize(holders.empty() ? 0 : usize(*std::ranges::max_element(holders)) + 1);
     std::vector<std::uint8_t> is_begun(usize(size()), 0);
     Index f = 0;
     for (const VertexClass& vertices : classes) {
         const Index holder = holders[vertices.sharing.front()];
-        const bool is_finished =
-            std::ranges::all_of(vertices.sharing, [&](Index place) { return holders[place] == holder; });
+        const bool is_finished = std::ranges::all_of(
+            vertices.sharing, [&](Index global_number) { return holders[global_number] == holder; });
         for (const Index end = f + vertices.n_functions(); f < end; ++f) {
             (is_finished ? sent_[holder].finished : sent_[holder].begun).push_back(f);
             is_begun[f] = is_finished ? 0 : 1;
         }
     }
-    for (Index place = 0; place < peers_.n_places(); ++place)
-        for (Index term = functions_at_.offsets[place]; term < functions_at_.offsets[place + 1]; ++term)
+    for (Index global_number = 0; global_number < ranks_.n_sub_meshes(); ++global_number)
+        for (Index term = functions_at_.offsets[global_number]; term < functions_at_.offsets[global_number + 1]; ++term)
             if (is_begun[functions_at_.values[term]] != 0)
-                sent_[holders[place]].terms.push_back(term);
+                sent_[holders[global_number]].terms.push_back(term);
 }
 
-/// Two unknowns have an entry where one sub-mesh has both of their functions.
+/// Two functions have an entry in E where one sub-mesh has both.
 std::vector<MatrixEntry> CoarseSpace::entries() const
 {
     std::vector<MatrixEntry> entries;
-    for (Index place = 0; place < functions_at_.size(); ++place)
-        for (const Index f : functions_at_[place])
-            for (const Index g : functions_at_[place])
+    for (Index global_number = 0; global_number < functions_at_.size(); ++global_number)
+        for (const Index f : functions_at_[global_number])
+            for (const Index g : functions_at_[global_number])
                 if (energy_.unknown_of[f] <= energy_.unknown_of[g])
                     entries.push_back({energy_.unknown_of[g], energy_.unknown_of[f]});
     return entries;
@@ -242,11 +243,11 @@ void CoarseSpace::analyse()
     const std::vector<Index> order = elimination_ordering(make_pattern(size(), entries()));
     for (std::size_t i = 0; i < order.size(); ++i)
         energy_.unknown_of[order[i]] = static_cast<Index>(i);
-    const std::vector<MatrixEntry> places = entries();
-    const SparsePattern upper = make_pattern(size(), places);
+    const std::vector<MatrixEntry> matrix_entries = entries();
+    const SparsePattern upper = make_pattern(size(), matrix_entries);
     energy_.solver.emplace(upper);
     energy_.values.resize(upper.n_entries());
-    for (const MatrixEntry& entry : places)
+    for (const MatrixEntry& entry : matrix_entries)
         energy_.slots.push_back(upper.slot(entry));
     for (Index u = 0; u < size(); ++u)
         energy_.diagonal_slots.push_back(upper.slot({u, u}));
@@ -259,7 +260,7 @@ void CoarseSpace::prepare(std::span<const DenseFactor> complements, std::span<co
         return;
     set_functions(weights, exec);
     for_each(exec, copies_.n_sub_meshes(), [&](Index s) {
-        if (peers_.is_own(s))
+        if (ranks_.is_own(s))
             multiply_functions(s, complements[s]);
     });
     assemble();
@@ -270,14 +271,14 @@ void CoarseSpace::prepare(std::span<const DenseFactor> complements, std::span<co
 /// With S = R Rᵀ, the share of E is (Rᵀ Z)ᵀ (Rᵀ Z), which rounding cannot make indefinite.
 void CoarseSpace::multiply_functions(Index s, const DenseFactor& schur)
 {
-    const auto functions = functions_at_[peers_.places()[s]];
+    const auto functions = functions_at_[ranks_.global_numbers()[s]];
     Share& share = shares_[s];
     const std::size_t room = DenseFactor::room(copies_.n_in(s));
     const std::size_t n_columns = (functions.size() + 2) / 3 * 3;
     AlignedFloats columns;
     columns.assign(n_columns * room);
     for (Index i = 0; i < copies_.n_in(s); ++i)
-        for (const Index copy : copies_.of_vertex[copies_.vertex[copies_.first[s] + i]]) {
+        for (const Index copy : copies_.of_vertex[copies_.vertex[copies_.offsets[s] + i]]) {
             const auto column = static_cast<std::size_t>(place_in(functions, function_[copy]));
             columns.data()[column * room + usize(i)] += static_cast<float>(values_at_[copy]);
         }
@@ -293,11 +294,11 @@ void CoarseSpace::multiply_functions(Index s, const DenseFactor& schur)
     share.energy *= share.scale;
 }
 
-/// In the order of `entries`; identical on all peers.
+/// Adds up E, in the order of `entries`, which is identical on all ranks.
 void CoarseSpace::assemble()
 {
-    const auto for_entries_at = [&](Index place, auto&& action) {
-        const auto functions = functions_at_[place];
+    const auto for_entries_at = [&](Index global_number, auto&& action) {
+        const auto functions = functions_at_[global_number];
         for (std::size_t f = 0; f < functions.size(); ++f)
             for (std::size_t g = 0; g < functions.size(); ++g)
                 if (energy_.unknown_of[functions[f]] <= energy_.unknown_of[functions[g]])
@@ -305,19 +306,20 @@ void CoarseSpace::assemble()
     };
     std::vector<double> own;
     for (Index s = 0; s < copies_.n_sub_meshes(); ++s)
-        if (peers_.is_own(s))
-            for_entries_at(peers_.places()[s],
+        if (ranks_.is_own(s))
+            for_entries_at(ranks_.global_numbers()[s],
                            [&](Eigen::Index f, Eigen::Index g) { own.push_back(shares_[s].energy(f, g)); });
-    const InterfacePeers::Numbers of_all = peers_.gather(own);
+    const InterfaceRanks::Numbers of_all = ranks_.gather(own);
     std::vector<std::vector<double>::const_iterator> next;
     for (const std::vector<double>& numbers : of_all)
         next.push_back(numbers.begin());
     std::fill(energy_.values.begin(), energy_.values.end(), 0.0);
     auto slot = energy_.slots.begin();
-    for (Index place = 0; place < functions_at_.size(); ++place)
-        for_entries_at(
-            place, [&](Eigen::Index, Eigen::Index) { energy_.values[*slot++] += *next[peers_.holders()[place]]++; });
-    // If all weights are the same, a function vanishes.
+    for (Index global_number = 0; global_number < functions_at_.size(); ++global_number)
+        for_entries_at(global_number, [&](Eigen::Index, Eigen::Index) {
+            energy_.values[*slot++] += *next[ranks_.holders()[global_number]]++;
+        });
+    // A function vanishes if all weights are the same. Its diagonal entry is then 0, and becomes 1.
     for (const Index diagonal : energy_.diagonal_slots)
         energy_.values[diagonal] =
             energy_.values[diagonal] > 0.0 ? (1.0 + regularisation) * energy_.values[diagonal] : 1.0;
@@ -328,7 +330,7 @@ void CoarseSpace::correct(const Points& residual, Points& y, const Executor& exe
     if (!energy_.factor)
         return;
     for_each(exec, copies_.n_sub_meshes(), [&](Index s) {
-        if (peers_.is_own(s))
+        if (ranks_.is_own(s))
             multiply_transposed(s, y);
     });
     const auto begin = [&](Index f) {
@@ -337,8 +339,8 @@ void CoarseSpace::correct(const Points& residual, Points& y, const Executor& exe
             sum += values_at_[copy] * residual.row(copies_.vertex[copy]);
         sums_.row(f) = sum;
     };
-    if (usize(peers_.self()) < sent_.size()) {
-        const SentTerms& own = sent_[peers_.self()];
+    if (usize(ranks_.own_rank()) < sent_.size()) {
+        const SentTerms& own = sent_[ranks_.own_rank()];
         for_each(exec, static_cast<Index>(own.finished.size()), [&](Index i) {
             begin(own.finished[i]);
             subtract_terms(own.finished[i]);
@@ -363,24 +365,24 @@ void CoarseSpace::subtract_terms(Index f)
     sums_.row(f) = sum;
 }
 
-/// Completes the sums for all functions.
+/// Completes the sums for all functions by the terms of other ranks.
 void CoarseSpace::exchange_terms()
 {
-    const auto for_rows_of = [&](std::size_t peer, auto&& action) {
-        for (const Index f : sent_[peer].finished)
+    const auto for_rows_of = [&](std::size_t rank, auto&& action) {
+        for (const Index f : sent_[rank].finished)
             action(sums_.row(f));
-        for (const Index f : sent_[peer].begun)
+        for (const Index f : sent_[rank].begun)
             action(sums_.row(f));
-        for (const Index term : sent_[peer].terms)
+        for (const Index term : sent_[rank].terms)
             action(products_with_y_.row(term));
     };
     std::vector<double> own;
-    if (usize(peers_.self()) < sent_.size())
-        for_rows_of(usize(peers_.self()), [&](auto&& row) { own.insert(own.end(), row.data(), row.data() + 3); });
-    const InterfacePeers::Numbers of_all = peers_.gather(own);
-    for (std::size_t peer = 0; peer < sent_.size(); ++peer) {
-        const double* next = of_all[peer].data();
-        for_rows_of(peer, [&](auto&& row) {
+    if (usize(ranks_.own_rank()) < sent_.size())
+        for_rows_of(usize(ranks_.own_rank()), [&](auto&& row) { own.insert(own.end(), row.data(), row.data() + 3); });
+    const InterfaceRanks::Numbers of_all = ranks_.gather(own);
+    for (std::size_t rank = 0; rank < sent_.size(); ++rank) {
+        const double* next = of_all[rank].data();
+        for_rows_of(rank, [&](auto&& row) {
             row = Eigen::Map<const Point>(next);
             next += 3;
         });
@@ -390,11 +392,11 @@ void CoarseSpace::exchange_terms()
             subtract_terms(f);
 }
 
-/// A sub-mesh's share of Zᵀ S y.
+/// Computes a sub-mesh's share of Zᵀ S y.
 void CoarseSpace::multiply_transposed(Index s, const Points& y)
 {
     const Index n = copies_.n_in(s);
-    const Index of_all = peers_.places()[s];
+    const Index of_all = ranks_.global_numbers()[s];
     const auto room = static_cast<Eigen::Index>(DenseFactor::room(n));
     if (s + 1 < copies_.n_sub_meshes())
         for (std::size_t i = 0; i < std::min(shares_[s + 1].product.size(), products_ahead); i += cache_line)
@@ -402,7 +404,7 @@ void CoarseSpace::multiply_transposed(Index s, const Points& y)
     Columns local(room, 3);
     local.bottomRows(room - n).setZero();
     for (Index i = 0; i < n; ++i)
-        local.row(i) = y.row(copies_.vertex[copies_.first[s] + i]);
+        local.row(i) = y.row(copies_.vertex[copies_.offsets[s] + i]);
     const float* product = shares_[s].product.data();
     for (Index term = functions_at_.offsets[of_all]; term < functions_at_.offsets[of_all + 1]; ++term) {
         Point share;

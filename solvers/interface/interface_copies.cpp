@@ -8,14 +8,14 @@ namespace seamflow {
 
 namespace {
 
-/// A vertex of Γ in the first whole sub-mesh that has it.
+/// A vertex of Γ, found in the lowest whole sub-mesh that has it.
 struct FoundVertex {
     Index in_lowest;
     Index s;
     Index i;
 };
 
-/// The vertices in whole sub-meshes, by the lowest sub-mesh of each vertex.
+/// The vertices in whole sub-meshes, each in the list of the lowest sub-mesh that has it.
 std::vector<std::vector<FoundVertex>> find_vertices(const std::vector<SubMesh>& sub_meshes)
 {
     std::vector<std::vector<FoundVertex>> found(sub_meshes.size());
@@ -55,7 +55,7 @@ InterfaceCopies::InterfaceCopies(const Decomposition& decomposition)
     const auto found = find_vertices(sub_meshes);
     const auto copies = find_copies(sub_meshes, found);
     for (const auto& indices : copies)
-        first.push_back(first.back() + static_cast<Index>(indices.size()));
+        offsets.push_back(offsets.back() + static_cast<Index>(indices.size()));
     vertex.assign(n_copies(), -1);
     sub_mesh.assign(n_copies(), -1);
     for (const auto& vertices : found) {
@@ -63,8 +63,8 @@ InterfaceCopies::InterfaceCopies(const Decomposition& decomposition)
             const SubMeshInterface& interface = sub_meshes[s].interface;
             for (std::size_t k = 0; k < interface.sharing[i].size(); ++k) {
                 const Index t = interface.sharing[i][k];
-                const auto place = std::ranges::lower_bound(copies[t], interface.index_in_sharing[i][k]);
-                const Index copy = first[t] + static_cast<Index>(place - copies[t].begin());
+                const auto position = std::ranges::lower_bound(copies[t], interface.index_in_sharing[i][k]);
+                const Index copy = offsets[t] + static_cast<Index>(position - copies[t].begin());
                 vertex[copy] = of_vertex.size();
                 sub_mesh[copy] = t;
                 of_vertex.values.push_back(copy);
@@ -75,23 +75,23 @@ InterfaceCopies::InterfaceCopies(const Decomposition& decomposition)
     }
 }
 
-SharedRows shared_copies(const InterfaceCopies& copies, InterfacePeers& peers)
+SharedRows shared_copies(const InterfaceCopies& copies, InterfaceRanks& ranks)
 {
     std::map<Index, SharedRows::Lists> with;
     for (const Index copy : copies.of_vertex.values) {
-        const auto holder_of = [&](Index c) { return peers.holder_of(copies.sub_mesh[c]); };
-        if (!peers.is_own(copies.sub_mesh[copy]))
+        const auto holder_of = [&](Index c) { return ranks.holder_of(copies.sub_mesh[c]); };
+        if (!ranks.is_own(copies.sub_mesh[copy]))
             with[holder_of(copy)].taken.push_back(copy);
         else
             for (const Index other : copies.of_vertex[copies.vertex[copy]])
-                if (!peers.is_own(copies.sub_mesh[other]))
+                if (!ranks.is_own(copies.sub_mesh[other]))
                     with[holder_of(other)].given.push_back(copy);
     }
     for (auto& [other, lists] : with) {
         sort_unique(lists.given);
         sort_unique(lists.taken);
     }
-    return {peers, std::move(with)};
+    return {ranks, std::move(with)};
 }
 
 }  // namespace seamflow

@@ -9,14 +9,14 @@
 
 namespace seamflow {
 
-InterfaceEquation::InterfaceEquation(const Decomposition& decomposition, Balancing balancing, InterfacePeers& peers)
-    : peers_(&peers)
+InterfaceEquation::InterfaceEquation(const Decomposition& decomposition, Balancing balancing, InterfaceRanks& ranks)
+    : ranks_(&ranks)
     , copies_(decomposition)
-    , shared_(shared_copies(copies_, peers))
+    , shared_(shared_copies(copies_, ranks))
     , weights_(copies_.n_copies())
     , residual_copies_(copies_.n_copies(), 3)
     , right_hand_side_(copies_.n_vertices(), 3)
-    , sums_(copies_, peers)
+    , sums_(copies_, ranks)
     , vectors_(copies_.n_vertices(), [this](std::initializer_list<VectorPair> pairs, const Executor& exec) {
         return sums_.products(pairs, exec);
     })
@@ -28,13 +28,13 @@ InterfaceEquation::InterfaceEquation(const Decomposition& decomposition, Balanci
     }
     products_.assign(n_numbers);
     if (balancing == Balancing::Coarse)
-        coarse_.emplace(copies_, peers);
+        coarse_.emplace(copies_, ranks);
 }
 
-void InterfaceEquation::hold(Index vertex, bool is_held)
+void InterfaceEquation::set_fixed(Index vertex, bool is_fixed)
 {
-    is_held_.resize(usize(copies_.n_vertices()), 0);
-    is_held_[vertex] = is_held ? 1 : 0;
+    is_fixed_.resize(usize(copies_.n_vertices()), 0);
+    is_fixed_[vertex] = is_fixed ? 1 : 0;
 }
 
 InterfaceResult InterfaceEquation::solve(std::span<const DenseFactor> complements, bool are_known,
@@ -68,35 +68,36 @@ InterfaceResult InterfaceEquation::solve(std::span<const DenseFactor> complement
     return result;
 }
 
-/// Each column has its own unit while it is solved for, so that squares of its rows do not overflow.
+/// Each column is solved for in a unit of its own, so that squares of its rows do not overflow.
 Point InterfaceEquation::measure_right_hand_side()
 {
     Point largest = Point::Zero();
     if (right_hand_side_.rows() > 0)
         largest = right_hand_side_.cwiseAbs().colwise().maxCoeff();
-    const std::vector<double> of_all = peers_->largest({largest[0], largest[1], largest[2]});
+    const std::vector<double> of_all = ranks_->largest({largest[0], largest[1], largest[2]});
     const Point unit = Point(of_all[0], of_all[1], of_all[2]).unaryExpr(&power_of_two_near);
     right_hand_side_.array().rowwise() /= unit.array();
     return unit;
 }
 
-/// The length of the next iteration if it were as long as the last one, without being made conjugate.
+/// The length of the next step of conjugate gradients, if it had the step size of the last one and its direction were
+/// the preconditioned residual alone.
 double InterfaceEquation::estimate_distance(const Point& unit)
 {
     double largest = 0.0;
     for (Index v = 0; v < copies_.n_vertices(); ++v)
         largest = std::max(largest, vectors_.z.row(v).cwiseProduct(vectors_.alpha).cwiseProduct(unit).norm());
-    return peers_->largest({largest}).front();
+    return ranks_->largest({largest}).front();
 }
 
-/// By the diagonals of the Schur complements.
+/// Weighs the copies of a vertex by the diagonals of the Schur complements.
 void InterfaceEquation::weigh_copies(std::span<const DenseFactor> complements, const Executor& exec)
 {
     for_each(exec, copies_.n_sub_meshes(), [&](Index s) {
-        if (!peers_->is_own(s))
+        if (!ranks_->is_own(s))
             return;
         const std::vector<double>& diagonal = complements[s].diagonal();
-        std::copy(diagonal.begin(), diagonal.end(), weights_.begin() + copies_.first[s]);
+        std::copy(diagonal.begin(), diagonal.end(), weights_.begin() + copies_.offsets[s]);
     });
     shared_.exchange(weights_.data(), 1);
     for_each(exec, copies_.n_vertices(), [&](Index v) {
@@ -104,11 +105,12 @@ void InterfaceEquation::weigh_copies(std::span<const DenseFactor> complements, c
         for (const Index copy : copies_.of_vertex[v])
             sum += weights_[copy];
         for (const Index copy : copies_.of_vertex[v])
-            weights_[copy] = is_held(v) ? 0.0 : weights_[copy] / sum;
+            weights_[copy] = is_fixed(v) ? 0.0 : weights_[copy] / sum;
     });
 }
 
-/// The shares may cancel each other almost completely: only their sum is used.
+/// Replaces the rows of all copies of a vertex by their sum. The shares may cancel each other almost completely: only
+/// their sum is meaningful.
 void InterfaceEquation::sum_copies(Points& copies, Points& sums, const Executor& exec)
 {
     shared_.exchange(copies.data(), 3);
@@ -120,8 +122,8 @@ void InterfaceEquation::sum_copies(Points& copies, Points& sums, const Executor&
     });
 }
 
-/// Moves the coarse unknowns to where they must be: the preconditioner is symmetric only from there on. Then moves
-/// along the guess as far as this helps.
+/// Solves for the coarse unknowns, because the preconditioner is symmetric only with an x that solves for these. Then
+/// moves along the guess as far as this reduces the error.
 void InterfaceEquation::start(const MapPoints& multiply, const Points* guess, const Point& unit, Points& x,
                               const Executor& exec)
 {
@@ -132,7 +134,7 @@ void InterfaceEquation::start(const MapPoints& multiply, const Points* guess, co
     if (guess != nullptr) {
         vectors_.p = guess->array().rowwise() / unit.array();
         for (Index v = 0; v < copies_.n_vertices(); ++v)
-            if (is_held(v))
+            if (is_fixed(v))
                 vectors_.p.row(v).setZero();
         if (coarse_)
             coarse_->correct(vectors_.r, vectors_.p, exec);
@@ -163,25 +165,25 @@ void InterfaceEquation::precondition(std::span<const DenseFactor> complements, c
         coarse_->correct(residual, preconditioned, exec);
 }
 
-/// target = Σ W_i apply(W_i source) over the sub-meshes, W_i = 1 where not weighted. Applied to columns in units of
-/// their own, so that single precision can represent lengths of any unit; `apply` returns the columns with its result,
-/// and the factor to multiply it by.
+/// target = Σ W_i apply(W_i source) over the sub-meshes, W_i = 1 where not weighted. `apply` gets columns in units of
+/// their own, so that single precision can represent lengths of any unit. It returns the columns with its result, and
+/// the factor to multiply the result by.
 template <class Apply>
 void InterfaceEquation::on_each(std::span<const DenseFactor> complements, const Points& source, bool weighted,
                                 Points& target, const Executor& exec, Apply&& apply)
 {
     const auto weight = [&](Index copy) { return weighted ? weights_[copy] : 1.0; };
     for_each(exec, copies_.n_sub_meshes(), [&](Index s) {
-        if (!peers_->is_own(s))
+        if (!ranks_->is_own(s))
             return;
         if (s + 1 < copies_.n_sub_meshes())
             complements[s + 1].prefetch();
         const Index n = copies_.n_in(s);
-        const Index first = copies_.first[s];
+        const Index first = copies_.offsets[s];
         const std::size_t room = DenseFactor::room(n);
         const FloatColumns columns = columns_at(products_.data() + first_product_[s], room);
         const FloatColumns scratch = columns_at(columns.x + 3 * room, room);
-        // With plain numbers, which is faster than expressions of rows.
+        // Plain numbers, because expressions of Eigen's rows are slower here.
         double* const rows = residual_copies_.data() + Eigen::Index{3} * first;
         double largest[3] = {};
         for (Index i = 0; i < n; ++i) {

@@ -11,7 +11,7 @@
 #include "solvers/direct/dense_factor.h"
 #include "solvers/interface/coarse_space.h"
 #include "solvers/interface/interface_copies.h"
-#include "solvers/interface/interface_peers.h"
+#include "solvers/interface/interface_ranks.h"
 #include "solvers/interface/interface_result.h"
 #include "solvers/interface/interface_sums.h"
 #include "solvers/krylov/conjugate_gradients.h"
@@ -39,27 +39,29 @@ enum class Balancing {
 class InterfaceEquation {
   public:
     /// @param decomposition without overlap; needed only during the call.
+    /// @param ranks the ranks that solve the equation together; must outlive the equation. All ranks construct it
+    /// together.
     /// @throws ComputationError if an analysis fails.
-    /// @param peers those that solve it together; must outlive the equation. All of them construct it together.
-    InterfaceEquation(const Decomposition& decomposition, Balancing balancing, InterfacePeers& peers);
+    InterfaceEquation(const Decomposition& decomposition, Balancing balancing, InterfaceRanks& ranks);
     InterfaceEquation(const InterfaceEquation&) = delete;
     InterfaceEquation& operator=(const InterfaceEquation&) = delete;
 
     [[nodiscard]] const InterfaceCopies& copies() const { return copies_; }
 
-    /// Holds a vertex of Γ, where x is exactly 0 from then on, or lets it go again. The next complements, which are not
-    /// known, have rows and columns of a diagonal matrix there, and right-hand sides of 0.
-    void hold(Index vertex, bool is_held);
+    /// Fixes a vertex of Γ, where x is exactly 0 from then on, or lets it move again. The complements of the next
+    /// solution must be new (are_known false). In a fixed vertex's rows and columns they are diagonal, and the
+    /// right-hand sides are 0.
+    void set_fixed(Index vertex, bool is_fixed);
 
-    /// The step's residual on Γ at x, the interiors following it: each own sub-mesh's share, one row per copy. The
-    /// other rows are completed in place.
+    /// The residual of the step on Γ at x, the interiors being solved for: returns one row per copy, with each own
+    /// sub-mesh's share. The equation fills in the rows of copies in remote sub-meshes.
     using Residuals = std::function<Points&(const Points& x)>;
 
-    /// Solves; all peers call this together.
-    /// @param complements one per sub-mesh; those of foreign ones are not used.
+    /// Solves; all ranks call this together.
+    /// @param complements one per sub-mesh; the complements of remote sub-meshes are not read.
     /// @param are_known whether the complements are those of the last solution.
-    /// @param right_hand_sides one row per copy: each own sub-mesh's share g_i. The other rows are filled in.
-    /// @param residuals is called now and then.
+    /// @param right_hand_sides one row per copy: each own sub-mesh's share g_i. Receives the rows of remote sub-meshes.
+    /// @param residuals recomputes the residual; called every few iterations.
     /// @param stop residual relative to that of x = 0, in the Euclidean norm, for each of x, y and z.
     /// @param guess one row per vertex of Γ: a direction in which the solution may be expected; null if unknown.
     /// @param x receives the solution, one row per vertex of Γ.
@@ -71,7 +73,7 @@ class InterfaceEquation {
                           const Executor& exec);
 
   private:
-    [[nodiscard]] bool is_held(Index vertex) const { return !is_held_.empty() && is_held_[vertex] != 0; }
+    [[nodiscard]] bool is_fixed(Index vertex) const { return !is_fixed_.empty() && is_fixed_[vertex] != 0; }
     void weigh_copies(std::span<const DenseFactor> complements, const Executor& exec);
     void sum_copies(Points& copies, Points& sums, const Executor& exec);
     void start(const MapPoints& multiply, const Points* guess, const Point& unit, Points& x, const Executor& exec);
@@ -85,16 +87,17 @@ class InterfaceEquation {
     void on_each(std::span<const DenseFactor> complements, const Points& source, bool weighted, Points& target,
                  const Executor& exec, Apply&& apply);
 
-    InterfacePeers* peers_;
+    InterfaceRanks* ranks_;
     InterfaceCopies copies_;
     SharedRows shared_;
     std::optional<CoarseSpace> coarse_;
-    /// Per copy; 0 where it is held: without weights and functions of the coarse space, nothing moves a vertex, so that
-    /// the residuals of its neighbours are those of the equations that are solved.
+    /// Per copy; 0 for a fixed vertex: without weights and functions of the coarse space nothing moves it, so that its
+    /// neighbours have the residuals of the equations that are solved.
     std::vector<double> weights_;
-    /// Per vertex; empty if none ever was.
-    std::vector<std::uint8_t> is_held_;
-    /// Per sub-mesh, three columns and as many for scratch or the result, and where they begin.
+    /// Per vertex of Γ: 1 if it is fixed; empty if none has ever been fixed.
+    std::vector<std::uint8_t> is_fixed_;
+    /// Per sub-mesh, three columns for its rows and three for the result; and the index at which those of each sub-mesh
+    /// begin.
     AlignedFloats products_;
     std::vector<std::size_t> first_product_;
     Points residual_copies_;

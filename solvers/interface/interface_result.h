@@ -5,11 +5,11 @@
 
 namespace seamflow {
 
-/// Result of the iteration for the equation on Γ, or for that of a whole mesh.
+/// The result of the iteration for the equation on Γ, or for the equation of a whole mesh.
 struct InterfaceResult : IterationResult {
     /// Estimate of the largest distance to the solution, in units of length.
     double estimated_distance = 0.0;
-    /// Per coordinate, in the unit of the tolerance; `residual` is the largest.
+    /// The residual of each coordinate, in the unit of the tolerance; `residual` is the largest of them.
     Point residuals = Point::Zero();
 };
 

@@ -4,12 +4,12 @@
 
 namespace seamflow {
 
-SumTree::SumTree(InterfacePeers& peers)
-    : peers_(&peers)
+SumTree::SumTree(InterfaceRanks& ranks)
+    : ranks_(&ranks)
 {
     constexpr Index several = -1;
-    // The peer that has all of the rows added to each row.
-    std::vector<Index> holders = peers.holders();
+    // Per row, the rank that has all the rows added up in it so far.
+    std::vector<Index> holders = ranks.holders();
     const auto n = static_cast<Index>(holders.size());
     sent_rows_.resize(n > 0 ? usize(*std::ranges::max_element(holders)) + 1 : 0);
     const auto send = [&](Index row) {
@@ -20,7 +20,7 @@ SumTree::SumTree(InterfacePeers& peers)
         for (Index to = 0; to + stride < n; to += 2 * stride) {
             const Index from = to + stride;
             if (holders[to] == holders[from] && holders[to] != several) {
-                if (holders[to] == peers.self())
+                if (holders[to] == ranks.own_rank())
                     own_.push_back({to, from});
                 continue;
             }
@@ -47,13 +47,13 @@ std::vector<double> SumTree::add_up(std::vector<double>& rows, std::size_t width
     const auto begin_of = [&](Index row) { return rows.begin() + static_cast<std::ptrdiff_t>(usize(row) * width); };
     add(own_, rows, width);
     std::vector<double> own;
-    if (usize(peers_->self()) < sent_rows_.size())
-        for (const Index row : sent_rows_[peers_->self()])
+    if (usize(ranks_->own_rank()) < sent_rows_.size())
+        for (const Index row : sent_rows_[ranks_->own_rank()])
             own.insert(own.end(), begin_of(row), begin_of(row + 1));
-    const InterfacePeers::Numbers all = peers_->gather(own);
-    for (std::size_t peer = 0; peer < sent_rows_.size(); ++peer) {
-        auto next = all[peer].begin();
-        for (const Index row : sent_rows_[peer]) {
+    const InterfaceRanks::Numbers all = ranks_->gather(own);
+    for (std::size_t rank = 0; rank < sent_rows_.size(); ++rank) {
+        auto next = all[rank].begin();
+        for (const Index row : sent_rows_[rank]) {
             std::copy_n(next, width, begin_of(row));
             next += static_cast<std::ptrdiff_t>(width);
         }
@@ -62,21 +62,21 @@ std::vector<double> SumTree::add_up(std::vector<double>& rows, std::size_t width
     return {begin_of(0), begin_of(1)};
 }
 
-InterfaceSums::InterfaceSums(const InterfaceCopies& copies, InterfacePeers& peers)
+InterfaceSums::InterfaceSums(const InterfaceCopies& copies, InterfaceRanks& ranks)
     : copies_(&copies)
-    , peers_(&peers)
-    , tree_(peers)
+    , ranks_(&ranks)
+    , tree_(ranks)
 {
 }
 
 std::vector<Point> InterfaceSums::products(std::initializer_list<VectorPair> pairs, const Executor& exec)
 {
     const std::size_t width = 3 * pairs.size();
-    rows_.resize(usize(peers_->n_places()) * width);
+    rows_.resize(usize(ranks_->n_sub_meshes()) * width);
     for_each(exec, copies_->n_sub_meshes(), [&](Index s) {
-        if (!peers_->is_own(s))
+        if (!ranks_->is_own(s))
             return;
-        double* row = rows_.data() + usize(peers_->places()[s]) * width;
+        double* row = rows_.data() + usize(ranks_->global_numbers()[s]) * width;
         for (const auto& [a, b] : pairs) {
             Point sum = Point::Zero();
             for (Index v = copies_->first_vertex[s]; v < copies_->first_vertex[s + 1]; ++v)

@@ -4,22 +4,22 @@
 #include <vector>
 
 #include "solvers/interface/interface_copies.h"
-#include "solvers/interface/interface_peers.h"
+#include "solvers/interface/interface_ranks.h"
 #include "solvers/krylov/conjugate_gradients.h"
 
 namespace seamflow {
 
-/// Adds up one row per sub-mesh along a binary tree of their places: 0 and 1, 2 and 3 and so on, then the sums of two
-/// such pairs, and so on. So the order of additions depends only on the number of sub-meshes, whoever has them. Peers
-/// compute the sums all of whose terms they have, most of them if their sub-meshes are consecutive, and exchange the
-/// rest.
+/// Adds up one row per sub-mesh along a binary tree of their global numbers: rows 0 and 1, 2 and 3 and so on, then the
+/// sums of two such pairs, and so on. The order of additions depends only on the number of sub-meshes, and not on the
+/// ranks that own them. A rank computes each sum all of whose terms it has, which are most if its sub-meshes are
+/// consecutive; sums of other terms are exchanged.
 class SumTree {
   public:
-    /// @param peers must outlive the tree.
-    explicit SumTree(InterfacePeers& peers);
+    /// @param ranks must outlive the tree.
+    explicit SumTree(InterfaceRanks& ranks);
 
-    /// All peers call this together.
-    /// @param rows #places times `width` numbers, one row after the other, those of this peer's sub-meshes filled in.
+    /// Adds up; all ranks call this together.
+    /// @param rows n_sub_meshes() times `width` numbers, row by row, with the rows of this rank's sub-meshes filled in.
     ///        Overwritten.
     /// @returns the sums: `width` numbers.
     std::vector<double> add_up(std::vector<double>& rows, std::size_t width);
@@ -31,27 +31,27 @@ class SumTree {
     };
     static void add(const std::vector<Addition>& additions, std::vector<double>& rows, std::size_t width);
 
-    InterfacePeers* peers_;
-    /// Those whose terms this peer has; those that come after.
+    InterfaceRanks* ranks_;
+    /// The additions all of whose terms this rank has; then the additions that follow the exchange.
     std::vector<Addition> own_;
     std::vector<Addition> last_;
-    /// Per peer, the rows whose sums it sends to others.
+    /// Per rank, the rows whose sums it sends to the others.
     std::vector<std::vector<Index>> sent_rows_;
 };
 
-/// The inner products of vectors with one row per vertex of Γ: each sub-mesh adds up the vertices of which it has the
-/// first copy, in their order; the rest is done by a SumTree.
+/// The inner products of vectors with one row per vertex of Γ: each sub-mesh adds up the vertices whose first copy it
+/// has, in their order; a SumTree adds up the sums of the sub-meshes.
 class InterfaceSums {
   public:
-    /// @param copies, peers must outlive this.
-    InterfaceSums(const InterfaceCopies& copies, InterfacePeers& peers);
+    /// @param copies, ranks must outlive this.
+    InterfaceSums(const InterfaceCopies& copies, InterfaceRanks& ranks);
 
-    /// See InnerProducts; all peers call this together.
+    /// The inner products of pairs of vectors (see InnerProducts); all ranks call this together.
     std::vector<Point> products(std::initializer_list<VectorPair> pairs, const Executor& exec);
 
   private:
     const InterfaceCopies* copies_;
-    const InterfacePeers* peers_;
+    const InterfaceRanks* ranks_;
     SumTree tree_;
     std::vector<double> rows_;
 };

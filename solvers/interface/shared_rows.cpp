@@ -5,8 +5,8 @@
 
 namespace seamflow {
 
-SharedRows::SharedRows(InterfacePeers& peers, std::map<Index, Lists> with)
-    : peers_(&peers)
+SharedRows::SharedRows(InterfaceRanks& ranks, std::map<Index, Lists> with)
+    : ranks_(&ranks)
 {
     for (auto& [other, lists] : with) {
         others_.push_back(other);
@@ -16,11 +16,11 @@ SharedRows::SharedRows(InterfacePeers& peers, std::map<Index, Lists> with)
 
 void SharedRows::exchange(double* values, std::size_t width)
 {
-    InterfacePeers::Numbers per_rank(others_.size());
+    InterfaceRanks::Numbers per_rank(others_.size());
     for (std::size_t p = 0; p < others_.size(); ++p)
         for (const Index row : lists_[p].given)
             per_rank[p].insert(per_rank[p].end(), values + usize(row) * width, values + usize(row + 1) * width);
-    const InterfacePeers::Numbers from_each = peers_->exchange(others_, per_rank);
+    const InterfaceRanks::Numbers from_each = ranks_->exchange(others_, per_rank);
     for (std::size_t p = 0; p < others_.size(); ++p) {
         auto next = from_each[p].begin();
         for (const Index row : lists_[p].taken) {

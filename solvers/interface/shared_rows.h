@@ -4,30 +4,32 @@
 #include <map>
 #include <vector>
 
-#include "solvers/interface/interface_peers.h"
+#include "solvers/interface/interface_ranks.h"
 
 namespace seamflow {
 
-/// Rows of an array that several peers know, each owned by one peer.
+/// Rows of an array that several ranks know, each owned by one rank.
 class SharedRows {
   public:
-    /// The rows that a peer gives to another one and takes from it. Both sides have the same order.
+    /// The rows that a rank sends to another rank and receives from it. Both ranks list them in the same order.
     struct Lists {
         std::vector<Index> given;
         std::vector<Index> taken;
     };
 
-    /// @param peers must outlive this. @param with by the number of the other peer, which has lists for this one, too.
-    SharedRows(InterfacePeers& peers, std::map<Index, Lists> with);
+    /// @param ranks must outlive this.
+    /// @param with per other rank, by its number, the rows to send and to receive. The other rank has lists for this
+    /// one.
+    SharedRows(InterfaceRanks& ranks, std::map<Index, Lists> with);
 
-    /// Fills in the rows of others; all peers call this together.
-    /// @param values `width` numbers for each row, one row after the other, the own ones filled in.
+    /// Fills in the rows that other ranks own; all ranks call this together.
+    /// @param values `width` numbers for each row, row by row, with the own rows filled in.
     void exchange(double* values, std::size_t width);
 
   private:
-    InterfacePeers* peers_;
+    InterfaceRanks* ranks_;
     std::vector<Index> others_;
-    /// Per other peer.
+    /// The rows to send and to receive, per other rank.
     std::vector<Lists> lists_;
 };
 

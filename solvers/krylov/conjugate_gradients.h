@@ -14,7 +14,7 @@
 
 namespace seamflow {
 
-/// Makes points, n by 3, of others.
+/// Computes points, n by 3, from others.
 using MapPoints = std::function<void(const Points& from, Points& to)>;
 
 /// Two vectors for each of three columns.
@@ -23,8 +23,8 @@ struct VectorPair {
     const Points& b;
 };
 
-/// How the inner products of pairs of vectors are computed, of each column of A with that of B; all of them at once.
-/// Always in the same order of additions.
+/// Computes the inner products of pairs of vectors, A and B, column by column, all pairs at once. Additions always have
+/// the same order.
 using InnerProducts = std::function<std::vector<Point>(std::initializer_list<VectorPair> pairs, const Executor& exec)>;
 
 /// The vectors of conjugate gradients, in Saad's notation, each n by 3: three right-hand sides at once, each with its
@@ -57,25 +57,25 @@ struct ConjugateGradientVectors {
         return products({{a, a}}, exec).front().cwiseSqrt();
     }
 
-    /// The residual B - A X, the direction and its product, and the preconditioned residual.
+    /// The residual B - A X, the direction, its product with A, and the preconditioned residual.
     Points r;
     Points p;
     Points q;
     Points z;
     InnerProducts products;
-    /// The norms of B; (p, A p); how far the last step went along p.
+    /// The norms of B; (p, A p); the step size of the last step along p.
     Point b_norms = Point::Zero();
     Point pq = Point::Zero();
     Point alpha = Point::Ones();
 };
 
-/// 0 where the denominator is not positive.
+/// The quotients; 0 where the denominator is not positive.
 inline Point quotients(const Point& numerators, const Point& denominators)
 {
     return (denominators.array() > 0.0).select(numerators.array() / denominators.array(), 0.0).matrix();
 }
 
-/// The largest of the three, except those with denominator 0. Not a number if one of them is not a number.
+/// The largest of the three ratios, except those with denominator 0. Not a number if one of them is not a number.
 inline double largest_ratio(const Point& norms, const Point& first)
 {
     double largest = 0.0;
@@ -85,7 +85,7 @@ inline double largest_ratio(const Point& norms, const Point& first)
     return largest;
 }
 
-/// Moves x along p to the least energy, and r with it.
+/// Moves x along p to the least energy, and updates r.
 /// @param multiply see PreconditionedEquations.
 inline void advance(const MapPoints& multiply, Points& x, ConjugateGradientVectors& v, const Executor& exec)
 {
@@ -113,22 +113,23 @@ struct PreconditionedEquations {
 };
 
 /// Conjugate gradients for A X = B with a symmetric positive definite A, preconditioned (Saad, Iterative Methods for
-/// Sparse Linear Systems, 2003, algorithm 9.1), where products are rounded coarsely: occasionally the residual is
-/// recomputed, without a restart; its drift until then decides whether that is needed again. Sums are taken in a fixed
-/// order: the bits do not depend on how loops are run.
+/// Sparse Linear Systems, 2003, algorithm 9.1), for products in low precision: the residual is occasionally measured
+/// exactly, without a restart; its drift up to then decides whether it must be measured again. Sums are taken in a
+/// fixed order: the bits do not depend on how loops are run.
 /// @param stop relative to the norms of B, for each column.
-/// @param x in: where to start. Out: the solution.
-/// @param v in: begun, and brought to x by `advance`, or not at all.
+/// @param x in: the start. Out: the solution.
+/// @param v in: the vectors after `begin`, and after calls of `advance` that have led to x.
 inline IterationResult conjugate_gradients(const PreconditionedEquations& equations, const IterationStop& stop,
                                            Points& x, ConjugateGradientVectors& v, const Executor& exec)
 {
-    // The most iterations and reduction of the residual between two measurements; the most that may be left of it with
-    // enough progress.
+    // The most iterations between two measurements, the most that they reduce the residual by, and the largest fraction
+    // of the residual that counts as enough progress.
     constexpr int most_iterations_at_once = 100;
     constexpr double most_reduction_at_once = 1e-4;
     constexpr double most_left = 0.5;
-    // Drift of the residual by rounding, relative to the residual measured before: until it is known, and at least. If
-    // `safety` times this is less than wanted, the last residual need not be measured.
+    // The drift of the residual by rounding, relative to the residual measured before: an assumption for the first
+    // measurement, and the least value. The last residual is not measured if `safety` times the drift is below the
+    // tolerance.
     constexpr double first_drift = 1e-4;
     constexpr double least_drift = 1e-7;
     constexpr double safety = 10.0;
@@ -161,7 +162,8 @@ inline IterationResult conjugate_gradients(const PreconditionedEquations& equati
         do {
             // z = M⁻¹ r
             equations.precondition(v.r, v.z);
-            // β = -(z, q) / (p, q): conjugate to the previous direction even if the residual has just been measured.
+            // β = -(z, q) / (p, q) makes p conjugate to the previous direction even if the residual has just been
+            // measured.
             const Point beta = -quotients(v.products({{v.z, v.q}}, exec).front(), v.pq);
             // p = z + β p
             for_each(exec, static_cast<Index>(x.rows()),
@@ -170,7 +172,8 @@ inline IterationResult conjugate_gradients(const PreconditionedEquations& equati
         } while (++iterations < most && !is_below(v.norms(v.r, exec), goals()));
         const Point before = std::exchange(norms, norms_as_measured());
         criterion.note(iterations, largest_ratio(norms, v.b_norms), largest_ratio(norms, before));
-        // Rounding can spoil the directions so much that they lead nowhere: start anew.
+        // Rounding can spoil the directions so much that they make no progress: the next direction is the
+        // preconditioned residual alone.
         if (criterion.is_stalling())
             v.pq.setZero();
     }

@@ -2,32 +2,33 @@
 
 namespace seamflow {
 
-/// When an iteration ends.
+/// The conditions that end an iteration.
 struct IterationStop {
-    /// A residual that is small enough, in the unit in which the iteration measures residuals.
+    /// The residual to reach, in the unit in which the iteration measures residuals.
     double tolerance = 0.0;
-    /// Most iterations.
+    /// The most iterations.
     int iterations = 0;
 };
 
-/// How it ended.
+/// How an iteration ended.
 struct IterationResult {
     int iterations = 0;
-    /// As measured last, in the unit of the tolerance.
+    /// The residual as last measured, in the unit of the tolerance.
     double residual = 0.0;
-    /// Whether it ended above the tolerance, with iterations left, because they no longer reduced the residual.
+    /// Whether the iteration ended above the tolerance, with iterations left, because they no longer reduced the
+    /// residual.
     bool stagnated = false;
 };
 
 /// The stopping criterion of all iterations: the residual, measured now and then, is small enough; or there are no
 /// iterations left; or the iteration stagnates: several consecutive measurements have found too little progress. A
-/// single one may be on a plateau that ends.
+/// single such measurement may be on a plateau that ends.
 class StoppingCriterion {
   public:
-    /// So many measurements without enough progress, one after the other, end it.
+    /// The number of consecutive measurements without enough progress that ends an iteration.
     static constexpr int most_stalls = 3;
 
-    /// @param most_left the fraction of the previous residual that may be left with enough progress.
+    /// @param most_left the largest fraction of the previous residual that counts as enough progress.
     /// @param residual at the beginning.
     StoppingCriterion(const IterationStop& stop, double most_left, double residual)
         : stop_(stop)
@@ -36,7 +37,7 @@ class StoppingCriterion {
     {
     }
 
-    /// Takes note of a measurement.
+    /// Records a measurement.
     /// @param iterations since the previous one.
     /// @param left the fraction of the previous residual left; not a number: no progress.
     void note(int iterations, double residual, double left)
@@ -60,7 +61,7 @@ class StoppingCriterion {
     /// @param residual as measured last.
     [[nodiscard]] IterationResult result(double residual) const
     {
-        // If iterations have run out, the last ones may have been too few for progress.
+        // The iterations since the last measurement may have been too few for progress if none are left.
         const bool stagnated = stalls_ >= most_stalls && residual > stop_.tolerance && iterations_left() > 0;
         return {.iterations = iterations_, .residual = residual, .stagnated = stagnated};
     }

@@ -16,15 +16,15 @@ struct AlexaWardetzky {
     static constexpr LaplacianTraits traits{
         Laplacian::AlexaWardetzky, "alexa-wardetzky", "Δ_A", Reach::Faces, Divisor::FaceAreas, true};
 
-    /// |f|.
+    /// |f|, in length².
     static double size(std::span<const Index> corners, const Points& positions) { return area(corners, positions); }
-    /// |f| / p (paper, eq. 11).
+    /// |f| / p (paper, eq. 11), in length².
     static double corner_mass(double size, std::size_t p) { return corner_area(size, p); }
 
     /// The bisectors of a polygon.
     using Scratch = std::vector<Point>;
 
-    /// Contribution of one face: see kernels.h.
+    /// The contribution of one face: see kernels.h.
     class Face : public AreaPolygon {
       public:
         /// Row i of scale · B Bᵀ.
@@ -64,8 +64,8 @@ struct AlexaWardetzky {
         return {{corners, positions, size}, scratch.data()};
     }
 
-    /// The same for a triangle: its bisectors are half the opposite edges, so that K has half the cotangents of the
-    /// angles opposite its edges, and each row of K sums to zero.
+    /// The contribution of a triangle: its bisectors are half the opposite edges, so that the entries of K are half the
+    /// cotangents of the angles opposite its edges, and each row of K sums to zero.
     class Triangle {
       public:
         /// Row i: minus the cotangents opposite to the edges ik, and their sum on the diagonal.
@@ -105,10 +105,10 @@ struct AlexaWardetzky {
         }
 
         std::array<Index, 3> corners_;
-        /// From corner 0 to 1, from 0 to 2, from 1 to 2.
+        /// The edges from corner 0 to 1, from 0 to 2, and from 1 to 2.
         std::array<Point, 3> edges_;
         double double_area_;
-        /// Scalar products of the two edges at each corner.
+        /// The scalar product of the two edges at each corner.
         std::array<double, 3> dots_;
     };
 };

@@ -14,15 +14,15 @@ namespace seamflow {
 
 namespace {
 
-/// Whether the length of an edge is a normal double: the root of a positive number always is.
+/// Whether the length of an edge is a normal double, as the root of a positive double always is.
 bool has_length(const Point& edge)
 {
     const double square = edge.squaredNorm();
     return square > 0.0 && std::isfinite(square);
 }
 
-/// The first corner of face f where an edge without a valid length starts, and `matters` holds for one of its ends; -1
-/// if there is none.
+/// The first corner of face f at which an edge without a valid length begins, if `matters` is true for one of the
+/// edge's ends; -1 if there is none.
 template <class Matters>
 Index edge_without_length(const PolygonMesh& mesh, Index f, Matters&& matters)
 {
@@ -53,8 +53,8 @@ Index edge_without_length(const PolygonMesh& mesh, Index f, Matters&& matters)
                      instead);
 }
 
-/// Appends the vertices that may move and whose rows divide by the length of an edge of face f, or by its area, where
-/// that is no valid divisor. The rows of Ptáčková-Velho also reach the faces across the edges of the vertex's own ones.
+/// Appends the vertices that may move and whose rows divide by the length of an edge of face f, or by its area, if that
+/// is no valid divisor. Rows of Ptáčková-Velho also reach the faces across the edges of a vertex's faces.
 void append_vertices_without_row(const PolygonMesh& mesh, const Topology& topology, Laplacian laplacian, Index f,
                                  std::vector<Index>& vertices)
 {

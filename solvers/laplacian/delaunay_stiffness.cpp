@@ -15,10 +15,10 @@ namespace seamflow {
 
 namespace {
 
-/// Weights are cotangents, without a unit: nearer to 0 they are rounding errors of positions.
+/// Weights are cotangents, without a unit: weights nearer to 0 than this are rounding errors of positions.
 constexpr double negligible_weight = 1e-8;
 
-/// Whether an entry of a row of K is positive, off the diagonal.
+/// Whether an off-diagonal entry of a row of K is positive.
 /// @param entries of the row, in any order.
 bool has_negative_weight(std::vector<std::pair<Index, double>>& entries, bool in_faces)
 {
@@ -62,31 +62,32 @@ bool has_negative_weights(const PolygonMesh& mesh, const Topology& topology, Lap
 /// Half-edges that share their edges, the longest edges first.
 Lists<Index> edges_by_length(const IntrinsicTriangles& triangles)
 {
-    struct Place {
+    struct HalfEdgeOfPair {
         double length;
         Index least;
         Index most;
         Index halfedge;
     };
-    std::vector<Place> places;
+    std::vector<HalfEdgeOfPair> sorted_half_edges;
     for (Index h = 0; h < 3 * triangles.n_triangles(); ++h) {
         const Index twin = triangles.twin(h);
         if (twin >= 0 && twin < h)
             continue;
         const auto [least, most] = std::minmax({triangles.start(h), triangles.end(h)});
-        places.push_back({triangles.length(h), least, most, h});
+        sorted_half_edges.push_back({triangles.length(h), least, most, h});
     }
-    // An edge of three triangles has no twins. Its lengths may differ by rounding.
-    std::ranges::sort(places, {}, [](const Place& p) { return std::tuple(p.least, p.most, p.halfedge); });
-    Lists<Place> edges;
-    for (const Place& place : places) {
+    // An edge of three triangles has no twins. Its half-edges have lengths that may differ by rounding.
+    std::ranges::sort(sorted_half_edges, {},
+                      [](const HalfEdgeOfPair& p) { return std::tuple(p.least, p.most, p.halfedge); });
+    Lists<HalfEdgeOfPair> edges;
+    for (const HalfEdgeOfPair& one : sorted_half_edges) {
         const auto& before = edges.values;
-        const bool is_new = before.empty() || triangles.twin(place.halfedge) >= 0 ||
-                            triangles.twin(before.back().halfedge) >= 0 || before.back().least != place.least ||
-                            before.back().most != place.most;
+        const bool is_new = before.empty() || triangles.twin(one.halfedge) >= 0 ||
+                            triangles.twin(before.back().halfedge) >= 0 || before.back().least != one.least ||
+                            before.back().most != one.most;
         if (is_new && !before.empty())
             edges.close();
-        edges.values.push_back(place);
+        edges.values.push_back(one);
     }
     edges.close();
     std::vector<Index> order(usize(edges.size()));
@@ -95,9 +96,9 @@ Lists<Index> edges_by_length(const IntrinsicTriangles& triangles)
                              [&](Index a, Index b) { return edges[a].front().length > edges[b].front().length; });
     Lists<Index> sorted;
     for (const Index e : order) {
-        for (const Place& place : edges[e]) {
-            sorted.values.push_back(place.halfedge);
-            if (const Index twin = triangles.twin(place.halfedge); twin >= 0)
+        for (const HalfEdgeOfPair& one : edges[e]) {
+            sorted.values.push_back(one.halfedge);
+            if (const Index twin = triangles.twin(one.halfedge); twin >= 0)
                 sorted.values.push_back(twin);
         }
         sorted.close();
@@ -105,9 +106,9 @@ Lists<Index> edges_by_length(const IntrinsicTriangles& triangles)
     return sorted;
 }
 
-/// Makes the weight of one half-edge of an obtuse triangle, opposite to the obtuse angle, nearer to 0. With the weights
-/// w of this edge and x, y of the others, 4 (x y + w x + w y) = 1, K of the triangle is that of the slope along this
-/// edge, 1 / 4 (x + y), and of the bend across it: w = 1 / 4 (x + y) - b x y / (x + y) with b = 1.
+/// Moves the weight of one half-edge of an obtuse triangle, opposite to the obtuse angle, towards 0. With the weights w
+/// of this edge and x, y of the others, 4 (x y + w x + w y) = 1, K of the triangle is the sum of K of the slope along
+/// this edge, 1 / 4 (x + y), and of the bend across it: w = 1 / 4 (x + y) - b x y / (x + y) with b = 1.
 void soften(Index h, double weight, std::vector<double>& weights)
 {
     double& x = weights[IntrinsicTriangles::next(h)];
@@ -118,8 +119,9 @@ void soften(Index h, double weight, std::vector<double>& weights)
     y *= bend;
 }
 
-/// The weights of edges, none below 0. A triangle is softened across its longest edge, which changes the others.
-/// @returns per half-edge: the share of it in the weight of its edge.
+/// The weights of edges, none below 0. A triangle is softened across its longest edge, which changes the other two
+/// weights.
+/// @returns per half-edge: its share of the weight of its edge.
 std::vector<double> softened_weights(const IntrinsicTriangles& triangles, const Topology& topology)
 {
     std::vector<double> weights(3 * usize(triangles.n_triangles()));

@@ -17,7 +17,7 @@ void for_each_halfedge(const IndexListsView& faces, Action&& action)
     }
 }
 
-/// In ascending order.
+/// Sorts edges by their numbers of faces, in ascending order.
 OuterEdges by_number_of_faces(const std::vector<VertexPair>& edges, Index n_vertices)
 {
     IndexLists seconds = make_lists(n_vertices, [&](auto&& add) {

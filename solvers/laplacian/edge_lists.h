@@ -15,11 +15,11 @@ struct VertexPair {
     friend auto operator<=>(const VertexPair&, const VertexPair&) = default;
 };
 
-/// Contributions that a SymmetricLaplacian sums up.
+/// The faces whose contributions a SymmetricLaplacian sums up.
 enum class Contributions {
-    /// Of the faces on both sides of Γ: correct at all vertices of the sub-mesh.
+    /// The faces on both sides of Γ: sums are complete at all vertices of the sub-mesh.
     BothSides,
-    /// Of the own faces, each side having half of an edge on Γ: over all sub-meshes they add up to the whole.
+    /// The own faces only, each side having half of an edge on Γ: the sums over all sub-meshes are complete.
     OwnFaces,
 };
 
@@ -27,19 +27,19 @@ enum class Contributions {
 struct FacesOnBothSides {
     IndexListsView own;
     IndexListsView beyond;
-    /// Of the own faces: see SubMesh::twin.
+    /// The twins of the own faces: see SubMesh::twin.
     std::span<const Index> twin;
-    /// Of all vertices.
+    /// The number of all local vertices.
     Index n_vertices;
     Contributions contributions = Contributions::BothSides;
 };
 
-/// Edges by the number of their faces here, each of which has half of the edge: one of k faces is listed k / 2 times
-/// among the inner ones, rounded down, and once more on the rim if k is odd.
+/// Edges by the number of their faces in a set, each of which has half of the edge: an edge of k faces is listed k / 2
+/// times among the inner edges, rounded down, and once more among the rim edges if k is odd.
 struct OuterEdges {
     /// Edges between two faces.
     std::vector<VertexPair> inner;
-    /// Edges of one face. Those at a vertex that may move are on the boundary of the whole mesh, or at a junction.
+    /// Edges of one face. A rim edge at a vertex that may move is on the boundary of the whole mesh, or at a junction.
     std::vector<VertexPair> rim;
 };
 

@@ -9,18 +9,18 @@ namespace seamflow {
 
 /// Parameters of a step, (M + dt K) Vᵏ⁺¹ = M Vᵏ, besides dt and the positions Vᵏ at which M and K are taken.
 struct FlowTerms {
-    /// #V by 3: V⁰ of the whole mesh, if any of the following is used; needed only while systems are made.
-    const Points* first = nullptr;
+    /// #V by 3: V⁰ of the whole mesh, if any of the following terms is used; read only while systems are constructed.
+    const Points* initial = nullptr;
     /// Whether K is that of V⁰ in all steps: the conformalized flow (Kazhdan, Solomon, Ben-Chen 2012).
     bool keeps_stiffness = false;
-    /// Whether M is, too: the linear flow, which keeps K. Not for sweeps.
+    /// Whether M is also that of V⁰ in all steps: the linear flow, which keeps K, too. Not for sweeps.
     bool keeps_mass = false;
-    /// w of the attachment to V⁰, (M + dt K + dt M w) Vᵏ⁺¹ = M Vᵏ + dt M w V⁰, in 1/length²: that of each vertex (#V),
-    /// or if empty, one for all.
+    /// The weight w of the attachment to V⁰, (M + dt K + dt M w) Vᵏ⁺¹ = M Vᵏ + dt M w V⁰, in 1/length²: one per vertex
+    /// (#V), or, if empty, `weight` for all.
     std::span<const double> weights = {};
     double uniform_weight = 0.0;
-    /// s of each vertex (#V), from 0 to 1: M / s takes the place of M, and w s that of w, so that dt is s dt there. A
-    /// vertex with s = 0 is held. Empty: 1 everywhere.
+    /// The step scale s of each vertex (#V), from 0 to 1: M / s replaces M, and w s replaces w, so that the time step
+    /// is s dt there. A vertex with s = 0 is fixed. Empty: 1 everywhere.
     std::span<const double> step_scales = {};
 
     [[nodiscard]] bool attaches() const { return !weights.empty() || uniform_weight > 0.0; }

@@ -22,10 +22,10 @@ struct Fujiwara {
         {
         }
 
-        /// factor · (-K) of its two ends (eq. 14), in 1/length.
+        /// factor · (-K) of its two ends (eq. 14), K being in 1/length.
         [[nodiscard]] double weight(double factor) const { return factor / length_; }
 
-        /// M_v is the mean of these, in length.
+        /// The length of the edge; M_v is the mean over the edges at v.
         [[nodiscard]] double mass() const { return length_; }
 
       private:

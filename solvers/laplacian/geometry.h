@@ -10,7 +10,7 @@
 
 namespace seamflow {
 
-/// Of length 1, or 0 if the vector is.
+/// The vector scaled to length 1; 0 for the zero vector.
 inline Point unit_or_zero(const Point& vector)
 {
     const double length = vector.norm();
@@ -30,7 +30,8 @@ inline double corner_area(double face_area, std::size_t p)
     return face_area / static_cast<double>(p);
 }
 
-/// Entries of a symmetric matrix on a ring of corners: at a corner, and at it and the next one.
+/// Entries of a symmetric matrix on a ring of corners: the diagonal entry of a corner, and the entry of the corner and
+/// the next one.
 struct RingEntries {
     double here = 0.0;
     double to_next = 0.0;

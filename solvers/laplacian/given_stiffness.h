@@ -6,12 +6,13 @@
 
 namespace seamflow {
 
-/// K and M of a whole mesh as numbers, where they do not follow from positions. Only vertices of one face have entries.
-/// Faces share them evenly: an entry of K among those with both vertices, one of M among those at the vertex.
+/// K and M of a whole mesh as numbers, for a K and an M that do not follow from positions. Only vertices of a common
+/// face have entries. Faces share entries evenly: an entry of K is shared by the faces with both vertices, an entry of
+/// M by the faces at the vertex.
 struct GivenStiffness {
-    /// #V: the vertices that each has faces with, ascending.
+    /// #V: the vertices with which each vertex has faces in common, ascending.
     IndexLists neighbours;
-    /// Of each neighbour: -K_vw, and how many faces have both.
+    /// Per neighbour: -K_vw, and the number of faces with both vertices.
     std::vector<double> weights;
     std::vector<Index> n_faces;
     /// #V: M_v, in length².

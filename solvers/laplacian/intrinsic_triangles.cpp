@@ -14,11 +14,12 @@ namespace seamflow {
 
 namespace {
 
-/// As a fraction of its two cotangents, and of 1: a weight nearer to 0 is not worth a flip, which rounding could undo.
+/// A weight nearer to 0 than this fraction of its two cotangents, or of 1, is not worth a flip, which rounding could
+/// undo.
 constexpr double negligible = 1e-7;
 /// The least sine of an angle: triangles without area have corners between others, and one flip mends them.
 constexpr double thinnest = 1e-12;
-/// Rounding could flip for ever: no surface needs nearly as many flips, per edge.
+/// The most flips per edge: rounding could flip an edge for ever; no surface needs nearly as many flips.
 constexpr std::size_t most_flips = 1000;
 
 double cross(const Eigen::RowVector2d& a, const Eigen::RowVector2d& b)
@@ -72,7 +73,7 @@ bool IntrinsicTriangles::is_far_from_delaunay(Index h) const
     return here + there < -negligible * (1.0 + std::abs(here) + std::abs(there));
 }
 
-/// Whether an edge joins the start of h with v, among the triangles that edges connect around that start.
+/// Whether an edge joins the start of h with v, among the triangles that are connected by edges around that start.
 bool IntrinsicTriangles::are_joined(Index h, Index v) const
 {
     const Index centre = start(h);
@@ -92,7 +93,7 @@ bool IntrinsicTriangles::are_joined(Index h, Index v) const
     return false;
 }
 
-/// Lists its corners the other way round.
+/// Reverses the order of its corners.
 void IntrinsicTriangles::turn_over(Index t)
 {
     std::swap(corners_[t][1], corners_[t][2]);
@@ -112,7 +113,7 @@ void IntrinsicTriangles::join(Index h, Index twin)
         twin_[twin] = h;
 }
 
-/// From triangles a, b, c and b, a, d to a, d, c and b, c, d.
+/// Flips an edge: triangles a, b, c and b, a, d become a, d, c and b, c, d.
 /// @returns whether that was possible.
 bool IntrinsicTriangles::flip(Index h, const Points& positions)
 {
@@ -127,7 +128,7 @@ bool IntrinsicTriangles::flip(Index h, const Points& positions)
         turn_over(s);
     const Index g = twin(h);
     const Index b = start(g);
-    // Edges of the other triangle in the plane of this one.
+    // The edges of the other triangle, rotated into the plane of this one.
     const Vector turn = product(-edge(h), {edge(g).x(), -edge(g).y()}).normalized();
     const Vector ad = product(edge(next(g)), turn);
     const Vector db = product(edge(previous(g)), turn);

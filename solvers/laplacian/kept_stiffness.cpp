@@ -10,12 +10,12 @@ namespace seamflow {
 
 namespace {
 
-/// As a fraction of K's diagonal times dt, below which a kept mass would be lost to rounding, and the place of a
-/// component that is so small with it. More mass only delays its way to a point, which is the place of its centroid
-/// either way.
+/// The least kept mass, as a fraction of K's diagonal times dt. A smaller mass would be lost to rounding, and with it
+/// the position of a component that is so small. More mass only delays the shrinking of the component to a point, its
+/// centroid.
 constexpr double least_kept_mass = 1e-10;
 
-/// Stiffness frozen at given positions; mass frozen, too, or recomputed in each step.
+/// Stiffness of given positions, kept in all steps; mass kept, too, or recomputed in each step.
 class KeptStiffness final : public SymmetricLaplacian {
   public:
     KeptStiffness(std::unique_ptr<SymmetricLaplacian> laplacian, Index n_vertices, const Points& positions,
@@ -162,7 +162,7 @@ class KeptStiffness final : public SymmetricLaplacian {
         }
     }
 
-    /// Of any two vertices of the element that has the pairs [begin, end).
+    /// The largest difference of any two vertices of the face or edge whose pairs are [begin, end).
     [[nodiscard]] double largest_difference(std::size_t begin, std::size_t end,
                                             const SquaredDifference& squared_difference) const
     {
@@ -177,15 +177,16 @@ class KeptStiffness final : public SymmetricLaplacian {
     std::unique_ptr<SymmetricLaplacian> laplacian_;
     std::vector<VertexPair> pairs_;
     Index n_vertices_;
-    /// Per pair; and before they were weighed, if they are, with the diagonal of the auxiliary unknowns.
+    /// Per pair: the kept entry of K; and, if entries are weighed, the entry before weighing, with the diagonal of the
+    /// auxiliary unknowns.
     std::vector<double> entries_;
     std::vector<double> unweighted_;
     std::vector<double> unweighted_auxiliary_;
-    /// Per vertex and auxiliary unknown; M is empty if it follows the mesh.
+    /// Per vertex and auxiliary unknown: the diagonal of K, and M. M is empty if it follows the mesh.
     std::vector<double> diagonal_;
     std::vector<double> mass_;
     bool keeps_mass_;
-    /// Whether all of them are of other origin.
+    /// Whether K and M were given (see SymmetricLaplacian::give).
     bool is_given_ = false;
 };
 

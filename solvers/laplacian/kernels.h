@@ -24,27 +24,27 @@ concept EdgeKernel = requires
     typename Kernel::Edge;
 };
 
-/// A Laplacian M⁻¹ K that is a sum over faces, with K = N / d in each. Its function `polygon(corners, positions,
-/// size, scratch)` needs a number, `size(corners, positions)`, and memory of the type `Scratch`, which must outlive the
-/// result. That has:
-/// - `size()`, `corner(k)`: the number of vertices, and the k-th of them;
+/// A Laplacian M⁻¹ K that is a sum over faces, with K = N / d in each face. Its function `polygon(corners, positions,
+/// size, scratch)` makes the contribution of one face. Its arguments `size` and `scratch` are the number `size(corners,
+/// positions)`, and memory of the type `Scratch`, which must outlive the result. The result has:
+/// - `size()`, `corner(k)`: the number of vertices, and the k-th vertex;
 /// - `row(i, scale)(k)`: scale · N_ik; the rows of N sum to zero;
 /// - `divisor()`: d;
-/// - `mass(k)`: what the face adds to M at corner k, equal to `corner_mass(size, number of corners)`;
+/// - `mass(k)`: the share of the face in M at corner k, equal to `corner_mass(size, number of corners)`;
 /// - `difference(i, k)`: V_k - V_i, for i < k.
 ///
-/// For faces with many corners K is also S - C D⁻¹ Cᵀ, with n numbers for each of its matrices: S has the entries
+/// For faces with many corners K is also S - C D⁻¹ Cᵀ, with n numbers for each of these matrices: S has the entries
 /// `ring(k)`, D is the diagonal matrix `auxiliary()`, of either sign, and C has the rows `coupling(k)`.
 ///
-/// If it also has a class `Triangle`, made from three corners, that provides the same for triangles in fewer
-/// operations.
+/// If the kernel also has a class `Triangle`, made from three corners, that class provides the same functions for
+/// triangles, with fewer operations.
 template <class Kernel>
 concept FaceKernel = requires
 {
     typename Kernel::Scratch;
 };
 
-/// Calls action(face, i) with the data for the row of corner k of a face, i being its place there.
+/// Calls action(face, i) with the data for the row of corner k of a face, i being the index of that corner in `face`.
 template <FaceKernel Kernel, class Action>
 void measure_corner(std::span<const Index> corners, std::size_t k, const Points& positions, Action&& action)
 {
@@ -68,10 +68,10 @@ void measure_face(std::span<const Index> corners, const Points& positions, typen
     action(Kernel::polygon(corners, positions, Kernel::size(corners, positions), scratch));
 }
 
-/// All formulas.
+/// The kernels of all Laplacians.
 using Kernels = std::tuple<Fujiwara, AlexaWardetzky, VirtualRefinement, PtackovaVelho, Uniform>;
 
-/// Calls action with the formula of a Laplacian.
+/// Calls action with the kernel of a Laplacian.
 /// @throws OptionError for an unknown Laplacian.
 template <std::size_t First = 0, class Action>
 auto with_kernel(const ScaledLaplacian& laplacian, Action&& action)

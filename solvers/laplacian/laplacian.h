@@ -8,16 +8,17 @@
 
 namespace seamflow {
 
-/// One for each Laplacian.
+/// The traits of all Laplacians.
 std::span<const LaplacianTraits> all_laplacian_traits();
 
 /// @throws OptionError for an unknown Laplacian.
 const LaplacianTraits& traits_of(Laplacian laplacian);
 
-/// "fujiwara", "alexa-wardetzky", "virtual-refinement", "ptackova-velho" or "uniform".
+/// The name: "fujiwara", "alexa-wardetzky", "virtual-refinement", "ptackova-velho" or "uniform".
 std::string_view name_of(Laplacian laplacian);
 
-/// Those that are M⁻¹ K, for messages: "fujiwara, alexa-wardetzky, virtual-refinement or uniform".
+/// The names of the Laplacians that are M⁻¹ K, for messages: "fujiwara, alexa-wardetzky, virtual-refinement or
+/// uniform".
 std::string names_of_symmetric_laplacians();
 
 /// Whether a Laplacian is M⁻¹ K.

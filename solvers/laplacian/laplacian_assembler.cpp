@@ -12,18 +12,18 @@ namespace seamflow {
 
 namespace {
 
-/// M⁻¹ K from K and M.
+/// Assembles M⁻¹ K from K and M.
 class DividedByMass final : public LaplacianAssembler {
   public:
     DividedByMass(std::unique_ptr<SymmetricLaplacian> laplacian, Index n_vertices)
         : laplacian_(std::move(laplacian))
         , pairs_(laplacian_->pairs())
-        , places_(pairs_.size())
+        , slots_(pairs_.size())
         , couplings_(pairs_.size())
         , diagonal_(n_vertices)
         , mass_(n_vertices)
     {
-        std::iota(places_.begin(), places_.end(), 0);
+        std::iota(slots_.begin(), slots_.end(), 0);
         std::vector<bool> has_row(n_vertices, false);
         for (const auto& [v, w] : pairs_)
             has_row[v] = has_row[w] = true;
@@ -44,7 +44,7 @@ class DividedByMass final : public LaplacianAssembler {
     void add(const Points& positions, double factor, std::span<const Index> slots, std::span<double> values) override
     {
         std::fill(couplings_.begin(), couplings_.end(), 0.0);
-        laplacian_->assemble(positions, factor, places_, couplings_, diagonal_, mass_);
+        laplacian_->assemble(positions, factor, slots_, couplings_, diagonal_, mass_);
         const Index* slot = slots.data();
         for (std::size_t i = 0; i < pairs_.size(); ++i) {
             values[*slot++] += couplings_[i] / mass_[pairs_[i].first];
@@ -59,10 +59,10 @@ class DividedByMass final : public LaplacianAssembler {
   private:
     std::unique_ptr<SymmetricLaplacian> laplacian_;
     std::vector<VertexPair> pairs_;
-    /// Per pair: its place, and factor · K there.
-    std::vector<Index> places_;
+    /// Per pair: its own index, as the slot for assembling K; and factor · K there.
+    std::vector<Index> slots_;
     std::vector<double> couplings_;
-    /// Per vertex: factor · K_vv and M_v; and those that have a row.
+    /// Per vertex: factor · K_vv and M_v; and the vertices that have a row.
     std::vector<double> diagonal_;
     std::vector<double> mass_;
     std::vector<Index> rows_;

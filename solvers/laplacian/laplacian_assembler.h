@@ -11,29 +11,30 @@
 
 namespace seamflow {
 
-/// Adds one Laplacian to the values of a matrix, repeatedly as the mesh moves. Which entries it touches, and in which
-/// order, depends on the faces alone: `entries` lists them once, and `add` then finds each value's place in a list of
-/// slots made from them, without searching.
+/// Adds one Laplacian to the values of a matrix, repeatedly as the mesh moves. The entries, and the order in which they
+/// are added, depend on the faces alone: `entries` lists them once, and `add` then finds each value's index in a list
+/// of slots made from them, without searching.
 class LaplacianAssembler {
   public:
     virtual ~LaplacianAssembler() = default;
 
-    /// The entries in the order in which `add` meets them, maybe repeated.
+    /// The entries in the order in which `add` adds them, maybe repeated.
     [[nodiscard]] virtual std::vector<MatrixEntry> entries() const = 0;
 
     /// values[slots[i]] += factor · (contribution to the i-th of `entries`).
     /// @param positions at least #V by 3.
-    /// @param slots one place per entry. Unwanted entries all point to one place that is never read.
+    /// @param slots one index of `values` per entry. The slots of unwanted entries are all one index that is never
+    /// read.
     virtual void add(const Points& positions, double factor, std::span<const Index> slots,
                      std::span<double> values) = 0;
 
-    /// M_v of the positions last added: row v times this is the sum of edge or face contributions.
+    /// M_v at the positions last added: row v times M_v is the sum of the contributions of edges or faces.
     [[nodiscard]] virtual double mass(Index v) const = 0;
 };
 
 /// The assembler of one Laplacian on the own faces, whose arrays must outlive it.
 /// @param stiffness_at at least #V by 3: the positions whose K a symmetric Laplacian keeps while M follows the mesh;
-///        needed only during the call. nullptr: K follows the mesh, too.
+///        needed only during the call. nullptr: K also follows the mesh.
 std::unique_ptr<LaplacianAssembler> make_assembler(const ScaledLaplacian& laplacian, const FacesOnBothSides& faces,
                                                    const Points* stiffness_at = nullptr);
 

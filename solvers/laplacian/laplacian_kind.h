@@ -44,7 +44,7 @@ enum class Laplacian {
     Uniform,
 };
 
-/// A Laplacian with its data besides positions.
+/// A Laplacian with its parameter.
 struct ScaledLaplacian {
     ScaledLaplacian(Laplacian laplacian, double edge = 1.0)
         : kind(laplacian)
@@ -54,17 +54,17 @@ struct ScaledLaplacian {
     operator Laplacian() const { return kind; }
 
     Laplacian kind;
-    /// h of Δ_U, in length, above 0; unused by the others.
+    /// h of Δ_U, in length, above 0; not used by other Laplacians.
     double edge_length;
 };
 
-/// How far the row of a vertex reaches.
+/// The vertices that the row of a vertex reaches.
 enum class Reach {
-    /// To the other ends of its edges.
+    /// The other ends of its edges.
     Edges,
-    /// To the vertices of its faces; where these are triangles, that is the same.
+    /// The vertices of its faces; for triangles, these are the other ends of its edges.
     Faces,
-    /// To the vertices of the faces next to them, too.
+    /// Also the vertices of the faces next to its faces.
     TwoRings,
 };
 
@@ -72,20 +72,20 @@ enum class Reach {
 enum class Divisor {
     EdgeLengths,
     FaceAreas,
-    /// The coefficients do not depend on positions.
+    /// None: the coefficients do not depend on positions.
     Nothing,
 };
 
 /// Properties of a Laplacian for the rest of the library.
 struct LaplacianTraits {
     Laplacian laplacian;
-    /// Lower case and hyphens.
+    /// In lower case, with hyphens.
     std::string_view name;
-    /// As in formulas: "Δ_F".
+    /// The symbol in formulas, such as "Δ_F".
     std::string_view symbol;
     Reach reach;
     Divisor divisor;
-    /// Whether it is M⁻¹ K (see SymmetricLaplacian).
+    /// Whether the Laplacian is M⁻¹ K (see SymmetricLaplacian).
     bool is_symmetric;
 };
 

@@ -19,7 +19,7 @@ requires EdgeKernel<Kernel> || FaceKernel<Kernel> Point curvature_by(Kernel kern
     return product / mass;
 }
 
-/// For Δ_P.
+/// ΔV at a vertex for Δ_P: the sum of the shares of its corners, over M_v.
 template <class Kernel>
 Point curvature_by(Kernel, const PolygonMesh& mesh, const Topology& topology, const Points& positions, Index v)
 {

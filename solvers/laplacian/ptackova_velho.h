@@ -16,20 +16,20 @@ struct PtackovaVelho {
     static constexpr LaplacianTraits traits{Laplacian::PtackovaVelho, "ptackova-velho",   "Δ_P",
                                             Reach::TwoRings,          Divisor::FaceAreas, false};
 
-    /// The half-edge whose flux counts at an edge of a face, and its sign.
+    /// The half-edge whose flux counts at an edge of a face, and the sign of the flux.
     struct Across {
         Index halfedge;
         double sign;
     };
 
-    /// That on the other side, or the face's own on the boundary.
+    /// The half-edge on the other side of the edge; on the boundary the face's own half-edge, with the opposite sign.
     static Across across(Index halfedge, Index twin) { return twin >= 0 ? Across{twin, 1.0} : Across{halfedge, -1.0}; }
 
     /// ± ½ w_h as a row: its coefficient at a corner k of the face of h is the scalar product with bₖ.
     static Point half_flux(const Point& edge, double sign, double face_area) { return sign * 0.5 / face_area * edge; }
 
-    /// Σₖ bₖᵀ xₖ / |f|: the map from e_h to w_h of given x.
-    /// @param positions, x at least #V by 3: b is that of the former.
+    /// Σₖ bₖᵀ xₖ / |f|: the map from e_h to w_h for given x.
+    /// @param positions at least #V by 3, with which b is computed. @param x at least #V by 3.
     static Eigen::Matrix3d flux_map(std::span<const Index> corners, const Points& positions, const Points& x,
                                     double face_area)
     {

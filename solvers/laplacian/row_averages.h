@@ -10,12 +10,12 @@ namespace seamflow {
 struct RowAverages {
     /// The number of off-diagonal coefficients.
     double length = 0.0;
-    /// K_vv / M_v, in 1/length². Preconditioned by their diagonal, the equations M + dt K have a condition number of
-    /// about 2 dt times this.
+    /// K_vv / M_v, in 1/length². With their diagonal as preconditioner, the equations M + dt K have a condition number
+    /// of about 2 dt times this.
     double stiffness = 0.0;
 };
 
-/// Of some hundred interior vertices that move, spread evenly; all 0 if there are none.
+/// Averages over some hundred interior vertices that move, spread evenly; all 0 if there are none.
 /// @throws OptionError for an unsymmetric Laplacian.
 RowAverages average_rows(const PolygonMesh& mesh, const Topology& topology, const ScaledLaplacian& laplacian);
 

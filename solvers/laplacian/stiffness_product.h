@@ -11,14 +11,14 @@ namespace seamflow {
 struct StiffnessProduct {
     /// #V by 3: X.
     const Points& increments;
-    /// #V by 3: receives factor · K (V + X), or factor · K X. The rows of K sum to zero: computed from differences, it
-    /// has no rounding error of the size of V.
+    /// #V by 3: receives factor · K (V + X), or factor · K X. The rows of K sum to zero: the product is computed from
+    /// differences, so that it has no rounding error of the size of V.
     Points& result;
     bool of_increments_alone = false;
 };
 
 /// Calls assemble_with(add), where add(v, w, k, d) with k = factor · K_vw and d = V_w - V_v adds the pair's share of
-/// the product, if that is wanted.
+/// the product. Without a product, add does nothing.
 template <class AssembleWith>
 void with_product(const StiffnessProduct* product, AssembleWith&& assemble_with)
 {
@@ -40,8 +40,8 @@ void with_product(const StiffnessProduct* product, AssembleWith&& assemble_with)
         add_with([](const Point& difference, const Point& increment) -> Point { return difference + increment; });
 }
 
-/// Adds the share of an auxiliary unknown, the i-th of whose n entries of C is that of vertex(i): with
-/// u = V - V₀ + X - X₀, V₀ a corner's, -c (cᵀ u) / d, and what the rows of S lack to sum to zero.
+/// Adds the share of an auxiliary unknown to the product: -c (cᵀ u) / d with u = V - V₀ + X - X₀, V₀ being that of one
+/// corner, and the term by which the rows of S do not sum to zero. c has n entries; the i-th is that of vertex(i).
 /// @param d its entry of D.
 template <class VertexOf, class EntryOf>
 void add_auxiliary(const StiffnessProduct& product, const Points& positions, std::size_t n, VertexOf&& vertex,

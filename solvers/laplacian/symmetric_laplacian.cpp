@@ -14,8 +14,8 @@ namespace seamflow {
 
 namespace {
 
-/// K from edges. An edge on the boundary counts half, like one of its two half-edges.
-/// @tparam Number of a vertex: as short as possible, because edges take much of a flow's memory.
+/// K as a sum over edges. An edge on the boundary counts half, like one of its two half-edges.
+/// @tparam Number the type of vertex numbers: as short as possible, because edges take much of a flow's memory.
 template <EdgeKernel Kernel, class Number>
 class SymmetricEdges final : public SymmetricLaplacian {
   public:
@@ -117,14 +117,14 @@ class SymmetricEdges final : public SymmetricLaplacian {
     };
 
     Kernel kernel_;
-    /// First the edges that count fully, then those that count half.
+    /// First the edges that count fully, then the edges that count half.
     std::vector<Edge> edges_;
     std::size_t n_whole_ = 0;
-    /// Per vertex: 1 / number of edges, those on the boundary counted half; 1 where M_v is a sum.
+    /// Per vertex: 1 / number of edges, edges on the boundary counting half; 1 if M_v is a sum and not a mean.
     std::vector<double> inverse_degree_;
 };
 
-/// K from faces.
+/// K as a sum over faces.
 template <FaceKernel Kernel>
 class SymmetricFaces final : public SymmetricLaplacian {
   public:
@@ -245,7 +245,7 @@ class SymmetricFaces final : public SymmetricLaplacian {
     static constexpr Index n_of_face =
         static_cast<Index>(std::tuple_size_v<decltype(std::declval<LargeFace>().auxiliary())>);
 
-    /// Of the faces beyond, other sub-meshes need the entries.
+    /// Whether a face gets auxiliary unknowns. Faces beyond Γ do not: other sub-meshes need their entries.
     [[nodiscard]] bool has_auxiliary(const IndexListsView& of, std::span<const Index> corners) const
     {
         return corners.size() > most_corners_ && &of == lists_.data();

@@ -36,9 +36,9 @@ class TwoRingAssembler final : public LaplacianAssembler {
     {
         measure_areas(positions);
         const Index* slot = slots.data();
-        const Index* place = place_.data();
+        const Index* stencil_index = stencil_index_.data();
         for (Index f = 0; f < faces_.own.size(); ++f) {
-            place = measure_flux(f, positions, place);
+            stencil_index = measure_flux(f, positions, stencil_index);
             const auto corners = faces_.own[f];
             for (const Index v : corners) {
                 const double scale = factor / (vertex_areas_[v] * static_cast<double>(corners.size()));
@@ -53,10 +53,10 @@ class TwoRingAssembler final : public LaplacianAssembler {
   private:
     [[nodiscard]] PtackovaVelho::Across across(Index h) const { return PtackovaVelho::across(h, faces_.twin[h]); }
 
-    /// The face whose flux counts at half-edge h.
+    /// The face with the half-edge whose flux counts at half-edge h.
     [[nodiscard]] Index face_across(Index h) const { return face_of_[across(h).halfedge]; }
 
-    /// All vertices on which Φ_f depends, and the places of the corners of each face across among them.
+    /// Lists all vertices on which Φ_f depends, and the indices in this list of the corners of each face across.
     void list_stencil(Index f)
     {
         const std::size_t begin = stencil_.values.size();
@@ -69,7 +69,7 @@ class TwoRingAssembler final : public LaplacianAssembler {
         stencil_.close();
         for (Index h = faces_.own.offsets[f]; h < faces_.own.offsets[f + 1]; ++h)
             for (const Index v : faces_.own[face_across(h)])
-                place_.push_back(place_in(stencil_[f], v));
+                stencil_index_.push_back(place_in(stencil_[f], v));
     }
 
     void measure_areas(const Points& positions)
@@ -83,9 +83,9 @@ class TwoRingAssembler final : public LaplacianAssembler {
         }
     }
 
-    /// Φ_f as coefficients of the vertices of its stencil, in `flux_`.
-    /// @returns where the places of the next face begin.
-    const Index* measure_flux(Index f, const Points& positions, const Index* place)
+    /// Computes the coefficients of Φ_f at the vertices of its stencil, in `flux_`.
+    /// @returns the first stencil index of the next face.
+    const Index* measure_flux(Index f, const Points& positions, const Index* stencil_index)
     {
         flux_.assign(stencil_[f].size(), 0.0);
         for (Index h = faces_.own.offsets[f]; h < faces_.own.offsets[f + 1]; ++h) {
@@ -95,9 +95,9 @@ class TwoRingAssembler final : public LaplacianAssembler {
             const Point half_flux =
                 PtackovaVelho::half_flux(edge_vector(halfedge, f_across, positions), sign, face_areas_[f_across]);
             for (std::size_t k = 0; k < corners.size(); ++k)
-                flux_[*place++] += half_flux.dot(corner_bisector(corners, k, positions));
+                flux_[*stencil_index++] += half_flux.dot(corner_bisector(corners, k, positions));
         }
-        return place;
+        return stencil_index;
     }
 
     [[nodiscard]] Point edge_vector(Index h, Index f, const Points& positions) const
@@ -112,8 +112,8 @@ class TwoRingAssembler final : public LaplacianAssembler {
     std::vector<Index> face_of_;
     /// Per face: the vertices on which Φ depends, ascending.
     IndexLists stencil_;
-    /// Per half-edge of each face and corner of the face across: its place in the stencil.
-    std::vector<Index> place_;
+    /// Per half-edge of each face, and corner of the face across: the index of that corner in the stencil.
+    std::vector<Index> stencil_index_;
     std::vector<double> flux_;
 };
 

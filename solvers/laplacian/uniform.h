@@ -31,7 +31,7 @@ struct Uniform {
 
     [[nodiscard]] Edge edge(const Point&) const { return Edge(0.25 * edge_length * edge_length); }
 
-    /// h.
+    /// h, in length.
     double edge_length = 1.0;
 };
 

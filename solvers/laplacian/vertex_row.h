@@ -6,16 +6,16 @@
 /// The row of one vertex of the whole mesh in a Laplacian M⁻¹ K, without a matrix.
 namespace seamflow {
 
-/// Calls entry(w, K_vw) for the neighbours w of v, perhaps several times for one: K_vw is the sum of these. The row of
-/// K sums to zero.
+/// Calls entry(w, k) for the neighbours w of v, perhaps several times for one: K_vw is the sum of its k. The row of K
+/// sums to zero.
 /// @param positions #V by 3.
 /// @returns M_v.
 template <EdgeKernel Kernel, class Entry>
 double visit_row(Kernel kernel, const PolygonMesh& mesh, const Topology& topology, const Points& positions, Index v,
                  Entry&& entry)
 {
-    // Where faces are oriented alike, each edge of an interior vertex begins one of its half-edges. Elsewhere each
-    // half-edge is half of its edge.
+    // Where faces are oriented alike, each edge of an interior vertex is the beginning of one half-edge. Elsewhere each
+    // half-edge counts as half of its edge.
     const bool once = topology.oriented && topology.kind[v] == VertexKind::Interior;
     const double share = once ? 1.0 : 0.5;
     const Point here = positions.row(v);

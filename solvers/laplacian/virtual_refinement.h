@@ -33,8 +33,8 @@ struct VirtualRefinement {
     /// |f| / p (paper, eq. 11).
     static double corner_mass(double size, std::size_t p) { return corner_area(size, p); }
 
-    /// The virtual vertex of a polygon. Positions are relative to the first corner: an offset of the mesh costs no
-    /// precision.
+    /// The virtual vertex of a polygon. Positions are relative to the first corner, so that an offset of the mesh costs
+    /// no precision.
     class VirtualVertex {
       public:
         VirtualVertex(std::span<const Index> corners, const Points& positions)
@@ -49,12 +49,12 @@ struct VirtualRefinement {
             gradient_ = gradient_of_weights(from_mean);
         }
 
-        /// xₖ.
+        /// xₖ, relative to the first corner.
         [[nodiscard]] Point position(std::size_t k) const
         {
             return positions_.row(corners_[k]) - positions_.row(corners_[0]);
         }
-        /// x.
+        /// x, relative to the first corner.
         [[nodiscard]] const Point& position() const { return position_; }
         /// wₖ.
         [[nodiscard]] double weight(std::size_t k) const
@@ -63,10 +63,10 @@ struct VirtualRefinement {
         }
 
       private:
-        /// Relative extent that counts as rounding: a flatter polygon is flat.
+        /// A polygon whose relative extent in a direction is below this is flat in it: the extent is rounding.
         static constexpr double flat = 1e-8;
-        /// Attraction of x by the mean of the corners, as a fraction of that by areas: where these leave x free, as in
-        /// a polygon without width, it is there.
+        /// The attraction of x by the mean of the corners, as a fraction of the attraction by areas: it determines x
+        /// where areas do not, as in a polygon without width.
         static constexpr double attraction = 1e-14;
 
         /// x - mean for which Σ |(x - xₖ) × dₖ|² is least, with dₖ = xₖ₊₁ - xₖ.
@@ -86,7 +86,7 @@ struct VirtualRefinement {
             return products.llt().solve(right).transpose();
         }
 
-        /// The shortest w that makes Σ wₖ (xₖ - mean) = from_mean is 1/p + g · (xₖ - mean). This g, by the method of
+        /// The shortest w with Σ wₖ (xₖ - mean) = from_mean is wₖ = 1/p + g · (xₖ - mean). Returns g, by the method of
         /// conjugate directions: linear functions on the corners are made orthogonal, the largest first.
         [[nodiscard]] Point gradient_of_weights(const Point& from_mean) const
         {
@@ -139,11 +139,11 @@ struct VirtualRefinement {
 
     static FanTriangle fan_triangle(const VirtualVertex& x, std::size_t k, std::size_t p)
     {
-        // The least ratio of a triangle's height to its width: thinner ones are no stiffer.
+        // The least ratio of height to width of a triangle: thinner triangles count as if they had this ratio.
         constexpr double thin = 1e-10;
         const Point here = x.position(k);
         const Point next = x.position(k + 1 == p ? 0 : k + 1);
-        // Each opposite to a corner: here, next, the virtual one.
+        // The edges opposite to the corners: the present one, the next one, the virtual vertex.
         const std::array<Point, 3> edges{x.position() - next, here - x.position(), next - here};
         const double widest = std::max({edges[0].squaredNorm(), edges[1].squaredNorm(), edges[2].squaredNorm()});
         if (widest == 0.0)
@@ -153,7 +153,8 @@ struct VirtualRefinement {
                 scale * edges[2].dot(edges[0]), scale * edges[2].dot(edges[1])};
     }
 
-    /// Data of a corner: its weight, and entries of F for it and itself, the next corner, the virtual vertex.
+    /// The data of a corner: its weight, and the entries of F for it with itself, with the next corner, and with the
+    /// virtual vertex.
     struct Corner {
         double weight;
         double diagonal;
@@ -220,7 +221,7 @@ struct VirtualRefinement {
 
       private:
         const Corner* of_fan_;
-        /// F of the virtual vertex and itself.
+        /// The diagonal entry of F for the virtual vertex.
         double at_virtual_ = 0.0;
     };
 

@@ -23,20 +23,20 @@ class CrowdedFans {
         for (const Index v : crowded)
             for (Fan& fan : fans_at(mesh, topology, v, {}, 0)) {
                 for (std::size_t i = 0; i < fan.corners.size(); ++i)
-                    places_.push_back({fan.corners[i], fans_.size(), i});
+                    fan_corners_.push_back({fan.corners[i], fans_.size(), i});
                 fans_.push_back(std::move(fan));
             }
-        std::ranges::sort(places_, {}, &Place::corner);
+        std::ranges::sort(fan_corners_, {}, &FanCorner::corner);
     }
 
-    /// Appends faces that are evenly spaced in the fan of a corner, as many on one side of its face as on the other
-    /// unless the fan ends there, so that a face has another in its list if the other has it.
+    /// Appends faces that are evenly spaced in the fan of a corner, as many on one side of the corner's face as on the
+    /// other unless the fan ends there, so that neighbours are mutual.
     void append_spaced(Index corner, std::vector<Index>& list) const
     {
-        const auto place = std::ranges::lower_bound(places_, corner, {}, &Place::corner);
-        const Fan& fan = fans_[place->fan];
+        const auto fan_corner = std::ranges::lower_bound(fan_corners_, corner, {}, &FanCorner::corner);
+        const Fan& fan = fans_[fan_corner->fan];
         const std::size_t n = fan.corners.size();
-        const std::size_t here = place->in_fan;
+        const std::size_t here = fan_corner->in_fan;
         constexpr std::size_t on_a_side = FaceNeighbours::most_at_vertex / 2;
         for (std::size_t k = 1; k <= on_a_side; ++k) {
             const std::size_t away = k * n / FaceNeighbours::most_at_vertex;
@@ -48,7 +48,7 @@ class CrowdedFans {
     }
 
   private:
-    struct Place {
+    struct FanCorner {
         Index corner;
         std::size_t fan;
         std::size_t in_fan;
@@ -56,8 +56,8 @@ class CrowdedFans {
 
     const Topology* topology_;
     std::vector<Fan> fans_;
-    /// By their corners, ascending.
-    std::vector<Place> places_;
+    /// The corners of these fans, ascending.
+    std::vector<FanCorner> fan_corners_;
 };
 
 /// The neighbours of face f, until the next call with the same list.

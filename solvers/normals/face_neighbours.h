@@ -11,14 +11,14 @@
 namespace seamflow {
 
 /// The faces around each face: those that share a vertex with it. At a vertex of more than most_at_vertex faces, such
-/// as the pole of a globe, only so many count, evenly spaced around the vertex: they are on all sides of it, whatever
-/// the valence. Together with those that share an edge there are at most most_at_vertex + 2 per corner.
+/// as the pole of a globe, only most_at_vertex faces count, evenly spaced around the vertex, so that they are on all
+/// sides of it. Together with faces that share an edge there are at most most_at_vertex + 2 neighbours per corner.
 struct FaceNeighbours {
     static constexpr std::size_t most_at_vertex = 24;
 
-    /// #F + 1.
+    /// #F + 1: the beginning of each face's neighbours in `faces`.
     std::vector<std::size_t> offsets;
-    /// Per face: ascending, distinct, without the face itself.
+    /// Per face: its neighbours, ascending, distinct, without the face itself.
     std::vector<Index> faces;
 
     [[nodiscard]] std::span<const Index> operator[](Index f) const
@@ -31,8 +31,8 @@ struct FaceNeighbours {
 FaceNeighbours make_face_neighbours(const PolygonMesh& mesh, const Topology& topology,
                                     const Executor& exec = run_serially);
 
-/// 1 or -1 per face, so that vector areas times these point to the same side wherever faces share an edge; on a
-/// one-sided surface, not everywhere. Empty if they already do so.
+/// 1 or -1 per face: vector areas times these signs point to the same side wherever faces share an edge; on a one-sided
+/// surface, not everywhere. Empty if vector areas already do so.
 /// @param topology with twins.
 std::vector<std::int8_t> face_signs(const PolygonMesh& mesh, const Topology& topology);
 

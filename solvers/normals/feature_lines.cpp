@@ -58,25 +58,25 @@ FeatureLines::FeatureLines(const PolygonMesh& mesh, const Topology& topology, st
                             v, w));
     }
     sort_unique(edges_);
-    place_of_.assign(usize(mesh.n_vertices()), -1);
+    line_vertex_of_.assign(usize(mesh.n_vertices()), -1);
     std::vector<std::vector<Index>> ends;
     for (const auto& [v, w] : edges_)
         for (const auto& [here, there] : {std::pair(v, w), std::pair(w, v)}) {
-            if (place_of_[here] < 0) {
-                place_of_[here] = static_cast<Index>(ends.size());
+            if (line_vertex_of_[here] < 0) {
+                line_vertex_of_[here] = static_cast<Index>(ends.size());
                 ends.emplace_back();
-                const Point place = mesh.vertices.row(here);
-                places_.push_back({place, place, place});
+                const Point position = mesh.vertices.row(here);
+                line_vertices_.push_back({position, position, position});
             }
-            ends[place_of_[here]].push_back(there);
+            ends[line_vertex_of_[here]].push_back(there);
         }
-    for (std::size_t i = 0; i < places_.size(); ++i) {
-        Place& place = places_[i];
-        const auto middle = [&](std::size_t k) -> Point { return 0.5 * (place.here + mesh.vertices.row(ends[i][k])); };
+    for (std::size_t i = 0; i < line_vertices_.size(); ++i) {
+        LineVertex& vertex = line_vertices_[i];
+        const auto middle = [&](std::size_t k) -> Point { return 0.5 * (vertex.here + mesh.vertices.row(ends[i][k])); };
         if (ends[i].size() != 2)
             continue;
-        place.before = middle(0);
-        place.after = middle(1);
+        vertex.before = middle(0);
+        vertex.after = middle(1);
     }
 }
 
@@ -90,13 +90,13 @@ PolygonMesh FeatureLines::cut_open(const PolygonMesh& mesh, const Topology& topo
     std::vector<char> is_known(mesh.face_vertices.size());
     std::vector<Index> waiting;
     for (Index v = 0; v < mesh.n_vertices(); ++v) {
-        if (place_of_[v] < 0)
+        if (line_vertex_of_[v] < 0)
             continue;
         bool is_first = true;
         for (const Index start : topology.corners_at(v)) {
             if (is_known[start] != 0)
                 continue;
-            // All corners that are reached without crossing a line.
+            // All corners reached from here without crossing a line get the same vertex.
             const Index number = is_first ? v : n++;
             is_first = false;
             is_known[start] = 1;
@@ -124,11 +124,11 @@ PolygonMesh FeatureLines::cut_open(const PolygonMesh& mesh, const Topology& topo
 
 Point FeatureLines::on_line(Index v, const Point& p) const
 {
-    if (place_of_.empty() || place_of_[v] < 0)
+    if (line_vertex_of_.empty() || line_vertex_of_[v] < 0)
         return p;
-    const Place& place = places_[place_of_[v]];
-    const Point before = nearest_on(place.here, place.before, p);
-    const Point after = nearest_on(place.here, place.after, p);
+    const LineVertex& vertex = line_vertices_[line_vertex_of_[v]];
+    const Point before = nearest_on(vertex.here, vertex.before, p);
+    const Point after = nearest_on(vertex.here, vertex.after, p);
     return (before - p).squaredNorm() < (after - p).squaredNorm() ? before : after;
 }
 

@@ -10,14 +10,14 @@
 namespace seamflow {
 
 /// Edges of a mesh that are kept as they are. A vertex between two of them slides along the line that they form, up to
-/// the midpoints of both; ends of lines and vertices where more of them meet stay. Faces on both sides of a line are
-/// not connected there (see cut_open).
+/// the midpoints of both; vertices at ends of lines, and where more than two edges meet, do not move. Faces on both
+/// sides of a line are not connected there (see cut_open).
 class FeatureLines {
   public:
-    /// Without edges there is nothing to keep.
+    /// No lines.
     FeatureLines() = default;
 
-    /// @param mesh valid, with the lines where they are to stay. @param topology of the mesh, with twins; neither is
+    /// @param mesh valid; the lines stay where its vertices are. @param topology of the mesh, with twins; neither is
     /// needed later. @param edges in any order, repetitions are allowed.
     /// @throws InputError naming the first pair that is no edge of a face.
     FeatureLines(const PolygonMesh& mesh, const Topology& topology, std::span<const Edge> edges);
@@ -28,22 +28,22 @@ class FeatureLines {
     /// the sides except at ends of lines. All positions are 0.
     [[nodiscard]] PolygonMesh cut_open(const PolygonMesh& mesh, const Topology& topology) const;
 
-    /// Where a vertex that would move to p ends: on its line, or at p for a vertex on none.
+    /// The position of a vertex that would move to p: the nearest point of its line; p itself for a vertex on no line.
     [[nodiscard]] Point on_line(Index v, const Point& p) const;
 
   private:
-    /// Halves of the two edges at a vertex; of zero length if it stays.
-    struct Place {
+    /// A vertex of a line, and the middles of its two edges; all three are equal if the vertex does not move.
+    struct LineVertex {
         Point here;
         Point before;
         Point after;
     };
 
-    /// Ascending, each once, the lower vertex first.
+    /// Ascending, without repetitions, the lower vertex of each edge first.
     std::vector<Edge> edges_;
-    /// #V: the number of its place, -1 off all lines.
-    std::vector<Index> place_of_;
-    std::vector<Place> places_;
+    /// #V: the index of the vertex in line_vertices_; -1 for vertices on no line.
+    std::vector<Index> line_vertex_of_;
+    std::vector<LineVertex> line_vertices_;
 };
 
 }  // namespace seamflow

@@ -13,33 +13,35 @@ namespace seamflow {
 
 namespace {
 
-/// How often the weights follow the normals (measured, like the constants below: see engine/accuracy.md).
+/// The number of rounds, each with weights computed from the last normals (measured, like the constants below: see
+/// engine/accuracy.md).
 constexpr int diffusion_rounds = 4;
 /// Chords longer than this many σ stop diffusion.
 constexpr double sigmas_at_edges = 3.0;
-/// σ, and the width over which guides are averaged, in chords of noise.
+/// σ, and the width over which guides are averaged, as multiples of the noise, which is a chord.
 constexpr double sigma_by_noise = 8.0;
 constexpr double width_by_noise = 7.0;
-/// Above this noise, means of whole patches are better guides than those of similar normals, where the patch disagrees
-/// by no more than this many times the square of the noise.
+/// Above this noise, means of whole patches are better guides than means of similar normals, if the patch disagrees by
+/// no more than this many times the square of the noise.
 constexpr double much_noise = 0.03;
 constexpr double most_disagreement = 8.0;
-/// The mean around another face is a better guide only where normals disagree less by this factor.
+/// The mean around another face is taken as a guide only if its normals disagree less by this factor.
 constexpr double clearly_less = 0.5;
-/// Shorter chords are rounding errors.
+/// The least σ: shorter chords are rounding errors.
 constexpr double least_sigma = 1e-6;
-/// The widest plane that noise of whole numbers leaves, twice its area over its perimeter, in lengths of its edges: a
-/// terrace is long, but narrow.
+/// The width of the widest plane that noise of whole numbers leaves, twice its area over its perimeter, in lengths of
+/// its edges: a terrace is long, but narrow.
 constexpr double widest_plane_of_noise = 1.5;
-/// Where a plane differs this much less from the mean of those around it than from each, it is a part of a round shape.
+/// A plane is part of a round shape if the chord to the mean of the planes around it is less than this fraction of the
+/// chord to each.
 constexpr double even_bend = 0.2;
-/// Of the residual of a round, relative to that at its beginning; and the most iterations.
+/// The residual after a round relative to that at its beginning; and the most iterations.
 constexpr double diffusion_tolerance = 1e-2;
 constexpr int most_diffusion_iterations = 500;
-/// The height of a face over its longest side, relative to its coordinates, below which its normal is rounding error of
-/// a file with floats.
+/// The height of a face over its longest side, relative to its coordinates, below which its normal is a rounding error
+/// of a file in single precision.
 constexpr double least_height = 4.0 * std::numeric_limits<float>::epsilon();
-/// Weights relative to the diagonal of A beyond which a face has the mean of its neighbours to all digits.
+/// The weights relative to the diagonal of A above which a face gets the mean of its neighbours to all digits.
 constexpr double largest_diffusion_weight = 1e20;
 
 double sum_of_products(const Points& a, const Points& b, const Executor& exec)
@@ -47,7 +49,7 @@ double sum_of_products(const Points& a, const Points& b, const Executor& exec)
     return sum(exec, static_cast<Index>(a.rows()), [&](Index i) { return a.row(i).dot(b.row(i)); });
 }
 
-/// Of those below a limit; 0 if there are none.
+/// The median of the values below a limit; 0 if there are none.
 double median_below(double limit, std::vector<double> values)
 {
     std::erase_if(values, [&](double value) { return !(value < limit); });
@@ -58,7 +60,7 @@ double median_below(double limit, std::vector<double> values)
     return *middle;
 }
 
-/// 0 where no normal can be determined: such a face follows none, and holds no vertex.
+/// The area of a face; 0 if its normal cannot be determined: such a face gets no normal, and vertices ignore it.
 double area_with_normal(std::span<const Index> corners, const Points& positions)
 {
     double farthest = 0.0;
@@ -147,9 +149,10 @@ void NormalDiffusion::measure(const Points& positions, double time_step, const E
     });
 }
 
-/// The median of the chords between each face and the neighbour across an edge that is most similar to it, or the mean
-/// of these, which is more similar in round parts. Those of sharper edges do not count. Where most faces have a
-/// neighbour with the same normal, as on whole-number heights, narrow planes of such faces take the place of faces.
+/// The noise: the median over faces of the chord between the face and the most similar neighbour across an edge, or the
+/// mean of its neighbours, which is more similar on round shapes. Neighbours across edges sharper than edge_chord do
+/// not count. If most faces have a neighbour with the same normal, as where heights are whole numbers, narrow planes of
+/// such faces are measured instead of faces.
 double NormalDiffusion::measure_noise(const Points& positions, const Points& normals, double edge_chord,
                                       const Executor& exec) const
 {
@@ -178,10 +181,10 @@ double NormalDiffusion::measure_noise(const Points& positions, const Points& nor
     return median_below(edge_chord, chords);
 }
 
-/// Gives all faces of a plane, faces with the same normal that share edges, the chord between it and the most similar
-/// plane around it, or the mean of these by length of edges: 0 for wider planes, and where the planes around bend as
-/// those of a round shape, which noise does not make.
-/// @param chords #F: replaced, but for faces without area.
+/// Gives all faces of a plane the same chord. A plane is a set of connected faces with the same normal; its chord is
+/// that to the most similar plane around it, or to the mean of these weighted by length of edges. The chord is 0 for
+/// wide planes, and where the planes around bend like a round shape, which noise does not make.
+/// @param chords #F: replaced, except for faces without area.
 void NormalDiffusion::spread_over_planes(const Points& positions, const Points& normals, double edge_chord,
                                          std::vector<double>& chords) const
 {
@@ -246,8 +249,8 @@ void NormalDiffusion::find_guides(const Points& normals, const Executor& exec)
     });
 }
 
-/// Takes the mean normal of a face and its neighbours, around the face or one of its neighbours, where these are on one
-/// side of edges.
+/// Finds the guides that are means of whole patches: of a face and its neighbours, around the face itself or one of its
+/// neighbours, if these are on one side of edges.
 void NormalDiffusion::find_patches(const Points& normals, const Executor& exec)
 {
     const Index n = mesh_->n_faces();

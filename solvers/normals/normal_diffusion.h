@@ -34,8 +34,8 @@ class NormalDiffusion {
     {
     }
 
-    /// The same between faces that share vertices of another mesh.
-    /// @param connected the faces of `mesh` with other vertices; not needed afterwards. @param topology of it.
+    /// Normals diffuse between faces that share vertices of another mesh.
+    /// @param connected the faces of `mesh` with other vertices; not needed afterwards. @param topology of `connected`.
     NormalDiffusion(const PolygonMesh& mesh, const PolygonMesh& connected, const Topology& topology,
                     const Executor& exec);
 
@@ -45,7 +45,7 @@ class NormalDiffusion {
     [[nodiscard]] Points smoothed(const Points& positions, double time_step, double angle,
                                   const Executor& exec = run_serially);
 
-    /// Of the last normals, before smoothing: a chord of unit normals. 0 on planar faces.
+    /// The noise of the last normals, before smoothing: a chord of unit normals. 0 on planar faces.
     [[nodiscard]] double noise() const { return noise_; }
 
   private:
@@ -64,20 +64,20 @@ class NormalDiffusion {
     std::vector<std::int8_t> signs_;
     /// Per half-edge: the face across, or -1 if there is none.
     std::vector<Index> across_;
-    /// #F: in mean face areas.
+    /// #F: the areas, in mean face areas.
     std::vector<double> areas_;
-    /// #F by 3.
+    /// #F by 3: the centroids.
     Points centroids_;
     /// #F: r_i, in length, and 2 √(τ a_i / m_i) with the area in mean face areas.
     std::vector<double> reach_;
     std::vector<double> scale_;
-    /// #F by 3: guides; and the mean normals of each face and its neighbours, and their disagreement: 0 if all are
+    /// #F by 3: the guides; the mean normals of each face and its neighbours; and #F: their disagreement, 0 if all are
     /// equal, 1 if they cancel out.
     Points guides_;
     Points means_;
     std::vector<double> disagreement_;
     double noise_ = 0.0;
-    /// τ w_ij as in neighbours_, and their sums for each face.
+    /// τ w_ij for each entry of neighbours_, and their sum for each face.
     std::vector<float> weights_;
     std::vector<double> diagonal_;
     /// #F by 3: r, p and A p of the conjugate gradients.

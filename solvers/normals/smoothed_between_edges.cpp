@@ -8,7 +8,7 @@ Points smoothed_between_edges(const PolygonMesh& mesh, const Topology& topology,
                               NormalDiffusion& diffusion, const Points& positions, double time_step, double angle,
                               const Executor& exec)
 {
-    // Measured: see engine/accuracy.md.
+    // The number of times that normals diffuse and vertices move (measured: see engine/accuracy.md).
     constexpr int passes = 3;
     Points result = positions;
     for (int pass = 0; pass < passes; ++pass) {

@@ -14,18 +14,20 @@ namespace seamflow {
 
 namespace {
 
-/// The most relaxation at once (measured, like the default numbers of rounds: see engine/accuracy.md).
+/// The most relaxation in a round (measured, like the default numbers of rounds: see engine/accuracy.md).
 constexpr double most_relaxation = 0.1;
-/// Of the step before, which makes the iterations worth several times as many (Polyak's heavy ball).
+/// The fraction of the previous step that is added to each step, which saves most of the iterations (Polyak's heavy
+/// ball).
 constexpr double fit_momentum = 0.5;
-/// A direction is half free at a vertex where the mean of the squared cosines between it and the normals is this much.
+/// The mean squared cosine between a direction and the normals at a vertex at which the vertex is half free in that
+/// direction.
 constexpr double half_free = 1e-3;
-/// From how many times the distance of the nearest centroid on a face counts less at a vertex.
+/// A face counts less at a vertex if its centroid is further away than this many times the nearest centroid.
 constexpr double far_away = 6.0;
 
-/// Per corner, the weight of its face at the vertex: 1, or less where its centroid is far away (fans of slivers, say).
-/// What an error of its normal moves the vertex by grows with the distance, and so does what relaxation does.
-/// @returns empty if all are 1.
+/// Per corner, the weight of its face at the vertex: 1, or less where its centroid is far away (as in fans of slivers).
+/// An error of the face's normal, and relaxation, move the vertex in proportion to that distance.
+/// @returns empty if all weights are 1.
 std::vector<float> weights_of_corners(const PolygonMesh& mesh, const Topology& topology, const Points& positions,
                                       const Points& centroids, const Executor& exec)
 {
@@ -33,7 +35,7 @@ std::vector<float> weights_of_corners(const PolygonMesh& mesh, const Topology& t
     const auto squared_distance = [&](Index v, Index corner) {
         return (centroids.row(topology.face_of[corner]) - positions.row(v)).squaredNorm();
     };
-    // Others may have their centroids at the vertex, as in the middle of an edge.
+    // Faces without area may have their centroid at the vertex, as for a vertex in the middle of an edge.
     const auto has_area = [&](Index corner) {
         return area_above_rounding(mesh.face(topology.face_of[corner]), positions) > 0.0;
     };
@@ -48,7 +50,7 @@ std::vector<float> weights_of_corners(const PolygonMesh& mesh, const Topology& t
                           double furthest = 0.0;
                           for (const Index corner : topology.corners_at(v))
                               furthest = std::max(furthest, squared_distance(v, corner));
-                          // Areas matter, and take time, at few vertices.
+                          // Areas, which take time, are computed only if a face without them is far away.
                           if (furthest <= reach_at(v, [](Index) { return true; }))
                               return 0.0;
                           reach[v] = reach_at(v, has_area);
@@ -66,7 +68,7 @@ std::vector<float> weights_of_corners(const PolygonMesh& mesh, const Topology& t
     return weights;
 }
 
-/// The faces to fit vertices to.
+/// The faces that vertices are fitted to.
 struct WantedFaces {
     const PolygonMesh& mesh;
     const Topology& topology;
@@ -108,7 +110,7 @@ Point fitting_step(const WantedFaces& faces, const Points& positions, Index v, d
 void fit_vertices(const PolygonMesh& mesh, const Topology& topology, const FeatureLines& lines,
                   const NoisyNormals& wanted, Points& vertices, const Executor& exec)
 {
-    // Relaxation goes as far as chords of noise are long, up to a limit that folds hardly any face.
+    // The relaxation equals the chord of the noise, up to a limit at which hardly any face folds.
     const double relaxation = std::min(wanted.noise, most_relaxation);
     WantedFaces faces{mesh, topology, wanted.normals, Points(mesh.n_faces(), 3), {}};
     Points before = vertices;

@@ -9,16 +9,17 @@ namespace seamflow {
 
 namespace {
 
-/// A function of a library that may or may not be loaded. Looked up by name, because which BLAS is behind libblas, and
-/// whether OpenMP is present at all, is only known when the program starts.
+/// A function of a library that may or may not be loaded. It is looked up by name, because only at run time it is known
+/// which BLAS is behind libblas, and whether OpenMP is present.
 template <class Function>
 Function* find_function(const char* name)
 {
     return reinterpret_cast<Function*>(dlsym(RTLD_DEFAULT, name));
 }
 
-/// The number of SingleThreadedBlas, and the setting to restore when the last one is destroyed; empty: nothing was
-/// changed. OpenBLAS has one number of threads for the whole process, so this is one for the whole process, too.
+/// The number of SingleThreadedBlas objects, and the setting to restore when the last one is destroyed; empty: nothing
+/// was changed. OpenBLAS has one number of threads for the whole process, so that there is one of these for the whole
+/// process.
 struct BlasThreads {
     std::mutex mutex;
     int users = 0;

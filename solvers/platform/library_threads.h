@@ -2,11 +2,11 @@
 
 namespace seamflow {
 
-/// Ends the threads that BLAS started when the program was loaded; it starts new ones when it needs them. For programs
-/// that set something that threads inherit from their creator, and must do so first.
+/// Ends the threads that BLAS started when the program was loaded; BLAS starts new ones when it needs them. For
+/// programs that set properties which threads inherit from their creator, and must do so first.
 void end_threads_of_blas();
 
-/// Keeps BLAS on one thread for the whole process while at least one of these exists, then restores its number of
+/// Keeps BLAS on one thread for the whole process while at least one such object exists, then restores its number of
 /// threads. Does nothing for a BLAS that is not OpenBLAS.
 class SingleThreadedBlas {
   public:
@@ -16,8 +16,8 @@ class SingleThreadedBlas {
     SingleThreadedBlas& operator=(const SingleThreadedBlas&) = delete;
 };
 
-/// Keeps OpenMP regions that the calling thread starts on that one thread while this exists. Must be destroyed in the
-/// same thread. Does nothing without OpenMP.
+/// Keeps OpenMP regions that the calling thread starts on that one thread while this object exists. Must be destroyed
+/// in the same thread. Does nothing without OpenMP.
 class SingleThreadedOpenMp {
   public:
     SingleThreadedOpenMp();

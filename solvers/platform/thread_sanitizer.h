@@ -10,13 +10,15 @@
 
 namespace seamflow {
 
-// oneTBB is built without ThreadSanitizer, which thus sees that its threads work, but not that one waits for another,
-// and would report all data handed over as races. So it is told here what oneTBB guarantees at the few places where
-// work is handed to it, and no more: tasks that nothing orders stay unordered. These places, and with them the compiled
-// part of oneTBB's templates, are not instrumented (see CMakeLists.txt). In other builds, all of this is empty.
+// oneTBB is built without ThreadSanitizer, which therefore sees that oneTBB's threads work, but not that one waits for
+// another, and would report all data handed over as races. The following functions tell ThreadSanitizer what oneTBB
+// guarantees where work is handed to it, and no more: tasks that nothing orders stay unordered. These functions, and
+// the compiled part of oneTBB's templates, are not instrumented (see CMakeLists.txt). In other builds, all of them are
+// empty.
 #ifdef SEAMFLOW_THREAD_SANITIZER
 inline constexpr bool under_thread_sanitizer = true;
-/// All that this thread did until now happened before what a thread does after a later `take_over` with this token.
+/// Declares that all work of this thread until now happens before the work of a thread after a later `take_over` with
+/// the same token.
 inline void hand_over(const void* token)
 {
     __tsan_release(const_cast<void*>(token));
@@ -31,8 +33,8 @@ inline void hand_over(const void* /*token*/) {}
 inline void take_over(const void* /*token*/) {}
 #endif
 
-/// Work that a thread hands to others and waits for, while this exists. Its parts come after the beginning and before
-/// the end, mutually unordered.
+/// Work that a thread hands to other threads and waits for, while this object exists. Its parts happen after the
+/// beginning and before the end, mutually unordered.
 class SharedWork {
   public:
     SharedWork() { hand_over(&begun_); }
@@ -40,7 +42,7 @@ class SharedWork {
     SharedWork(const SharedWork&) = delete;
     SharedWork& operator=(const SharedWork&) = delete;
 
-    /// Exists in the thread that does the part, while it does.
+    /// Exists in the thread that does a part of the work, while that thread does it.
     class Part {
       public:
         explicit Part(const SharedWork& work)
@@ -61,7 +63,8 @@ class SharedWork {
     char done_ = 0;
 };
 
-/// The dependencies in a graph of tasks: each comes after those that it waits for, and before the end of the run.
+/// The dependencies in a graph of tasks: each task happens after the tasks that it waits for, and before the end of the
+/// run.
 class TaskOrder {
   public:
     void add_dependency(std::size_t before, std::size_t after)
@@ -72,7 +75,7 @@ class TaskOrder {
         }
     }
 
-    /// Called in the thread of the task, before and after.
+    /// To be called in the thread of the task, before it and after it.
     void begin(std::size_t task) const
     {
         if constexpr (under_thread_sanitizer)
@@ -88,7 +91,7 @@ class TaskOrder {
         hand_over(this);
     }
 
-    /// Called in the thread that releases a task that also waits for an external event.
+    /// To be called in the thread that signals the event for which a task waits.
     void come(std::size_t task) const
     {
         if constexpr (under_thread_sanitizer)
@@ -96,11 +99,11 @@ class TaskOrder {
                 hand_over(&waiting_[task]);
     }
 
-    /// Called in the thread that has waited for the run.
+    /// To be called in the thread that has waited for the run.
     void end_run() const { take_over(this); }
 
   private:
-    /// Per task, those that wait for it. The address of its entry is its token.
+    /// Per task, the tasks that wait for it. The address of an entry is the token of its task.
     std::vector<std::vector<std::size_t>> waiting_;
 };
 

@@ -20,29 +20,30 @@ static_assert(AMD_OK == CAMD_OK);
     throw ComputationError("out of memory in the analysis of the system: use more sub-meshes");
 }
 
-/// The result of AMD for unknowns that are eliminated together: they are named by one of them, their principal.
+/// The result of AMD. Unknowns that are eliminated together are a group, named by one of them, its principal.
 struct AmdResult {
     explicit AmdResult(SparsePattern neighbours);
 
-    /// Per unknown: its place in the order, and the unknown at each place.
+    /// Per unknown: its position in the order; and the unknown at each position.
     std::vector<Index> position;
     std::vector<Index> order;
-    /// Per principal, the number of its unknowns, which is 0 for all others. They are consecutive in the order, the
-    /// principal last.
+    /// Per principal, the number of unknowns of its group; 0 for other unknowns. The group is consecutive in the order,
+    /// the principal last.
     std::vector<Index> width;
-    /// Per principal, the number of rows on which its unknowns' columns have entries, those of its own among them.
+    /// Per principal, the number of rows in which the columns of its group have entries, including the group's own
+    /// rows.
     std::vector<Index> front;
-    /// Per principal, the next one that is related to it, or -1; per other unknown, its principal, or -1 where AMD has
-    /// put it last without analysis because it has very many neighbours.
+    /// Per principal, the principal of its parent in the elimination tree, or -1. Per other unknown, its principal, or
+    /// -1 if AMD has put it last without analysis because it has very many neighbours.
     std::vector<Index> parent;
 };
 
-/// Uses AMD's inner routine, which returns more than the outer one but destroys its input, and does not check it.
+/// Calls AMD's inner routine, which returns more than the outer one but destroys its input, and does not check it.
 AmdResult::AmdResult(SparsePattern neighbours)
 {
     const auto n = static_cast<std::size_t>(neighbours.n());
     const std::size_t n_entries = neighbours.rows.size();
-    // AMD's own choice of the workspace size.
+    // The size of the workspace that AMD itself chooses.
     const std::size_t room = n_entries + n_entries / 5 + n;
     if (room > usize(std::numeric_limits<Index>::max()))
         fail_for_memory();
@@ -63,11 +64,12 @@ AmdResult::AmdResult(SparsePattern neighbours)
           nullptr);
 }
 
-/// Empty if some unknowns were not analysed.
+/// The elimination tree; empty if some unknowns were not analysed.
 EliminationTree tree_of(const AmdResult& amd)
 {
     const std::size_t n = amd.order.size();
-    // Not all at once: if memory runs out for a later member, GCC 12 destroys members made from {} twice.
+    // The members are set one by one: if memory runs out for a later member, GCC 12 destroys members made from {}
+    // twice.
     EliminationTree tree;
     tree.parent.resize(n);
     tree.count.resize(n);
@@ -108,7 +110,8 @@ std::vector<Index> elimination_ordering(const SparsePattern& upper, const std::v
     const Index* const offsets = upper.column_offsets.data();
     const Index* const rows = upper.rows.data();
     const std::vector<Index> groups(is_last.begin(), is_last.end());
-    // CAMD supports at most as many groups as there are unknowns: a single one cannot be in the second.
+    // CAMD supports at most as many groups as there are unknowns, so that a single unknown cannot be in the second
+    // group.
     const bool has_groups = groups.size() > 1 && std::ranges::find(groups, 1) != groups.end();
     const int status = has_groups ? camd_order(upper.n(), offsets, rows, order.data(), nullptr, nullptr, groups.data())
                                   : amd_order(upper.n(), offsets, rows, order.data(), nullptr, nullptr);

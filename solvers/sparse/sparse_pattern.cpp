@@ -22,7 +22,7 @@ Index SparsePattern::slot(MatrixEntry entry) const
 
 namespace {
 
-/// Also sorts the rows of each column.
+/// Removes repeated entries, and sorts the rows of each column.
 void leave_one_of_each(SparsePattern& pattern)
 {
     auto end = pattern.rows.begin();

@@ -6,7 +6,7 @@
 
 namespace seamflow {
 
-/// Place of one entry in a matrix. Ordered by column, then row.
+/// The position of an entry in a matrix. Ordered by column, then row.
 struct MatrixEntry {
     Index column = 0;
     Index row = 0;
@@ -16,7 +16,7 @@ struct MatrixEntry {
 /// The entries of a square matrix that may be nonzero, by columns. Values are kept separately, in an array with one
 /// number per entry in the same order.
 struct SparsePattern {
-    /// n + 1.
+    /// n + 1: the index of the first entry of each column, and the number of entries.
     std::vector<Index> column_offsets{0};
     /// The rows of each column's entries, ascending unless stated otherwise.
     std::vector<Index> rows;
@@ -24,8 +24,8 @@ struct SparsePattern {
     [[nodiscard]] Index n() const { return static_cast<Index>(column_offsets.size()) - 1; }
     [[nodiscard]] Index n_entries() const { return static_cast<Index>(rows.size()); }
 
-    /// Position of an entry among the values.
-    /// @pre the pattern has it.
+    /// The index of an entry among the values.
+    /// @pre the pattern has the entry.
     [[nodiscard]] Index slot(MatrixEntry entry) const;
 };
 

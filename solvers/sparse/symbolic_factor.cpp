@@ -10,7 +10,7 @@ namespace seamflow {
 
 namespace {
 
-/// The entries on and above the diagonal of the pattern made symmetric, its unknowns renumbered.
+/// The entries on and above the diagonal of the pattern made symmetric, with renumbered unknowns.
 SparsePattern symmetrised(const SparsePattern& pattern, const std::vector<Index>& position)
 {
     std::vector<MatrixEntry> entries;
@@ -26,7 +26,7 @@ SparsePattern symmetrised(const SparsePattern& pattern, const std::vector<Index>
     return make_pattern(pattern.n(), entries);
 }
 
-/// Without entries that stay zero.
+/// The elimination tree, without entries that stay zero.
 EliminationTree make_tree(const SparsePattern& upper)
 {
     EliminationTree tree{std::vector<Index>(upper.n(), -1), std::vector<Index>(upper.n(), 0)};
@@ -44,14 +44,14 @@ EliminationTree make_tree(const SparsePattern& upper)
     return tree;
 }
 
-/// Whether two consecutive columns have the same rows except for the second one itself.
+/// Whether two consecutive columns have the same rows except for the row of the second column itself.
 bool belong_together(const EliminationTree& tree, Index column)
 {
     return tree.parent[column] == column + 1 && tree.count[column] == tree.count[column + 1] + 1;
 }
 
-/// The last of the columns that have the same rows as the first one except for each other, most_columns at most; the
-/// last n_last are one supernode.
+/// The end of the columns that have the same rows as the first one except for each other, at most most_columns; the
+/// last n_last columns are one supernode.
 Index end_of_supernode(const EliminationTree& tree, Index first, Index n_last, Index most_columns)
 {
     const auto n = static_cast<Index>(tree.parent.size());
@@ -64,16 +64,17 @@ Index end_of_supernode(const EliminationTree& tree, Index first, Index n_last, I
 /// Narrower supernodes are merged up to this width.
 constexpr Index most_relaxed_columns = 32;
 
-/// Whether a supernode of `width` columns, and `n_rows` rows below them, is worth that many entries that stay zero:
-/// fewer and wider supernodes are faster (measured on triangle meshes; more zeros save no more time, but take memory).
+/// Whether a supernode of `width` columns, and `n_rows` rows below them, may have `zeros` entries that stay zero: fewer
+/// and wider supernodes are faster (measured on triangle meshes; more zeros save no more time, but take memory).
 bool is_worth(double zeros, Index width, Index n_rows)
 {
     const double size = 0.5 * width * (width + 1.0) + 1.0 * width * n_rows;
     return (width <= 8 && zeros <= 0.4 * size) || (width <= most_relaxed_columns && zeros <= 0.15 * size);
 }
 
-/// The furthest end of a supernode without zeros that is worth it and to which parents lead from all columns before it
-/// in the supernode: none of those has a row outside that the last one does not have.
+/// The furthest end of a supernode that, after merging, is worth its zeros (see is_worth), and in which the parents of
+/// all columns but the last are in the supernode: then these columns have no further row that the last column does not
+/// have.
 Index end_of_relaxed_supernode(const EliminationTree& tree, Index first, Index last, Index n_last)
 {
     const auto n = static_cast<Index>(tree.parent.size());
@@ -97,7 +98,7 @@ Index end_of_relaxed_supernode(const EliminationTree& tree, Index first, Index l
     return last;
 }
 
-/// Which entries of L that stay zero supernodes may have.
+/// Whether supernodes may include entries of L that stay zero.
 enum class Zeros {
     None,
     Few,
@@ -105,14 +106,15 @@ enum class Zeros {
 
 struct SupernodeLimits {
     Zeros zeros;
-    /// The last unknowns, which form one supernode.
+    /// The number of last unknowns, which form one supernode.
     Index n_last;
     Index most_columns;
 };
 
-/// Fills in the supernodes. Calls on_row(row, supernode, place) for each row that a supernode has outside itself, rows
-/// ascending; `place` is the row's position among those of the supernode. Calls on_entry(slot, place) for each entry of
-/// the matrix in order; there `place` is that of its column among the rows of the supernode of its row.
+/// Fills in the supernodes. Calls on_row(row, supernode, row_index) for each row that a supernode has outside its own
+/// columns, rows ascending; row_index is the index of the row among the rows of the supernode. Calls on_entry(slot,
+/// row_index) for each entry of the matrix in order; there row_index is the index of its column among the rows of the
+/// supernode of its row.
 template <class OnRow, class OnEntry>
 void list_supernodes(const SparsePattern& upper, const EliminationTree& tree, const SupernodeLimits& limits,
                      SymbolicFactor& factor, OnRow on_row, OnEntry on_entry)
@@ -172,8 +174,8 @@ SymbolicFactor make_symbolic_factor(const SparsePattern& pattern)
     const SparsePattern upper = symmetrised(pattern, factor.position);
     list_supernodes(
         upper, make_tree(upper), {Zeros::None, 0, n}, factor,
-        [&](Index row, Index supernode, Index place) {
-            factor.updates.push_back({supernode, place});
+        [&](Index row, Index supernode, Index row_index) {
+            factor.updates.push_back({supernode, row_index});
             ++factor.update_offsets[row + 1];
         },
         [](Index, Index) {});
@@ -182,15 +184,15 @@ SymbolicFactor make_symbolic_factor(const SparsePattern& pattern)
 }
 
 SymbolicFactor make_symmetric_symbolic_factor(const SparsePattern& upper, Index n_last, const EliminationTree& tree,
-                                              std::vector<Index>& places, Index most_columns)
+                                              std::vector<Index>& row_indices, Index most_columns)
 {
     assert((tree.parent.empty() || n_last == 0) && "the tree knows of no last unknowns");
     const EliminationTree own_tree = tree.parent.empty() ? make_tree(upper) : EliminationTree{};
     SymbolicFactor factor;
-    places.resize(upper.rows.size());
+    row_indices.resize(upper.rows.size());
     list_supernodes(
         upper, tree.parent.empty() ? own_tree : tree, {Zeros::Few, n_last, most_columns}, factor,
-        [](Index, Index, Index) {}, [&](Index entry, Index place) { places[entry] = place; });
+        [](Index, Index, Index) {}, [&](Index entry, Index row_index) { row_indices[entry] = row_index; });
     return factor;
 }
 

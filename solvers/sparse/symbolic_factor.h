@@ -17,17 +17,18 @@ struct SymbolicFactor {
     /// An update of one column of L, and one row of U, by a supernode of earlier ones.
     struct Update {
         Index supernode;
-        /// Where the column stands among the supernode's rows.
-        Index place;
+        /// The index of the column among the supernode's rows.
+        Index row_index;
     };
 
-    /// Per unknown of the matrix, its number in the elimination ordering; empty where they are the same.
+    /// Per unknown of the matrix, its number in the elimination ordering; empty if the numbers are the same.
     std::vector<Index> position;
     /// Number of supernodes + 1: the first unknown of each.
     std::vector<Index> first{0};
-    /// Per supernode: its unknowns, then all others on which its columns have entries, ascending.
+    /// Per supernode: its unknowns, then all other unknowns in whose rows its columns have entries, ascending.
     IndexLists rows;
-    /// Number of unknowns + 1, and the updates of each unknown's column from outside its supernode.
+    /// Number of unknowns + 1: the index in `updates` of the first update of each unknown's column. The updates come
+    /// from other supernodes.
     std::vector<Index> update_offsets;
     std::vector<Update> updates;
 
@@ -36,19 +37,19 @@ struct SymbolicFactor {
     [[nodiscard]] Index width(Index supernode) const { return first[supernode + 1] - first[supernode]; }
 };
 
-/// For a matrix of any pattern, in an elimination ordering of its own.
+/// Analyses a matrix of any pattern, in an elimination ordering of its own.
 /// @throws ComputationError if there is too little memory.
 SymbolicFactor make_symbolic_factor(const SparsePattern& pattern);
 
-/// For a symmetric matrix whose unknowns are in the elimination ordering, without `position` and `updates`. A few
+/// Analyses a symmetric matrix whose unknowns are in the elimination ordering; without `position` and `updates`. Some
 /// entries that stay zero are included for wider supernodes.
 /// @param upper the entries on and above the diagonal, the whole diagonal among them.
-/// @param n_last the last unknowns, which always form one supernode.
+/// @param n_last the number of last unknowns, which always form one supernode.
 /// @param tree if already known, as `order_elimination` returns it (without `n_last`); otherwise empty.
-/// @param places receives, per entry of the matrix, the place of its column among the rows of its row's supernode.
-/// @param most_columns of a supernode, but for that of the last unknowns.
+/// @param row_indices receives, per entry of the matrix, the index of its column among the rows of its row's supernode.
+/// @param most_columns of a supernode, except for that of the last unknowns.
 SymbolicFactor make_symmetric_symbolic_factor(const SparsePattern& upper, Index n_last, const EliminationTree& tree,
-                                              std::vector<Index>& places,
+                                              std::vector<Index>& row_indices,
                                               Index most_columns = std::numeric_limits<Index>::max());
 
 }  // namespace seamflow

@@ -16,14 +16,15 @@ namespace seamflow {
 
 namespace {
 
-/// Up to this fraction of the sizes of a block's entries, positive ones do not count.
+/// A block's positive off-diagonal entries are neglected if the sum of their sizes is at most this fraction of the sum
+/// of all sizes.
 constexpr double most_positive = 0.05;
 /// The fraction of the dropped fill that is subtracted from the diagonal.
 constexpr float part_of_fill = 0.8F;
-/// Relative to the diagonal.
+/// The least pivot, relative to the diagonal entry of A.
 constexpr float least_pivot = 0.1F;
 
-/// 0 where the denominator is not positive.
+/// The quotients, per column; 0 where the denominator is not positive.
 Eigen::Array4f quotients(const Eigen::Array4d& numerators, const Eigen::Array4d& denominators)
 {
     return (denominators > 0.0).select(numerators / denominators, 0.0).cast<float>();
@@ -34,7 +35,7 @@ Eigen::Array4f quotients(const Eigen::Array4d& numerators, const Eigen::Array4d&
 BlockRowMatrix::BlockRowMatrix(std::vector<Index> blocks, const Pattern& pattern, const Executor& exec)
     : blocks_(std::move(blocks))
 {
-    // For each block, the columns of all rows.
+    // The columns of all rows, one element per block.
     std::vector<IndexLists> lists(blocks_.size() - 1);
     for (std::vector<Index>* begin : {&lower_.begin, &upper_.begin, &outer_.begin})
         *begin = large_vector<Index>(usize(n_rows()) + 1);
@@ -73,11 +74,11 @@ BlockRowMatrix::BlockRowMatrix(std::vector<Index> blocks, const Pattern& pattern
             const auto inner = [&](Index column) { return static_cast<Inner>(column - begin); };
             std::transform(first, diagonal, lower_.columns.get() + lower_.begin[i], inner);
             std::transform(diagonal, last, upper_.columns.get() + upper_.begin[i], inner);
-            const auto place = std::copy(columns.begin(), first, outer_.columns.get() + outer_.begin[i]);
-            std::copy(last, columns.end(), place);
+            const auto end_of_left = std::copy(columns.begin(), first, outer_.columns.get() + outer_.begin[i]);
+            std::copy(last, columns.end(), end_of_left);
         }
     });
-    // In the memory that the lists have left.
+    // The values reuse the memory that the lists have freed.
     for (Buffer<float>* values : {&diagonal_, &pivot_})
         reserve(*values, n_rows());
     for (Buffer<StoredRow>* rows : {&residual_, &direction_, &increment_})
@@ -85,21 +86,21 @@ BlockRowMatrix::BlockRowMatrix(std::vector<Index> blocks, const Pattern& pattern
     for (Buffer<Row>* rows : {&step_, &product_})
         reserve(*rows, n_rows());
     for_each_block(exec, [&](Index, Index begin, Index end) {
-        // The row of the identity, until it is set and where there are no columns.
+        // The row of the identity. It stays for vertices without columns.
         std::fill(&diagonal_[begin], &diagonal_[end], 1.0F);
         std::fill(&residual_[begin], &residual_[end], Row(Row::Zero()));
     });
 }
 
-BlockRowMatrix::Entry BlockRowMatrix::entry(const Place& place, Index column)
+BlockRowMatrix::Entry BlockRowMatrix::entry(const BlockRow& in_block, Index column)
 {
-    const Index inner = column - place.begin;
+    const Index inner = column - in_block.begin;
     if (inner >= 0 && inner < most_rows) {
-        Entries<Inner>& part = column < place.row ? lower_ : upper_;
-        if (const Index e = part.find(place.row, static_cast<Inner>(inner)); e >= 0)
+        Entries<Inner>& part = column < in_block.row ? lower_ : upper_;
+        if (const Index e = part.find(in_block.row, static_cast<Inner>(inner)); e >= 0)
             return part.entry(e);
     }
-    return outer_.entry(outer_.find(place.row, column));
+    return outer_.entry(outer_.find(in_block.row, column));
 }
 
 void BlockRowMatrix::keep_exact()
@@ -129,7 +130,7 @@ void BlockRowMatrix::factorise(const Executor& exec)
             std::copy(&diagonal_[begin], &diagonal_[end], &pivot_[begin]);
             return;
         }
-        // For each row so far, the sum of the entries above the diagonal.
+        // For each row before the present one, the sum of the entries above the diagonal.
         std::vector<float> above(end - begin);
         for (Index i = begin; i < end; ++i) {
             float pivot = diagonal_[i];

@@ -16,21 +16,21 @@
 
 namespace seamflow {
 
-/// A large symmetric positive definite matrix A, by blocks of consecutive rows and in single precision, and conjugate
-/// gradients with it for three columns at once. Their preconditioner is an incomplete factorisation of each diagonal
-/// block that changes nothing but the diagonal, (D + L) D⁻¹ (D + Lᵀ) with L the entries of A below the diagonal. So the
-/// product with A comes with its solution, and an iteration reads each entry once (Eisenstat, Efficient Implementation
-/// of a Class of Preconditioned Conjugate Gradient Methods, 1981; Saad, Iterative Methods for Sparse Linear Systems,
-/// 2003, 9.2.2). Sums are taken in a fixed order: the bits do not depend on how loops are run.
+/// A large symmetric positive definite matrix A, by blocks of consecutive rows and in single precision, with conjugate
+/// gradients for three columns at once. The preconditioner is an incomplete factorisation of each diagonal block that
+/// changes nothing but the diagonal, (D + L) D⁻¹ (D + Lᵀ), L being the entries of A below the diagonal. With it, the
+/// product with A follows from the solution with the preconditioner, and an iteration reads each entry once (Eisenstat,
+/// Efficient Implementation of a Class of Preconditioned Conjugate Gradient Methods, 1981; Saad, Iterative Methods for
+/// Sparse Linear Systems, 2003, 9.2.2). Sums are taken in a fixed order: the bits do not depend on how loops are run.
 class BlockRowMatrix {
   public:
-    /// Three columns and a zero one, so that a row fills a register.
+    /// Three columns and a column of zeros, so that a row fills a register.
     using Row = Eigen::Array4f;
     /// The three columns alone, which take less memory, for arrays whose rows are read only one after the other.
     class StoredRow {
       public:
         StoredRow() = default;
-        // Not as arrays, which the compiler would keep in memory.
+        // The members are single numbers: the compiler would keep arrays in memory.
         StoredRow(const Row& row)
         {
             SimdVector<float, 4> all;
@@ -48,39 +48,39 @@ class BlockRowMatrix {
       private:
         float columns_[3];
     };
-    /// Most rows of a block.
+    /// The most rows of a block.
     static constexpr Index most_rows = 1 << 16;
-    /// The columns of each row of a block: ascending, without the diagonal; none for rows of the identity.
+    /// The columns of each row of a block, ascending, without the diagonal. Rows of the identity have none.
     using Pattern = std::function<IndexLists(Index block)>;
 
-    /// @param blocks #blocks + 1: the rows where they begin, and the number of rows.
-    /// @param pattern called once for each block, for several at a time.
+    /// @param blocks #blocks + 1: the first row of each block, then the number of rows.
+    /// @param pattern called once for each block, from several threads at the same time.
     /// @throws ComputationError if there are 2³¹ entries or more.
     BlockRowMatrix(std::vector<Index> blocks, const Pattern& pattern, const Executor& exec);
 
     [[nodiscard]] Index n_rows() const { return blocks_.back(); }
 
-    /// A row of the block that begins there.
-    struct Place {
+    /// A row, and the first row of its block.
+    struct BlockRow {
         Index begin;
         Index row;
     };
-    /// Runs body(place) for the rows of a block, several blocks at a time.
-    /// @returns the sum of its results, of some matrix type.
+    /// Runs body(BlockRow) for all rows, several blocks at the same time.
+    /// @returns the sum of the results of body, of some matrix type.
     template <class Sum, class Body>
     Sum sum_of_rows(const Executor& exec, Body&& body) const;
     /// An off-diagonal entry.
     struct Entry {
         float& value;
-        /// A number beside it in double precision; null unless they are kept.
+        /// The same entry in double precision; null unless keep_exact has been called.
         double* exact;
     };
     /// Calls visit(column, entry) for the off-diagonal entries of a row.
     template <class Visit>
-    void for_each_entry(const Place& place, Visit&& visit);
-    /// An existing entry of a row.
-    Entry entry(const Place& place, Index column);
-    /// From now on there is a number in double precision beside each entry, which is still to be set.
+    void for_each_entry(const BlockRow& in_block, Visit&& visit);
+    /// The entry of a row in this column, which must exist.
+    Entry entry(const BlockRow& in_block, Index column);
+    /// Stores each entry in double precision, too. The values in double precision are not yet set.
     void keep_exact();
     [[nodiscard]] bool keeps_exact() const { return keeps_exact_; }
     void set_diagonal(Index i, float value) { diagonal_[i] = value; }
@@ -100,26 +100,27 @@ class BlockRowMatrix {
         /// The largest change of a row of the increment in the last iteration.
         double last_update = 0.0;
     };
-    /// A increment = residual, from 0 (after start).
-    /// @param squared the result of start, for a residual of about 1 per row, so that it fits in single precision.
-    /// @param goal the part of the residual that may be left.
+    /// Solves A increment = residual, from increment = 0 on (after start).
+    /// @param squared the result of start, for a residual of about 1 per row, so that squares fit in single precision.
+    /// @param goal the fraction of the residual that may be left.
     Result iterate(const Eigen::Array4d& squared, double goal, int most_iterations, const Executor& exec);
 
   private:
     template <class Value>
     using Buffer = std::unique_ptr<Value[]>;
-    /// Of a block, so that columns are short.
+    /// A column within a block, counted from the first row of the block.
     using Inner = std::uint16_t;
-    /// Some entries of each row.
+    /// The entries of each row on one side: below the diagonal, above the diagonal, or outside the block.
     template <class Column>
     struct Entries {
         std::vector<Index> begin;
         Buffer<Column> columns;
         Buffer<float> values;
-        /// Empty unless they are kept.
+        /// The values in double precision; empty unless keep_exact has been called.
         Buffer<double> exact;
 
-        /// Multiplies by the entries. Keeps pointers, as a written row may alias anything to the compiler.
+        /// Multiplies by the entries. The class keeps plain pointers: the compiler assumes that writing a row may
+        /// change any member.
         class Product {
           public:
             explicit Product(const Entries& entries)
@@ -129,7 +130,7 @@ class BlockRowMatrix {
             {
             }
 
-            /// @param rows by columns.
+            /// @param rows one row per column of A.
             void subtract_from(Row& sum, Index i, const Row* rows) const
             {
                 const Index end = begin_[i + 1];
@@ -145,13 +146,13 @@ class BlockRowMatrix {
 
         Entry entry(Index e) { return {values[e], exact ? &exact[e] : nullptr}; }
 
-        /// The place of a column in row i, or -1 if there is none.
+        /// The index in `columns` of a column of row i; -1 if row i has no such entry.
         Index find(Index i, Column column) const
         {
             const Column* const end = columns.get() + begin[i + 1];
             const Column* const first = columns.get() + begin[i];
-            const Column* const place = std::lower_bound(first, end, column);
-            return place != end && *place == column ? static_cast<Index>(place - columns.get()) : -1;
+            const Column* const found = std::lower_bound(first, end, column);
+            return found != end && *found == column ? static_cast<Index>(found - columns.get()) : -1;
         }
     };
 
@@ -162,7 +163,7 @@ class BlockRowMatrix {
         for_each(exec, static_cast<Index>(blocks_.size()) - 1,
                  [&](Index block) { body(block, blocks_[block], blocks_[block + 1]); });
     }
-    /// The sum of body(begin, end).
+    /// The sum of body(begin, end) over the blocks.
     template <class Sum, class Body>
     Sum sum_of_blocks(const Executor& exec, Body&& body) const
     {
@@ -179,7 +180,8 @@ class BlockRowMatrix {
     Eigen::Array4d update_residual(const Row& alpha, const Executor& exec);
 
     std::vector<Index> blocks_;
-    /// Below and above the diagonal in the block; their columns count from its first one.
+    /// The entries below and above the diagonal within a block. Their columns are counted from the first row of the
+    /// block.
     Entries<Inner> lower_;
     Entries<Inner> upper_;
     /// Entries whose columns are in other blocks; the preconditioner leaves them out.
@@ -188,8 +190,8 @@ class BlockRowMatrix {
     Buffer<float> diagonal_;
     /// The diagonal D of the incomplete factorisation (D + L) D⁻¹ (D + Lᵀ) of each block.
     Buffer<float> pivot_;
-    /// Of the iteration: (D + L)⁻¹ r, r being the residual; the direction p; t = (D + Lᵀ)⁻¹ p; q - t with q = (D + L)⁻¹
-    /// A t; the solution.
+    /// The vectors of the iteration: (D + L)⁻¹ r, r being the residual; the direction p; t = (D + Lᵀ)⁻¹ p; q - t with q
+    /// = (D + L)⁻¹ A t; the solution.
     Buffer<StoredRow> residual_;
     Buffer<StoredRow> direction_;
     Buffer<Row> step_;
@@ -203,18 +205,18 @@ Sum BlockRowMatrix::sum_of_rows(const Executor& exec, Body&& body) const
     return sum_of_blocks<Sum>(exec, [&](Index begin, Index end) {
         Sum sum = Sum::Zero();
         for (Index i = begin; i < end; ++i)
-            sum += body(Place{begin, i});
+            sum += body(BlockRow{begin, i});
         return sum;
     });
 }
 
 template <class Visit>
-void BlockRowMatrix::for_each_entry(const Place& place, Visit&& visit)
+void BlockRowMatrix::for_each_entry(const BlockRow& in_block, Visit&& visit)
 {
-    const Index i = place.row;
+    const Index i = in_block.row;
     for (Entries<Inner>* part : {&lower_, &upper_})
         for (Index e = part->begin[i]; e < part->begin[i + 1]; ++e)
-            visit(place.begin + part->columns[e], part->entry(e));
+            visit(in_block.begin + part->columns[e], part->entry(e));
     for (Index e = outer_.begin[i]; e < outer_.begin[i + 1]; ++e)
         visit(outer_.columns[e], outer_.entry(e));
 }

@@ -8,7 +8,7 @@
 
 #include "partition/errors.h"
 
-/// Checks of the equations of a sub-mesh, whose errors advise what to do.
+/// Checks of the equations of a sub-mesh. The messages of the errors say what the user can do.
 namespace seamflow {
 
 /// @throws ComputationError where a number is not finite.

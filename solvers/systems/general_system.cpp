@@ -21,7 +21,7 @@ GeneralSystem::GeneralSystem(SystemParts parts, std::unique_ptr<TransmissionCond
     screening_ = make_screening(parts.terms, std::span(sub_mesh.local_to_global).first(usize(sub_mesh.n_vertices)));
     const auto is_laplacian = [&](const MatrixEntry& entry) { return row_of_[entry.row] == Row::Laplacian; };
     const Points first =
-        parts.terms.keeps_stiffness ? rows_of(*parts.terms.first, sub_mesh.local_to_global) : Points(0, 3);
+        parts.terms.keeps_stiffness ? rows_of(*parts.terms.initial, sub_mesh.local_to_global) : Points(0, 3);
     laplacian_ = make_assembler(parts.laplacian, {sub_mesh.face_vertices, {}, twin_, sub_mesh.n_vertices},
                                 parts.terms.keeps_stiffness ? &first : nullptr);
     const std::vector<MatrixEntry> laplacian_entries = laplacian_->entries();
@@ -87,7 +87,7 @@ SubMeshSystem::Assembled GeneralSystem::assemble(const Points& positions, const 
 /// dt w V⁰: the contribution of the attachment to the right-hand side.
 Point GeneralSystem::pull(Index v) const
 {
-    return pulls_ ? Point(time_step_ * screening_.weight(v) * screening_.first.row(v)) : Point::Zero();
+    return pulls_ ? Point(time_step_ * screening_.weight(v) * screening_.initial.row(v)) : Point::Zero();
 }
 
 void GeneralSystem::assemble_interface(const Points& positions, const Points& other_side)

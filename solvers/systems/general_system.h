@@ -10,9 +10,8 @@
 
 namespace seamflow {
 
-/// The equations of a sub-mesh as they stand, A X = B with one row per own vertex, any Laplacian and any condition on
-/// Γ, by an LU factorisation. The pattern is made and analysed once and covers every role; each step refills the values
-/// in place.
+/// The equations of a sub-mesh, A X = B with one row per own vertex, for any Laplacian and any condition on Γ, by an LU
+/// factorisation. The pattern covers every role and is analysed once; each step refills the values in place.
 class GeneralSystem final : public SubMeshSystem {
   public:
     /// @param condition the rows on Γ where the sub-mesh leads.
@@ -45,21 +44,21 @@ class GeneralSystem final : public SubMeshSystem {
     std::unique_ptr<TransmissionCondition> condition_;
     std::unique_ptr<LaplacianAssembler> laplacian_;
     SparsePattern pattern_;
-    /// Per entry of the Laplacian, an entry of the pattern, or the last value, which is unused; per vertex; per entry
-    /// of the condition's columns.
+    /// The index in values_ of each entry of the Laplacian, or that of the last value, which is never read; then of the
+    /// diagonal entry of each vertex; then of each entry of the condition's columns.
     std::vector<Index> slots_;
     std::vector<Index> diagonal_slots_;
     std::vector<Index> interface_slots_;
-    /// One per entry of the pattern, and an unused one.
+    /// One value per entry of the pattern, and a last value that is never read.
     std::vector<double> values_;
     std::unique_ptr<DirectSolver> solver_;
     Index n_nearly_singular_ = 0;
     std::vector<InterfaceRole> roles_;
     std::vector<double> row_;
     Screening screening_;
-    /// dt of this step.
+    /// dt of the present step, in length².
     double time_step_ = 0.0;
-    /// Whether the right-hand side attaches to V⁰.
+    /// Whether the attachment to V⁰ is on the right-hand side.
     bool pulls_ = false;
     Columns right_hand_side_;
     Columns solution_;

@@ -32,7 +32,7 @@ std::unique_ptr<SubMeshSystem> make_predicted_system(SystemParts parts, SolverWo
 {
     if (parts.factorisation != Factorisation::Umfpack && has_symmetric_rows(parts.sub_mesh, parts.laplacian))
         return std::make_unique<SymmetricSystem>(parts, SymmetricRows::Transmission, workspace);
-    const Points* const first = parts.terms.keeps_stiffness ? parts.terms.first : nullptr;
+    const Points* const first = parts.terms.keeps_stiffness ? parts.terms.initial : nullptr;
     const Points stiffness_at = first != nullptr ? rows_of(*first, parts.sub_mesh.local_to_global) : Points(0, 3);
     auto condition = make_predicted_side(parts.sub_mesh, parts.laplacian, first != nullptr ? &stiffness_at : nullptr);
     return make_system(std::move(parts), std::move(condition), workspace);

@@ -14,7 +14,8 @@ namespace seamflow {
 
 namespace {
 
-/// The least pivot in single precision, relative to the matrix's diagonal: below it fewer than four digits may be left.
+/// The least pivot in single precision, relative to the matrix's diagonal: with a smaller pivot, fewer than four digits
+/// may be left.
 constexpr float least_pivot_of_single = 1e-3F;
 
 }  // namespace
@@ -33,7 +34,7 @@ NeumannSystem::NeumannSystem(const SubMesh& sub_mesh, IndexLists faces, const Sc
         faces_ = {};
 }
 
-/// The interior in the elimination ordering, then Γ.
+/// Numbers the interior in the elimination ordering, then Γ.
 /// @returns the pattern of the upper triangle.
 SparsePattern NeumannSystem::number_unknowns(const SubMesh& sub_mesh)
 {
@@ -80,38 +81,39 @@ NeumannSystem::Assembled NeumannSystem::assemble(const Points& positions, const 
         residual.row(v) = -residual.row(v) - mass * increments.row(v);
         if (screening.exists())
             residual.row(v) -= mass * time_step * screening.weight(v) *
-                               ((positions.row(v) - screening.first.row(v)) + increments.row(v));
+                               ((positions.row(v) - screening.initial.row(v)) + increments.row(v));
     }
-    leave_out_held(matrix, increments, residual);
+    leave_out_fixed(matrix, increments, residual);
     return {matrix, residual, power_of_two_near(std::sqrt(time_step))};
 }
 
-void NeumannSystem::hold(Index v, bool is_held)
+void NeumannSystem::set_fixed(Index v, bool is_fixed)
 {
-    is_held_.resize(usize(matrix_.n_vertices), 0);
-    n_held_ += (is_held ? 1 : 0) - is_held_[v];
-    is_held_[v] = is_held ? 1 : 0;
+    is_fixed_.resize(usize(matrix_.n_vertices), 0);
+    n_fixed_ += (is_fixed ? 1 : 0) - is_fixed_[v];
+    is_fixed_[v] = is_fixed ? 1 : 0;
 }
 
 void NeumannSystem::set_reference(const Points& first)
 {
     matrix_.laplacian->set_reference(first);
     if (matrix_.screening.exists())
-        matrix_.screening.first = first.topRows(matrix_.screening.first.rows());
+        matrix_.screening.initial = first.topRows(matrix_.screening.initial.rows());
 }
 
-/// Their rows and columns are those of a diagonal matrix, and right-hand sides of 0. The residual of their neighbours
-/// has them where they are.
-void NeumannSystem::leave_out_held(std::span<double> matrix, const Points& increments, Points& residual) const
+/// The rows and columns of fixed vertices become those of a diagonal matrix, with right-hand sides of 0. The residual
+/// of their neighbours is that for the fixed positions.
+void NeumannSystem::leave_out_fixed(std::span<double> matrix, const Points& increments, Points& residual) const
 {
-    if (n_held_ == 0)
+    if (n_fixed_ == 0)
         return;
     const std::vector<VertexPair> pairs = matrix_.laplacian->pairs();
     for (std::size_t i = 0; i < pairs.size(); ++i)
-        if (matrix_.slots[i] < matrix_.n_entries() && (is_held_[pairs[i].first] != 0 || is_held_[pairs[i].second] != 0))
+        if (matrix_.slots[i] < matrix_.n_entries() &&
+            (is_fixed_[pairs[i].first] != 0 || is_fixed_[pairs[i].second] != 0))
             matrix[matrix_.slots[i]] = 0.0;
     for (Index u = 0; u < matrix_.n(); ++u)
-        if (const Index v = matrix_.vertex_of[u]; is_held_[v] != 0)
+        if (const Index v = matrix_.vertex_of[u]; is_fixed_[v] != 0)
             residual.row(v) = -matrix[matrix_.diagonal_slot(u)] * increments.row(v);
 }
 

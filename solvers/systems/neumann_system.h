@@ -19,29 +19,30 @@
 
 namespace seamflow {
 
-/// A sub-mesh's share A = M + dt K + dt M w of the whole backward Euler system, assembled from its own faces alone:
-/// summed over the sub-meshes, the shares are the whole. Factorised with Γ last, A = L D Lᵀ solves the interior with Γ
-/// given, and its last block is the sub-mesh's Schur complement on Γ. The unknowns are corrections X of Vᵏ⁺¹ - Vᵏ: the
-/// residual of X is computed in double precision, a factor may be in single precision. For symmetric Laplacians. One
-/// thread at a time.
+/// A sub-mesh's share A = M + dt K + dt M w of the matrix of the whole backward Euler step, assembled from the
+/// sub-mesh's own faces alone: the sum of the shares over all sub-meshes is the whole matrix. With the unknowns on Γ
+/// eliminated last, A = L D Lᵀ solves the interior with Γ given, and the last block of the factor is the sub-mesh's
+/// Schur complement on Γ. The unknowns are corrections X of Vᵏ⁺¹ - Vᵏ: the residual of X is computed in double
+/// precision, a factor may be in single precision. For symmetric Laplacians. One thread at a time.
 class NeumannSystem {
   public:
     /// @param sub_mesh without overlap; needed only during the call.
-    /// @param faces its face_vertices: most of the data that Δ_A and Δ_B keep; Δ_F keeps edges.
-    /// @param exec runs what several threads can do at once, of a mesh without Γ; empty: nothing is.
+    /// @param faces the sub-mesh's face_vertices. Δ_A and Δ_B keep them, as most of their data; Δ_F keeps edges
+    /// instead.
+    /// @param exec runs loops of a mesh without Γ on several threads; empty: everything runs on the calling thread.
     /// @throws ComputationError if the analysis fails.
     NeumannSystem(const SubMesh& sub_mesh, IndexLists faces, const ScaledLaplacian& laplacian,
                   const FlowTerms& terms = {}, const Executor& exec = {});
     NeumannSystem(const NeumannSystem&) = delete;
     NeumannSystem& operator=(const NeumannSystem&) = delete;
 
-    /// A factor, and the state of the right-hand side in it.
+    /// A factor, with the right-hand side that condense leaves in it.
     class Factor;
 
-    /// Number of vertices on Γ.
+    /// The number of unknowns on Γ.
     [[nodiscard]] Index n_interface() const { return n_interface_; }
 
-    /// Number of the other vertices that may move.
+    /// The number of unknowns that are not on Γ.
     [[nodiscard]] Index n_interior() const { return static_cast<Index>(unknowns().size()) - n_interface_; }
 
     /// The own vertices that may move, in the order of the unknowns: the interior, then Γ in its own order.
@@ -58,9 +59,9 @@ class NeumannSystem {
         return solver_.factor_bytes<Number>();
     }
 
-    /// The equations of a step, in a workspace: valid until that is used again.
+    /// The equations of a step. They are in the workspace, and valid until the workspace is used again.
     struct Assembled {
-        /// A.
+        /// The entries of A.
         std::span<const double> matrix;
         /// #local by 3: -dt K Vᵏ - dt M w (Vᵏ - V⁰) - A X at the unknowns.
         const Points& residual;
@@ -69,10 +70,10 @@ class NeumannSystem {
     };
 
     /// @param positions at least #own by 3: Vᵏ.
-    /// @param increments #own by 3: X, so far.
+    /// @param increments #own by 3: the X found so far.
     /// @param time_step dt, in length².
-    /// @param data #own by 3: D, if the step is to be applied to that, A X = M D, without the attachment to V⁰. The
-    ///        residual is M D - A X then.
+    /// @param data #own by 3: D, for a step applied to D, A X = M D, without the attachment to V⁰. The residual is then
+    ///        M D - A X. Null: the step is applied to Vᵏ.
     [[nodiscard]] Assembled assemble(const Points& positions, const Points& increments, double time_step,
                                      SolverWorkspace& workspace, const Points* data = nullptr) const;
 
@@ -84,41 +85,43 @@ class NeumannSystem {
                                                   LdlWorkspace& workspace) const;
 
     /// Takes the Schur complement of the last factorised matrix.
-    /// @param factor of that matrix.
+    /// @param factor the last one that `factorise` returned.
     void take_schur_complement(const Factor& factor, const LdlWorkspace& workspace, DenseFactor& complement) const;
 
     /// Eliminates the interior from the equations.
-    /// @param factor keeps data for back_substitute.
+    /// @param factor stores the eliminated right-hand side for back_substitute.
     /// @param on_interface n_interface() by 3: receives this sub-mesh's share of the right-hand side on Γ.
     void condense(const Assembled& equations, Factor& factor, Eigen::Ref<Points> on_interface) const;
 
-    /// Solves for the correction of the interior, with that of Γ given.
+    /// Solves for the correction of the interior, with the correction on Γ given.
     /// @param factor as condense left it.
-    /// @param on_interface n_interface() by 3.
-    /// @param increments #own by 3: the correction is added in the interior.
+    /// @param on_interface n_interface() by 3: the correction on Γ.
+    /// @param increments #own by 3: the correction is added to the rows of the interior.
     /// @throws ComputationError if the result is not finite.
     void back_substitute(Factor& factor, const Points& on_interface, Points& increments) const;
 
-    /// Whether many columns of data can take steps at once: without Γ, auxiliary unknowns and attachment, with a factor
-    /// in double precision.
+    /// Whether take_steps can be called: only without Γ, auxiliary unknowns and attachment, and with a factor in double
+    /// precision.
     [[nodiscard]] bool can_take_columns(const Factor& factor) const;
 
-    /// Takes some steps of the heat equation with many columns of data, faster than column by column, in a flow that
-    /// keeps M and K. Only where that is possible. Held vertices keep their values.
-    /// @param factor of the steps. @param rows per own vertex, its row of the fields.
+    /// Takes some steps of the heat equation for many columns of data at once, faster than column by column, in a flow
+    /// that keeps M and K. To be called only where can_take_columns returns true. Fixed vertices keep their values.
+    /// @param factor of the matrix of the steps. @param time_step dt, in length².
+    /// @param rows per own vertex, its row of `fields`.
+    /// @param fields any number of rows by any number of columns: data before, and after the steps.
     /// @throws ComputationError if a result is not finite.
     void take_steps(const Factor& factor, double time_step, int n_steps, std::span<const Index> rows,
                     Eigen::Ref<Eigen::MatrixXd> fields, const Executor& exec) const;
 
-    /// Holds an own vertex where it is from now on, or lets it move again: its correction is 0. All sub-meshes that
-    /// share it must be told.
-    void hold(Index v, bool is_held);
+    /// Fixes an own vertex, or lets it move again. The correction of a fixed vertex is 0. To be called for all
+    /// sub-meshes that share the vertex.
+    void set_fixed(Index v, bool is_fixed);
 
-    /// Sets w of the attachment of an own vertex, in 1/length². Only with an attachment.
+    /// Sets the weight w of an own vertex, in 1/length². Only for a system with an attachment.
     void attach(Index v, double weight) { matrix_.screening.weights[v] = weight; }
 
-    /// Takes K and M of other origin from now on (see SymmetricLaplacian::give).
-    /// @param local_to_global all vertices in the whole mesh.
+    /// Replaces the kept K and M by given ones (see SymmetricLaplacian::give).
+    /// @param local_to_global the numbers of all local vertices in the whole mesh.
     void give(const GivenStiffness& given, std::span<const Index> local_to_global)
     {
         matrix_.laplacian->give(given, local_to_global);
@@ -127,23 +130,23 @@ class NeumannSystem {
     /// Weighs a kept K (see SymmetricLaplacian::weigh).
     void weigh(const SquaredDifference& squared_difference) { matrix_.laplacian->weigh(squared_difference); }
 
-    /// Takes what is kept of V⁰, and what an attachment pulls to, from other positions.
-    /// @param first at least #own by 3.
+    /// Replaces V⁰: computes the kept K and M from other positions, and attaches to these.
+    /// @param initial at least #own by 3.
     void set_reference(const Points& first);
 
   private:
     SparsePattern number_unknowns(const SubMesh& sub_mesh);
     [[nodiscard]] Index n_before_interface() const { return matrix_.n() - n_interface_; }
-    void leave_out_held(std::span<double> matrix, const Points& increments, Points& residual) const;
+    void leave_out_fixed(std::span<double> matrix, const Points& increments, Points& residual) const;
 
     Index n_interface_;
-    /// The vertices held; empty if none ever was. And their number.
-    std::vector<std::uint8_t> is_held_;
-    Index n_held_ = 0;
-    /// If the Laplacian uses them.
+    /// Per own vertex: 1 if it is fixed; empty if none has ever been fixed. The number of fixed vertices.
+    std::vector<std::uint8_t> is_fixed_;
+    Index n_fixed_ = 0;
+    /// The faces, if the Laplacian needs them in each step.
     IndexLists faces_;
     SymmetricMatrix matrix_;
-    /// Of the matrix's unknowns, where some are auxiliary; else empty.
+    /// Per unknown that is not auxiliary: its vertex. Empty if the matrix has no auxiliary unknowns.
     std::vector<Index> unknown_vertices_;
     LdlSolver solver_;
 };

@@ -7,14 +7,14 @@
 
 namespace seamflow {
 
-/// Attachment of a sub-mesh to V⁰: adds dt M w to the diagonal of M + dt K, and dt M w V⁰ to the right-hand side. A
-/// vertex with step scale s takes a step of s dt: M is divided by s, w multiplied.
+/// The attachment of a sub-mesh to V⁰: adds dt M w to the diagonal of M + dt K, and dt M w V⁰ to the right-hand side. A
+/// vertex with step scale s takes a step of s dt: M is divided by s, and w is multiplied by s.
 struct Screening {
     /// Per own vertex: w, in 1/length². Empty without attachment.
     std::vector<double> weights;
     /// #own by 3: V⁰.
-    Points first = Points(0, 3);
-    /// Per own vertex: s. Empty: 1.
+    Points initial = Points(0, 3);
+    /// Per own vertex: s. Empty: 1 everywhere.
     std::vector<double> step_scales = {};
 
     [[nodiscard]] bool exists() const { return !weights.empty(); }
@@ -22,7 +22,7 @@ struct Screening {
     [[nodiscard]] double weight(Index v) const { return exists() ? weights[v] * step_scale(v) : 0.0; }
 };
 
-/// @param own the vertices of the sub-mesh, as numbers in the mesh.
+/// @param own the own vertices of the sub-mesh, by their numbers in the whole mesh.
 inline Screening make_screening(const FlowTerms& terms, std::span<const Index> own)
 {
     Screening screening;
@@ -30,7 +30,7 @@ inline Screening make_screening(const FlowTerms& terms, std::span<const Index> o
         screening.step_scales.push_back(terms.step_scale(v));
     if (!terms.attaches())
         return screening;
-    screening.first = rows_of(*terms.first, own);
+    screening.initial = rows_of(*terms.initial, own);
     screening.weights.reserve(own.size());
     for (const Index v : own)
         screening.weights.push_back(terms.weight(v));

@@ -28,7 +28,8 @@ class SubMeshSystem {
   public:
     virtual ~SubMeshSystem() = default;
 
-    /// The matrix of a step, in the system or in a workspace: valid until either assembles again.
+    /// The matrix of a step, in the system or in a workspace. It is valid until this system assembles again, or another
+    /// one with the same workspace.
     struct Assembled {
         std::span<double> matrix;
     };
@@ -36,8 +37,8 @@ class SubMeshSystem {
 
     /// Assembles the equations for Vᵏ.
     /// @param positions #local by 3, the halo included: Vᵏ.
-    /// @param other_side #local by 3: Vᵏ as the sub-meshes beyond Γ have it, on Γ and in the halo. The same as
-    ///        `positions` unless every sub-mesh has its own copy of Γ.
+    /// @param other_side #local by 3: Vᵏ of the sub-meshes beyond Γ, on Γ and in the halo. The same as `positions`
+    ///        unless every sub-mesh has its own copy of Γ.
     /// @param time_step dt, in length².
     /// @param p Robin parameter, in 1/length.
     /// @param roles one per vertex of Γ.
@@ -48,7 +49,7 @@ class SubMeshSystem {
     /// Size of a factor, in bytes; an estimate if not known beforehand.
     [[nodiscard]] virtual std::size_t factor_bytes() const = 0;
 
-    /// Whether it needs the faces of the sub-mesh after its construction.
+    /// Whether the system needs the faces of the sub-mesh after its construction.
     [[nodiscard]] virtual bool uses_faces() const { return true; }
 
     /// Kind of the factorisation (see DirectSolver::kind).
@@ -59,37 +60,39 @@ class SubMeshSystem {
     [[nodiscard]] virtual Factor factorise(const Assembled& equations, FactorMemory& memory,
                                            SolverWorkspace& workspace) = 0;
 
-    /// How many factorisations so far were of equations that are nearly singular: three correct digits at most.
+    /// The number of factorisations so far whose equations were nearly singular: their solutions have three correct
+    /// digits at most.
     [[nodiscard]] virtual Index n_nearly_singular() const { return 0; }
 
-    /// Puts D in place of Vᵏ on the right-hand side, without the attachment to V⁰: from here on, the result of the step
-    /// for D is solved for, with the same factor. The functions below then take D for Vᵏ.
+    /// Replaces Vᵏ on the right-hand side by D, without the attachment to V⁰: the functions below then take D in place
+    /// of Vᵏ, and solve for the result of the step applied to D, with the same factor.
     /// @param data #local by 3: D, which is 0 at fixed vertices.
     virtual void use_data(const Points& data) = 0;
 
-    /// Takes account of the other side where the sub-mesh leads.
+    /// Updates the right-hand side at vertices of Γ where the sub-mesh leads.
     /// @param positions #local by 3: Vᵏ.
-    /// @param other_side #local by 3: what is known of Vᵏ⁺¹ beyond Γ, on Γ and in the halo.
+    /// @param other_side #local by 3: the latest known Vᵏ⁺¹ of the sub-meshes beyond Γ, on Γ and in the halo.
     virtual void use_other_side(const Points& positions, const Points& other_side) = 0;
 
-    /// Solves for Vᵏ⁺¹. With Vᵏ where the sub-mesh follows this is a prediction, as if nothing around it moved.
+    /// Solves for Vᵏ⁺¹. If the given positions where the sub-mesh follows are Vᵏ, the result is a prediction: Vᵏ⁺¹ if
+    /// the sub-meshes around did not move.
     /// @param positions #local by 3: Vᵏ.
     /// @param solution #local by 3. In: Vᵏ⁺¹ at those vertices of Γ where the sub-mesh follows. Out: Vᵏ⁺¹ at all own
-    ///        vertices; where it follows, and at fixed vertices, bitwise the given values.
+    ///        vertices; where the sub-mesh follows, and at fixed vertices, bitwise the given values.
     /// @throws ComputationError if the result is not finite.
     virtual void solve(const Factor& factor, const Points& positions, Points& solution, SolverWorkspace& workspace) = 0;
 };
 
-/// The parts of a system.
+/// The data from which a system is constructed.
 struct SystemParts {
-    /// Must outlive the system.
+    /// The sub-mesh, which must outlive the system.
     const SubMesh& sub_mesh;
-    /// SubMesh::twin. Only equations that are not symmetric keep it: a twentieth of a flow's memory.
+    /// SubMesh::twin. Only unsymmetric systems keep it, because it takes a twentieth of a flow's memory.
     std::vector<Index> twin;
     ScaledLaplacian laplacian;
     Factorisation factorisation = Factorisation::Automatic;
     FlowTerms terms = {};
-    /// Runs what several threads can do at once for this sub-mesh; empty: nothing is.
+    /// Runs loops of this sub-mesh on several threads; empty: everything runs on the calling thread.
     Executor exec = {};
 };
 

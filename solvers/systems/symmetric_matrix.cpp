@@ -59,7 +59,7 @@ SparsePattern neighbours_of(const PairsOfUnknowns& pairs)
     return neighbours;
 }
 
-/// Row by row: the rows of each column come in ascending order.
+/// Entries are visited row by row, so that the rows of each column come in ascending order.
 UpperPattern upper_pattern(const PairsOfUnknowns& pairs, const std::vector<Index>& order)
 {
     const Index n = pairs.n();
@@ -73,12 +73,13 @@ UpperPattern upper_pattern(const PairsOfUnknowns& pairs, const std::vector<Index
                 if (const Index column = number_of[other]; column > row)
                     action(row, column, pair, std::exchange(last_row_of[column], row) != row);
     };
-    // Not all at once: if memory runs out for a later member, GCC 12 destroys members made from {} twice.
+    // The members are set one by one: if memory runs out for a later member, GCC 12 destroys members made from {}
+    // twice.
     UpperPattern upper;
     upper.slots.assign(pairs.n_pairs, -1);
     std::vector<Index>& offsets = upper.pattern.column_offsets;
     std::vector<Index>& rows = upper.pattern.rows;
-    // The beginnings of columns are stored one place further, and advance to their ends.
+    // The beginning of each column is stored at the next index but one, and advances to the column's end.
     offsets.assign(usize(n) + 2, 1);
     offsets[0] = offsets[1] = 0;
     for_each_entry_above_diagonal(
@@ -132,7 +133,7 @@ SymmetricMatrix make_symmetric_matrix(const SubMesh& sub_mesh, const ScaledLapla
     matrix.screening = make_screening(terms, local_to_global.first(usize(sub_mesh.n_vertices)));
     if (terms.keeps_stiffness)
         matrix.laplacian = keep_stiffness(std::move(matrix.laplacian), faces.n_vertices,
-                                          rows_of(*terms.first, local_to_global), terms.keeps_mass);
+                                          rows_of(*terms.initial, local_to_global), terms.keeps_mass);
     return matrix;
 }
 

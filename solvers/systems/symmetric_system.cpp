@@ -49,7 +49,8 @@ SparsePattern SymmetricSystem::list_entries(const std::vector<VertexPair>& pairs
     return std::move(upper.pattern);
 }
 
-/// Couplings that are not in the matrix: first those at own vertices, then those beyond Γ by the vertices of Γ.
+/// The couplings that are not entries of the matrix: first those at own vertices, then those of vertices of Γ with
+/// vertices beyond Γ, in the order of the vertices of Γ.
 void SymmetricSystem::list_couplings(const std::vector<VertexPair>& pairs, const std::vector<Index>& unknown_of)
 {
     const auto is_unknown = [&](Index v) { return unknown_of[v] >= 0; };
@@ -74,7 +75,8 @@ void SymmetricSystem::list_couplings(const std::vector<VertexPair>& pairs, const
     std::replace(matrix_.slots.begin(), matrix_.slots.end(), Index{-1}, slot);
 }
 
-/// The coefficients of each vertex of Γ, whose roles change.
+/// The entries in the row of each vertex of Γ. They move to the right-hand side in steps in which the sub-mesh follows
+/// there.
 void SymmetricSystem::list_interface(const SparsePattern& upper, const std::vector<Index>& unknown_of)
 {
     const auto& vertices = sub_mesh_->interface.vertices;
@@ -131,17 +133,17 @@ SubMeshSystem::Assembled SymmetricSystem::assemble(const Points& positions, cons
     return {values.first(matrix_.n_entries())};
 }
 
-/// Moves the coefficients at a vertex of Γ that is known in this step out of the matrix. Of two such vertices, the
-/// second finds none left.
+/// Moves the coefficients at a vertex of Γ that is known in this step out of the matrix. A coefficient between two such
+/// vertices is moved with the first of them, and is 0 for the second.
 void SymmetricSystem::make_dirichlet_row(std::size_t i, std::span<double> values)
 {
     for (Index e = rows_[i].first_entry; e < rows_[i + 1].first_entry; ++e) {
-        entries_[e].held = std::exchange(values[entries_[e].slot], 0.0);
+        entries_[e].coefficient = std::exchange(values[entries_[e].slot], 0.0);
     }
     values[matrix_.diagonal_slot(rows_[i].unknown)] = 1.0;
 }
 
-/// Adds the response of the other side to the diagonal; nothing where too little would remain.
+/// Adds the response of the other side to the diagonal, unless too little of the diagonal would remain.
 /// @param diagonal dt K_vv.
 void SymmetricSystem::make_transmission_row(std::size_t i, const Points& positions, double time_step, double diagonal,
                                             std::span<double> values)
@@ -174,7 +176,7 @@ SubMeshSystem::Factor SymmetricSystem::factorise(const Assembled& equations, Fac
     return require_factor(solver_->factorise(equations.matrix, memory, workspace));
 }
 
-/// Without responses, all rows are those of M + dt K, which is positive definite.
+/// Removes all responses. The rows are then those of M + dt K, which is positive definite.
 void SymmetricSystem::drop_responses(std::span<double> values)
 {
     for (std::size_t i = 0; i + 1 < rows_.size(); ++i) {
@@ -217,14 +219,14 @@ void SymmetricSystem::fill_right_hand_side(const Points& positions, const Points
     for (Index u = 0; pulls_ && u < matrix_.n(); ++u) {
         const Index v = matrix_.vertex_of[u];
         if (matrix_.is_vertex(v))
-            right.row(u) += mass_[u] * time_step_ * screening.weight(v) * screening.first.row(v);
+            right.row(u) += mass_[u] * time_step_ * screening.weight(v) * screening.initial.row(v);
     }
     for (const Coupling& coupling : fixed_)
         right.row(coupling.unknown) -= coupling.value * known.row(coupling.vertex);
     for (std::size_t i = 0; i + 1 < rows_.size(); ++i)
         for (Index e = rows_[i].first_entry; rows_[i].role == InterfaceRole::Follows && e < rows_[i + 1].first_entry;
              ++e)
-            right.row(entries_[e].unknown) -= entries_[e].held * known.row(vertex_at(i));
+            right.row(entries_[e].unknown) -= entries_[e].coefficient * known.row(vertex_at(i));
     for (std::size_t i = 0; i + 1 < rows_.size(); ++i) {
         const InterfaceRow& row = rows_[i];
         if (row.role == InterfaceRole::Follows)

@@ -12,19 +12,20 @@ namespace seamflow {
 
 /// The rows on Γ where a sub-mesh leads.
 enum class SymmetricRows {
-    /// Nothing: it follows everywhere.
+    /// No rows: the sub-mesh follows everywhere.
     Dirichlet,
-    /// The undecomposed step's row, the other side predicted and responding (see predicted_side.h).
+    /// The row of the undecomposed step. The other side is predicted, and responds to the movement of Γ (see
+    /// predicted_side.h).
     Transmission,
 };
 
-/// The equations of a sub-mesh where all of them, the rows on Γ included, are (M + dt K) V = M Vᵏ with the symmetric
-/// matrices of a SymmetricLaplacian over the faces on both sides of Γ, by L D Lᵀ or CHOLMOD. Known values go to the
-/// right-hand side: fixed vertices, Γ where the sub-mesh follows, the other side as predicted.
+/// The equations of a sub-mesh, (M + dt K) V = M Vᵏ in all rows, including those on Γ, with the symmetric matrices of a
+/// SymmetricLaplacian over the faces on both sides of Γ. Factorised as L D Lᵀ or by CHOLMOD. Known values go to the
+/// right-hand side: fixed vertices, Γ where the sub-mesh follows, the predicted other side.
 class SymmetricSystem final : public SubMeshSystem {
   public:
-    /// @param parts with a Laplacian that is symmetric; with SymmetricRows::Transmission, Alexa-Wardetzky where all
-    ///        faces that touch Γ are triangles. The factorisation is not Umfpack.
+    /// @param parts with a symmetric Laplacian; with SymmetricRows::Transmission, Alexa-Wardetzky and only triangles
+    ///        among the faces that touch Γ. The factorisation is not Umfpack.
     SymmetricSystem(const SystemParts& parts, SymmetricRows rows, SolverWorkspace& workspace);
 
     Assembled assemble(const Points& positions, const Points& other_side, double time_step, double p,
@@ -39,30 +40,31 @@ class SymmetricSystem final : public SubMeshSystem {
     void solve(const Factor& factor, const Points& positions, Points& solution, SolverWorkspace& workspace) override;
 
   private:
-    /// A coefficient of an unknown's row at a vertex that is known.
+    /// A coefficient in the row of an unknown, at a known vertex.
     struct Coupling {
         Index unknown;
         Index vertex;
         double value;
     };
-    /// One entry of the matrix off the diagonal, seen from a vertex of Γ.
+    /// One off-diagonal entry of the matrix in the row or column of a vertex of Γ.
     struct InterfaceEntry {
         Index slot;
         /// The other unknown.
         Index unknown;
-        /// The coefficient, if the sub-mesh follows at the vertex in this step.
-        double held;
+        /// The coefficient, while it is moved out of the matrix: if the sub-mesh follows at the vertex in this step.
+        double coefficient;
     };
     /// A vertex of Γ.
     struct InterfaceRow {
         Index unknown;
-        /// Starts of its entries of the matrix and of its part of `beyond_`; they end where the next row's start.
+        /// The beginnings of the row's entries of the matrix and of its couplings in `beyond_`; they end where those of
+        /// the next row begin.
         Index first_entry;
         Index first_beyond;
         InterfaceRole role = InterfaceRole::Follows;
         /// The response of the other side, added to the diagonal; 0 if there is none.
         double response = 0.0;
-        /// Right-hand side from the vertices beyond Γ.
+        /// The contribution of the vertices beyond Γ to the right-hand side.
         Point beyond = Point::Zero();
     };
 
@@ -78,20 +80,20 @@ class SymmetricSystem final : public SubMeshSystem {
     [[nodiscard]] Index vertex_at(std::size_t i) const { return sub_mesh_->interface.vertices[i]; }
 
     const SubMesh* sub_mesh_;
-    /// Its further values are those of `fixed_`, then of `beyond_`.
+    /// The matrix. Its further values are the coefficients of `fixed_`, then those of `beyond_`.
     SymmetricMatrix matrix_;
     std::unique_ptr<DirectSolver> solver_;
-    /// Coefficients at own vertices that are never unknown; and at vertices of the halo.
+    /// The coefficients at own vertices that are never unknown; the coefficients at vertices of the halo.
     std::vector<Coupling> fixed_;
     std::vector<Coupling> beyond_;
-    /// Per vertex of Γ, and one more; with Dirichlet rows none.
+    /// #Γ + 1: the rows at the vertices of Γ, and the end of the last. Empty with SymmetricRows::Dirichlet.
     std::vector<InterfaceRow> rows_;
     std::vector<InterfaceEntry> entries_;
-    /// Per unknown, of this step.
+    /// Per unknown: M in the present step.
     std::vector<double> mass_;
-    /// dt of this step.
+    /// dt of the present step, in length².
     double time_step_ = 0.0;
-    /// Whether the right-hand side attaches to V⁰.
+    /// Whether the attachment to V⁰ is on the right-hand side.
     bool pulls_ = false;
 };
 

@@ -14,11 +14,11 @@ namespace seamflow {
 
 namespace {
 
-/// This many blocks keep as many threads busy; smaller ones leave more out of the preconditioner.
+/// The most blocks. 64 keep as many threads busy; smaller blocks leave more entries out of the preconditioner.
 constexpr Index most_blocks = 64;
 constexpr Index fewest_rows = 512;
 constexpr Index usual_rows = BlockRowMatrix::most_rows / 2;
-/// As a fraction of the edges.
+/// The most edges between blocks, as a fraction of all edges.
 constexpr double most_between_blocks = 1.0 / 6.0;
 
 Index number_of_blocks(Index n_rows)
@@ -27,7 +27,7 @@ Index number_of_blocks(Index n_rows)
     return static_cast<Index>(std::bit_floor(static_cast<unsigned>(std::max(wanted, 1))));
 }
 
-/// The vertices in the order of their numbers.
+/// Blocks of the vertices in the order of their numbers.
 IndexLists consecutive_blocks(Index n_rows, Index n_blocks)
 {
     IndexLists blocks;
@@ -54,7 +54,8 @@ double part_between(const PolygonMesh& mesh, const IndexLists& blocks, const Exe
     return n_between / static_cast<double>(std::max<std::size_t>(mesh.face_vertices.size(), 1));
 }
 
-/// The vertices without faces where they are most of all, as outside a region that flows alone: they need no rows.
+/// The vertices without faces if most vertices have none, as outside a region that flows alone: they need no rows.
+/// Otherwise empty.
 std::vector<Index> vertices_without_rows(const Topology& topology, const Executor& exec)
 {
     const auto n = static_cast<Index>(topology.kind.size());
@@ -62,7 +63,7 @@ std::vector<Index> vertices_without_rows(const Topology& topology, const Executo
     return 2 * isolated.size() > topology.kind.size() ? std::move(isolated) : std::vector<Index>();
 }
 
-/// Boxes of the vertices that have faces.
+/// Divides the vertices that have faces into boxes.
 IndexLists divide_vertices_of_faces(const PolygonMesh& mesh, const Topology& topology, const Executor& exec)
 {
     const std::vector<Index> vertices =
@@ -74,7 +75,8 @@ IndexLists divide_vertices_of_faces(const PolygonMesh& mesh, const Topology& top
     return blocks;
 }
 
-/// Blocks of consecutive vertices need no set-up; but the order of the vertices in most scans separates neighbours.
+/// Blocks of consecutive vertices need no set-up, but in most scans neighbours have numbers far apart: then the blocks
+/// are boxes.
 IndexLists make_blocks(const PolygonMesh& mesh, const Topology& topology, bool have_all_rows, const Executor& exec)
 {
     if (!have_all_rows)
@@ -86,13 +88,13 @@ IndexLists make_blocks(const PolygonMesh& mesh, const Topology& topology, bool h
     return divide_into_boxes(mesh.vertices, n, exec);
 }
 
-/// The columns of the row of v, ascending and without v itself.
-/// @param along_edges whether edges join all vertices that share faces, or count alone.
+/// Lists the columns of the row of v, ascending and without v itself.
+/// @param along_edges whether the neighbours of v are only those joined to it by edges, or all vertices of its faces.
 void list_columns(const PolygonMesh& mesh, const Topology& topology, const std::vector<Index>& row_of, bool along_edges,
                   Index v, std::vector<Index>& columns)
 {
     columns.clear();
-    // Whether the vertices after v in its faces are all that share edges with it, each met once.
+    // Whether the vertex after v in each face of v is met once, and these are all vertices that share edges with v.
     const bool next_are_all = topology.oriented && topology.kind[v] == VertexKind::Interior;
     const auto add = [&](Index corner) { columns.push_back(row_of[mesh.face_vertices[corner]]); };
     for (const Index corner : topology.corners_at(v)) {
@@ -137,7 +139,7 @@ BlockRowMatrix make_matrix(const PolygonMesh& mesh, const Topology& topology, co
                 IndexLists columns;
                 const auto n_rows = usize(begin[block + 1] - begin[block]);
                 columns.offsets.reserve(n_rows + 1);
-                // Of triangles, a vertex has as many neighbours as corners.
+                // In meshes of triangles, a vertex has as many neighbours as corners.
                 columns.values.reserve(n_rows * mesh.face_vertices.size() / usize(std::max(mesh.n_vertices(), 1)));
                 for (Index i = begin[block]; i < begin[block + 1]; ++i) {
                     if (topology.moves(vertices.values[i])) {

@@ -11,19 +11,19 @@
 
 namespace seamflow {
 
-/// Which vertex has which row of the equations of a whole mesh.
+/// The assignment of the vertices to the rows of the equations of a whole mesh.
 struct WholeMeshRows {
-    /// The vertices that have no rows, not even that of the identity.
+    /// The vertices that have no row, not even one of the identity.
     std::vector<Index> without_row;
     /// The vertices of the rows, in blocks of vertices that are near each other.
     IndexLists vertices;
-    /// #V: the rows of the vertices; -1 without one.
+    /// #V: the row of each vertex; -1 for a vertex without a row.
     std::vector<Index> row_of;
 };
 
 WholeMeshRows make_whole_mesh_rows(const PolygonMesh& mesh, const Topology& topology, const Executor& exec);
 
-/// A matrix with places for the coefficients of these rows, all 0. Vertices that do not move have the row of the
+/// A matrix with an entry for each coefficient of these rows, all 0. Vertices that do not move have the row of the
 /// identity.
 /// @throws ComputationError if there are 2³¹ coefficients or more.
 BlockRowMatrix make_matrix(const PolygonMesh& mesh, const Topology& topology, const WholeMeshRows& rows, Reach reach,

@@ -12,33 +12,33 @@ namespace seamflow {
 
 namespace {
 
-/// The rows of K at certain positions.
+/// The data on which the rows of K depend.
 struct RowGeometry {
     const PolygonMesh& mesh;
     const Topology& topology;
-    /// By vertices, and by rows.
+    /// The positions, by vertices, and the same by rows.
     const Points& positions;
     const Points& of_rows;
     const WholeMeshRows& rows;
     BlockRowMatrix& matrix;
-    /// Null: those of the Laplacian.
+    /// The K and M to use; null: those of the Laplacian.
     const GivenStiffness* given;
 };
 
-/// Calls entry(find, j, K_ij) for a row i, find() being the entry of the matrix, possibly several times for one j; the
-/// rows of K sum to zero.
+/// Calls entry(find, j, K_ij) for the entries of row i; find() returns the entry of the matrix. An entry may be visited
+/// in several terms that add up. The rows of K sum to zero.
 /// @returns M_i.
 template <class Kernel, class Entry>
-double visit_matrix_row(Kernel kernel, const RowGeometry& g, const BlockRowMatrix::Place& place, Entry&& entry)
+double visit_matrix_row(Kernel kernel, const RowGeometry& g, const BlockRowMatrix::BlockRow& row, Entry&& entry)
 {
-    const Index v = g.rows.vertices.values[place.row];
+    const Index v = g.rows.vertices.values[row.row];
     if constexpr (EdgeKernel<Kernel>)
-        // The entries of the matrix are the edges, of two faces each.
+        // At an interior vertex, the entries of the matrix are the edges, each of two faces.
         if (g.topology.kind[v] == VertexKind::Interior) {
-            const Point here = g.of_rows.row(place.row);
+            const Point here = g.of_rows.row(row.row);
             double mass = 0.0;
             int n_edges = 0;
-            g.matrix.for_each_entry(place, [&](Index j, const BlockRowMatrix::Entry& of_edge) {
+            g.matrix.for_each_entry(row, [&](Index j, const BlockRowMatrix::Entry& of_edge) {
                 const auto edge = kernel.edge(here - g.of_rows.row(j));
                 entry([&] { return of_edge; }, j, -edge.weight(1.0));
                 mass += edge.mass();
@@ -48,41 +48,41 @@ double visit_matrix_row(Kernel kernel, const RowGeometry& g, const BlockRowMatri
         }
     return visit_row(kernel, g.mesh, g.topology, g.positions, v, [&](Index w, double k) {
         const Index j = g.rows.row_of[w];
-        entry([&] { return g.matrix.entry(place, j); }, j, k);
+        entry([&] { return g.matrix.entry(row, j); }, j, k);
     });
 }
 
-/// Calls action(visit), where visit(place, entry) is visit_matrix_row of the Laplacian.
+/// Calls action(visit), where visit(row, entry) is visit_matrix_row of the Laplacian.
 template <class Action>
 void with_rows(const ScaledLaplacian& laplacian, const RowGeometry& geometry, Action&& action)
 {
     if (geometry.given != nullptr)
-        return action([&](const BlockRowMatrix::Place& place, auto&& entry) {
+        return action([&](const BlockRowMatrix::BlockRow& row, auto&& entry) {
             const GivenStiffness& given = *geometry.given;
-            const Index v = geometry.rows.vertices.values[place.row];
+            const Index v = geometry.rows.vertices.values[row.row];
             for (Index i = given.neighbours.offsets[v]; i < given.neighbours.offsets[v + 1]; ++i) {
                 const Index j = geometry.rows.row_of[given.neighbours.values[i]];
-                entry([&] { return geometry.matrix.entry(place, j); }, j, -given.weights[i]);
+                entry([&] { return geometry.matrix.entry(row, j); }, j, -given.weights[i]);
             }
             return given.mass[v];
         });
     with_kernel(laplacian, [&]<class Kernel>(Kernel kernel) {
         if constexpr (EdgeKernel<Kernel> || FaceKernel<Kernel>)
-            action([&](const BlockRowMatrix::Place& place, auto&& entry) {
-                return visit_matrix_row(kernel, geometry, place, entry);
+            action([&](const BlockRowMatrix::BlockRow& row, auto&& entry) {
+                return visit_matrix_row(kernel, geometry, row, entry);
             });
         else
             throw OptionError("the Laplacian is not symmetric");
     });
 }
 
-/// The most reduction in one pass of single precision; and the fraction of a residual that may then be left with enough
-/// progress.
+/// The most that one pass in single precision reduces a residual by; the fraction of a residual that may be left after
+/// a pass that makes enough progress.
 constexpr double most_reduction_at_once = 1e-4;
 constexpr double most_left = 0.5;
-/// The farthest vertex converges more slowly than all on average.
+/// The vertex that is farthest from the solution converges more slowly than the average, by this factor.
 constexpr double slower_somewhere = 2.5;
-/// Passes that leave more of the residual say little about the rate at which updates decrease.
+/// A pass that leaves more than this fraction of the residual does not show at which rate updates decrease.
 constexpr double shortest_pass = 0.1;
 
 Eigen::Array4f to_row(const Point& point)
@@ -106,13 +106,13 @@ WholeMeshSystem::WholeMeshSystem(const PolygonMesh& mesh, const Topology& topolo
 {
     for_each(exec, matrix_.n_rows(), [&](Index i) { moves_[i] = topology.moves(rows_.vertices.values[i]) ? 1 : 0; });
     if (keeps_matrix_) {
-        kept_ = *terms.first;
+        kept_ = *terms.initial;
         kept_of_rows_.resize(matrix_.n_rows(), 3);
         list_by_rows(kept_, kept_of_rows_, exec);
     }
 }
 
-/// The matrix, and the residual of Vᵏ⁺¹ = Vᵏ.
+/// Assembles the matrix, and the residual at Vᵏ⁺¹ = Vᵏ.
 /// @param of_rows V, by rows.
 WholeMeshSystem::Sizes WholeMeshSystem::assemble(const Points& of_rows, const Executor& exec)
 {
@@ -121,11 +121,11 @@ WholeMeshSystem::Sizes WholeMeshSystem::assemble(const Points& of_rows, const Ex
     Sums sums;
     const bool keeps_exact = matrix_.keeps_exact();
     with_rows(laplacian_, geometry, [&](auto&& visit) {
-        sums = matrix_.sum_of_rows<Sums>(exec, [&](const BlockRowMatrix::Place& place) -> Sums {
-            const Index i = place.row;
+        sums = matrix_.sum_of_rows<Sums>(exec, [&](const BlockRowMatrix::BlockRow& row) -> Sums {
+            const Index i = row.row;
             if (moves_[i] == 0)
                 return Sums::Zero();
-            matrix_.for_each_entry(place, [](Index, const BlockRowMatrix::Entry& entry) {
+            matrix_.for_each_entry(row, [](Index, const BlockRowMatrix::Entry& entry) {
                 entry.value = 0.0F;
                 if (entry.exact != nullptr)
                     *entry.exact = 0.0;
@@ -134,12 +134,12 @@ WholeMeshSystem::Sizes WholeMeshSystem::assemble(const Points& of_rows, const Ex
             double diagonal = 0.0;
             Eigen::Array4d size = Eigen::Array4d::Zero();
             Point residual = Point::Zero();
-            const double whole_mass = visit(place, [&](auto&& find, Index j, double k) {
+            const double whole_mass = visit(row, [&](auto&& find, Index j, double k) {
                 const double entry = units_.stiffness * k;
                 const Point share = entry * (of_rows.row(j) - here);
                 if (moves_[j] != 0 || keeps_exact) {
                     const BlockRowMatrix::Entry found = find();
-                    // Vertices that stay have no equation.
+                    // Vertices that do not move have no equation.
                     if (moves_[j] != 0)
                         found.value += static_cast<float>(entry);
                     if (keeps_exact)
@@ -154,16 +154,16 @@ WholeMeshSystem::Sizes WholeMeshSystem::assemble(const Points& of_rows, const Ex
                 masses_[i] = units_.mass * mass;
             diagonal += units_.mass * mass * (1.0 + screening(i));
             if (screening(i) > 0.0) {
-                const Point pull = units_.mass * mass * screening(i) * (screening_.first.row(i) - here);
+                const Point pull = units_.mass * mass * screening(i) * (screening_.initial.row(i) - here);
                 residual += pull;
                 size.head<3>() += pull.array().abs().transpose();
             }
             matrix_.set_diagonal(i, static_cast<float>(diagonal));
-            const Eigen::Array4f row = to_row(units_.length * residual);
-            matrix_.set_residual(i, row);
+            const Eigen::Array4f scaled_residual = to_row(units_.length * residual);
+            matrix_.set_residual(i, scaled_residual);
             Sums result;
             const double inverse = 1.0 / diagonal;
-            result << size.square() * inverse, row.cast<double>().square() * inverse;
+            result << size.square() * inverse, scaled_residual.cast<double>().square() * inverse;
             return result;
         });
     });
@@ -171,12 +171,12 @@ WholeMeshSystem::Sizes WholeMeshSystem::assemble(const Points& of_rows, const Ex
     return {.rounding = unit * unit * sums.head<4>(), .residual = sums.tail<4>()};
 }
 
-/// residual = -dt K V' - M (V' - D), and dt M w (V⁰ - V') if it is attached, of the current solution V', with the
-/// weights of V.
+/// residual = -dt K V' - M (V' - D), plus dt M w (V⁰ - V') with an attachment, V' being the current solution, with the
+/// weights at V.
 /// @param of_rows V, by rows.
 /// @param data D, by rows: V, or other data that the step is applied to.
-/// @param is_pulled whether the pull is to V⁰, not to 0.
-/// @returns the sum of its squares, each over the diagonal.
+/// @param is_pulled whether the attachment pulls to V⁰; otherwise it pulls to 0.
+/// @returns the sum of the squared residuals, each divided by the diagonal entry.
 double WholeMeshSystem::measure(const Points& of_rows, const Points& data, bool is_pulled, const Executor& exec)
 {
     if (!matrix_.keeps_exact()) {
@@ -186,18 +186,18 @@ double WholeMeshSystem::measure(const Points& of_rows, const Points& data, bool 
     using Sum = Eigen::Array<double, 1, 1>;
     return matrix_
         .sum_of_rows<Sum>(exec,
-                          [&](const BlockRowMatrix::Place& place) -> Sum {
-                              const Index i = place.row;
+                          [&](const BlockRowMatrix::BlockRow& row) -> Sum {
+                              const Index i = row.row;
                               if (moves_[i] == 0)
                                   return Sum::Zero();
                               const Point there = after_.row(i);
                               Point residual = -masses_[i] * (there - data.row(i));
-                              matrix_.for_each_entry(place, [&](Index j, const BlockRowMatrix::Entry& entry) {
+                              matrix_.for_each_entry(row, [&](Index j, const BlockRowMatrix::Entry& entry) {
                                   residual -= *entry.exact * (after_.row(j) - there);
                               });
                               if (screening(i) > 0.0)
                                   residual += masses_[i] * screening(i) *
-                                              ((is_pulled ? Point(screening_.first.row(i)) : Point::Zero()) - there);
+                                              ((is_pulled ? Point(screening_.initial.row(i)) : Point::Zero()) - there);
                               residual *= units_.length;
                               matrix_.set_residual(i, to_row(residual));
                               return Sum::Constant(residual.squaredNorm() / matrix_.diagonal(i));
@@ -205,25 +205,25 @@ double WholeMeshSystem::measure(const Points& of_rows, const Points& data, bool 
         .value();
 }
 
-/// Residuals will be renewed.
+/// The matrix keeps its entries in double precision, with which residuals are recomputed.
 void WholeMeshSystem::keep_exact()
 {
     matrix_.keep_exact();
     masses_.resize(moves_.size());
 }
 
-/// @param squared the sum of the residual's squares, each over the diagonal.
+/// @param squared the sum of the squared residuals, each divided by the diagonal entry.
 WholeMeshSystem::PassStart WholeMeshSystem::start_pass(double squared, const Executor& exec)
 {
     PassStart start;
-    // Makes the residual about 1 at each vertex.
+    // With this scale, the residual is about 1 at each vertex.
     start.scale = std::exp2(-std::ilogb(std::sqrt(squared / matrix_.n_rows())));
     start.squared = matrix_.start(static_cast<float>(start.scale), exec);
     start.norm = std::sqrt(start.squared.sum()) / start.scale;
     return start;
 }
 
-/// From V to the current solution.
+/// The largest distance of a vertex between V and the current solution, in units of length.
 double WholeMeshSystem::farthest_move(const Executor& exec) const
 {
     const auto keep_larger = [](double& largest, double other) { largest = std::max(largest, other); };
@@ -235,10 +235,10 @@ double WholeMeshSystem::farthest_move(const Executor& exec) const
         keep_larger));
 }
 
-/// The sum of the updates that would follow if they kept decreasing at the same rate; after a short pass, the estimate
-/// before it as far as the residual has decreased.
-/// @param length unit of the updates. @param before_pass, left residual before and after the pass, as parts of the
-/// first.
+/// The sum of the further updates, if they keep decreasing at the rate of this pass. After a pass too short to show a
+/// rate: the previous estimate, scaled like the residual.
+/// @param length unit of the updates. @param before_pass, left the residual before and after the pass, as fractions of
+///        the first residual.
 double WholeMeshSystem::distance_after(const BlockRowMatrix::Result& pass, double length, double before_pass,
                                        double left, double distance_before)
 {
@@ -250,7 +250,7 @@ double WholeMeshSystem::distance_after(const BlockRowMatrix::Result& pass, doubl
 }
 
 /// Writes the rows of vertices that have no equation.
-/// @param before by vertices: they stay there; null: 0.
+/// @param before #V by 3: the values that these vertices keep; null: they get 0.
 void WholeMeshSystem::write_without_row(const Points* before, Points& after, const Executor& exec) const
 {
     for_each(exec, static_cast<Index>(rows_.without_row.size()), [&](Index i) {
@@ -268,7 +268,7 @@ void WholeMeshSystem::take_units(double time_step)
     units_ = {.stiffness = time_step / mass_unit, .mass = 1.0 / mass_unit, .length = 1.0 / root};
 }
 
-/// Iterations begin with Vᵏ.
+/// Takes a step in a flow that keeps the matrix of V⁰. Iterations begin with Vᵏ, or with the guess.
 WholeMeshSystem::Result WholeMeshSystem::step_with_kept_matrix(const Points& before, const IterationStop& stop,
                                                                Points& after, const Executor& exec)
 {
@@ -301,7 +301,7 @@ WholeMeshSystem::Result WholeMeshSystem::step(const Points& before, double time_
     if (guess != nullptr || stop.tolerance <= most_reduction_at_once)
         keep_exact();
     const Sizes sizes = assemble(after, exec);
-    // There is nothing to smooth.
+    // The residual is rounding error alone: the surface is as smooth as it can be.
     if ((sizes.residual <= sizes.rounding).all()) {
         copy(exec, before, after);
         return {};
@@ -310,7 +310,7 @@ WholeMeshSystem::Result WholeMeshSystem::step(const Points& before, double time_
     return solve({sizes.residual.sum(), after, after, &before, false, guess}, stop, after, exec);
 }
 
-/// @param by_rows at least #rows by 3. A result has room for V until it is known itself, which saves memory.
+/// @param by_rows at least #rows by 3. A result is written only later, so that its memory can be used for V until then.
 void WholeMeshSystem::list_by_rows(const Points& by_vertices, Points& by_rows, const Executor& exec) const
 {
     for_each(exec, matrix_.n_rows(), [&](Index i) { by_rows.row(i) = by_vertices.row(rows_.vertices.values[i]); });
@@ -321,8 +321,8 @@ WholeMeshSystem::Result WholeMeshSystem::apply(const Points& data, const Iterati
 {
     using Sum = Eigen::Array<double, 1, 1>;
     data_.resize(matrix_.n_rows(), 3);
-    const Sum squared = matrix_.sum_of_rows<Sum>(exec, [&](const BlockRowMatrix::Place& place) -> Sum {
-        const Index i = place.row;
+    const Sum squared = matrix_.sum_of_rows<Sum>(exec, [&](const BlockRowMatrix::BlockRow& row) -> Sum {
+        const Index i = row.row;
         data_.row(i) = data.row(rows_.vertices.values[i]);
         if (moves_[i] == 0)
             return Sum::Zero();
@@ -345,8 +345,8 @@ WholeMeshSystem::Result WholeMeshSystem::apply(const Points& data, const Iterati
     return solve({squared.value(), result, data_, nullptr, true}, stop, result, exec);
 }
 
-/// Solves for the result of the step on V, or on data.
-/// @param after in: V, by rows, unless the matrix is kept.
+/// Solves for the result of the step on V, or on other data.
+/// @param after in: V, by rows, unless the matrix is kept. Out: the result, by vertices.
 WholeMeshSystem::Result WholeMeshSystem::solve(const Beginning& beginning, const IterationStop& stop, Points& after,
                                                const Executor& exec)
 {
@@ -361,7 +361,7 @@ WholeMeshSystem::Result WholeMeshSystem::solve(const Beginning& beginning, const
         const double renewed = measure(beginning.of_rows, beginning.data, beginning.before != nullptr, exec);
         if (renewed > 0.0)
             start = start_pass(renewed, exec);
-        // Not a number, if that is what the residual is.
+        // `left` is not a number if the residual is none.
         left = renewed > 0.0 ? start.norm / first : renewed;
     };
     if (beginning.guess != nullptr) {
@@ -385,7 +385,8 @@ WholeMeshSystem::Result WholeMeshSystem::solve(const Beginning& beginning, const
             start.squared, std::max(stop.tolerance / left, most_reduction_at_once), criterion.iterations_left(), exec);
         const double length = root / start.scale;
         const double before_pass = std::exchange(left, left * pass.residual);
-        // The residual after the first pass is known well enough; later ones begin near the rounding error.
+        // The residual after the first pass is known well enough without recomputing it; the residual after a later
+        // pass is near the rounding error.
         const bool is_first = before_pass == 1.0;
         const bool is_last = is_first && left <= stop.tolerance && pass.residual > most_reduction_at_once;
         const auto moved = [&](Index i) -> Point {

@@ -19,15 +19,15 @@
 namespace seamflow {
 
 /// The backward Euler step of a whole mesh, (M + dt K)(Vᵏ⁺¹ - Vᵏ) = -dt K Vᵏ, by conjugate gradients: no sub-meshes, no
-/// factorisation. The matrix and the vectors of an iteration are in single precision; the residual is recomputed in
-/// double precision, with entries that are then kept beside the matrix, so that rounding limits no tolerance. Three
-/// columns are iterated at once. Sums are taken in a fixed order: the bits do not depend on how loops are run. For
-/// symmetric Laplacians. An attachment to V⁰ adds dt M w to the diagonal and dt M w (V⁰ - Vᵏ) to the right-hand side.
-/// If terms keep M, all steps have the matrix of V⁰.
+/// factorisation. The matrix and the vectors of an iteration are in single precision. For tolerances that need it, the
+/// residual is recomputed in double precision with entries that are stored beside the matrix, so that rounding limits
+/// no tolerance. Three columns are iterated at once. Sums are taken in a fixed order: the bits do not depend on how
+/// loops are run. For symmetric Laplacians. An attachment to V⁰ adds dt M w to the diagonal and dt M w (V⁰ - Vᵏ) to the
+/// right-hand side. If terms keep M, all steps have the matrix of V⁰.
 class WholeMeshSystem {
   public:
     /// @param mesh, topology must outlive the system. Vertices that do not move have no row.
-    /// @param terms with M and K that both follow the surface or are both kept.
+    /// @param terms keeping both M and K, or neither.
     /// @param is_applied_again whether `apply` will be called.
     /// @throws ComputationError if there are 2³¹ coefficients or more; OptionError for an unsymmetric Laplacian.
     WholeMeshSystem(const PolygonMesh& mesh, const Topology& topology, const ScaledLaplacian& laplacian,
@@ -35,27 +35,28 @@ class WholeMeshSystem {
     WholeMeshSystem(const WholeMeshSystem&) = delete;
     WholeMeshSystem& operator=(const WholeMeshSystem&) = delete;
 
-    /// Takes K and M of other origin, which must outlive the system, before the first step. Only where terms keep M.
+    /// Uses given K and M in place of those of the Laplacian. To be called before the first step, only where terms keep
+    /// M. The given ones must outlive the system.
     void give(const GivenStiffness& given) { given_ = &given; }
 
     /// How a step ended.
     struct Result : IterationResult {
-        /// Estimated largest distance of a vertex from its place in the exact step, in units of length.
+        /// The estimated largest distance of a vertex to its position in the exact step, in units of length.
         double distance = 0.0;
     };
 
     /// Takes a step.
     /// @param before #V by 3: Vᵏ. @param time_step dt, in length².
-    /// @param stop relative to the residual of Vᵏ⁺¹ = Vᵏ, in the norm of the inverse of the diagonal.
-    /// @param after #V by 3, in other memory than Vᵏ: receives Vᵏ⁺¹; fixed vertices stay.
-    /// @param guess #V by 3: what iterations begin with if its residual is smaller than that of Vᵏ; may be null.
+    /// @param stop relative to the residual at Vᵏ⁺¹ = Vᵏ, in the norm of the inverse of the diagonal.
+    /// @param after #V by 3, in other memory than Vᵏ: receives Vᵏ⁺¹; fixed vertices keep their positions.
+    /// @param guess #V by 3: iterations begin with it if its residual is smaller than that of Vᵏ; may be null.
     Result step(const Points& before, double time_step, const IterationStop& stop, Points& after, const Executor& exec,
                 const Points* guess = nullptr);
 
-    /// Applies the last step to other data, with the same matrix; nothing pulls to V⁰. Only for systems made for that,
-    /// and while the input of the step still exists.
+    /// Applies the last step to other data, with the same matrix and without the pull to V⁰. Only for systems
+    /// constructed with is_applied_again, and while the input of the last step exists.
     /// @param data #V by 3: D, which is 0 where vertices do not move.
-    /// @param stop relative to the residual of 0. @param result #V by 3, in other memory than D and Vᵏ.
+    /// @param stop relative to the residual at 0. @param result #V by 3, in other memory than D and Vᵏ.
     Result apply(const Points& data, const IterationStop& stop, Points& result, const Executor& exec);
 
   private:
@@ -65,35 +66,35 @@ class WholeMeshSystem {
         double mass = 0.0;
         double length = 0.0;
     };
-    /// Of each column, the sum of the squares over the diagonal.
+    /// Per column, the sum of squares, each divided by the diagonal entry.
     struct Sizes {
-        /// Of rounding errors of the residual.
+        /// Per column, the same sum for the rounding errors of the residual.
         Eigen::Array4d rounding;
         Eigen::Array4d residual;
     };
-    /// Iterations in single precision from one residual.
+    /// The beginning of a pass: iterations in single precision from one residual on.
     struct PassStart {
-        /// Scale of residual and increment.
+        /// The scale of residual and increment in the pass.
         double scale = 1.0;
-        /// Of each column of the scaled residual, in the norm of the inverse of the preconditioner.
+        /// Per column, the squared norm of the scaled residual, in the norm of the inverse of the preconditioner.
         Eigen::Array4d squared = Eigen::Array4d::Zero();
-        /// Of the residual, in the same norm.
+        /// The norm of the residual over all columns, in the same norm.
         double norm = 0.0;
     };
 
-    /// What a solution begins with.
+    /// The input of `solve`.
     struct Beginning {
         /// The squared norm of the residual: the sum of its squares, each divided by the diagonal entry.
         double squared;
         /// V, by rows.
         const Points& of_rows;
-        /// By rows: V, or what the step is applied to.
+        /// By rows: V, or the data that the step is applied to.
         const Points& data;
-        /// By vertices: Vᵏ of a step, in which an attachment pulls to V⁰; null: the step is applied to other data.
+        /// By vertices: Vᵏ of a step, in which an attachment pulls to V⁰. Null if the step is applied to other data.
         const Points* before;
-        /// Whether the solution that iterations begin with is in after_, by rows; if not, it is V.
+        /// Whether iterations begin with the solution in after_, by rows; if not, they begin with V.
         bool is_in_rows;
-        /// What they begin with instead if its residual is smaller; may be null.
+        /// Iterations begin with the guess instead if its residual is smaller; may be null.
         const Points* guess = nullptr;
     };
 
@@ -104,7 +105,7 @@ class WholeMeshSystem {
     double measure(const Points& of_rows, const Points& data, bool is_pulled, const Executor& exec);
     Result step_with_kept_matrix(const Points& before, const IterationStop& stop, Points& after, const Executor& exec);
     Result solve(const Beginning& beginning, const IterationStop& stop, Points& after, const Executor& exec);
-    /// dt w s of a row.
+    /// dt w s in row i, s being the step scale.
     [[nodiscard]] double screening(Index i) const { return time_step_ * screening_.weight(i); }
     PassStart start_pass(double squared, const Executor& exec);
     [[nodiscard]] double farthest_move(const Executor& exec) const;
@@ -115,25 +116,26 @@ class WholeMeshSystem {
     const PolygonMesh* mesh_;
     const Topology* topology_;
     ScaledLaplacian laplacian_;
-    /// K and M of other origin; null: those of the Laplacian.
+    /// The given K and M; null: those of the Laplacian.
     const GivenStiffness* given_ = nullptr;
-    /// The units of this step.
+    /// The units of the present step.
     Units units_;
     double time_step_ = 0.0;
     WholeMeshRows rows_;
     BlockRowMatrix matrix_;
-    /// V as given to the last step.
+    /// The V of the last step.
     const Points* before_ = nullptr;
-    /// By rows: whether they move, and where they are after the step so far if the residual is renewed.
+    /// By rows: whether the vertex moves; and its position after the step so far, if the residual is recomputed.
     std::vector<std::uint8_t> moves_;
     Points after_ = Points(0, 3);
-    /// By rows.
+    /// The attachment, by rows.
     Screening screening_;
-    /// For `apply` and to renew residuals: by rows, M in the unit of the matrix.
+    /// By rows: M in the unit of the matrix. Only for `apply`, and to recompute residuals.
     std::vector<double> masses_;
-    /// For `apply` and with a kept matrix: by rows, D, which is then Vᵏ.
+    /// By rows: D. For `apply`; with a kept matrix, D is Vᵏ.
     Points data_ = Points(0, 3);
-    /// Of a kept matrix: V⁰, by vertices and by rows; and whether there is the matrix of the time step.
+    /// For a kept matrix: whether all steps have the same matrix; V⁰, by vertices and by rows; and whether the matrix
+    /// for the time step exists.
     bool keeps_matrix_ = false;
     bool has_matrix_ = false;
     Points kept_ = Points(0, 3);

@@ -45,7 +45,7 @@ void check_flow(const PolygonMesh& mesh, Laplacian laplacian, Index subdomains)
     // Along seams vertices move that are on the boundary.
     const auto joined = weld(mesh, topology, *options.motion.weld);
     const auto moves = [&](Index v) {
-        return joined ? joined->topology.moves(joined->first[v]) : topology.kind[v] == VertexKind::Interior;
+        return joined ? joined->topology.moves(joined->representative[v]) : topology.kind[v] == VertexKind::Interior;
     };
     for (Index v = 0; v < mesh.n_vertices(); ++v)
         if (!moves(v))

@@ -311,9 +311,9 @@ TEST_CASE("at first interior vertices move, with a free boundary those on it too
         CHECK(topology.moves(v) ==
               (topology.kind[v] == VertexKind::Interior || topology.kind[v] == VertexKind::Boundary));
     REQUIRE(topology.moves(0));
-    hold(topology, std::vector<Index>{0, 6, 0});
+    fix_vertices(topology, std::vector<Index>{0, 6, 0});
     CHECK_FALSE(topology.moves(0));
     CHECK_FALSE(topology.moves(6));
-    CHECK_THROWS_AS(hold(topology, std::vector<Index>{mesh.n_vertices()}), InputError);
-    CHECK_THROWS_AS(hold(topology, std::vector<Index>{-1}), InputError);
+    CHECK_THROWS_AS(fix_vertices(topology, std::vector<Index>{mesh.n_vertices()}), InputError);
+    CHECK_THROWS_AS(fix_vertices(topology, std::vector<Index>{-1}), InputError);
 }

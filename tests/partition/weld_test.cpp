@@ -103,7 +103,7 @@ TEST_CASE("a slit is closed up to its ends, and the first of copies stands for a
     const auto joined = welded(slit);
     REQUIRE(joined);
     CHECK(joined->mesh.face_vertices == grid.face_vertices);
-    CHECK(joined->first.back() == 2 * 7 + 3);
+    CHECK(joined->representative.back() == 2 * 7 + 3);
     CHECK(joined->n_vertices == 2);
     CHECK(joined->n_edges == 2);
     CHECK(joined->topology.kind[2 * 7 + 3] == VertexKind::Interior);
@@ -183,7 +183,7 @@ TEST_CASE("places that are near count as equal, and what is joined comes to thei
         Point middle = Point::Zero();
         int n = 0;
         for (Index w = 0; w < parts.n_vertices(); ++w)
-            if (joined->first[w] == v) {
+            if (joined->representative[w] == v) {
                 middle += parts.vertices.row(w);
                 ++n;
             }

@@ -45,7 +45,7 @@ CutTile tile_of(const PolygonMesh& whole, const std::vector<Index>& labels, Inde
     for (Index f = 0; f < whole.n_faces(); ++f) {
         std::vector<Index> corners;
         for (const Index v : whole.face(f))
-            corners.push_back(position_in(tile.vertices, v));
+            corners.push_back(find_in(tile.vertices, v));
         if (labels[f] == label)
             tile.mesh.add_face(corners);
     }

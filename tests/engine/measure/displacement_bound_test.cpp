@@ -68,11 +68,11 @@ TEST_CASE("what is held pulls along its own displacement alone, and what is not 
         const Point here = correction.row(v);
         const Point force = here + 25.0 * (here - mean);
         const Point displacement = positions.row(v) - e.mesh.vertices.row(v);
-        const bool is_held = displacement.norm() > bound * (1.0 - 1e-6);
-        n_held += is_held ? 1 : 0;
+        const bool is_fixed = displacement.norm() > bound * (1.0 - 1e-6);
+        n_held += is_fixed ? 1 : 0;
         const Point direction = displacement.normalized();
-        away = std::max(away, (is_held ? Point(force - force.dot(direction) * direction) : force).norm());
-        if (is_held)
+        away = std::max(away, (is_fixed ? Point(force - force.dot(direction) * direction) : force).norm());
+        if (is_fixed)
             inwards = std::max(inwards, force.dot(direction));
     }
     CHECK(n_held > 100);

@@ -29,8 +29,8 @@ TEST_CASE("the least limit has room for the largest factor")
 {
     const KeptFactors kept = choose_kept_factors(factors, 300, 2);
     CHECK(kept.whole == std::vector<std::uint8_t>{0, 0, 0});
-    CHECK(kept.n_places == 1);
-    CHECK(kept.bytes_per_place == 300);
+    CHECK(kept.n_slots == 1);
+    CHECK(kept.bytes_per_slot == 300);
     CHECK(kept.most_bytes() == 300);
     CHECK_THROWS_WITH_AS(choose_kept_factors(factors, 299, 2), doctest::Contains("take 300"), OptionError);
 }
@@ -48,11 +48,11 @@ TEST_CASE("a higher limit keeps the largest factors that fit")
 TEST_CASE("those made again have places enough that the fewest rounds are made, and no more")
 {
     const std::vector<std::size_t> many(100, 100);
-    const auto check = [&](std::size_t limit, Index n_threads, Index n_whole, Index n_places) {
+    const auto check = [&](std::size_t limit, Index n_threads, Index n_whole, Index n_slots) {
         const KeptFactors kept = choose_kept_factors(many, limit, n_threads);
         CHECK(kept.n_whole == n_whole);
-        CHECK(kept.n_places == n_places);
-        CHECK(kept.most_bytes() == 100 * usize(n_whole + n_places));
+        CHECK(kept.n_slots == n_slots);
+        CHECK(kept.most_bytes() == 100 * usize(n_whole + n_slots));
         CHECK(kept.most_bytes() <= limit);
     };
     check(9999, 1, 98, 1);

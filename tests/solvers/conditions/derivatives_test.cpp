@@ -86,9 +86,9 @@ TEST_CASE("a stencil is the vertices of the own faces, and knows the places of i
             std::vector<Index> corners;
             for (const Index f : interface.own_faces[i])
                 corners.insert(corners.end(), sub_mesh.face_vertices[f].begin(), sub_mesh.face_vertices[f].end());
-            REQUIRE(stencils.corner_places[i].size() == corners.size());
+            REQUIRE(stencils.corner_columns[i].size() == corners.size());
             for (std::size_t k = 0; k < corners.size(); ++k)
-                CHECK(columns[stencils.corner_places[i][k]] == corners[k]);
+                CHECK(columns[stencils.corner_columns[i][k]] == corners[k]);
         }
     });
 }

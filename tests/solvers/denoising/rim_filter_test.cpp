@@ -56,8 +56,8 @@ Points filtered(const PolygonMesh& mesh, bool is_free = true, double part = 0.0)
         free_boundary(topology);
     Points up = Points::Zero(mesh.n_faces(), 3);
     up.col(2).setOnes();
-    const std::vector<double> parts(usize(mesh.n_vertices()), part);
-    return mesh.vertices + RimFilter(mesh, topology).motions(mesh, topology, up, parts, mesh.vertices);
+    const std::vector<double> shares(usize(mesh.n_vertices()), part);
+    return mesh.vertices + RimFilter(mesh, topology).motions(mesh, topology, up, shares, mesh.vertices);
 }
 
 /// The root mean square of a distance from the true rim over the vertices of the boundary, and its mean.

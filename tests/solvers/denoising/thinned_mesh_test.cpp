@@ -34,7 +34,7 @@ Topology with_free_rims(const PolygonMesh& mesh)
 
 /// Noise along the normals that is the mean of that of the vertices around each, several times.
 /// @param sigma in mean edges.
-PolygonMesh with_alike_noise(const PolygonMesh& truth, double sigma, int rounds, std::uint32_t seed)
+PolygonMesh with_correlated_noise(const PolygonMesh& truth, double sigma, int rounds, std::uint32_t seed)
 {
     const Topology topology = make_topology(truth);
     const VertexAverages around(truth, topology);
@@ -132,7 +132,7 @@ TEST_CASE("which vertices are left depends on where they are, not on their order
     CHECK(left(mesh, 3).mesh.n_faces() == left(other, 3).mesh.n_faces());
 }
 
-TEST_CASE("noise that is alike at neighbours goes, from parts and curved surfaces, and no face turns over")
+TEST_CASE("correlated noise goes, from flat parts and curved surfaces, and no face turns over")
 {
     struct Case {
         PolygonMesh truth;
@@ -150,7 +150,7 @@ TEST_CASE("noise that is alike at neighbours goes, from parts and curved surface
                             {sphere, 0.3, 3, 0.5}}) {
         CAPTURE(one.sigma);
         CAPTURE(one.rounds);
-        const PolygonMesh noisy = with_alike_noise(one.truth, one.sigma, one.rounds, 3);
+        const PolygonMesh noisy = with_correlated_noise(one.truth, one.sigma, one.rounds, 3);
         const PolygonMesh result = denoised(noisy);
         CHECK(test::angle_to_truth(one.truth, result) < one.left * test::angle_to_truth(one.truth, noisy));
         CHECK(
@@ -164,7 +164,7 @@ TEST_CASE("where noise is independent thinned meshes take no part, nor where the
 {
     const PolygonMesh truth = make_noisy_sphere(12'000, {.amplitude = 0.1, .noise = 0.0});
     const PolygonMesh white = test::with_gaussian_noise(truth, 0.2, 3);
-    const PolygonMesh alike = with_alike_noise(truth, 0.3, 1, 3);
+    const PolygonMesh alike = with_correlated_noise(truth, 0.3, 1, 3);
     const Points of_white = denoised(white).vertices;
     const Points of_alike = denoised(alike).vertices;
     PolygonMesh all;

@@ -6,7 +6,7 @@
 #include <doctest/doctest.h>
 
 #include "solvers/estimate/error_equation.h"
-#include "solvers/interface/interface_peers.h"
+#include "solvers/interface/interface_ranks.h"
 #include "tests/support/backwards.h"
 #include "tests/support/cut_meshes.h"
 #include "tests/support/matrices.h"
@@ -90,8 +90,8 @@ TEST_CASE("the error on Γ is found from the residual, smooth and rough")
                     CAPTURE(half_waves);
                     const Points after = disturbed(c, laplacian, time_step, half_waves);
                     const double expected = after.col(2).cwiseAbs().maxCoeff();
-                    OnePeer peers(2);
-                    ErrorEquation equation(c.decomposition, c.cut.mesh, c.cut.topology, laplacian, peers);
+                    OneRank ranks(2);
+                    ErrorEquation equation(c.decomposition, c.cut.mesh, c.cut.topology, laplacian, ranks);
                     assemble(c, after, time_step, equation);
                     if (laplacian == Laplacian::PtackovaVelho)
                         equation.measure_whole_rows(c.cut.mesh, c.cut.topology, c.cut.mesh.vertices, after, time_step,
@@ -108,8 +108,8 @@ TEST_CASE("normals on Γ do not depend on how single faces are oriented")
     const auto normals_of = [](PolygonMesh mesh, Laplacian laplacian) {
         mesh.vertices.col(2) = 0.1 * mesh.vertices.col(0).cwiseProduct(mesh.vertices.col(1));
         const Case c = in_two("bent", std::move(mesh), 3.1);
-        OnePeer peers(2);
-        ErrorEquation equation(c.decomposition, c.cut.mesh, c.cut.topology, laplacian, peers);
+        OneRank ranks(2);
+        ErrorEquation equation(c.decomposition, c.cut.mesh, c.cut.topology, laplacian, ranks);
         assemble(c, c.cut.mesh.vertices, 1.0, equation);
         Points normals(equation.size(), 3);
         for (Index i = 0; i < equation.size(); ++i)
@@ -135,9 +135,9 @@ TEST_CASE("the order of the loop does not matter")
 {
     for (const Case& c : cases()) {
         const Points after = disturbed(c, Laplacian::AlexaWardetzky, 4.0, 3.0);
-        OnePeer peers(2);
-        ErrorEquation forward(c.decomposition, c.cut.mesh, c.cut.topology, Laplacian::AlexaWardetzky, peers);
-        ErrorEquation backward(c.decomposition, c.cut.mesh, c.cut.topology, Laplacian::AlexaWardetzky, peers);
+        OneRank ranks(2);
+        ErrorEquation forward(c.decomposition, c.cut.mesh, c.cut.topology, Laplacian::AlexaWardetzky, ranks);
+        ErrorEquation backward(c.decomposition, c.cut.mesh, c.cut.topology, Laplacian::AlexaWardetzky, ranks);
         assemble(c, after, 4.0, forward);
         assemble(c, after, 4.0, backward);
         forward.solve(run_serially);
@@ -152,8 +152,8 @@ TEST_CASE("without Γ there is nothing to solve")
     const Topology topology = make_topology(mesh);
     const std::vector<Index> labels(mesh.n_faces(), 0);
     const Decomposition decomposition = decompose(mesh, topology, labels, 1);
-    OnePeer peers(1);
-    ErrorEquation equation(decomposition, mesh, topology, Laplacian::PtackovaVelho, peers);
+    OneRank ranks(1);
+    ErrorEquation equation(decomposition, mesh, topology, Laplacian::PtackovaVelho, ranks);
     equation.solve(run_serially);
     CHECK(equation.size() == 0);
 }

@@ -25,7 +25,7 @@ std::vector<Index> kinds_at(const test::CutMesh& cut, const SubMesh& sub_mesh, I
         const bool shared =
             std::any_of(corners.begin(), corners.end(), [&](Index c) { return label(c) != label(corners.front()); });
         if (cut.topology.kind[v] != VertexKind::Interior)
-            kinds.push_back(held_fixed);
+            kinds.push_back(fixed_vertex);
         else
             kinds.push_back(shared ? v : off_interface);
     }

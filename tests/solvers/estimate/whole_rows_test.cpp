@@ -59,13 +59,13 @@ TEST_CASE("vertices of Γ have the rows of the whole system there and their part
             for (const Index v : vertices)
                 n_sharing[v] += 1.0;
 
-        OnePeer peers(static_cast<Index>(decomposition.sub_meshes.size()));
-        WholeRows rows(decomposition, mesh, cut.topology, peers);
+        OneRank ranks(static_cast<Index>(decomposition.sub_meshes.size()));
+        WholeRows rows(decomposition, mesh, cut.topology, ranks);
         const Executor exec = run_serially;
         const long allocations = test::n_allocations();
         rows.measure(mesh, cut.topology, mesh.vertices, after, time_step, exec);
         CHECK(test::n_allocations() == allocations);
-        for (Index s = 0; s < peers.n_places(); ++s) {
+        for (Index s = 0; s < ranks.n_sub_meshes(); ++s) {
             const SubMeshInterface& interface = decomposition.sub_meshes[s].interface;
             for (Index i = 0; i < interface.size(); ++i) {
                 Point row = expected.row(decomposition.sub_meshes[s].local_to_global[interface.vertices[i]]);

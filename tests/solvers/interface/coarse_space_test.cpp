@@ -25,11 +25,11 @@ Points product(const InterfaceCopies& copies, const std::vector<DenseFactor>& co
         const auto of = [&](std::size_t column, Index i) -> float& { return numbers.data()[column * room + usize(i)]; };
         for (Index i = 0; i < copies.n_in(s); ++i)
             for (Index c = 0; c < 3; ++c)
-                of(usize(c), i) = static_cast<float>(x(copies.vertex[copies.first[s] + i], c));
+                of(usize(c), i) = static_cast<float>(x(copies.vertex[copies.offsets[s] + i], c));
         complements[s].multiply(columns_at(numbers.data(), room), columns_at(numbers.data() + 3 * room, room));
         for (Index i = 0; i < copies.n_in(s); ++i)
             for (Index c = 0; c < 3; ++c)
-                result(copies.vertex[copies.first[s] + i], c) += complements[s].scale() * of(usize(c) + 3, i);
+                result(copies.vertex[copies.offsets[s] + i], c) += complements[s].scale() * of(usize(c) + 3, i);
     }
     return result;
 }
@@ -65,7 +65,7 @@ TEST_CASE("what is left of the residual after the correction has no part along a
                 weights[copy] /= sum;
             ++classes[sharing];
         }
-        OnePeer all(copies.n_sub_meshes());
+        OneRank all(copies.n_sub_meshes());
         CoarseSpace coarse(copies, all);
         Index n_functions = 0;
         for (const auto& [sharing, length] : classes)

@@ -17,9 +17,9 @@ TEST_CASE("every copy is one of its vertex, in its sub-mesh, of the same vertex 
         const auto global = [&](Index copy) {
             const Index s = copies.sub_mesh[copy];
             const SubMesh& sub_mesh = decomposition.sub_meshes[s];
-            REQUIRE(copy >= copies.first[s]);
-            REQUIRE(copy - copies.first[s] < copies.n_in(s));
-            return sub_mesh.local_to_global[sub_mesh.interface.vertices[copy - copies.first[s]]];
+            REQUIRE(copy >= copies.offsets[s]);
+            REQUIRE(copy - copies.offsets[s] < copies.n_in(s));
+            return sub_mesh.local_to_global[sub_mesh.interface.vertices[copy - copies.offsets[s]]];
         };
         for (Index v = 0; v < copies.n_vertices(); ++v) {
             const auto of_vertex = copies.of_vertex[v];

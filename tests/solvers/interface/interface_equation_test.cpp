@@ -63,7 +63,7 @@ struct Equation {
             factor = system->factorise(equations, Precision::Single, heap(), workspace.ldl);
             system->take_schur_complement(*factor, workspace.ldl, complements[s]);
         }
-        system->condense(equations, *factor, shares.middleRows(equation.copies().first[s], system->n_interface()));
+        system->condense(equations, *factor, shares.middleRows(equation.copies().offsets[s], system->n_interface()));
     }
 
     /// What the whole step leaves at an x on Γ.
@@ -75,7 +75,7 @@ struct Equation {
             const std::vector<Index>& on_interface = decomposition.sub_meshes[s].interface.vertices;
             Points change(system.n_interface(), 3);
             for (Index i = 0; i < system.n_interface(); ++i) {
-                const Point wanted = x.row(equation.copies().vertex[equation.copies().first[s] + i]);
+                const Point wanted = x.row(equation.copies().vertex[equation.copies().offsets[s] + i]);
                 change.row(i) = wanted - parts[s].increments.row(on_interface[i]);
                 parts[s].increments.row(on_interface[i]) = wanted;
             }
@@ -92,7 +92,7 @@ struct Equation {
         for (Index copy = 0; copy < equation.copies().n_copies(); ++copy) {
             const Index s = equation.copies().sub_mesh[copy];
             const SubMesh& sub_mesh = decomposition.sub_meshes[s];
-            const Index local = sub_mesh.interface.vertices[copy - equation.copies().first[s]];
+            const Index local = sub_mesh.interface.vertices[copy - equation.copies().offsets[s]];
             rows.row(equation.copies().vertex[copy]) = whole.row(sub_mesh.local_to_global[local]);
         }
         return rows;
@@ -113,7 +113,7 @@ struct Equation {
     }
 
     Decomposition decomposition;
-    OnePeer all;
+    OneRank all;
     InterfaceEquation equation;
     double time_step;
     SolverWorkspace workspace;

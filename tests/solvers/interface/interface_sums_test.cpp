@@ -13,13 +13,13 @@ using namespace seamflow;
 
 namespace {
 
-/// One of several peers, in one thread: what they give is heard once all have said it.
-class PeerInTurn final : public InterfacePeers {
+/// One of several ranks, in one thread: what they give is heard once all have said it.
+class RankInTurn final : public InterfaceRanks {
   public:
     struct NotAllHaveSpoken {};
 
-    PeerInTurn(Index self, const std::vector<Index>& holders, Numbers& said)
-        : InterfacePeers(self, holders, {})
+    RankInTurn(Index own_rank, const std::vector<Index>& holders, Numbers& said)
+        : InterfaceRanks(own_rank, holders, {})
         , said_(&said)
     {
     }
@@ -29,7 +29,7 @@ class PeerInTurn final : public InterfacePeers {
         if (is_second_)
             return *said_;
         is_second_ = true;
-        (*said_)[self()] = own;
+        (*said_)[own_rank()] = own;
         throw NotAllHaveSpoken();
     }
     Numbers exchange(std::span<const Index>, const Numbers&) override { return {}; }
@@ -39,7 +39,7 @@ class PeerInTurn final : public InterfacePeers {
     bool is_second_ = false;
 };
 
-/// What each of three peers finds, and how many rows they have told each other.
+/// What each of three ranks finds, and how many rows they have told each other.
 struct Found {
     std::vector<std::vector<double>> sums;
     std::size_t n_told = 0;
@@ -48,21 +48,21 @@ struct Found {
 Found add_up_together(const std::vector<double>& rows, const std::vector<Index>& holders, std::size_t width)
 {
     Found found;
-    InterfacePeers::Numbers said(3);
-    std::vector<std::unique_ptr<PeerInTurn>> peers;
+    InterfaceRanks::Numbers said(3);
+    std::vector<std::unique_ptr<RankInTurn>> ranks;
     for (Index self = 0; self < 3; ++self) {
-        peers.push_back(std::make_unique<PeerInTurn>(self, holders, said));
+        ranks.push_back(std::make_unique<RankInTurn>(self, holders, said));
         std::vector<double> used = rows;
-        CHECK_THROWS_AS(SumTree(*peers.back()).add_up(used, width), PeerInTurn::NotAllHaveSpoken);
+        CHECK_THROWS_AS(SumTree(*ranks.back()).add_up(used, width), RankInTurn::NotAllHaveSpoken);
         found.n_told += said[self].size() / width;
     }
-    for (const auto& peer : peers) {
+    for (const auto& rank : ranks) {
         // What others have is not known.
         std::vector<double> used(rows.size(), 1e9);
         for (std::size_t i = 0; i < rows.size(); ++i)
-            if (holders[i / width] == peer->self())
+            if (holders[i / width] == rank->own_rank())
                 used[i] = rows[i];
-        found.sums.push_back(SumTree(*peer).add_up(used, width));
+        found.sums.push_back(SumTree(*rank).add_up(used, width));
     }
     return found;
 }
@@ -79,7 +79,7 @@ TEST_CASE("rows are added along a tree of their numbers, whoever has them")
             rows.push_back(random.symmetric());
         const auto a = [&](std::size_t i) { return i < n ? rows[2 * i + 1] : 0.0; };
         const double expected = ((a(0) + a(1)) + (a(2) + a(3))) + ((a(4) + a(5)) + (a(6) + a(7)));
-        OnePeer all(static_cast<Index>(n));
+        OneRank all(static_cast<Index>(n));
         std::vector<double> used = rows;
         CHECK(SumTree(all).add_up(used, 2)[1] == expected);
         for (Index shift = 0; shift < 3; ++shift) {
@@ -101,7 +101,7 @@ TEST_CASE("inner products count every vertex of the interface once")
     for (const test::CutMesh& cut : test::cut_meshes()) {
         CAPTURE(cut.name);
         const InterfaceCopies copies(test::decompose(cut));
-        OnePeer all(copies.n_sub_meshes());
+        OneRank all(copies.n_sub_meshes());
         InterfaceSums sums(copies, all);
         Points a(copies.n_vertices(), 3);
         Points b(copies.n_vertices(), 3);

@@ -107,7 +107,7 @@ TEST_CASE("once the vertices without a row are held, no row that matters divides
             const std::vector<Index> held = vertices_without_row(mesh, topology, laplacian);
             CHECK(held.empty() == complaint(mesh, laplacian).empty());
             CHECK(held.size() <= 12);
-            hold(topology, held);
+            fix_vertices(topology, held);
             CHECK(vertices_without_row(mesh, topology, laplacian).empty());
             const Eigen::MatrixXd matrix = dense_laplacian(laplacian, mesh, topology);
             for (Index v = 0; v < mesh.n_vertices(); ++v)

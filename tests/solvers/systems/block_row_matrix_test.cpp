@@ -97,7 +97,7 @@ TEST_CASE("a matrix by blocks has the entries that were set, wherever a block en
     const Eigen::MatrixXf a = grid_matrix(8, -1.0F, 0.5F);
     BlockRowMatrix matrix = make(a, {0, 10, 10, 37, 64});
     Eigen::MatrixXf seen = Eigen::MatrixXf::Zero(64, 64);
-    matrix.sum_of_rows<Eigen::Array4d>(run_serially, [&](const BlockRowMatrix::Place& place) -> Eigen::Array4d {
+    matrix.sum_of_rows<Eigen::Array4d>(run_serially, [&](const BlockRowMatrix::BlockRow& place) -> Eigen::Array4d {
         matrix.for_each_entry(place,
                               [&](Index j, const BlockRowMatrix::Entry& entry) { seen(place.row, j) = entry.value; });
         seen(place.row, place.row) = matrix.diagonal(place.row);

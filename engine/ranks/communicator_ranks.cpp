@@ -1,4 +1,4 @@
-#include "engine/ranks/rank_peers.h"
+#include "engine/ranks/communicator_ranks.h"
 
 #include <utility>
 
@@ -6,13 +6,13 @@
 
 namespace seamflow {
 
-RankPeers::RankPeers(Communicator& comm, std::vector<Index> holders, std::vector<Index> places)
-    : InterfacePeers(comm.rank(), std::move(holders), std::move(places))
+CommunicatorRanks::CommunicatorRanks(Communicator& comm, std::vector<Index> holders, std::vector<Index> global_numbers)
+    : InterfaceRanks(comm.rank(), std::move(holders), std::move(global_numbers))
     , comm_(&comm)
 {
 }
 
-InterfacePeers::Numbers RankPeers::gather(const std::vector<double>& own)
+InterfaceRanks::Numbers CommunicatorRanks::gather(const std::vector<double>& own)
 {
     Numbers all;
     for (const Bytes& bytes : comm_->allgather(packed(own)))
@@ -20,7 +20,7 @@ InterfacePeers::Numbers RankPeers::gather(const std::vector<double>& own)
     return all;
 }
 
-InterfacePeers::Numbers RankPeers::exchange(std::span<const Index> others, const Numbers& to_each)
+InterfaceRanks::Numbers CommunicatorRanks::exchange(std::span<const Index> others, const Numbers& to_each)
 {
     std::vector<Bytes> bytes;
     for (const std::vector<double>& numbers : to_each)

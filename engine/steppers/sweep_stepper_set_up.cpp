@@ -17,7 +17,7 @@ namespace seamflow {
 
 namespace {
 
-/// The sub-meshes of a cut, grown into each other for a sweep in ascending order of `rank`.
+/// The sub-meshes of a cut, grown into each other for a sweep in ascending order of `stage`.
 Decomposition overlap_sub_meshes(const PolygonMesh& mesh, const Topology& topology, const Cut& cut,
                                  std::span<const Index> stage, int layers)
 {
@@ -57,9 +57,9 @@ SweepStepper::SweepStepper(const PolygonMesh& mesh, const Topology& topology, Sw
                            const FlowOptions& options, Progress& progress)
     : decomposition_(std::move(sub_meshes.own.decomposition))
     , names_(std::move(sub_meshes.own.names))
-    , foreign_(sub_meshes.foreign)
+    , remote_(sub_meshes.remote)
     , windows_(std::move(sub_meshes.windows))
-    , peers_(std::move(sub_meshes.own.peers))
+    , ranks_(std::move(sub_meshes.own.ranks))
     , graph_(&progress, options.report.record_schedule)
     , time_step_(options.time_step)
     , filter_(filter_of(options))
@@ -72,30 +72,30 @@ SweepStepper::SweepStepper(const PolygonMesh& mesh, const Topology& topology, Sw
     run_both(
         [&] {
             if (options.interface.conditions != Conditions::Schwarz)
-                error_.emplace(decomposition_, mesh, topology, options, *peers_);
+                error_.emplace(decomposition_, mesh, topology, options, *ranks_);
         },
         [&] {
             plans_.push_back(make_plan(decomposition_, options, sub_meshes.stage));
-            if (alternates(options, usize(peers_->n_places())))
+            if (alternates(options, usize(ranks_->n_sub_meshes())))
                 plans_.push_back(make_plan(decomposition_, options, reversed(sub_meshes.stage)));
         });
     const std::vector<Index> order = reverse_cuthill_mckee(decomposition_.adjacency);
     for (std::size_t sweep = windows_.size(); sweep < plans_.size(); ++sweep)
         windows_.push_back(least_window(plans_[sweep], order_by_need(plans_[sweep], order)));
     choose_factor_window(options);
-    if (foreign_ != nullptr)
-        foreign_->connect(decomposition_, plans_, error_->foreign_rows());
+    if (remote_ != nullptr)
+        remote_->connect(decomposition_, plans_, error_->remote_rows());
     const PerformTask perform = [this](TaskKind kind, Index s) { this->perform(kind, s); };
     for (std::size_t sweep = 0; sweep < plans_.size(); ++sweep)
         add_sweep(graph_, perform, sweep, plans_[sweep], decomposition_.adjacency, windows_[sweep], predicts(options),
-                  foreign_);
+                  remote_);
 }
 
-/// Each thread has enough work within the window, as far as the limit allows. The windows are as small as they can be
-/// without deadlocks.
+/// Chooses the size of the windows: large enough that each thread has work within the window, as far as the limit
+/// allows; at least as large as is needed to avoid deadlocks.
 void SweepStepper::choose_factor_window(const FlowOptions& options)
 {
-    constexpr Index places_per_thread = 4;
+    constexpr Index slots_per_thread = 4;
     std::size_t largest = 1;
     for (const SubMeshState& state : states_)
         if (state.system)
@@ -106,13 +106,14 @@ void SweepStepper::choose_factor_window(const FlowOptions& options)
     Index least = 0;
     for (const FactorWindow& window : windows_)
         least = std::max(least, window.size);
-    // A further solution begins when the previous one is complete.
+    // With a filter of several solutions, all factors are kept, because a further solution begins when the previous one
+    // is complete.
     least = filter_.is_plain() ? std::min(least, n) : n;
     const auto resize = [&](Index size) {
         for (FactorWindow& window : windows_)
             window.size = size;
     };
-    const Index enough = std::min(n, least + places_per_thread * workspaces_.size());
+    const Index enough = std::min(n, least + slots_per_thread * workspaces_.size());
     resize(enough);
     if (!options.resources.memory_limit)
         return;

@@ -7,13 +7,13 @@
 #include "engine/tasks/parallel_executor.h"
 #include "partition/metrics/vertex_distance.h"
 #include "samples/meshes/meshes.h"
-#include "solvers/denoising/alike_noise.h"
+#include "solvers/denoising/correlated_noise.h"
 #include "solvers/denoising/vertex_averages.h"
 #include "tests/support/denoising.h"
 
 using namespace seamflow;
 
-TEST_CASE("noise that is alike over an edge or two is measured, and local fits take it, with any threads")
+TEST_CASE("noise that is correlated over an edge or two is measured, and local fits take it, with any threads")
 {
     const PolygonMesh truth = make_noisy_sphere(6000, {.amplitude = 0.1, .noise = 0.0});
     const Topology topology = make_topology(truth);
@@ -43,13 +43,13 @@ TEST_CASE("noise that is alike over an edge or two is measured, and local fits t
         for (Index v = 0; v < truth.n_vertices(); ++v)
             noisy.vertices.row(v) += deviation * edge * std::sqrt(truth.n_vertices() / squares) * noise[v] *
                                      truth.vertices.row(v).normalized();
-        const AlikeNoise found(noisy, topology, averages, {}, noisy.vertices, run_in_parallel);
+        const CorrelatedNoise found(noisy, topology, averages, {}, noisy.vertices, run_in_parallel);
         CHECK(found.deviation() > 0.7 * deviation);
         CHECK(found.deviation() < 1.1 * deviation);
         CHECK(found.least_risk() < 0.8);
         PolygonMesh result = noisy;
         result.vertices = found.without(run_in_parallel);
         CHECK(test::angle_to_truth(truth, result) < 0.4 * test::angle_to_truth(truth, noisy));
-        CHECK(AlikeNoise(noisy, topology, averages, {}, noisy.vertices).without() == result.vertices);
+        CHECK(CorrelatedNoise(noisy, topology, averages, {}, noisy.vertices).without() == result.vertices);
     }
 }

@@ -1,4 +1,4 @@
-// How converged steps are set up; how they are taken is in schur_stepper.cpp.
+// The set-up of SchurStepper; the steps are in schur_stepper.cpp.
 
 #include <memory>
 #include <utility>
@@ -14,26 +14,27 @@ namespace seamflow {
 
 namespace {
 
-/// Wider sub-meshes, in √dt, do without a coarse space: it would save an iteration in nine, and cost more.
+/// The width of sub-meshes, in √dt, above which there is no coarse space: it would save an iteration in nine, and cost
+/// more.
 constexpr double width_without_coarse_space = 8.0;
 
-/// The area of all sub-meshes of all peers.
-double area_of_all(const Decomposition& decomposition, const PolygonMesh& mesh, InterfacePeers& peers)
+/// The area of all sub-meshes of all ranks, in length².
+double area_of_all(const Decomposition& decomposition, const PolygonMesh& mesh, InterfaceRanks& ranks)
 {
-    std::vector<double> areas(usize(peers.n_places()), 0.0);
+    std::vector<double> areas(usize(ranks.n_sub_meshes()), 0.0);
     for_each(run_in_parallel, static_cast<Index>(decomposition.sub_meshes.size()), [&](Index s) {
-        if (peers.is_own(s))
+        if (ranks.is_own(s))
             for (const Index f : decomposition.sub_meshes[s].faces)
-                areas[peers.places()[s]] += area(mesh.face(f), mesh.vertices);
+                areas[ranks.global_numbers()[s]] += area(mesh.face(f), mesh.vertices);
     });
-    return SumTree(peers).add_up(areas, 1).front();
+    return SumTree(ranks).add_up(areas, 1).front();
 }
 
-Balancing balancing_for(const Decomposition& decomposition, const PolygonMesh& mesh, InterfacePeers& peers,
+Balancing balancing_for(const Decomposition& decomposition, const PolygonMesh& mesh, InterfaceRanks& ranks,
                         double time_step)
 {
-    const double area = area_of_all(decomposition, mesh, peers);
-    return width_in_diffusion_lengths(area, peers.n_places(), time_step) < width_without_coarse_space
+    const double area = area_of_all(decomposition, mesh, ranks);
+    return width_in_diffusion_lengths(area, ranks.n_sub_meshes(), time_step) < width_without_coarse_space
                ? Balancing::Coarse
                : Balancing::None;
 }
@@ -46,21 +47,21 @@ SchurStepper::SchurStepper(const PolygonMesh& mesh, const Topology& topology, co
 {
 }
 
-SchurStepper::SchurStepper(const PolygonMesh& mesh, PeerSubMeshes sub_meshes, const FlowOptions& options,
+SchurStepper::SchurStepper(const PolygonMesh& mesh, RankSubMeshes sub_meshes, const FlowOptions& options,
                            Progress& progress)
     : ConvergedStepper(mesh, static_cast<Index>(sub_meshes.decomposition.sub_meshes.size()), options,
                        static_cast<double>(sub_meshes.decomposition.sub_meshes.size()), progress)
-    , peers_(std::move(sub_meshes.peers))
+    , ranks_(std::move(sub_meshes.ranks))
     , names_(std::move(sub_meshes.names))
     , sub_meshes_(sub_meshes.decomposition.sub_meshes.size())
-    , equation_(sub_meshes.decomposition, balancing_for(sub_meshes.decomposition, mesh, *peers_, options.time_step),
-                *peers_)
+    , equation_(sub_meshes.decomposition, balancing_for(sub_meshes.decomposition, mesh, *ranks_, options.time_step),
+                *ranks_)
 {
     Decomposition& decomposition = sub_meshes.decomposition;
     keeps_matrix_ = options.flow == FlowEquation::Linear;
     changed_.resize(sub_meshes_.size(), 0);
     if (options.flow != FlowEquation::MeanCurvature)
-        first_ = mesh.vertices;
+        initial_ = mesh.vertices;
     factors_.precision = options.resources.precision;
     interface_.n_vertices = decomposition.n_interface_vertices;
     interface_.complements.resize(sub_meshes_.size());
@@ -70,7 +71,8 @@ SchurStepper::SchurStepper(const PolygonMesh& mesh, PeerSubMeshes sub_meshes, co
     make_graph();
 }
 
-/// Data of sub-meshes that is needed later is moved there; the rest is freed when all are analysed.
+/// Makes the sub-meshes. Data of `decomposition` that steps need are moved into them; the rest is freed when all are
+/// analysed.
 void SchurStepper::make_sub_meshes(Decomposition& decomposition, const PolygonMesh& mesh, const FlowOptions& options,
                                    Progress& progress)
 {
@@ -92,13 +94,13 @@ void SchurStepper::make_sub_meshes(Decomposition& decomposition, const PolygonMe
         });
         own.local_to_global = std::move(sub_mesh.local_to_global);
         own.owned = std::move(sub_mesh.owned);
-        const auto on_interface = std::span(copies.vertex).subspan(usize(copies.first[s]), usize(copies.n_in(s)));
+        const auto on_interface = std::span(copies.vertex).subspan(usize(copies.offsets[s]), usize(copies.n_in(s)));
         sub_meshes_[s] = std::make_unique<CondensedSubMesh>(std::move(own), std::move(system), on_interface,
-                                                            copies.first[s], seconds_[s]);
+                                                            copies.offsets[s], seconds_[s]);
     });
 }
 
-/// Factors that may be in either precision count as double.
+/// Chooses the factors that are kept. Factors that may be in either precision count as double.
 void SchurStepper::choose_factors(const FlowOptions& options)
 {
     std::vector<std::size_t> bytes;
@@ -107,7 +109,7 @@ void SchurStepper::choose_factors(const FlowOptions& options)
             bytes.push_back(factors_.precision == Precision::Single ? one->system().factor_bytes<float>()
                                                                     : one->system().factor_bytes<double>());
     factors_.plan = choose_kept_factors(bytes, options.resources.memory_limit, workspaces_.size());
-    factors_.passing.emplace(factors_.plan.bytes_per_place);
+    factors_.passing.emplace(factors_.plan.bytes_per_slot);
     FactorMemory& kept = options.resources.memory_limit ? *std::pmr::new_delete_resource() : factors_.pool;
     std::vector<std::uint8_t> whole(sub_meshes_.size(), 1);
     auto next = factors_.plan.whole.begin();
@@ -142,11 +144,11 @@ void SchurStepper::make_graph()
     take_turns(passing_substituted);
 }
 
-/// Each waits until an earlier one has given back the place of its factor.
+/// Makes each task wait until an earlier one has freed its slot.
 void SchurStepper::take_turns(const std::vector<TaskGraph::Node>& tasks)
 {
-    for (std::size_t i = usize(factors_.plan.n_places); i < tasks.size(); ++i)
-        graph_.add_dependency(tasks[i - usize(factors_.plan.n_places)], tasks[i]);
+    for (std::size_t i = usize(factors_.plan.n_slots); i < tasks.size(); ++i)
+        graph_.add_dependency(tasks[i - usize(factors_.plan.n_slots)], tasks[i]);
 }
 
 }  // namespace seamflow

@@ -1,4 +1,4 @@
-#include "solvers/denoising/alike_noise.h"
+#include "solvers/denoising/correlated_noise.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,29 +12,30 @@ namespace seamflow {
 
 namespace {
 
-/// Over which normals, edges and squares of heights are averaged.
+/// Rounds over which vertex normals, edge lengths and squared heights are averaged.
 constexpr int rounds_of_vertex_normals = 3;
 constexpr int rounds_of_edges = 4;
 constexpr int rounds_of_places = 30;
 constexpr double width_of_lags = 0.5;
-/// In edges: where correlations fall to exp(-1/4).
-constexpr std::array<double, 7> alike_lengths{0.35, 0.5, 0.7, 1.0, 1.4, 2.0, 2.8};
-/// The variance of alike noise over that of white noise, between which both are plausible: of five scans 0.7 to 2.4, of
-/// relief with white noise of a tenth of an edge 2.8 and more.
-constexpr double least_alike = 0.1;
-constexpr double most_alike = 2.6;
-/// Fits of more risk, relative to the variance of the noise, are not worth it.
+/// The lengths that are tried for correlated noise, in edges: at this distance the correlation is exp(-1/4).
+constexpr std::array<double, 7> correlation_lengths{0.35, 0.5, 0.7, 1.0, 1.4, 2.0, 2.8};
+/// The bounds of the variance of correlated noise over that of white noise; outside of these it is rather shape. Five
+/// scans had 0.7 to 2.4, relief with white noise of a tenth of an edge 2.8 and more.
+constexpr double least_correlated = 0.1;
+constexpr double most_correlated = 2.6;
+/// Fits with a larger risk, relative to the variance of the noise, are not used.
 constexpr double most_risk = 0.95;
-/// Differences of risks, relative to the variance of the noise, at which the weight of a radius falls to 1/e.
+/// The difference of risks, relative to the variance of the noise, at which the weight of a radius falls to 1/e.
 constexpr double risk_temperature = 0.05;
-/// Mean squares at single places are uncertain: this part of their expectation is that of the calmer half.
+/// The mean square at a single place is uncertain: this fraction of its expected value comes from the calmer half of
+/// the surface, the rest from the place.
 constexpr double part_of_calm = 0.75;
-/// The noise at a place, relative to that of the calmer half, is within these bounds (squared).
+/// The bounds of the variance of the noise at a place, relative to the variance on the calmer half.
 constexpr double least_share_of_noise = 0.25;
 constexpr double most_share_of_noise = 16.0;
 
-/// Covariances over distances along a line, of what fits of a regular mesh leave over of something.
-/// @param covariance of distances in edges, before the fits.
+/// The covariances of the residuals of local fits on a regular mesh, at some distances along a line.
+/// @param covariance the covariance of the heights before the fits, as a function of the distance in edges.
 template <class Covariance>
 std::vector<double> left_over(const LocalFits::Kernel& kernel, std::span<const double> lags, Covariance&& covariance)
 {
@@ -45,12 +46,12 @@ std::vector<double> left_over(const LocalFits::Kernel& kernel, std::span<const d
     for (const double lag : lags) {
         const Eigen::Vector2d place(lag, 0.0);
         double total = covariance(lag);
-        for (std::size_t i = 0; i < kernel.parts.size(); ++i) {
+        for (std::size_t i = 0; i < kernel.weights.size(); ++i) {
             double fitted = 0.0;
-            for (std::size_t j = 0; j < kernel.parts.size(); ++j)
-                fitted += kernel.parts[j] * between(kernel.places[i], place + kernel.places[j]);
-            // By symmetry both mixed terms are equal.
-            total += kernel.parts[i] * (fitted - 2.0 * between(kernel.places[i], place));
+            for (std::size_t j = 0; j < kernel.weights.size(); ++j)
+                fitted += kernel.weights[j] * between(kernel.offsets[i], place + kernel.offsets[j]);
+            // By symmetry, the two mixed terms are equal.
+            total += kernel.weights[i] * (fitted - 2.0 * between(kernel.offsets[i], place));
         }
         result.push_back(total);
     }
@@ -67,20 +68,20 @@ double white_at(double distance)
     return distance < 0.5 * width_of_lags ? 1.0 : 0.0;
 }
 
-/// White noise and noise that is alike over a length.
+/// White noise, and correlated noise with a Gaussian correlation over a length.
 struct TwoNoises {
     double white = 0.0;
-    double alike = 0.0;
+    double correlated = 0.0;
     double length = 1.0;
 
     [[nodiscard]] double covariance(double distance) const
     {
-        return white * white_at(distance) + alike * gaussian_at(distance, length);
+        return white * white_at(distance) + correlated * gaussian_at(distance, length);
     }
 };
 
-/// The noise that explains covariances best, in the sense of least squares.
-/// @param seen what the widest fits leave over of it, at some lags.
+/// The noise that explains covariances best, by least squares.
+/// @param seen the covariances of the residuals of the widest fits, at the lags.
 TwoNoises noise_with(const LocalFits::Kernel& kernel, std::span<const double> lags, std::span<const double> seen)
 {
     using Column = Eigen::Map<const Eigen::ArrayXd>;
@@ -90,9 +91,10 @@ TwoNoises noise_with(const LocalFits::Kernel& kernel, std::span<const double> la
     const Column w(of_white.data(), size);
     TwoNoises best;
     double least = std::numeric_limits<double>::infinity();
-    for (const double length : alike_lengths) {
-        const std::vector<double> of_alike = left_over(kernel, lags, [&](double d) { return gaussian_at(d, length); });
-        const Column a(of_alike.data(), size);
+    for (const double length : correlation_lengths) {
+        const std::vector<double> of_correlated =
+            left_over(kernel, lags, [&](double d) { return gaussian_at(d, length); });
+        const Column a(of_correlated.data(), size);
         const double ww = (w * w).sum();
         const double aa = (a * a).sum();
         const double wa = (w * a).sum();
@@ -101,9 +103,9 @@ TwoNoises noise_with(const LocalFits::Kernel& kernel, std::span<const double> la
                         ((a * y).sum() * ww - (w * y).sum() * wa) / determinant, length};
         if (noise.white < 0.0)
             noise = {0.0, (a * y).sum() / aa, length};
-        if (noise.alike < 0.0)
+        if (noise.correlated < 0.0)
             noise = {(w * y).sum() / ww, 0.0, length};
-        if (const double rest = (y - noise.white * w - noise.alike * a).square().sum(); rest < least) {
+        if (const double rest = (y - noise.white * w - noise.correlated * a).square().sum(); rest < least) {
             least = rest;
             best = noise;
         }
@@ -113,8 +115,8 @@ TwoNoises noise_with(const LocalFits::Kernel& kernel, std::span<const double> la
 
 }  // namespace
 
-AlikeNoise::AlikeNoise(const PolygonMesh& mesh, const Topology& topology, const VertexAverages& averages,
-                       std::span<const std::int8_t> signs, const Points& before, const Executor& exec)
+CorrelatedNoise::CorrelatedNoise(const PolygonMesh& mesh, const Topology& topology, const VertexAverages& averages,
+                                 std::span<const std::int8_t> signs, const Points& before, const Executor& exec)
     : mesh_(mesh)
     , topology_(topology)
     , averages_(averages)
@@ -137,7 +139,7 @@ AlikeNoise::AlikeNoise(const PolygonMesh& mesh, const Topology& topology, const 
     find_covariances(exec);
 }
 
-Points AlikeNoise::normals_of(const Points& positions, int rounds, const Executor& exec) const
+Points CorrelatedNoise::normals_of(const Points& positions, int rounds, const Executor& exec) const
 {
     Points normals = Points::Zero(mesh_.n_vertices(), 3);
     for_each(exec, mesh_.n_vertices(), [&](Index v) {
@@ -162,7 +164,7 @@ Points AlikeNoise::normals_of(const Points& positions, int rounds, const Executo
     return normals;
 }
 
-void AlikeNoise::find_places(const Executor& exec)
+void CorrelatedNoise::find_places(const Executor& exec)
 {
     VertexAverages::Rows near(mesh_.n_faces(), n_radii);
     squares_.resize(mesh_.n_faces(), n_radii);
@@ -196,9 +198,9 @@ void AlikeNoise::find_places(const Executor& exec)
     calm_squares_ = sums.head<n_radii>() / std::max(sums[n_radii], 1.0);
 }
 
-void AlikeNoise::find_covariances(const Executor& exec)
+void CorrelatedNoise::find_covariances(const Executor& exec)
 {
-    // Per vertex: the sums of products at the lags, and their numbers.
+    // Per vertex: the sums of products at the lags, and the numbers of products.
     using Sums = Eigen::Array<double, 1, 2 * n_lags>;
     const std::size_t count = LocalFits::n_within(width_of_lags * n_lags);
     const auto sums_over = [&](Index begin, Index end) {
@@ -232,24 +234,24 @@ void AlikeNoise::find_covariances(const Executor& exec)
             seen.push_back(total[k] / number);
         }
     const TwoNoises noise = lags.empty() ? TwoNoises{} : noise_with(LocalFits::kernel(radii.back()), lags, seen);
-    is_bounded_ = noise.length < alike_lengths.back() && noise.alike > least_alike * noise.white &&
-                  noise.alike < most_alike * noise.white;
+    is_bounded_ = noise.length < correlation_lengths.back() && noise.correlated > least_correlated * noise.white &&
+                  noise.correlated < most_correlated * noise.white;
     for (std::size_t k = 0; k < n_lags; ++k)
         covariances_[static_cast<Eigen::Index>(k)] = noise.covariance(width_of_lags * static_cast<double>(k));
     for (Eigen::Index i = 0; i < n_radii; ++i) {
         const LocalFits::Kernel kernel = LocalFits::kernel(radii[static_cast<std::size_t>(i)]);
         shared_[i] = 0.0;
-        for (std::size_t k = 0; k < kernel.parts.size(); ++k)
-            shared_[i] += kernel.parts[k] * noise.covariance(kernel.places[k].norm());
+        for (std::size_t k = 0; k < kernel.weights.size(); ++k)
+            shared_[i] += kernel.weights[k] * noise.covariance(kernel.offsets[k].norm());
     }
 }
 
-bool AlikeNoise::is_plausible() const
+bool CorrelatedNoise::is_plausible() const
 {
     return is_bounded_ && least_risk() < most_risk;
 }
 
-double AlikeNoise::least_risk() const
+double CorrelatedNoise::least_risk() const
 {
     using Squares = Eigen::Array<double, 1, n_radii>;
     Squares squares = Squares::Zero();
@@ -261,7 +263,7 @@ double AlikeNoise::least_risk() const
                           : std::numeric_limits<double>::infinity();
 }
 
-Points AlikeNoise::without(const Executor& exec) const
+Points CorrelatedNoise::without(const Executor& exec) const
 {
     const double variance = covariances_[0];
     if (!(variance > 0.0))

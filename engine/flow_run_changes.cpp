@@ -1,4 +1,4 @@
-// What Flow changes between steps: vertices that are held, attached or moved, and weights of edges.
+// The changes that Flow makes between steps: vertices fixed, attached or moved, and weights of edges.
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +13,8 @@
 
 namespace seamflow {
 
-/// @returns the vertices of the flowing mesh that these move with.
+/// Checks that vertices can be changed.
+/// @returns the vertices of the flowing mesh that these vertices move with.
 std::vector<Index> FlowRun::require_changeable(std::string_view what, std::span<const Index> vertices,
                                                bool needs_stepper) const
 {
@@ -36,20 +37,20 @@ std::vector<Index> FlowRun::require_changeable(std::string_view what, std::span<
     return flowing;
 }
 
-void FlowRun::hold(std::span<const Index> vertices, bool is_held)
+void FlowRun::set_fixed(std::span<const Index> vertices, bool is_fixed)
 {
-    std::vector<Index> flowing = require_changeable(is_held ? "hold" : "release", vertices, true);
+    std::vector<Index> flowing = require_changeable(is_fixed ? "hold" : "release", vertices, true);
     Topology& topology = prepared_->topology;
-    is_held_.resize(topology.fixed.size(), 0);
+    is_fixed_.resize(topology.fixed.size(), 0);
     for (const Index v : flowing)
-        if (!is_held && !topology.moves(v) && is_held_[v] == 0)
+        if (!is_fixed && !topology.moves(v) && is_fixed_[v] == 0)
             throw OptionError(fmt::format("vertex {} was fixed when the flow began: only vertices held since then can "
                                           "be released; begin a new flow",
                                           v));
-    std::erase_if(flowing, [&](Index v) { return topology.moves(v) != is_held; });
-    stepper_->hold(flowing, is_held);
+    std::erase_if(flowing, [&](Index v) { return topology.moves(v) != is_fixed; });
+    stepper_->set_fixed(flowing, is_fixed);
     for (const Index v : flowing)
-        topology.fixed[v] = is_held_[v] = is_held ? 1 : 0;
+        topology.fixed[v] = is_fixed_[v] = is_fixed ? 1 : 0;
     constraints_->vanishing.look_again();
     was_changed_ = true;
 }
@@ -91,7 +92,7 @@ void FlowRun::move(std::span<const Index> vertices, const Points& to)
     was_changed_ = true;
 }
 
-/// @throws InputError if vertices would move to where no step is defined for them.
+/// @throws InputError if vertices would move to positions at which no step is defined for them.
 void FlowRun::require_rows(std::span<const Index> vertices, const Points& to) const
 {
     PolygonMesh moved = mesh_.mesh();
