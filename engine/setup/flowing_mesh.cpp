@@ -246,10 +246,10 @@ void FlowingMesh::shift_back(Points& positions) const
 
 void FlowingMesh::complete(FlowReport& report) const
 {
-    if (report.separated && is_elsewhere())
+    if (report.separated && is_shifted())
         bring_back(*report.separated);
     if (!copies_.empty())
-        report.mesh.moved_with = first_;
+        report.mesh.moved_with = representative_;
     if (remark_on_seams_)
         report.remarks.push_back(*remark_on_seams_);
     if (number_.empty())

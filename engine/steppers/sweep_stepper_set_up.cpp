@@ -117,13 +117,13 @@ void SweepStepper::choose_factor_window(const FlowOptions& options)
     resize(enough);
     if (!options.resources.memory_limit)
         return;
-    const std::size_t places = *options.resources.memory_limit / largest;
-    if (places < usize(least))
+    const std::size_t slots = *options.resources.memory_limit / largest;
+    if (slots < usize(least))
         throw MemoryLimitError(Wording{"<memory_limit> is " + std::to_string(*options.resources.memory_limit) +
                                        " bytes, but the " + std::to_string(least) +
                                        " factorisations that a step needs at once take " +
                                        std::to_string(usize(least) * largest) + ": raise it, or use more sub-meshes"});
-    resize(static_cast<Index>(std::min(usize(enough), places)));
+    resize(static_cast<Index>(std::min(usize(enough), slots)));
 }
 
 void SweepStepper::make_states(const PolygonMesh& mesh, const FlowOptions& options, Progress& progress)

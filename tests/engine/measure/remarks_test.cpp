@@ -86,15 +86,15 @@ TEST_CASE("a tolerance that was missed is remarked on, with what does not help")
 TEST_CASE("one vertex, one face: remarks agree with their number")
 {
     const std::string why = " held fixed because the mesh is not manifold there.";
-    CHECK(remark_on_non_manifold_vertices(1, "") == "1 vertex is" + why);
-    CHECK(remark_on_non_manifold_vertices(2, "") == "2 vertices are" + why);
-    CHECK(remark_on_non_manifold_vertices(2, "With this") ==
+    CHECK(sentence(remark_on_non_manifold_vertices(1, "")) == "1 vertex is" + why);
+    CHECK(sentence(remark_on_non_manifold_vertices(2, "")) == "2 vertices are" + why);
+    CHECK(sentence(remark_on_non_manifold_vertices(2, "With this")) ==
           "2 vertices are" + why + " With this, those on edges of three faces or more would flow.");
     const std::string junction = " on edges of three faces or more ";
-    CHECK(remark_on_junctions(1, Laplacian::AlexaWardetzky) ==
+    CHECK(sentence(remark_on_junctions(1, Laplacian::AlexaWardetzky)) ==
           "1 vertex" + junction + "flows with all of these faces.");
-    CHECK(remark_on_junctions(2, Laplacian::AlexaWardetzky) ==
+    CHECK(sentence(remark_on_junctions(2, Laplacian::AlexaWardetzky)) ==
           "2 vertices" + junction + "flow with all of these faces.");
-    CHECK(test::contains(remark_on_repeated_faces(1), "1 face has the same vertices"));
-    CHECK(test::contains(remark_on_repeated_faces(2), "2 faces have the same vertices"));
+    CHECK(test::contains(sentence(remark_on_repeated_faces(1)), "1 face has the same vertices"));
+    CHECK(test::contains(sentence(remark_on_repeated_faces(2)), "2 faces have the same vertices"));
 }
