@@ -246,7 +246,7 @@ void FlowingMesh::shift_back(Points& positions) const
 
 void FlowingMesh::complete(FlowReport& report) const
 {
-    if (report.separated && is_shifted())
+    if (report.separated && is_elsewhere())
         bring_back(*report.separated);
     if (!copies_.empty())
         report.mesh.moved_with = representative_;
