@@ -9,8 +9,8 @@
 
 namespace seamflow {
 
-/// Sentences for users, in which options are marked, so that each caller reads them by its own names: <radius>, or
-/// <boundary free> for an option and a value. A mark has the library's name of the option: that of a field of the
+/// Sentences for users, in which options are marked, so that each caller reads them by its own names: `<radius>`, or
+/// `<boundary free>` for an option and a value. A mark has the library's name of the option: that of a field of the
 /// options, or of a parameter. << stands for a < that marks nothing.
 struct Wording {
     std::string text;

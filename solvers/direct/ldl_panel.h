@@ -46,7 +46,7 @@ template <Index Length, class Number>
 void forward_substitute_panel(const LdlPanel<Number>& panel, Number* x);
 
 /// Solves for a panel's unknowns; those of its other rows are given.
-/// @tparam Length, @param x see forward_substitute_panel.
+/// @tparam Length see forward_substitute_panel. @param x see forward_substitute_panel.
 template <Index Length, class Number>
 void back_substitute_panel(const LdlPanel<Number>& panel, Number* x);
 

@@ -94,11 +94,11 @@ void NeumannSystem::set_fixed(Index v, bool is_fixed)
     is_fixed_[v] = is_fixed ? 1 : 0;
 }
 
-void NeumannSystem::set_reference(const Points& first)
+void NeumannSystem::set_reference(const Points& initial)
 {
-    matrix_.laplacian->set_reference(first);
+    matrix_.laplacian->set_reference(initial);
     if (matrix_.screening.exists())
-        matrix_.screening.initial = first.topRows(matrix_.screening.initial.rows());
+        matrix_.screening.initial = initial.topRows(matrix_.screening.initial.rows());
 }
 
 /// The rows and columns of fixed vertices become those of a diagonal matrix, with right-hand sides of 0. The residual

@@ -132,7 +132,7 @@ class NeumannSystem {
 
     /// Replaces V⁰: computes the kept K and M from other positions, and attaches to these.
     /// @param initial at least #own by 3.
-    void set_reference(const Points& first);
+    void set_reference(const Points& initial);
 
   private:
     SparsePattern number_unknowns(const SubMesh& sub_mesh);
