@@ -27,9 +27,18 @@ bool has_amount(const Asked& asked)
     return !asked.first(concern::amount).empty();
 }
 
-bool is_ply(const std::filesystem::path& path)
+/// Properties are those of a .ply file.
+void require_ply(const Command& command, const Asked& asked)
 {
-    return format_of(path) == FileFormat::Ply;
+    const auto require = [&](std::string_view option, const std::filesystem::path& path, std::string_view text) {
+        if (asked.has(option) && format_of(path) != FileFormat::Ply)
+            refuse(text, command.options, unmarked(path.string()).text);
+    };
+    require("--fix-property", command.fix, "--fix-property is for a .ply file; {other} has vertex numbers");
+    require("--region-property", command.region,
+            "--region-property is for a .ply file; {other} has vertex numbers, or is a property itself");
+    require("--attach-property", command.attach_weights,
+            "--attach-property is for a .ply file; {other} has one number per line");
 }
 
 bool shows_tasks(const Command& c)
@@ -87,12 +96,6 @@ constexpr Rule rules_of_effects[]{
          return asked.has("--p") && (asked.has("--p-rule") || asked.has("--p-edge"));
      },
      0, "--p-rule and --p-edge are about p*, but --p sets p itself: leave one of them out"},
-    {[](const Command& c, const Asked& asked) { return asked.has("--fix-property") && !is_ply(c.fix); }, 0,
-     "--fix-property is for a .ply file; that of --fix has vertex numbers"},
-    {[](const Command& c, const Asked& asked) { return asked.has("--region-property") && !is_ply(c.region); }, 0,
-     "--region-property is for a .ply file; --region has vertex numbers, or is a property itself"},
-    {[](const Command& c, const Asked& asked) { return asked.has("--attach-property") && !is_ply(c.attach_weights); },
-     0, "--attach-property is for a .ply file; that of --attach-weights has one number per line"},
     {[](const Command& c, const Asked& asked) {
          return asked.has("--overlap") && c.options.interface.conditions != Conditions::Schwarz;
      },
@@ -120,6 +123,7 @@ constexpr Rule rules_of_effects[]{
 void require_consistent(const CLI::App& app, const SmoothCommand& command)
 {
     const AskedOptions asked = given_options(app, command);
+    require_ply(command, asked);
     require_none_broken<Command>(rules_of_effects, command, command.options, asked);
     try {
         require_compatible(command.options, asked);

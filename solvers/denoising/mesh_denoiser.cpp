@@ -29,9 +29,9 @@ constexpr double most_relaxation = 0.1;
 constexpr double noise_by_motion = 1.045;
 
 /// After much noise, one fit does not reach the wanted normals. Vertices are fitted again, at most so often, until the
-/// mean chord between faces and wanted normals is this small.
+/// mean chord between faces and wanted normals is this small. (Below it, a sphere with sharp edges lost by further fits.)
 constexpr int most_further_fits = 3;
-constexpr double near_enough = 0.025;
+constexpr double near_enough = 0.04;
 
 /// The most times that a mesh is thinned, one time after another; the fewest faces of a component that is thinned; and
 /// the number of thinned meshes each time: nearly all vertices are in one of these, most are in two. (Ten meshes gave
