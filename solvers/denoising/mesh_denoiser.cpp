@@ -29,7 +29,8 @@ constexpr double most_relaxation = 0.1;
 constexpr double noise_by_motion = 1.045;
 
 /// After much noise, one fit does not reach the wanted normals. Vertices are fitted again, at most so often, until the
-/// mean chord between faces and wanted normals is this small. (Below it, a sphere with sharp edges lost by further fits.)
+/// mean chord between faces and wanted normals is this small. Below it, a sphere with sharp edges lost by further
+/// fits.
 constexpr int most_further_fits = 3;
 constexpr double near_enough = 0.04;
 
