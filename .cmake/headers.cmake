@@ -3,6 +3,9 @@
 # #include <seamflow/engine/mean_curvature_flow.h>, with an installed library or one that is built along. The test
 # consumer.headers checks that none is missing.
 set(SEAMFLOW_HEADERS
+    engine/denoise.h
+    engine/denoise/denoise_options.h
+    engine/denoise/denoise_report.h
     engine/eigen.h
     engine/fields/diffuse.h
     engine/fields/field_columns.h
@@ -12,9 +15,13 @@ set(SEAMFLOW_HEADERS
     engine/mean_curvature_flow.h
     engine/measure/displacement_meter.h
     engine/openmesh.h
+    engine/options/approach.h
     engine/options/flow_control.h
     engine/options/flow_options.h
+    engine/options/length_on_mesh.h
+    engine/options/motion_options.h
     engine/measure/flow_report.h
+    engine/measure/run_report.h
     engine/ranks/communicator.h
     engine/ranks/mpi_transport.h
     engine/ranks/packing.h
@@ -24,10 +31,12 @@ set(SEAMFLOW_HEADERS
     engine/tasks/schedule.h
     engine/options/valid_options.h
     engine/setup/presets.h
-    engine/setup/smoothed_radius.h
+    engine/measure/smoothed_radius.h
+    engine/setup/flow_amount.h
     engine/state/checkpoint.h
     engine/state/flow_identity.h
     engine/state/flow_state.h
+    engine/state/step_memory.h
     engine/tasks/parallel_executor.h
     partition/eigen.h
     partition/errors.h

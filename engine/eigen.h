@@ -3,22 +3,22 @@
 #include <concepts>
 #include <span>
 
+#include "engine/denoise.h"
 #include "engine/mean_curvature_flow.h"
 #include "partition/eigen.h"
 
 namespace seamflow {
 
-/// Smooths `flowing` and then copies its positions to `vertices`, also after an exception.
-template <class Vertices>
-FlowReport flow_into(Eigen::MatrixBase<Vertices>& vertices, PolygonMesh flowing, const FlowOptions& options,
-                     const StepObserver& on_step, const FlowControl& control)
+/// Calls move(mesh), and then copies the positions of the mesh to `vertices`, also after an exception.
+template <class Vertices, class Move>
+auto move_matrix(Eigen::MatrixBase<Vertices>& vertices, PolygonMesh mesh, Move&& move)
 {
     try {
-        FlowReport report = mean_curvature_flow(flowing, options, on_step, control);
-        set_positions(vertices, flowing.vertices);
+        auto report = move(mesh);
+        set_positions(vertices, mesh.vertices);
         return report;
     } catch (...) {
-        set_positions(vertices, flowing.vertices);
+        set_positions(vertices, mesh.vertices);
         throw;
     }
 }
@@ -31,12 +31,14 @@ FlowReport flow_into(Eigen::MatrixBase<Vertices>& vertices, PolygonMesh flowing,
 ///        integer type.
 /// @throws InputError also for matrices of another shape, and for a vertex that does not exist, naming row and column.
 template <class Vertices, class Faces>
-requires std::integral<typename Faces::Scalar>
-    FlowReport mean_curvature_flow(Eigen::MatrixBase<Vertices>& vertices, const Eigen::MatrixBase<Faces>& faces,
-                                   const FlowOptions& options = FlowOptions::denoising(),
-                                   const StepObserver& on_step = {}, const FlowControl& control = {})
+requires std::integral<typename Faces::Scalar> FlowReport mean_curvature_flow(Eigen::MatrixBase<Vertices>& vertices,
+                                                                              const Eigen::MatrixBase<Faces>& faces,
+                                                                              const FlowOptions& options,
+                                                                              const StepObserver& on_step = {},
+                                                                              const FlowControl& control = {})
 {
-    return flow_into(vertices, to_polygon_mesh(vertices, faces), options, on_step, control);
+    return move_matrix(vertices, to_polygon_mesh(vertices, faces),
+                       [&](PolygonMesh& mesh) { return mean_curvature_flow(mesh, options, on_step, control); });
 }
 
 /// Smooths a mesh of faces with any numbers of sides: see mean_curvature_flow for a matrix of faces.
@@ -47,11 +49,35 @@ requires std::integral<typename Faces::Scalar>
 template <class Vertices>
 requires std::floating_point<typename Vertices::Scalar>
     FlowReport mean_curvature_flow(Eigen::MatrixBase<Vertices>& vertices, std::span<const Index> face_offsets,
-                                   std::span<const Index> face_vertices,
-                                   const FlowOptions& options = FlowOptions::denoising(),
+                                   std::span<const Index> face_vertices, const FlowOptions& options,
                                    const StepObserver& on_step = {}, const FlowControl& control = {})
 {
-    return flow_into(vertices, to_polygon_mesh(vertices, face_offsets, face_vertices), options, on_step, control);
+    return move_matrix(vertices, to_polygon_mesh(vertices, face_offsets, face_vertices),
+                       [&](PolygonMesh& mesh) { return mean_curvature_flow(mesh, options, on_step, control); });
+}
+
+/// Removes the noise of a mesh in matrices of Eigen: see denoise for a PolygonMesh, and mean_curvature_flow for the
+/// matrices.
+template <class Vertices, class Faces>
+requires std::integral<typename Faces::Scalar> DenoiseReport denoise(Eigen::MatrixBase<Vertices>& vertices,
+                                                                     const Eigen::MatrixBase<Faces>& faces,
+                                                                     const DenoiseOptions& options = {},
+                                                                     const StepObserver& on_step = {},
+                                                                     const FlowControl& control = {})
+{
+    return move_matrix(vertices, to_polygon_mesh(vertices, faces),
+                       [&](PolygonMesh& mesh) { return denoise(mesh, options, on_step, control); });
+}
+
+/// The same for faces with any numbers of sides.
+template <class Vertices>
+requires std::floating_point<typename Vertices::Scalar>
+    DenoiseReport denoise(Eigen::MatrixBase<Vertices>& vertices, std::span<const Index> face_offsets,
+                          std::span<const Index> face_vertices, const DenoiseOptions& options = {},
+                          const StepObserver& on_step = {}, const FlowControl& control = {})
+{
+    return move_matrix(vertices, to_polygon_mesh(vertices, face_offsets, face_vertices),
+                       [&](PolygonMesh& mesh) { return denoise(mesh, options, on_step, control); });
 }
 
 }  // namespace seamflow

@@ -3,23 +3,21 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
 
 #include "engine/measure/flow_report.h"
-#include "engine/setup/flowing_mesh.h"
+#include "engine/motion/surface_run.h"
 #include "engine/setup/prepared_flow.h"
-#include "engine/state/flow_state.h"
 #include "engine/steppers/stepper.h"
-#include "engine/tasks/progress.h"
+#include "engine/steppers/vanishing_components.h"
 
 namespace seamflow {
 
-struct StepConstraints;
-
-/// Takes the steps of a prepared flow, and measures and reports each.
-class FlowRun {
+/// Takes the steps of a prepared flow.
+class FlowRun final : public SurfaceRun {
   public:
     /// Makes the stepper, and that of the undecomposed flow if it is asked for.
     /// @param mesh, progress, report must outlive the run; the mesh moves with each step.
@@ -28,19 +26,12 @@ class FlowRun {
     /// @throws as make_stepper; InputError for a state that does not fit.
     FlowRun(FlowingMesh& mesh, std::unique_ptr<PreparedFlow> prepared, Progress& progress, double setup,
             FlowReport& report, const FlowControl& control);
-    FlowRun(const FlowRun&) = delete;
-    FlowRun& operator=(const FlowRun&) = delete;
-    ~FlowRun();
-
-    /// Takes one step. The mesh moves when it is complete, including the undecomposed one.
-    /// @throws ComputationError naming the step; Cancelled. Afterwards no further step can be taken.
-    void take_step(const StepObserver& on_step);
 
     /// The functions of Flow between steps, for vertices of the given mesh. The mesh moves at once.
     /// @throws OptionError if the flow does not allow the change; InputError for vertices that do not exist.
     void set_fixed(std::span<const Index> vertices, bool is_fixed);
     void attach(std::span<const Index> vertices, std::span<const double> weights);
-    void move(std::span<const Index> vertices, const Points& to);
+    void move_vertices(std::span<const Index> vertices, const Points& to);
 
     /// Applies n steps to data in place of positions, which do not change (see Flow::diffuse).
     /// @param data #V by 3, in the order of the given mesh.
@@ -57,9 +48,17 @@ class FlowRun {
     /// Completes the report, or a copy of it, on the flow as a whole.
     void complete(FlowReport& report) const;
 
-  private:
-    class StepFractions;
+  protected:
+    [[nodiscard]] SurfaceStepper& stepper() const override { return *stepper_; }
+    void move(const Points& before) override { vanishing_->step(*stepper_, before); }
+    void describe(StepReport& of_step) const override;
+    [[nodiscard]] std::span<const Index> labels() const override { return flow_report_.cut.labels; }
+    void compare(int step, StepReport& of_step) override;
+    void show(const StepState& state, const StepObserver& on_step) const override;
+    [[nodiscard]] FlowState capture() const override;
+    void restore(const FlowState& state) override;
 
+  private:
     [[nodiscard]] const FlowOptions& options() const { return prepared_->options; }
     void make_steppers();
     void make_stepper_of_flow();
@@ -67,37 +66,22 @@ class FlowRun {
     [[nodiscard]] std::vector<Index> require_changeable(std::string_view what, std::span<const Index> vertices,
                                                         bool needs_stepper) const;
     void free_topology();
-    void restore(const FlowState& state);
-    [[nodiscard]] FlowState capture() const;
-    void compare_with_reference(int step, StepReport& of_step);
-    void measure(const Points& after, StepReport& of_step);
-    void notify_observer(const StepObserver& on_step, int step, const StepReport& of_step,
-                         const Points* undecomposed) const;
 
-    FlowingMesh& mesh_;
     std::unique_ptr<PreparedFlow> prepared_;
-    Progress& progress_;
-    FlowReport& report_;
+    FlowReport& flow_report_;
     /// The fraction of the whole call that setup takes.
     double setup_;
-    double curvature_before_;
     std::unique_ptr<Stepper> stepper_;
     /// The stepper of the undecomposed flow, with ReportOptions::reference.
     std::unique_ptr<Stepper> reference_;
-    /// The size of the surface before the first step (see box_of_faces).
-    double extent_before_;
-    const FlowState* resume_;
+    std::optional<VanishingComponents> vanishing_;
     /// Null if one process takes all steps.
     RankGroup* ranks_;
     /// Whether the flow was changed between steps, so that the options no longer describe it.
     bool was_changed_ = false;
     /// #V: 1 for vertices that were fixed between steps.
     std::vector<std::uint8_t> is_fixed_;
-    std::unique_ptr<StepConstraints> constraints_;
-    std::unique_ptr<StepFractions> fractions_;
-    /// #V by 3: the positions from which the flow continues; empty if they are also its results.
-    Points of_flow_ = Points(0, 3);
-    Points result_ = Points(0, 3);
+    /// #V by 3: the result of the undecomposed flow.
     Points undecomposed_ = Points(0, 3);
 };
 

@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "engine/flow_run.h"
-#include "engine/step_constraints.h"
 #include "partition/errors.h"
 #include "solvers/laplacian/degenerate.h"
 
@@ -40,7 +39,7 @@ std::vector<Index> FlowRun::require_changeable(std::string_view what, std::span<
 void FlowRun::set_fixed(std::span<const Index> vertices, bool is_fixed)
 {
     std::vector<Index> flowing = require_changeable(is_fixed ? "hold" : "release", vertices, true);
-    Topology& topology = prepared_->topology;
+    Topology& topology = prepared_->surface.topology;
     is_fixed_.resize(topology.fixed.size(), 0);
     for (const Index v : flowing)
         if (!is_fixed && !topology.moves(v) && is_fixed_[v] == 0)
@@ -51,7 +50,7 @@ void FlowRun::set_fixed(std::span<const Index> vertices, bool is_fixed)
     stepper_->set_fixed(flowing, is_fixed);
     for (const Index v : flowing)
         topology.fixed[v] = is_fixed_[v] = is_fixed ? 1 : 0;
-    constraints_->vanishing.look_again();
+    vanishing_->look_again();
     was_changed_ = true;
 }
 
@@ -70,11 +69,11 @@ void FlowRun::attach(std::span<const Index> vertices, std::span<const double> we
             throw OptionError(
                 fmt::format("an attachment weight is {}, but must be at least 0 and finite (1/length²)", weight));
     stepper_->attach(flowing, weights);
-    constraints_->vanishing.attach(flowing, weights);
+    vanishing_->attach(flowing, weights);
     was_changed_ = true;
 }
 
-void FlowRun::move(std::span<const Index> vertices, const Points& to)
+void FlowRun::move_vertices(std::span<const Index> vertices, const Points& to)
 {
     const std::vector<Index> flowing =
         require_changeable("move", vertices, options().flow != FlowEquation::MeanCurvature);
@@ -86,7 +85,7 @@ void FlowRun::move(std::span<const Index> vertices, const Points& to)
     mesh_.move_isolated(vertices, to);
     stepper_->set_vertices(flowing, there);
     stepper_->set_reference_vertices(flowing, there);
-    constraints_->vanishing.set_reference_vertices(flowing, there);
+    vanishing_->set_reference_vertices(flowing, there);
     mesh_.move_to(stepper_->positions());
     constraints_->limit.emplace(mesh_.mesh(), options().accuracy.largest_update);
     was_changed_ = true;
@@ -98,7 +97,7 @@ void FlowRun::require_rows(std::span<const Index> vertices, const Points& to) co
     PolygonMesh moved = mesh_.mesh();
     move_rows(vertices, to, moved.vertices);
     const std::vector<Index> undefined =
-        vertices_without_row(moved, prepared_->topology, options().laplacian, progress_.exec());
+        vertices_without_row(moved, prepared_->surface.topology, options().laplacian, progress_.exec());
     for (const Index v : vertices)
         if (std::ranges::binary_search(undefined, v))
             throw InputError(

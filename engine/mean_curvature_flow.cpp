@@ -11,9 +11,9 @@
 #include "engine/flow.h"
 #include "engine/flow_run.h"
 #include "engine/options/valid_options.h"
-#include "engine/setup/flowing_mesh.h"
+#include "engine/setup/flow_amount.h"
 #include "engine/setup/prepared_flow.h"
-#include "engine/setup/smoothed_radius.h"
+#include "engine/surface/flowing_mesh.h"
 #include "engine/tasks/progress.h"
 #include "engine/tasks/stopwatch.h"
 #include "engine/tasks/workers.h"
@@ -26,7 +26,7 @@ namespace {
 /// The fraction of the call that setup takes: about as long as this many steps.
 double fraction_of_setup(const FlowOptions& options, const FlowState* resume)
 {
-    const bool is_simple = options.scheme == Scheme::ExplicitEuler || smooths_normals(options);
+    const bool is_simple = options.scheme == Scheme::ExplicitEuler;
     const double as_steps = options.accuracy.tolerance ? 4.0 : is_simple ? 3.0 : 6.0;
     const double to_do = options.steps - (resume != nullptr ? resume->n_steps() : 0);
     return as_steps / (as_steps + to_do);
@@ -131,11 +131,8 @@ Flow::Flow(PolygonMesh& mesh, const FlowOptions& options, StepObserver on_step, 
     own.time_step = time_step_of(options, mesh);
     own.radius.reset();
     own.uniform_edge = uniform_edge_of(options, mesh);
-    if (control_.resume != nullptr && control_.resume->n_steps() > options.steps)
-        throw OptionError(
-            Wording{fmt::format("<steps> is {}, but the state to resume from is already after step {}: ask for at "
-                                "least as many, or start over",
-                                options.steps, control_.resume->n_steps())});
+    if (control_.resume != nullptr)
+        require_not_beyond(*control_.resume, options.steps);
     session_ = std::make_unique<Session>(mesh, std::move(own), control_, static_cast<bool>(on_step_), report_);
 }
 
@@ -158,7 +155,7 @@ void Flow::release(std::span<const Index> vertices)
 
 void Flow::move(std::span<const Index> vertices, const Points& to)
 {
-    session_->change([&](FlowRun& run) { run.move(vertices, to); });
+    session_->change([&](FlowRun& run) { run.move_vertices(vertices, to); });
 }
 
 void Flow::attach(std::span<const Index> vertices, std::span<const double> weights)

@@ -11,9 +11,8 @@ namespace seamflow {
 ///
 /// \f[ (I + dt\, \Delta(V^n))\, V^{n+1} = V^n , \f]
 ///
-/// decomposed into sub-meshes, or explicit steps (see Scheme). Without options, it removes as much noise as there is
-/// instead (see FlowOptions::denoise). Vertices without faces and, unless MotionOptions::boundary is free, boundary
-/// vertices do not move, bit for bit.
+/// decomposed into sub-meshes, or explicit steps (see Scheme). Vertices without faces and, unless
+/// MotionOptions::boundary is free, boundary vertices do not move, bit for bit.
 /// @param mesh its positions are moved; after an exception they are those of the last complete step. The running flow
 ///        owns the mesh.
 /// @param on_step called after each step.
@@ -23,7 +22,7 @@ namespace seamflow {
 ///         a state to resume from that belongs to another flow; ComputationError, naming step and sub-mesh, for a
 ///         system that is singular, a result that is not finite or beyond AccuracyOptions::largest_update, and for a
 ///         failure of METIS; Cancelled if control.stop was requested and work was left; std::bad_alloc.
-FlowReport mean_curvature_flow(PolygonMesh& mesh, const FlowOptions& options = FlowOptions::denoising(),
-                               const StepObserver& on_step = {}, const FlowControl& control = {});
+FlowReport mean_curvature_flow(PolygonMesh& mesh, const FlowOptions& options, const StepObserver& on_step = {},
+                               const FlowControl& control = {});
 
 }  // namespace seamflow

@@ -26,7 +26,6 @@
 #include <fmt/format.h>
 #include <malloc.h>
 
-#include "engine/mean_curvature_flow.h"
 #include "engine/ranks/rank_group.h"
 #include "engine/tasks/parallel_executor.h"
 #include "engine/tasks/stopwatch.h"
@@ -40,6 +39,7 @@
 #include "samples/files/about_file.h"
 #include "samples/files/mesh_results.h"
 #include "samples/files/output_files.h"
+#include "samples/options/smooth_surface.h"
 #include "samples/page/page_html.h"
 #include "samples/page/read_file_colours.h"
 #include "samples/process/interruption.h"
@@ -113,7 +113,7 @@ StepObserver make_observer(const SmoothCommand& command, const MeshFile& input, 
 }
 
 /// @returns remarks for the user.
-std::vector<std::string> write_results(const SmoothCommand& command, const MeshFile& file, const FlowReport& report,
+std::vector<std::string> write_results(const SmoothCommand& command, const MeshFile& file, const SmoothReport& report,
                                        const Executor& exec)
 {
     auto remarks = write_state(command.output, file.mesh, report.separated ? &*report.separated : nullptr, file, exec,
@@ -124,7 +124,7 @@ std::vector<std::string> write_results(const SmoothCommand& command, const MeshF
 }
 
 /// Writes the reports on the run: report, trace and page.
-void write_reports(const SmoothCommand& command, const RunRecord& run, FlowReport& report,
+void write_reports(const SmoothCommand& command, const RunRecord& run, SmoothReport& report,
                    std::optional<PageFlow>& page)
 {
     if (page && !page->remark().empty())
@@ -144,10 +144,10 @@ void write_reports(const SmoothCommand& command, const RunRecord& run, FlowRepor
 }
 
 /// Runs the flow; errors in the mesh are reported with the name of its file.
-FlowReport run_flow(const SmoothCommand& command, PolygonMesh& mesh, const StepObserver& on_step,
-                    const FlowControl& control)
+SmoothReport run_flow(const SmoothCommand& command, PolygonMesh& mesh, const StepObserver& on_step,
+                      const FlowControl& control)
 {
-    return about_file(command.input, [&] { return mean_curvature_flow(mesh, command.options, on_step, control); });
+    return about_file(command.input, [&] { return smooth_surface(mesh, command.options, on_step, control); });
 }
 
 /// Reads the mesh, settles what the flow takes, and prints both.
@@ -203,7 +203,7 @@ ExitStatus run(SmoothCommand& command, RunRecord& run, RankGroup* ranks)
     LongRun long_run(command, file, interruption, out);
     const StepObserver on_step =
         long_run.observing(make_observer(command, file, run.scale.mean_edge, run.write_seconds, page, out, exec));
-    FlowReport report;
+    SmoothReport report;
     try {
         FlowControl control = long_run.control();
         control.ranks = ranks;
@@ -265,7 +265,7 @@ void share_threads(SmoothCommand& command, RankGroup& ranks)
         ranks.set_threads_of_each(std::max(1, of_machine / n_here));
     } else {
         ranks.set_threads_of_each(threads);
-        threads = std::min(threads * n_here, ResourceOptions::most_threads);
+        threads = std::min(threads * n_here, most_threads);
     }
 }
 

@@ -14,7 +14,7 @@
 #include "engine/fields/white_noise.h"
 #include "engine/flow.h"
 #include "engine/options/option_table.h"
-#include "engine/setup/smoothed_radius.h"
+#include "engine/setup/flow_amount.h"
 #include "engine/tasks/workers.h"
 #include "partition/io/input_position.h"
 #include "partition/large_arrays.h"

@@ -59,8 +59,6 @@ constexpr FieldRule field_rules[]{
      "fields diffuse on a surface that stays: leave attachments, rescale, within and limits out"},
     {[](const FlowOfFields& o, const AskedOptions&) { return has_place_or_line(o.flow.motion); }, 0,
      "fields diffuse on a surface that stays: leave strength and direction out"},
-    {[](const FlowOfFields& o, const AskedOptions&) { return o.flow.keep_edges.has_value(); }, 0,
-     "<keep_edges> is about the angles of a surface, which stays while fields diffuse: leave it out"},
     {[](const FlowOfFields& o, const AskedOptions&) { return o.flow.report.reference; }, 0,
      "the steps of fields are solved exactly, so that there is nothing to compare with: leave <reference> out"},
     {[](const FlowOfFields& o, const AskedOptions&) {
@@ -83,8 +81,10 @@ void require_for_fields(const FlowOptions& options, const FieldOptions& of_field
     };
     require_positive(of_fields.fwhm, "fwhm", "a length");
     require_positive(of_fields.keep_edges, "the difference of fields to keep", "in the unit of the fields");
-    require_none_broken<FlowOfFields>(field_rules, {options, of_fields}, {.laplacian = of_fields.laplacian},
-                                      changed_options(options));
+    require_none_broken<FlowOfFields>(field_rules, {options, of_fields}, changed_options(options),
+                                      [&](std::string_view text, std::string_view other) {
+                                          return fill_in({.laplacian = of_fields.laplacian}, text, other);
+                                      });
 }
 
 FlowOptions flow_for_fields(const FlowOptions& options, const FieldOptions& of_fields)

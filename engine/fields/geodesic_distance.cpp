@@ -11,7 +11,7 @@
 #include "engine/fields/distance_bounds.h"
 #include "engine/fields/field_columns.h"
 #include "engine/fields/heat_method.h"
-#include "engine/setup/flowing_mesh.h"
+#include "engine/surface/flowing_mesh.h"
 #include "engine/tasks/parallel_executor.h"
 #include "engine/tasks/progress.h"
 #include "engine/tasks/workers.h"

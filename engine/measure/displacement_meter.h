@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "engine/measure/flow_report.h"
+#include "engine/measure/run_report.h"
 #include "partition/metrics/displacement.h"
 
 namespace seamflow {

@@ -3,9 +3,10 @@
 #include <cstdint>
 #include <string_view>
 
-#include "engine/measure/flow_report.h"
-#include "engine/options/flow_options.h"
+#include "engine/measure/run_report.h"
+#include "engine/options/motion_options.h"
 #include "partition/remark.h"
+#include "solvers/laplacian/laplacian.h"
 
 namespace seamflow {
 
@@ -27,21 +28,8 @@ Remark remark_on_undefined_vertices(std::int64_t n, std::int64_t first, Laplacia
 /// On a mesh none of whose vertices can move.
 Remark remark_on_unmoving_mesh(Boundary boundary);
 
-/// Adds what the estimate after the last step means for the user, if it means anything.
-void remark_on_drift(const FlowOptions& options, FlowReport& report);
-
-/// Adds a remark where equations were nearly singular.
-void remark_on_near_singularity(FlowReport& report);
-
-/// Adds a remark if sub-meshes could not use the factorisation that was asked for.
-void remark_on_factorisation(Factorisation asked, FlowReport& report);
-
-/// Adds a remark where steps have missed the tolerance, as the report says.
-/// @param iterations the most that a step may have.
-void remark_on_missed_tolerance(int iterations, FlowReport& report);
-
 /// Adds a remark if the flow has shrunk the surface to almost nothing, which is hardly what was wanted.
 /// @param extent_before, extent_after the diagonals of the boxes around the faces.
-void remark_on_collapse(double extent_before, double extent_after, FlowReport& report);
+void remark_on_collapse(double extent_before, double extent_after, RunReport& report);
 
 }  // namespace seamflow

@@ -34,26 +34,6 @@ StepFilter filter_of(const FlowOptions& options)
     return filter;
 }
 
-bool smooths_rims(const FlowOptions& options)
-{
-    return options.motion.boundary == Boundary::Smooth;
-}
-
-bool smooths_normals(const FlowOptions& options)
-{
-    return options.denoise || options.keep_edges.has_value() || smooths_rims(options);
-}
-
-bool attaches(const MotionOptions& motion)
-{
-    return motion.attachment > 0.0 || !motion.attachment_weights.empty();
-}
-
-bool takes_whole_mesh(Approach approach)
-{
-    return approach == Approach::ConjugateGradients || approach == Approach::Undecomposed;
-}
-
 bool has_tangential_derivative(Conditions conditions)
 {
     return conditions == Conditions::AdaptedVentcell || conditions == Conditions::Ventcell;
@@ -71,15 +51,6 @@ FlowOptions FlowOptions::plain()
     options.interface.sweep = Sweep::Fixed;
     options.interface.transmission = Transmission::Derivative;
     options.interface.p_edge = PEdge::Minimum;
-    return options;
-}
-
-FlowOptions FlowOptions::denoising()
-{
-    FlowOptions options;
-    options.denoise = true;
-    options.motion.boundary = Boundary::Free;
-    options.motion.limits.volume = ComponentLimits::most_volume_change;
     return options;
 }
 

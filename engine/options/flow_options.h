@@ -1,13 +1,13 @@
 #pragma once
 
-#include <cmath>
 #include <cstddef>
-#include <limits>
 #include <optional>
 #include <vector>
 
+#include "engine/options/approach.h"
+#include "engine/options/length_on_mesh.h"
+#include "engine/options/motion_options.h"
 #include "partition/polygon_mesh.h"
-#include "partition/vector_area.h"
 #include "solvers/conditions/robin_parameter.h"
 #include "solvers/direct/factorisation.h"
 #include "solvers/filters/step_filter.h"
@@ -113,59 +113,6 @@ enum class Correction {
     None,
 };
 
-/// Boundary conditions on the boundary of the whole mesh.
-enum class Boundary {
-    /// Boundary vertices stay where they are, bit for bit.
-    Fixed,
-    /// Natural boundary conditions: the equations at the boundary are assembled from the existing faces. The surface
-    /// shrinks there by about √dt a step, like a soap film without a frame. Not with Δ_P, whose one-sided rows at a
-    /// boundary are unstable. Sub-meshes can share such a boundary only in converged steps, which are then chosen.
-    Free,
-    /// The boundary alone moves, along the surface: each of its lines becomes a curve that bends less (see
-    /// smooth_curve), in which bumps of FlowOptions::radius are half as high, and which neither shrinks nor slides. The
-    /// surface follows within a band a few times as wide as the motion. There are no sub-meshes and no equations of the
-    /// Laplacian, as with keep_edges; not with denoise and keep_edges.
-    Smooth,
-};
-
-/// Vertices at junctions: on edges of three faces or more, where sheets of a surface meet.
-enum class Junctions {
-    /// They move like others: K and M are sums over the faces of all sheets, so that the lines of three sheets tend to
-    /// angles of 120°. Sub-meshes can share such lines only in converged steps, which are then chosen. Held instead
-    /// with Δ_P, with keep_edges, and where an option asks for sweeps over sub-meshes; a remark says so. Vertices where
-    /// merely several fans of faces touch stay held: they are usually a defect.
-    Flow,
-    /// They stay where they are, and so do all other vertices where the mesh is not manifold.
-    Hold,
-};
-
-/// Compensation for the shrinking of the surface.
-enum class Rescale {
-    None,
-    /// Scales each component of every result to its area in the input, and moves its centroid to that in the input.
-    Area,
-    /// The same for the enclosed volume of closed, consistently oriented surfaces.
-    Volume,
-};
-
-/// The solver of a backward Euler step.
-enum class Approach {
-    /// The fastest of Decomposed, ConjugateGradients and Undecomposed, by a cost model. It is Decomposed if another
-    /// option concerns sub-meshes or sweeps, or if the Laplacian is not symmetric.
-    Automatic,
-    /// Sub-meshes: Converged with a tolerance, or to a loose one where that pays, otherwise Sweep.
-    Decomposed,
-    /// One sweep over the colours. Not with a tolerance.
-    Sweep,
-    /// Sub-meshes that converge to the undecomposed step, to AccuracyOptions::tolerance or a loose one.
-    Converged,
-    /// Conjugate gradients on the whole mesh, to AccuracyOptions::tolerance or a loose one: no sub-meshes, no
-    /// factorisation, and the shortest set-up. For symmetric Laplacians.
-    ConjugateGradients,
-    /// One factorisation of the whole mesh: exact.
-    Undecomposed,
-};
-
 /// The cut of the mesh into sub-meshes.
 struct CutOptions {
     /// Number of sub-meshes. 1: undecomposed. 0: chosen from the size of the mesh and √dt. Every component of the mesh
@@ -220,108 +167,8 @@ struct AccuracyOptions {
     double largest_update = 1.0;
 };
 
-/// A length in units of the mesh, or a fraction of the diagonal of the box around its faces: {0.01, true} is
-/// 1 % of it.
-struct LengthOnMesh {
-    double value = 0.0;
-    bool of_diagonal = false;
-
-    friend bool operator==(const LengthOnMesh&, const LengthOnMesh&) = default;
-};
-
-/// Limits on the change of each connected component of a mesh. If a component would exceed one, its displacement is
-/// scaled down, or set to zero if less than a tenth of it would be left. For flows that choose their own amount.
-struct ComponentLimits {
-    /// The limit of volume where a run chooses how much to smooth.
-    static constexpr double most_volume_change = 0.02;
-
-    /// Change of the enclosed volume, as a fraction of it; for closed, consistently oriented components.
-    double volume = std::numeric_limits<double>::infinity();
-    /// Root mean square of the displacements along the normals, over the component, in length.
-    double move = std::numeric_limits<double>::infinity();
-    /// Displacement of a vertex along the surface, in length: beyond it the vertex moves along the normal only. At
-    /// junctions, which have no normal, it bounds the whole displacement.
-    double slide = std::numeric_limits<double>::infinity();
-
-    [[nodiscard]] bool exist() const { return std::isfinite(volume) || std::isfinite(move) || std::isfinite(slide); }
-};
-
-/// The lines along which vertices move. What slides along the surface that a step makes is left out.
-struct MotionDirection {
-    enum class Kind {
-        /// Vertices move freely.
-        Any,
-        /// Along `vector`, to where the line through the vertex meets the surface that the step makes. Coordinates that
-        /// it does not have stay bit for bit, as x and y of a terrain with (0, 0, 1).
-        Vector,
-        /// Along the normal that each vertex has after the step: parameters and textures hardly slide.
-        Normal,
-    };
-    Kind kind = Kind::Any;
-    /// Of any length above 0.
-    Point vector = Point::Zero();
-
-    friend bool operator==(const MotionDirection& a, const MotionDirection& b)
-    {
-        return a.kind == b.kind && a.vector.cwiseEqual(b.vector).all();
-    }
-};
-
-/// Constraints on the motion of vertices.
-struct MotionOptions {
-    /// Strengths below this hold a vertex, as 0 does.
-    static constexpr double least_strength = 1e-9;
-
-    /// Distance, in units of length, within which boundary vertices count as coincident where two boundary edges can
-    /// become one (see weld). Such vertices move as one, but stay separate in the mesh, so that the surface continues
-    /// across seams of its texture. Moving copies come to one place; fixed ones stay where they are. 0: coordinates
-    /// have to be equal. nullopt disables welding.
-    std::optional<double> weld = 0.0;
-    /// Boundary conditions.
-    Boundary boundary = Boundary::Fixed;
-    /// Vertices where sheets meet.
-    Junctions junctions = Junctions::Flow;
-    /// Vertices that stay where they are, bit for bit; in any order, repetitions are allowed.
-    std::vector<Index> fixed_vertices = {};
-    /// Edges that keep_edges and denoise keep whatever their angle: pairs of vertices that share an edge of a face.
-    /// Faces on the two sides are smoothed independently. With keep_edges alone a vertex between two of these edges
-    /// moves along them, at most to their midpoints; all others on them stay.
-    std::vector<Edge> feature_edges = {};
-    /// Refuses meshes on which the flow is not defined everywhere: those that are not manifold, or on which edges
-    /// without length (Δ_F) or faces without area (the others) leave the Laplacian undefined at vertices that should
-    /// move. If false, such vertices stay fixed, except at junctions, and a remark gives their number.
-    bool strict = false;
-    /// w of a screening term that pulls towards the first positions, in 1/length², at least 0:
-    /// ∂V/∂t = -ΔV - w (V - V⁰). Features larger than about 1/√w stay, because the flow ends at the solution of
-    /// (Δ + w) V = w V⁰. 0: no such term. For symmetric Laplacians and backward Euler steps.
-    double attachment = 0.0;
-    /// The same with a w for each vertex, #V, in place of `attachment`: soft constraints, beside fixed_vertices. Empty:
-    /// `attachment` applies.
-    std::vector<double> attachment_weights = {};
-    /// The strength of each step at each vertex, #V, from 0 to 1: dt there is the strength times time_step, so that 0
-    /// holds a vertex bit for bit, and a mask of 0 and 1 smooths a region alone (see feathered for one without a crease
-    /// at its rim). Faces without a moving vertex cost next to nothing. Not for
-    /// sweeps. With keep_edges it scales the displacement of each step. Empty: 1 everywhere.
-    std::vector<double> strength = {};
-    /// Motion along lines alone: after each step the displacement of every vertex is projected on its line, and the
-    /// flow continues from there. Not with rescale, nor for the classical conditions.
-    MotionDirection direction = {};
-    /// Scales the result of each step. The flow itself continues unscaled, and distances to the undecomposed flow are
-    /// unscaled; the conformalized flow continues from the scaled result, so that it does not vanish on its way to a
-    /// sphere. Every vertex with faces moves: none of them may be fixed.
-    Rescale rescale = Rescale::None;
-    /// Largest distance of any vertex from its first position, above 0, in units of length. It bounds each result; the
-    /// flow itself is not changed. Vertices beyond it are put back to that distance, and their neighbours follow
-    /// smoothly. nullopt: no bound.
-    std::optional<double> within = {};
-    /// Limits of each result, like `within`.
-    ComponentLimits limits = {};
-};
-
 /// Resources of the machine.
 struct ResourceOptions {
-    static constexpr int most_threads = 1024;
-
     /// Number of threads, at most most_threads. 0: those of the calling TBB arena (by default all cores). The result is
     /// the same, bit for bit, for any number.
     int threads = 0;
@@ -363,8 +210,6 @@ struct ReportOptions {
 
 /// All options of a flow: `{.time_step = 0.05, .steps = 5, .cut = {.subdomains = 8}}`.
 struct FlowOptions {
-    static constexpr int most_steps = 1'000'000'000;
-
     /// The discrete Laplacian.
     Laplacian laplacian = Laplacian::Fujiwara;
     /// The flow: whether K and M of the Laplacian follow the surface.
@@ -391,22 +236,6 @@ struct FlowOptions {
     int steps = 1;
     /// The time integration scheme.
     Scheme scheme = Scheme::BackwardEuler;
-    /// Keeps edges at which the normals of faces differ by more than this angle, in degrees, above 0 and below 180, and
-    /// corners where such edges meet; 20 to 40 suit most meshes. Smaller angles are smoothed. In each step, face
-    /// normals diffuse by dt, but not across edges, and vertices move to fit them.
-    /// dt has its usual meaning; because edges do not suffer, eight to thirty squared mean edge lengths suit one step
-    /// of parts of planes with noise. Clean round parts bend by it: with `denoise` the noise of each place is the
-    /// amount. Further steps start from the resulting surface. Fixed vertices stay, and a free boundary does not
-    /// shrink. There are no sub-meshes, no equations of the Laplacian (which still gives the reported mean curvatures),
-    /// and no undecomposed flow to compare with: options about these are refused. nullopt: mean curvature flow.
-    std::optional<double> keep_edges = {};
-    /// Removes noise in place of a flow: each step estimates the true normal of each face and how large the noise is
-    /// there, and moves vertices to fit; along the normals, unless a face would fold. Edges,
-    /// round parts and details stay, and where there is no noise, vertices stay bit for bit. No amount is needed:
-    /// time_step is ignored. One step is enough; further ones treat what is left as noise. As with keep_edges there are
-    /// no sub-meshes and no equations of the Laplacian. With both, edges sharper than the angle stay where the noise is
-    /// small, in place of those above 30 degrees.
-    bool denoise = false;
     CutOptions cut = {};
     InterfaceOptions interface = {};
     AccuracyOptions accuracy = {};
@@ -417,10 +246,6 @@ struct FlowOptions {
     /// The paper's method, generalised to many sub-meshes and nothing else: a fixed sweep and derivatives at Vᵏ. It
     /// does not change with the defaults.
     static FlowOptions plain();
-
-    /// Those without an amount: `denoise`, also of boundaries, and no component loses more of its volume than
-    /// ComponentLimits::most_volume_change.
-    static FlowOptions denoising();
 };
 
 /// Whether every sub-mesh keeps its own copy of Γ.
@@ -440,18 +265,5 @@ StepFilter filter_of(const FlowOptions& options);
 
 /// Whether a sweep uses predictions of the other side of Γ.
 bool predicts(const FlowOptions& options);
-
-/// Whether steps move the boundary alone, as curves.
-bool smooths_rims(const FlowOptions& options);
-
-/// Whether steps take the whole mesh in place of a flow: with keep_edges or denoise, which smooth the normals of faces,
-/// or where they move the boundary alone.
-bool smooths_normals(const FlowOptions& options);
-
-/// Whether there is a screening term.
-bool attaches(const MotionOptions& motion);
-
-/// Whether steps are taken without sub-meshes.
-bool takes_whole_mesh(Approach approach);
 
 }  // namespace seamflow

@@ -87,8 +87,7 @@ struct OptionNames<Correction> {
 
 template <>
 struct OptionNames<Boundary> {
-    static constexpr NamedOption<Boundary> list[]{
-        {"fixed", Boundary::Fixed}, {"free", Boundary::Free}, {"smooth", Boundary::Smooth}};
+    static constexpr NamedOption<Boundary> list[]{{"fixed", Boundary::Fixed}, {"free", Boundary::Free}};
 };
 
 template <>

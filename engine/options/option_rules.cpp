@@ -1,9 +1,8 @@
 #include "engine/options/option_rules.h"
 
-#include <cmath>
-
 #include <fmt/format.h>
 
+#include "engine/options/motion_rules.h"
 #include "engine/options/option_names.h"
 #include "engine/options/option_table.h"
 #include "partition/errors.h"
@@ -30,13 +29,6 @@ bool takes_gradients(const O& o)
 bool is_rescaled(const O& o)
 {
     return o.motion.rescale != Rescale::None;
-}
-
-bool is_sound(const MotionDirection& direction)
-{
-    const Point& v = direction.vector;
-    return direction.kind != MotionDirection::Kind::Vector ||
-           (v.allFinite() && v.norm() > 0.0 && std::isfinite(v.norm()));
 }
 
 bool has_direction(const O& o)
@@ -102,11 +94,9 @@ constexpr Rule of_interface[]{
      "<keep_gaps> is for backward Euler steps; explicit ones are taken undecomposed, without gaps"},
 };
 
-constexpr Rule of_motion[]{
+constexpr Rule of_motion_of_flows[]{
     {[](const O&, const Asked& asked) { return asked.has("time_step") && asked.has("radius"); }, 0,
      "<time_step> and <radius> both say how much is smoothed: leave one of them out"},
-    {[](const O& o, const Asked&) { return !is_sound(o.motion.direction); }, 0,
-     "<direction> must be a finite vector other than 0, like 0,0,1"},
     {[](const O& o, const Asked&) { return o.motion.boundary == Boundary::Free && !is_symmetric(o.laplacian); }, 0,
      "<boundary> is free, but the Laplacian {laplacian} has no natural boundary conditions (its rows there are "
      "one-sided and unstable): use {symmetric}, or leave the boundary fixed"},
@@ -114,19 +104,6 @@ constexpr Rule of_motion[]{
          return o.report.keep_gaps && (is_rescaled(o) || asked.has("within") || o.motion.limits.exist());
      },
      0, "<rescale>, <within> and limits are for results whose sub-meshes are joined; <keep_gaps> leaves them separate"},
-    {[](const O& o, const Asked& asked) {
-         return asked.has("feature_edges") && (!smooths_normals(o) || smooths_rims(o));
-     },
-     0, "<feature_edges> names edges to keep: give <preset cad>, or <keep_edges> with an angle, as well"},
-    {[](const O& o, const Asked& asked) {
-         return asked.has("feature_edges") && (is_rescaled(o) || asked.has("within"));
-     },
-     0, "<rescale> and <within> move vertices off <feature_edges>: leave them out"},
-    {[](const O& o, const Asked& asked) { return is_rescaled(o) && asked.has("fixed_vertices"); }, 0,
-     "<rescale> moves every vertex, but <fixed_vertices> holds some: leave <rescale> out; <filter low-pass>, which "
-     "hardly shrinks large features, lets them stay"},
-    {[](const O& o, const Asked& asked) { return is_rescaled(o) && asked.has("strength"); }, 0,
-     "<rescale> moves every vertex, but those with a <strength> of 0 are to stay: leave one of them out"},
     {[](const O&, const Asked& asked) { return asked.has("strength"); }, concern::sweeps,
      "<strength> is given, whose steps are converged or undecomposed, but <{other}> is for sweeps: leave one of them "
      "out"},
@@ -139,18 +116,12 @@ constexpr Rule of_motion[]{
      0,
      "<strength> is given, whose steps in sub-meshes need this library's own factorisation: leave <factorisation> "
      "out, or take undecomposed steps"},
-    {[](const O& o, const Asked& asked) { return has_direction(o) && (is_rescaled(o) || asked.has("feature_edges")); },
-     0,
-     "<direction> lets vertices move along lines alone, which <rescale> and <feature_edges> do not: leave one of them "
-     "out"},
     {[](const O& o, const Asked&) {
          return has_direction(o) && (is_classical(o.interface.conditions) || has_schwarz(o));
      },
      0,
      "<direction> is for flows with one copy of each vertex, but with the classical and the Schwarz conditions every "
      "sub-mesh has its own: use other conditions"},
-    {[](const O&, const Asked& asked) { return asked.has("attachment") && asked.has("attachment_weights"); }, 0,
-     "<attachment> and <attachment_weights> both say how vertices are attached: leave one of them out"},
 };
 
 constexpr Rule of_flow[]{
@@ -189,19 +160,6 @@ constexpr Rule of_steps[]{
      "<approach> is {approach}, but conjugate gradients factorise nothing: leave <{other}> out"},
 };
 
-constexpr Rule of_normals[]{
-    {[](const O& o, const Asked&) { return smooths_rims(o) && (o.denoise || o.keep_edges); }, 0,
-     "<boundary> is smooth, so that it alone moves: give a radius or a time step, and leave out <keep_edges> and "
-     "<denoise>"},
-    {[](const O& o, const Asked& asked) { return smooths_normals(o) && is_cut(o, asked); }, 0,
-     "{whole} is given, which takes the whole mesh without equations and rules out sub-meshes: leave one of them out"},
-    {[](const O& o, const Asked& asked) { return smooths_normals(o) && !is_plain(o, asked); }, 0,
-     "{whole} is given, which takes the whole mesh without equations and rules out another flow, a filter or an "
-     "attachment: leave one of them out"},
-    {[](const O& o, const Asked&) { return smooths_normals(o); }, concern::equations & ~concern::sub_meshes,
-     "{whole} is given, which takes the whole mesh without equations and rules out <{other}>: leave one of them out"},
-};
-
 constexpr Rule of_factorisation[]{
     {[](const O& o, const Asked&) { return lacks_own(o) && o.flow == FlowEquation::Linear; }, 0,
      "<factorisation> is by another library, but only this library's own keeps the factors that the linear flow needs: "
@@ -226,12 +184,6 @@ std::string further_flow(const O& o)
                                  : "vertices are attached";
 }
 
-/// What takes the whole mesh without equations.
-std::string_view whole_mesh(const O& o)
-{
-    return o.keep_edges ? "<keep_edges>" : smooths_rims(o) ? "<boundary smooth>" : "<denoise>";
-}
-
 }  // namespace
 
 AskedOptions changed_options(const FlowOptions& options)
@@ -246,23 +198,24 @@ AskedOptions changed_options(const FlowOptions& options)
     return {has, [&options](unsigned concerns) { return std::string(first_set(options, concerns)); }};
 }
 
-void refuse(std::string_view text, const FlowOptions& options, std::string_view other)
+std::string fill_in(const FlowOptions& options, std::string_view text, std::string_view other)
 {
-    throw OptionError(Wording{
-        fmt::format(fmt::runtime(text), fmt::arg("other", other), fmt::arg("laplacian", name_of(options.laplacian)),
-                    fmt::arg("symmetric", names_of_symmetric_laplacians()),
-                    fmt::arg("approach", option_name(options.accuracy.approach)),
-                    fmt::arg("conditions", option_name(options.interface.conditions)),
-                    fmt::arg("factorisation", option_name(options.resources.factorisation)),
-                    fmt::arg("further", further_flow(options)), fmt::arg("whole", whole_mesh(options)))});
+    return fmt::format(fmt::runtime(text), fmt::arg("other", other), fmt::arg("laplacian", name_of(options.laplacian)),
+                       fmt::arg("symmetric", names_of_symmetric_laplacians()),
+                       fmt::arg("approach", option_name(options.accuracy.approach)),
+                       fmt::arg("conditions", option_name(options.interface.conditions)),
+                       fmt::arg("factorisation", option_name(options.resources.factorisation)),
+                       fmt::arg("further", further_flow(options)));
 }
 
 void require_compatible(const FlowOptions& options, const AskedOptions& asked)
 {
-    for (const std::span<const Rule> rules :
-         {std::span<const Rule>(of_interface), std::span<const Rule>(of_motion), std::span<const Rule>(of_flow),
-          std::span<const Rule>(of_steps), std::span<const Rule>(of_normals), std::span<const Rule>(of_factorisation)})
-        require_none_broken(rules, options, options, asked);
+    const FillText fill = [&](std::string_view text, std::string_view other) { return fill_in(options, text, other); };
+    require_none_broken<FlowOptions>(of_interface, options, asked, fill);
+    require_compatible(options.motion, asked);
+    for (const std::span<const Rule> rules : {std::span<const Rule>(of_motion_of_flows), std::span<const Rule>(of_flow),
+                                              std::span<const Rule>(of_steps), std::span<const Rule>(of_factorisation)})
+        require_none_broken(rules, options, asked, fill);
 }
 
 }  // namespace seamflow

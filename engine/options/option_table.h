@@ -6,17 +6,12 @@
 #include <tuple>
 
 #include "engine/options/flow_options.h"
-#include "engine/options/option_traits.h"
+#include "engine/options/motion_option_table.h"
 
 /// The table of all options of a flow. What is said of options elsewhere comes from here: the limits of numbers, which
 /// options exclude others, what determines the result of a flow, and the options of command lines with their texts. A
 /// further field of FlowOptions has one row here; the compiler asks for it.
 namespace seamflow {
-
-template <class Value>
-struct OptionRow : OptionTraits {
-    Value* value;
-};
 
 /// @returns a tuple of rows.
 /// @param options FlowOptions, const or not; the rows refer to it.
@@ -24,27 +19,19 @@ template <class Options>
 auto option_table(Options& options)
 {
     using namespace concern;
-    auto& [laplacian, flow, filter, order, time_step, radius, uniform_edge, weights, steps, scheme, keep_edges, denoise,
-           cut, interface, accuracy, motion, resources, report] = options;
+    auto& [laplacian, flow, filter, order, time_step, radius, uniform_edge, weights, steps, scheme, cut, interface,
+           accuracy, motion, resources, report] = options;
     auto& [subdomains, labels] = cut;
     auto& [conditions, transmission, p, p_rule, p_edge, q, overlap, colouring, sweep, correction] = interface;
     auto& [tolerance, approach, converge_iterations, largest_update] = accuracy;
-    auto& [weld, boundary, junctions, fixed_vertices, feature_edges, strict, attachment, attachment_weights, strength,
-           direction, rescale, within, limits] = motion;
-    auto& [volume, move, slide] = limits;
     auto& [threads, tune_for, memory_limit, factorisation, precision] = resources;
     auto& [reference, record_schedule, keep_gaps, measures] = report;
     namespace group = option_group;
-    const auto row = []<class Value>(Value& value, const OptionTraits& traits) {
-        return OptionRow<Value>{traits, &value};
-    };
     constexpr double infinite = std::numeric_limits<double>::infinity();
-    const auto positive = [&](std::string_view text) { return Limits{0.0, infinite, true, true, text}; };
-    const auto not_negative = [&](std::string_view text) { return Limits{0.0, infinite, false, true, text}; };
     const auto at_least = [&](int least, std::string_view text) {
         return Limits{static_cast<double>(least), infinite, false, true, text};
     };
-    return std::tuple{
+    const std::tuple amounts{
         row(laplacian, {"laplacian", "--laplacian", group::kind, equation,
                         "discrete Laplacian [fujiwara; of fields virtual-refinement]"}),
         row(flow, {"flow", "--flow", group::kind, equation,
@@ -71,56 +58,8 @@ auto option_table(Options& options)
             {.field = "uniform_edge",
              .limits = not_negative("at least 0 and finite (a length; 0: the mean edge length of the mesh)")}),
         row(weights, {"weights"}),
-        row(steps, {"steps", "--steps", group::amount, no_result, "number of steps [1]",
-                    Limits{0.0, FlowOptions::most_steps, false, false, "at least 0 and at most 1000000000"}}),
-        row(within, {"within", "--within", group::amount, concern::motion,
-                     "no vertex ends further than this from where it was\n"
-                     "Vertices beyond it are moved back to it, and their neighbours follow smoothly.",
-                     positive("above 0 and finite (a length; empty: no bound)")}),
-        row(rescale, {"rescale", "--rescale", group::amount, equation | concern::motion | whole_surface,
-                      "scale the result to the area or volume of the input [none]\n"
-                      "Each component keeps its centroid. Not with fixed vertices; open surfaces therefore need "
-                      "--boundary free."}),
-        row(keep_edges,
-            {"keep_edges", "--keep-edges", group::kept, concern::motion | whole_surface,
-             "keep edges sharper than this angle between faces, in degrees, and their corners; 20 to 40 suit "
-             "most meshes\n"
-             "The surface between them is smoothed: as much as there is noise, or as an amount says. On the whole "
-             "mesh.",
-             Limits{0.0, 180.0, true, true, "above 0 and below 180 (degrees)"}}),
-        row(denoise, {"denoise"}),
-        row(feature_edges, {"feature_edges", "--edges", group::kept, concern::motion | numbers,
-                            "further edges to keep: two vertex numbers per line, from 0, or an .obj or .ply with them\n"
-                            "They are kept whatever their angle. An .obj has polylines, a .ply elements edge. With "
-                            "--keep-edges or --preset cad."}),
-        row(boundary, {"boundary", "--boundary", group::kept, 0,
-                       "the boundary of an open surface stays, shrinks freely, or alone moves, as a curve [fixed]"}),
-        row(junctions, {"junctions", "--junctions", group::kept, 0,
-                        "edges of three faces or more, where sheets meet: they move with all sheets, or stay [flow]"}),
-        row(fixed_vertices, {"fixed_vertices", "--fix", group::kept, numbers,
-                             "fixed vertices: their numbers from 0, one a line, or a .ply that marks them\n"
-                             "The .ply has as many vertices, and a property that is not 0 at fixed ones."}),
-        row(attachment, {"attachment", "--attach", group::kept, equation | concern::motion,
-                         "pull every vertex towards where it was: features larger than this stay",
-                         not_negative("at least 0 and finite (1/length²)")}),
-        row(attachment_weights,
-            {"attachment_weights", "--attach-weights", group::kept, equation | concern::motion | numbers,
-             "how strongly each vertex is pulled back, in 1/length²: one number per line, or a .ply\n"
-             "The .ply has as many vertices, and a property with the weight."}),
-        row(strength, {"strength", "--region", group::kept, concern::motion | numbers,
-                       "smooth only there: vertex numbers from 0, one a line, or a .ply that has the strength of each\n"
-                       "The strength, from 0 to 1, scales the time step at its vertex; 0 holds it. A name that is no "
-                       "file is that of a property of INPUT, a .ply. Not for sweeps."}),
-        row(direction, {"direction", "--direction", group::kept, concern::motion,
-                        "vertices move along this direction only; with z, x and y of a terrain stay bit for bit\n"
-                        "normal is that of each vertex after the step."}),
-        row(weld, {"weld", "--weld", group::kept, 0,
-                   "copies of vertices along seams, at most this far apart, move as one [at equal places]\n"
-                   "A seam is where edges of one face each coincide, for example along those of a texture.",
-                   not_negative("at least 0 and finite (a length; empty: never)")}),
-        row(strict, {"strict", "--strict", group::kept, no_result | concern::motion,
-                     "refuse meshes that are not manifold or have edges or faces of size 0\n"
-                     "Without it, such vertices stay fixed, and unusable faces are left out."}),
+        row(steps, {"steps", "--steps", group::amount, no_result, "number of steps [1]", limits_of_steps})};
+    const std::tuple steps_and_report{
         row(subdomains,
             {"subdomains", "--subdomains", group::sub_meshes, sub_meshes,
              "number of sub-meshes; 1: undecomposed, 0: chosen [0]", at_least(0, "at least 0 (0: chosen)")}),
@@ -170,11 +109,10 @@ auto option_table(Options& options)
                        "decomposed: one of the two; cg: conjugate gradients on the whole mesh, with hardly any set-up; "
                        "undecomposed: one factorisation of the whole mesh; auto: the fastest, in sub-meshes if another "
                        "option concerns them."}),
-        row(tune_for,
-            {"tune_for", "--tune-for", group::accuracy, solution,
-             "the number of cores for which --approach auto is the fastest [2]\n"
-             "It is not that of the machine, so that the result is the same on all of them.",
-             Limits{1.0, ResourceOptions::most_threads, false, false, "at least 1 and at most 1024 (cores)"}}),
+        row(tune_for, {"tune_for", "--tune-for", group::accuracy, solution,
+                       "the number of cores for which --approach auto is the fastest [2]\n"
+                       "It is not that of the machine, so that the result is the same on all of them.",
+                       Limits{1.0, most_threads, false, false, "at least 1 and at most 1024 (cores)"}}),
         row(precision, {"precision", "--precision", group::accuracy, factors | converged_steps,
                         "precision of the factorisations of converged steps [auto]\n"
                         "Steps are refined to the tolerance in any case. auto: single where that loses few digits."}),
@@ -191,40 +129,32 @@ auto option_table(Options& options)
              "option asks for sub-meshes. By default sweeps take as little as keeps all threads busy, and converged "
              "steps have no limit.",
              at_least(1, "at least 1 (byte)")}),
-        row(threads, {"threads", "--threads", group::machine, no_result,
-                      "number of threads, at most 1024; 0: all cores that the control group allows [0]",
-                      Limits{0.0, ResourceOptions::most_threads, false, false,
-                             "at least 0 and at most 1024 (0: as many as the calling TBB arena has)"}}),
+        row(threads,
+            {"threads", "--threads", group::machine, no_result,
+             "number of threads, at most 1024; 0: all cores that the control group allows [0]", limits_of_threads}),
         row(reference, {"reference", "--reference", group::written, solution | concern::motion | whole_surface,
                         "also run the undecomposed flow, and print the distances to it (V_ and H_)"}),
-        row(volume, {"limit_of_volume"}),
-        row(move, {"limit_of_move"}),
-        row(slide, {"limit_of_slide"}),
         row(largest_update, {.field = "largest_update",
                              .concerns = no_result,
                              .limits = Limits{0.0, infinite, true, false,
                                               "positive (diagonals of the mesh's bounding box; infinite: no limit)"}}),
         row(measures, {"measures"}),
-        row(record_schedule, {.field = "record_schedule", .concerns = no_result}),
-    };
+        row(record_schedule, {.field = "record_schedule", .concerns = no_result})};
+    return std::tuple_cat(amounts, motion_table(motion), steps_and_report);
 }
 
 /// Calls action with every row of the table.
 template <class Options, class Action>
 void for_each_option(Options& options, Action&& action)
 {
-    std::apply([&](const auto&... row) { (action(row), ...); }, option_table(options));
+    for_each_row(option_table(options), action);
 }
 
 /// Calls action with the rows of both, in pairs.
 template <class Action>
 void for_each_option(const FlowOptions& one, const FlowOptions& other, Action&& action)
 {
-    std::apply(
-        [&](const auto&... of_one) {
-            std::apply([&](const auto&... of_other) { (action(of_one, of_other), ...); }, option_table(other));
-        },
-        option_table(one));
+    for_each_pair(option_table(one), option_table(other), action);
 }
 
 /// All rows without values, in the order of the table.

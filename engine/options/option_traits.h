@@ -3,6 +3,8 @@
 #include <limits>
 #include <string_view>
 
+#include "engine/options/motion_options.h"
+
 namespace seamflow {
 
 /// What an option concerns, so that others exclude or imply it.
@@ -24,7 +26,7 @@ constexpr unsigned equations = (solution << 1U) - 1U;
 constexpr unsigned no_result = 128U;
 /// Where the surface goes, or what it looked like after a step: not for fields on a surface that stays.
 constexpr unsigned motion = 256U;
-/// The equation of a flow: it rules out flows that need none, like FlowOptions::denoise.
+/// The equation of a flow: it rules out what needs none, like removing noise.
 constexpr unsigned equation = 512U;
 /// How much is smoothed.
 constexpr unsigned amount = 1024U;
@@ -68,6 +70,10 @@ struct Limits {
         return (above_least ? value > least : value >= least) && (below_most ? value < most : value <= most);
     }
 };
+
+inline constexpr Limits limits_of_steps{0.0, most_steps, false, false, "at least 0 and at most 1000000000"};
+inline constexpr Limits limits_of_threads{0.0, most_threads, false, false,
+                                          "at least 0 and at most 1024 (0: as many as the calling TBB arena has)"};
 
 struct OptionTraits {
     /// Its name in FlowOptions.

@@ -4,9 +4,6 @@
 
 namespace seamflow {
 
-/// @throws OptionError for a number of threads below 0, or above ResourceOptions::most_threads.
-void require_threads(int threads);
-
 /// Checks every field against its limits.
 /// @throws OptionError naming the field, its value and its limits; InputError naming the face for a negative label.
 void require_valid(const FlowOptions& options);

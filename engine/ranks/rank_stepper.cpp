@@ -14,8 +14,8 @@ bool can_share(const RankGroup& ranks, const Cut& cut, const FlowOptions& option
 {
     const Conditions conditions = options.interface.conditions;
     const bool is_adapted = conditions == Conditions::AdaptedRobin || conditions == Conditions::AdaptedVentcell;
-    const bool is_in_sub_meshes = options.scheme == Scheme::BackwardEuler && !smooths_normals(options) &&
-                                  !takes_whole_mesh(options.accuracy.approach);
+    const bool is_in_sub_meshes =
+        options.scheme == Scheme::BackwardEuler && !takes_whole_mesh(options.accuracy.approach);
     const bool is_known = options.accuracy.tolerance || (options.flow != FlowEquation::Linear && is_adapted);
     return ranks.size() > 1 && cut.n_parts > 1 && is_in_sub_meshes && is_known && !options.report.record_schedule;
 }

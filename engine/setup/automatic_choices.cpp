@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "engine/options/option_table.h"
-#include "engine/setup/constraints.h"
+#include "engine/setup/moving_rim.h"
 #include "solvers/laplacian/laplacian.h"
 #include "solvers/laplacian/symmetric_laplacian.h"
 
@@ -78,7 +78,7 @@ bool speaks_of_sub_meshes(const FlowOptions& options)
 /// Whether an option is set that has no meaning for converged steps.
 bool speaks_of_sweeps(const FlowOptions& options)
 {
-    return options.accuracy.approach == Approach::Sweep || smooths_normals(options) ||
+    return options.accuracy.approach == Approach::Sweep ||
            !first_set(options, concern::sweeps | concern::method).empty() ||
            is_foreign(options.resources.factorisation);
 }
@@ -134,8 +134,7 @@ ToleranceChoice choose_tolerance(const PolygonMesh& mesh, const MeshSize& size, 
         return {loose_tolerance, ""};
     if (options.accuracy.approach == Approach::Undecomposed)
         return {};
-    if (!options.motion.strength.empty() && options.scheme == Scheme::BackwardEuler && !smooths_normals(options) &&
-        mesh.n_faces() > 0)
+    if (!options.motion.strength.empty() && options.scheme == Scheme::BackwardEuler && mesh.n_faces() > 0)
         return {loose_tolerance, "in a region steps differ from vertex to vertex, which single sweeps do not support"};
     if (rim_moves && !speaks_of_sweeps(options) && may_be_cut(options))
         return {loose_tolerance, options.motion.boundary == Boundary::Free
@@ -165,8 +164,6 @@ std::string_view need_of_junctions(const FlowOptions& options)
         return {};
     if (!is_symmetric(options.laplacian))
         return "With a symmetric Laplacian";
-    if (options.keep_edges && !options.denoise)
-        return "Without edges that are kept";
     // Vertices at junctions have no normal.
     if (options.motion.direction.kind == MotionDirection::Kind::Normal)
         return "In any direction but normals";
@@ -220,7 +217,7 @@ ApproachChoice choose_approach(const PolygonMesh& mesh, const Topology& topology
                           (tolerance.reason.empty() ? std::string() : ": " + tolerance.reason) +
                           ". Steps of Laplacians without symmetry converge in no other way."};
     if (asked != Approach::Automatic || speaks_of_sub_meshes(options) || !is_symmetric(options.laplacian) ||
-        options.scheme == Scheme::ExplicitEuler || smooths_normals(options) || mesh.n_faces() == 0)
+        options.scheme == Scheme::ExplicitEuler || mesh.n_faces() == 0)
         return in_sub_meshes(tolerance);
     if (sharing == Sharing::Ranks && !(earlier && takes_whole_mesh(*earlier)))
         return in_sub_meshes(tolerance, "ranks can share such steps");

@@ -10,10 +10,9 @@
 #include "engine/measure/remarks.h"
 #include "engine/measure/surface_measures.h"
 #include "engine/setup/automatic_choices.h"
-#include "engine/setup/constraints.h"
+#include "engine/setup/moving_rim.h"
 #include "engine/state/flow_identity.h"
 #include "engine/tasks/parallel_executor.h"
-#include "partition/cracks.h"
 #include "partition/errors.h"
 #include "solvers/laplacian/delaunay_stiffness.h"
 #include "solvers/laplacian/laplacian.h"
@@ -43,8 +42,7 @@ std::uint64_t require_sound(const PolygonMesh& mesh, const FlowOptions& options,
 Cut make_cut(const PolygonMesh& mesh, const MeshSize& size, const Topology& topology, const FlowOptions& options,
              const Executor& exec, const Alongside& alongside, std::vector<Remark>& choices)
 {
-    if (smooths_normals(options) || options.scheme == Scheme::ExplicitEuler ||
-        takes_whole_mesh(options.accuracy.approach))
+    if (options.scheme == Scheme::ExplicitEuler || takes_whole_mesh(options.accuracy.approach))
         return cut_into(mesh, topology, 1, exec);
     if (!options.cut.labels.empty())
         return cut_by_labels(mesh, topology, options.cut.labels, exec);
@@ -60,75 +58,47 @@ Cut make_cut(const PolygonMesh& mesh, const MeshSize& size, const Topology& topo
 /// boundary could open.
 bool flows_alone(const FlowOptions& options)
 {
-    return !options.motion.strength.empty() && !smooths_normals(options) && !options.motion.limits.exist() &&
-           !options.motion.strict && !options.report.reference && !options.report.keep_gaps &&
-           options.motion.boundary == Boundary::Fixed;
+    return !options.motion.strength.empty() && !options.motion.limits.exist() && !options.motion.strict &&
+           !options.report.reference && !options.report.keep_gaps && options.motion.boundary == Boundary::Fixed;
+}
+
+/// Replaces faces by those of an intrinsic Delaunay triangulation, if the weights of the Laplacian are to be at least 0
+/// and are not.
+bool flip_edges(PreparedFlow& prepared, FlowingMesh& mesh, Surface& surface, const Executor& exec)
+{
+    const FlowOptions& options = prepared.options;
+    if (options.weights == Weights::OfLaplacian)
+        return false;
+    std::optional<DelaunaySurface> flipped = make_delaunay(mesh.mesh(), surface.topology, options.laplacian,
+                                                           options.weights == Weights::AtLeastZeroInFaces, exec);
+    if (!flipped)
+        return false;
+    mesh.replace_faces(std::move(flipped->mesh), flipped->face_of);
+    prepared.stiffness = std::move(flipped->stiffness);
+    // Filters with factors outside 0 to 1 for some modes are excluded.
+    surface.choices.push_back(
+        {"flipped edges",
+         {},
+         {fmt::format("Edges opposite to obtuse angles are flipped within the surface, so that {}.",
+                      filter_of(options).is_plain() ? "values stay in their range" : "no weight is below 0")}});
+    return true;
 }
 
 /// Joins the faces and determines which vertices move.
 void examine(PreparedFlow& prepared, FlowingMesh& mesh, Progress& progress)
 {
     FlowOptions& options = prepared.options;
-    Topology& topology = prepared.topology;
-    std::vector<double>& strength = options.motion.strength;
-    if (std::ranges::all_of(strength, [](double s) { return s == 1.0; }))
-        strength.clear();
-    if (flows_alone(options) && strength.size() == usize(mesh.mesh().n_vertices()) &&
-        mesh.leave_out_still_faces(strength, traits_of(options.laplacian).reach))
-        prepared.choices.push_back(
-            {"region alone",
-             {{"faces", mesh.mesh().n_faces()}},
-             {fmt::format("Only the {} faces around the region flow, and are measured.", mesh.mesh().n_faces())}});
-    const auto look = [&] {
-        // One thread makes part of the topology: another one measures the mesh meanwhile.
-        run_both([&] { topology = make_topology(mesh.mesh(), progress.exec()); },
-                 [&] { prepared.size = size_of(mesh.mesh()); });
-    };
-    const auto constrain_it = [&] {
-        prepared.remarks.clear();
-        // Vertices that are joined may have edges without length.
-        const bool has_lengths = prepared.size.has_lengths && mesh.n_copies() == 0;
-        constrain(topology, mesh.mesh(), options, has_lengths, progress.exec(), prepared.remarks);
-        prepared.size.vertices -= static_cast<Index>(std::ranges::count(topology.kind, VertexKind::Isolated));
-    };
-    look();
-    // With keep_gaps the result has all faces, so that none are left out. A seam is where edges with one face each
-    // meet.
-    if (!options.report.keep_gaps && !options.motion.strict && mesh.leave_out_repeated_faces(topology))
-        look();
-    if (std::ranges::find(topology.kind, VertexKind::Isolated) != topology.kind.end())
-        prepared.unused_vertices = mesh.unused_vertices();
-    mesh.weld_seams(topology, options.motion, progress.exec());
-    constrain_it();
-    std::optional<Cracks> cracks;
-    if (options.motion.weld && !options.report.keep_gaps)
-        cracks = find_cracks(mesh.mesh(), topology, progress.exec());
-    // Some faces repeat others only after vertices were joined.
-    if (!options.report.keep_gaps && mesh.leave_out_repeated_faces(topology)) {
-        look();
-        constrain_it();
-    }
-    if (options.weights != Weights::OfLaplacian)
-        if (std::optional<DelaunaySurface> surface =
-                make_delaunay(mesh.mesh(), topology, options.laplacian, options.weights == Weights::AtLeastZeroInFaces,
-                              progress.exec())) {
-            mesh.replace_faces(std::move(surface->mesh), surface->face_of);
-            prepared.stiffness = std::move(surface->stiffness);
-            // Filters with factors outside 0 to 1 for some modes are excluded.
-            prepared.choices.push_back(
-                {"flipped edges",
-                 {},
-                 {fmt::format("Edges opposite to obtuse angles are flipped within the surface, so that {}.",
-                              filter_of(options).is_plain() ? "values stay in their range" : "no weight is below 0")}});
-            look();
-            constrain_it();
-        }
+    prepared.surface = make_surface(
+        mesh, options.motion,
+        {.laplacian = options.laplacian,
+         .keeps_all_faces = options.report.keep_gaps,
+         .leaves_out_still_faces = flows_alone(options),
+         .replace_faces = [&](FlowingMesh& flowing,
+                              Surface& surface) { return flip_edges(prepared, flowing, surface, progress.exec()); }},
+        progress);
     options.cut.labels = mesh.of_faces_left(options.cut.labels);
-    // A remark is also made on cracks, which a free boundary would open.
-    if (std::ranges::find(topology.fixed, 0) == topology.fixed.end() && mesh.mesh().n_faces() > 0)
-        prepared.remarks.push_back(remark_on_unmoving_mesh(cracks ? Boundary::Free : options.motion.boundary));
-    if (cracks)
-        prepared.remarks.push_back(remark_on_cracks(*cracks));
+    prepared.choices = prepared.surface.choices;
+    prepared.remarks = prepared.surface.remarks;
 }
 
 Remark choice_of(const ApproachChoice& choice)
@@ -150,12 +120,13 @@ void cut_and_measure(PreparedFlow& prepared, const PolygonMesh& mesh, Progress& 
         const bool is_ordering = options.accuracy.approach == Approach::Sweep;
         const bool is_beside_cut = options.report.measures && !takes_whole_mesh(options.accuracy.approach);
         if (is_ordering || is_beside_cut)
-            prepared.curvature = measure_curvature(mesh, prepared.topology, mesh.vertices, laplacian_of(options));
+            prepared.curvature =
+                measure_curvature(mesh, prepared.surface.topology, mesh.vertices, laplacian_of(options));
         if (options.report.measures)
-            prepared.meter.emplace(mesh, prepared.topology);
+            prepared.meter.emplace(mesh, prepared.surface.topology);
     };
     prepared.cut = make_cut(
-        mesh, prepared.size, prepared.topology, prepared.options, progress.exec(),
+        mesh, prepared.surface.size, prepared.surface.topology, prepared.options, progress.exec(),
         [&](const std::function<void()>& serial) { run_both(serial, measure); }, prepared.choices);
     if (!is_measured)
         measure();
@@ -176,16 +147,16 @@ std::unique_ptr<PreparedFlow> prepare(FlowingMesh& mesh, FlowOptions given, bool
         prepared->options.motion.junctions = Junctions::Hold;
     examine(*prepared, mesh, progress);
     progress.count();
-    const Topology& topology = prepared->topology;
+    const Topology& topology = prepared->surface.topology;
     AccuracyOptions& accuracy = prepared->options.accuracy;
     // A resumed flow continues in the way in which it began.
     if (options.resources.memory_limit && resume == nullptr && control.ranks == nullptr)
-        prepared->without_factors = choose_without_factors(prepared->size, options);
+        prepared->without_factors = choose_without_factors(prepared->surface.size, options);
     if (prepared->without_factors) {
         prepared->choices_without_factors = {choice_of(*prepared->without_factors)};
         std::ranges::copy(prepared->choices, std::back_inserter(prepared->choices_without_factors));
     }
-    const ApproachChoice choice = choose_approach(mesh.mesh(), topology, prepared->size, prepared->options,
+    const ApproachChoice choice = choose_approach(mesh.mesh(), topology, prepared->surface.size, prepared->options,
                                                   resume != nullptr ? std::optional(resume->approach) : std::nullopt,
                                                   control.ranks != nullptr ? Sharing::Ranks : Sharing::None);
     accuracy.approach = choice.approach;
@@ -212,7 +183,7 @@ void leave_factors(PreparedFlow& prepared, const PolygonMesh& mesh, const Execut
 {
     prepared.options.accuracy.approach = prepared.without_factors->approach;
     prepared.options.accuracy.tolerance = prepared.without_factors->tolerance;
-    prepared.cut = cut_into(mesh, prepared.topology, 1, exec);
+    prepared.cut = cut_into(mesh, prepared.surface.topology, 1, exec);
     prepared.choices = std::move(prepared.choices_without_factors);
     // No factors are to be made in later steps either.
     prepared.costs.reset();
@@ -221,35 +192,21 @@ void leave_factors(PreparedFlow& prepared, const PolygonMesh& mesh, const Execut
 void report_to(const PreparedFlow& prepared, const FlowingMesh& mesh, FlowReport& report)
 {
     const FlowOptions& options = prepared.options;
-    const Topology& topology = prepared.topology;
-    report.mesh.vertices = mesh.mesh().n_vertices();
-    report.mesh.faces = mesh.mesh().n_faces();
+    report.mesh = report_on(prepared.surface, mesh, options.motion.strength);
     report.time_step = options.time_step;
     report.convergence.approach = options.accuracy.approach;
     report.convergence.tolerance = options.accuracy.tolerance;
     report.cut.repaired_faces = prepared.cut.repaired_faces;
     report.choices = prepared.choices;
     report.remarks = prepared.remarks;
-    // Faces that were left out at the rim of a region are not reported.
-    const std::vector<double>& strength = options.motion.strength;
-    const auto count_in_region = [&](VertexKind kind) {
-        Index n = 0;
-        for (Index v = 0; v < mesh.mesh().n_vertices(); ++v)
-            n += topology.kind[v] == kind && (strength.empty() || strength[v] >= MotionOptions::least_strength) ? 1 : 0;
-        return n;
-    };
-    report.mesh.unused_vertices = prepared.unused_vertices;
-    report.mesh.non_manifold_vertices = count_in_region(VertexKind::NonManifold);
-    report.mesh.junction_vertices = count_in_region(VertexKind::Junction);
     if (report.mesh.non_manifold_vertices > 0)
         report.remarks.push_back(
             remark_on_non_manifold_vertices(report.mesh.non_manifold_vertices, prepared.need_of_junctions));
     if (report.mesh.junction_vertices > 0)
         report.remarks.push_back(remark_on_junctions(report.mesh.junction_vertices, options.laplacian));
-    for (Index v = 0; v < mesh.mesh().n_vertices(); ++v)
-        report.mesh.fixed_vertices += topology.moves(mesh.moves_with(v)) ? 0 : 1;
     if (prepared.cut.n_parts > 1 && options.steps > 0 && !options.accuracy.tolerance) {
-        const double width = width_in_diffusion_lengths(prepared.size.area, prepared.cut.n_parts, options.time_step);
+        const double width =
+            width_in_diffusion_lengths(prepared.surface.size.area, prepared.cut.n_parts, options.time_step);
         if (width < needs_of_sweeps.width)
             report.remarks.push_back(
                 {"narrow sub-meshes",

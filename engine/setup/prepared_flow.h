@@ -8,17 +8,15 @@
 #include <vector>
 
 #include "engine/measure/displacement_meter.h"
-#include "engine/measure/surface_measures.h"
 #include "engine/options/flow_control.h"
 #include "engine/options/flow_options.h"
 #include "engine/setup/automatic_choices.h"
 #include "engine/setup/cost_model.h"
-#include "engine/setup/flowing_mesh.h"
 #include "engine/state/flow_state.h"
+#include "engine/surface/surface.h"
 #include "engine/tasks/progress.h"
 #include "partition/cut/cut.h"
 #include "partition/remark.h"
-#include "partition/topology.h"
 #include "solvers/laplacian/given_stiffness.h"
 
 namespace seamflow {
@@ -36,11 +34,7 @@ struct PreparedFlow {
     std::vector<Remark> choices_without_factors;
     /// Checksum of the mesh and the given options, by which a checkpoint is recognised. 0 if it is not needed.
     std::uint64_t identity = 0;
-    MeshSize size;
-    /// The topology of the flowing mesh, with the vertices that move.
-    Topology topology;
-    /// The vertices of the given mesh that no face uses, ascending.
-    std::vector<Index> unused_vertices;
+    Surface surface;
     /// The condition under which vertices at junctions would move: the result of need_of_junctions in
     /// automatic_choices.h.
     std::string_view need_of_junctions;

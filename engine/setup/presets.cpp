@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "engine/setup/smoothed_radius.h"
+#include "engine/measure/smoothed_radius.h"
 #include "partition/errors.h"
 #include "partition/metrics/bounding_box.h"
 #include "partition/metrics/spikes.h"
@@ -38,7 +38,7 @@ constexpr std::array table{
                  .name = "cad",
                  .purpose = "as automatic; with an amount, keeps edges of more than 30 degrees",
                  .laplacian = Laplacian::VirtualRefinement,
-                 .keep_edges = MeshDenoiser::default_edge_angle,
+                 .keep_edges = RemoveNoise::default_edge_angle,
                  .denoise = true},
     PresetTraits{.preset = Preset::Terrain,
                  .name = "terrain",
@@ -180,12 +180,6 @@ void choose_amount(const PresetTraits& preset, const PolygonMesh& mesh, const st
 {
     FlowOptions& options = choice.options;
     options.motion.limits = {.volume = ComponentLimits::most_volume_change};
-    if (options.denoise) {
-        // No step depends on it, but some messages print it.
-        const double mean_edge = mean_edge_length(mesh, mesh.vertices, exec);
-        options.time_step = std::isnormal(mean_edge * mean_edge) ? mean_edge * mean_edge : 1.0;
-        return;
-    }
     if (preset.radius) {
         options.time_step = time_step_for_radius(*preset.radius, options.steps, box_of_faces(mesh, exec).diagonal(),
                                                  filter_of(options));
@@ -204,16 +198,22 @@ PresetChoice options_for(Preset preset, const PolygonMesh& mesh, const FlowOptio
     options.laplacian = traits.laplacian;
     options.flow = traits.flow;
     options.filter = traits.filter;
-    options.denoise = traits.denoise && !(noise && traits.measures_noise());
-    options.order = options.denoise ? 1 : traits.order;
-    options.keep_edges = options.denoise ? std::nullopt : traits.keep_edges;
+    options.order = traits.order;
     if (traits.along_z)
         options.motion.direction = along_z();
-    if (options.denoise)
-        options.motion.boundary = Boundary::Free;
+    if (traits.denoise && !(noise && traits.measures_noise())) {
+        DenoiseOptions& denoise = choice.denoise.emplace();
+        denoise.motion = further.motion;
+        denoise.motion.boundary = Boundary::Free;
+        denoise.motion.limits = DenoiseOptions::default_motion().limits;
+        denoise.motion.direction = options.motion.direction;
+        denoise.threads = further.resources.threads;
+        denoise.measures = further.report.measures;
+        return choice;
+    }
     options.steps = traits.steps;
     options.radius.reset();
-    if (traits.attach && !options.denoise)
+    if (traits.attach)
         options.motion.attachment = attachment_of(*traits.attach, box_of_faces(mesh, exec).diagonal());
     choose_amount(traits, mesh, noise, choice, exec);
     return choice;

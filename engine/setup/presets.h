@@ -4,6 +4,7 @@
 #include <span>
 #include <string_view>
 
+#include "engine/denoise/denoise_options.h"
 #include "engine/options/flow_options.h"
 #include "partition/executor.h"
 #include "partition/polygon_mesh.h"
@@ -34,8 +35,7 @@ struct PresetTraits {
     int order = 1;
     /// In degrees, if edges are kept.
     std::optional<double> keep_edges = {};
-    /// FlowOptions::denoise, which needs no amount and no equation; then boundaries are free. With an amount the preset
-    /// has its equation.
+    /// Whether noise is removed (see denoise) where no amount is given. With an amount the preset has its equation.
     bool denoise = false;
     /// Whether vertices move along z alone.
     bool along_z = false;
@@ -64,6 +64,8 @@ const PresetTraits& preset_of(std::string_view name);
 struct PresetChoice {
     /// With an amount, and limits for each component of the mesh.
     FlowOptions options;
+    /// In place of them, if the preset removes noise: those of denoise().
+    std::optional<DenoiseOptions> denoise = {};
     /// As measured from the mesh, or given, in length, if the amount follows from it.
     std::optional<double> noise = {};
     /// Where nothing is smoothed: why.

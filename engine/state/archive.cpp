@@ -10,7 +10,7 @@ namespace seamflow {
 namespace {
 
 /// The format of archives. To be increased whenever `fields` or the checksum changes.
-constexpr std::uint32_t format = 0x5ea30006;
+constexpr std::uint32_t format = 0x5ea30007;
 
 /// The beginning of a file.
 std::string header_of(std::string_view line)
@@ -28,7 +28,7 @@ void refuse_archive(const std::filesystem::path& file, const std::string& reason
 }
 
 ArchiveWriter::ArchiveWriter(const std::filesystem::path& path, std::string_view line)
-    : file_(std::in_place, path)
+    : file_(path)
 {
     numbers(std::span<const char>(header_of(line)));
 }

@@ -8,13 +8,10 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <tuple>
 #include <type_traits>
-#include <utility>
 #include <vector>
 
-#include "engine/state/checksum.h"
-#include "engine/state/flow_state.h"
+#include "engine/state/transfer.h"
 #include "partition/io/output_file.h"
 
 /// Files that hold structs, bit for bit. A file is: a line that names its kind; the format, which reads differently on
@@ -28,19 +25,15 @@ namespace seamflow {
 /// Writes values to a file.
 class ArchiveWriter {
   public:
-    /// A writer without a file, which only computes the checksum.
-    ArchiveWriter() = default;
-
     /// @param line the kind of the file.
     ArchiveWriter(const std::filesystem::path& path, std::string_view line);
 
     template <class Number>
     void numbers(std::span<const Number> numbers)
     {
+        checksum_.numbers(numbers);
         const auto bytes = std::as_bytes(numbers);
-        checksum_.add(bytes);
-        if (file_)
-            file_->text({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+        file_.text({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
     }
 
     template <class Number>
@@ -52,28 +45,19 @@ class ArchiveWriter {
     template <class Array>
     void size(const Array& array)
     {
-        number(static_cast<std::uint64_t>(array.size()));
+        number(size_of_array(array));
     }
-    void size(const Points& points) { number(static_cast<std::uint64_t>(points.rows())); }
-    template <class Value>
-    void size(const std::optional<Value>& value)
-    {
-        number(static_cast<std::uint64_t>(value ? 1 : 0));
-    }
-
-    /// The checksum of all values written so far.
-    [[nodiscard]] std::uint64_t checksum() const { return checksum_.value(); }
 
     /// Completes the file.
     void commit()
     {
-        number(checksum());
-        file_->commit();
+        number(checksum_.checksum());
+        file_.commit();
     }
 
   private:
-    std::optional<OutputFile> file_;
-    Checksum checksum_;
+    OutputFile file_;
+    ChecksumArchive checksum_;
 };
 
 /// Reads values from a file. An array takes no more memory than the length of the file allows, whatever size the file
@@ -137,57 +121,6 @@ class ArchiveReader {
     /// The number of bytes left, without the checksum.
     std::uint64_t n_left_ = 0;
 };
-
-template <class Value, class Struct>
-concept Is = std::is_same_v<std::remove_const_t<Value>, Struct>;
-
-/// Structs that have a function `fields` in their namespace, which lists all fields: the compiler refuses a list that
-/// is not complete.
-template <class Value>
-concept HasFields = requires(Value& value)
-{
-    fields(value);
-};
-
-template <class Value>
-concept IsOptional = requires(Value& value)
-{
-    value.has_value();
-};
-
-template <class Value>
-concept HasNumbers =
-    Is<Value, Points> || Is<Value, std::string> || Is<Value, std::vector<double>> || Is<Value, std::vector<Index>>;
-
-/// Writes a value, field by field, to a file, or reads it. Values are const when they are written.
-template <class Archive, class Value>
-void transfer(Archive& archive, Value& value)
-{
-    if constexpr (std::is_arithmetic_v<Value> || std::is_enum_v<Value>) {
-        archive.number(value);
-    } else if constexpr (HasFields<Value>) {
-        std::apply([&](auto&... field) { (transfer(archive, field), ...); }, fields(value));
-    } else {
-        archive.size(value);
-        if constexpr (HasNumbers<Value>)
-            archive.numbers(std::span(value.data(), static_cast<std::size_t>(value.size())));
-        else if constexpr (IsOptional<Value>) {
-            if (value)
-                transfer(archive, *value);
-        } else
-            for (auto& element : value)
-                transfer(archive, element);
-    }
-}
-
-/// The checksum of values, as in a file.
-template <class... Value>
-std::uint64_t checksum_of(const Value&... values)
-{
-    ArchiveWriter archive;
-    (transfer(archive, values), ...);
-    return archive.checksum();
-}
 
 /// Writes a struct to a file and to the disk. The file holds all of it, or stays as it was.
 /// @throws OutputError naming the file.

@@ -4,7 +4,7 @@
 #include <cassert>
 #include <cmath>
 
-#include "engine/measure/remarks.h"
+#include "engine/measure/flow_remarks.h"
 #include "engine/tasks/parallel_executor.h"
 #include "engine/tasks/stopwatch.h"
 #include "solvers/direct/columns.h"

@@ -3,10 +3,7 @@
 #include <utility>
 
 #include "engine/steppers/conjugate_gradient_stepper.h"
-#include "engine/steppers/denoising_stepper.h"
-#include "engine/steppers/edge_keeping_stepper.h"
 #include "engine/steppers/explicit_stepper.h"
-#include "engine/steppers/rim_stepper.h"
 #include "engine/steppers/schur_stepper.h"
 #include "engine/steppers/sweep_stepper.h"
 
@@ -15,12 +12,6 @@ namespace seamflow {
 std::unique_ptr<Stepper> make_stepper(const PolygonMesh& mesh, const Topology& topology, const Cut& cut,
                                       const FlowOptions& options, std::vector<double> curvature, Progress& progress)
 {
-    if (smooths_rims(options))
-        return std::make_unique<RimStepper>(mesh, topology, options, progress);
-    if (options.denoise)
-        return std::make_unique<DenoisingStepper>(mesh, topology, options, progress);
-    if (options.keep_edges)
-        return std::make_unique<EdgeKeepingStepper>(mesh, topology, options, progress);
     if (options.scheme == Scheme::ExplicitEuler)
         return std::make_unique<ExplicitStepper>(mesh, topology, options, progress);
     if (options.accuracy.approach == Approach::ConjugateGradients)

@@ -13,7 +13,7 @@
 
 namespace seamflow {
 
-/// Makes the stepper that the options ask for: steps that keep edges, explicit Euler steps, backward Euler steps of the
+/// Makes the stepper that the options ask for: explicit Euler steps, backward Euler steps of the
 /// whole mesh by conjugate gradients, converged steps by the Schur complement, or sweeps.
 /// @param mesh, topology, progress must outlive the stepper.
 /// @param options with the tolerance that was chosen, if any.

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "engine/measure/flow_report.h"
-#include "engine/measure/rescaling.h"
+#include "engine/motion/surface_stepper.h"
 #include "engine/options/flow_options.h"
-#include "engine/state/flow_state.h"
+#include "engine/state/step_memory.h"
 #include "engine/tasks/progress.h"
 #include "partition/cut/cut.h"
 #include "partition/topology.h"
@@ -20,33 +20,13 @@ namespace seamflow {
 /// Further steps. Steps that are taken again are counted once.
 enum class DataSteps { Further, Again };
 
-/// Takes the steps of a flow, one after the other: each from Vᵏ to Vᵏ⁺¹ with (M + dt K) Vᵏ⁺¹ = M Vᵏ. Each subclass is a
-/// way of taking steps (see make_stepper). Belongs to the arena in which it is constructed.
-class Stepper {
+/// Takes the steps of a flow: each from Vᵏ to Vᵏ⁺¹ with (M + dt K) Vᵏ⁺¹ = M Vᵏ. Each subclass is a way of taking steps
+/// (see make_stepper).
+class Stepper : public SurfaceStepper {
   public:
-    Stepper() = default;
-    Stepper(const Stepper&) = delete;
-    Stepper& operator=(const Stepper&) = delete;
-    virtual ~Stepper() = default;
-
-    /// Takes a step. After an exception there are no positions, and the stepper is unusable.
-    /// @param before #V by 3: Vᵏ, which is or was equal to positions(), in separate memory.
-    /// @throws ComputationError naming the sub-mesh; Cancelled.
-    virtual void step(const Points& before) = 0;
-
-    /// #V by 3: the positions after the last step.
-    [[nodiscard]] virtual const Points& positions() const = 0;
-
     /// The sub-meshes after the last step (see FlowReport::separated); null for sub-meshes without copies of Γ of their
     /// own, and without ReportOptions::keep_gaps.
     [[nodiscard]] virtual const PolygonMesh* separated() const { return nullptr; }
-
-    /// Continues from an image of positions(), and of all positions that the next step needs. Afterwards positions()
-    /// are the image, up to rounding. Data on updates and errors are kept: a step makes earlier errors smaller by about
-    /// the factor by which its result is scaled back.
-    /// @param image #V by 3: positions() mapped by the similarity of each component; vertices without faces keep their
-    /// positions.
-    virtual void set_positions(const Points& image, const SimilarityOfComponents& similarity) = 0;
 
     /// Continues from other data than positions, which is possible for flows with one matrix for all steps: positions()
     /// are then the data. Data on updates and errors are dropped.
@@ -90,16 +70,9 @@ class Stepper {
     /// Moves vertices of V⁰ to other positions (#vertices by 3), as if the flow had begun with them there.
     virtual void set_reference_vertices(std::span<const Index>, const Points&) {}
 
-    /// Saves the data that the next step needs.
-    virtual void save(StepMemory& memory) const = 0;
-
     /// Per row of each array that `save` writes: the vertex of the mesh to which the row belongs. For steppers that
     /// ranks use.
     [[nodiscard]] virtual std::vector<Index> saved_vertices() const { return {}; }
-
-    /// Restores the data that `save` has written, before any step: the next step continues from there.
-    /// @throws InputError if the data do not fit.
-    virtual void restore(const StepMemory& memory) = 0;
 
     /// Adds the seconds spent in tasks.
     virtual void add_seconds(PhaseSeconds& seconds) const = 0;

@@ -96,7 +96,7 @@ VanishingComponents::VanishingComponents(const PolygonMesh& mesh, const Topology
     , options_(options)
 {
     // The Laplacian with uniform weights does not depend on sizes.
-    if (options.scheme == Scheme::BackwardEuler && !smooths_normals(options) && options.laplacian != Laplacian::Uniform)
+    if (options.scheme == Scheme::BackwardEuler && options.laplacian != Laplacian::Uniform)
         extent_ = std::sqrt(options.time_step / small_by_steps);
     // The matrix of a linear flow is that of the initial sizes in all steps, and keeps enough digits of its masses.
     if (options.flow == FlowEquation::Linear && extent_ > 0.0)

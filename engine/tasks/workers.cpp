@@ -8,8 +8,7 @@
 #include <oneapi/tbb/task_arena.h>
 #include <oneapi/tbb/task_scheduler_observer.h>
 
-#include "engine/options/flow_options.h"
-#include "engine/options/valid_options.h"
+#include "engine/options/option_limits.h"
 #include "engine/tasks/parallel_executor.h"
 #include "engine/tasks/separate_cores.h"
 #include "solvers/platform/library_threads.h"
@@ -54,7 +53,7 @@ class Workers::Arena {
   public:
     explicit Arena(int threads)
     {
-        require_threads(threads);
+        require_within({.field = "threads", .limits = limits_of_threads}, threads);
         if (threads > 0) {
             // TBB starts no more threads than there are cores, whatever an arena asks for, unless the limit is raised.
             const auto wanted = static_cast<std::size_t>(threads);

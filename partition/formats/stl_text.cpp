@@ -103,8 +103,8 @@ struct TextFacetReader {
 };
 
 /// @param faults see read_stl. @throws InputError if there is any fault; the message names it if there is one slice.
-PolygonMesh read_slices(const TextScanner& whole, std::span<const std::string_view> slices, const Executor& exec,
-                        FaultLog* faults)
+PolygonMesh read_text_slices(const TextScanner& whole, std::span<const std::string_view> slices, const Executor& exec,
+                             FaultLog* faults)
 {
     const auto n = static_cast<Index>(slices.size());
     return join_facets<double>(n, exec, [&](Index i, const MeshSlice& mesh_slice) {
@@ -128,10 +128,11 @@ PolygonMesh read_text_stl(const std::filesystem::path& path, std::string_view te
 {
     const TextScanner whole(path, text, stl_syntax);
     const std::vector<std::string_view> slices = stl_slices_at_facets(whole, slicing.bytes);
-    const auto in_one_go = [&] { return read_slices(whole, std::array{whole.rest()}, run_serially, faults); };
+    const auto in_one_go = [&] { return read_text_slices(whole, std::array{whole.rest()}, run_serially, faults); };
     if (slices.size() < 2)
         return in_one_go();
-    return read_in_slices_if_faultless([&] { return read_slices(whole, slices, slicing.exec, nullptr); }, in_one_go);
+    return read_in_slices_if_faultless([&] { return read_text_slices(whole, slices, slicing.exec, nullptr); },
+                                       in_one_go);
 }
 
 }  // namespace seamflow

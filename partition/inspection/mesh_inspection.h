@@ -98,15 +98,4 @@ MeshInspection inspect(const PolygonMesh& mesh, const Topology& topology, const 
 /// The mesh with only the first face of each set of faces that have the same vertices: one side of a surface with two.
 PolygonMesh with_single_faces(const PolygonMesh& mesh, const MeshInspection& found);
 
-/// A face with the same vertices as an earlier one, in any order.
-struct RepeatedFace {
-    Index face;
-    /// The first face with these vertices.
-    Index first;
-};
-
-/// The faces among the candidates that repeat an earlier candidate, in ascending order.
-/// @param candidates faces, ascending.
-std::vector<RepeatedFace> find_repeated_faces(const PolygonMesh& mesh, const std::vector<Index>& candidates);
-
 }  // namespace seamflow

@@ -193,7 +193,7 @@ void settle(const CLI::App& app, const Words& words, BenchmarkCommand& command)
     if (is_given("--grid"))
         settle_grid(app, command);
     const AskedOptions asked{[&](std::string_view option) { return app.count(std::string(option)) > 0; }, {}};
-    require_none_broken<BenchmarkCommand>(rules, command, flow, asked);
+    require_none_broken<BenchmarkCommand>(rules, command, asked, fill_other);
     if (!takes_turns(command))
         command.turns = 1;
     const char* const usual_peers = command.mode == BenchmarkMode::WholeRun ? "cholmod,cg" : "all";

@@ -55,7 +55,8 @@ void require_fields(const CLI::App& app, SmoothCommand& command)
     refuse(first_given(app, {"--out-dir"}), by, "fields diffuse on one mesh");
     if (command.fields.names.empty())
         return refuse(first_of_diffusion(app), by, "it concerns what diffuses, and distances do not");
-    require_none_broken<SmoothCommand>(rules_of_field_amounts, command, command.options, given_options(app, command));
+    require_none_broken<SmoothCommand>(rules_of_field_amounts, command, given_options(app, command),
+                                       filling(command.options));
     if (command.fields.fwhm && app.count("--steps") == 0)
         command.options.steps = steps_of_fwhm;
     if (app.count("--laplacian") == 0)

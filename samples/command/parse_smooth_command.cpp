@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "engine/options/option_rules.h"
+#include "engine/options/option_rule.h"
 #include "partition/errors.h"
 #include "partition/formats/mesh_io.h"
 #include "partition/io/input_file.h"
@@ -59,7 +59,7 @@ constexpr OptionRule<SmoothCommand> rules_of_files[]{
 /// Also keeps every result except OUTPUT from replacing one of the inputs.
 void require_usable_files(const SmoothCommand& command)
 {
-    require_none_broken<SmoothCommand>(rules_of_files, command, command.options, {});
+    require_none_broken<SmoothCommand>(rules_of_files, command, {}, filling(command.options));
     std::vector<std::filesystem::path> results;
     for (int step = 1; command.every_step && step <= command.options.steps; ++step)
         results.push_back(command.every_step->path(step));

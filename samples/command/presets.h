@@ -16,7 +16,7 @@ struct PresetOption {
     std::string_view name;
     std::string value;
     /// Applies the option.
-    std::function<void(FlowOptions& options, std::optional<LengthOnMesh>& attach)> set;
+    std::function<void(AllOptions& options, std::optional<LengthOnMesh>& attach)> set;
 };
 
 /// @param denoise instead of the equation of the preset.

@@ -32,7 +32,7 @@ void require_ply(const Command& command, const Asked& asked)
 {
     const auto require = [&](std::string_view option, const std::filesystem::path& path, std::string_view text) {
         if (asked.has(option) && format_of(path) != FileFormat::Ply)
-            refuse(text, command.options, unmarked(path.string()).text);
+            seamflow::refuse(filling(command.options)(text, unmarked(path.string()).text));
     };
     require("--fix-property", command.fix, "--fix-property is for a .ply file; {other} has vertex numbers");
     require("--region-property", command.region,
@@ -71,8 +71,8 @@ constexpr Rule rules_of_amounts[]{
 /// The others: mostly options that would have no effect, which are a mistake of the user's.
 constexpr Rule rules_of_effects[]{
     {[](const Command& c, const Asked& asked) {
-         const FlowOptions& o = c.options;
-         const bool is_whole = smooths_normals(o) || takes_whole_mesh(o.accuracy.approach);
+         const AllOptions& o = c.options;
+         const bool is_whole = o.takes_whole_mesh() || takes_whole_mesh(o.accuracy.approach);
          return (is_whole && (asked.has("--parts") || shows_tasks(c))) ||
                 (o.scheme == Scheme::ExplicitEuler && shows_tasks(c));
      },
@@ -119,14 +119,46 @@ constexpr Rule rules_of_effects[]{
      0, "--factorisation is for backward Euler steps; --scheme explicit solves no equations"},
 };
 
+/// Rules of what takes the whole mesh without equations.
+constexpr Rule rules_of_whole_mesh[]{
+    {[](const Command& c, const Asked& asked) {
+         return asked.has("feature_edges") && (!c.options.takes_whole_mesh() || c.options.smooth_rims);
+     },
+     0, "<feature_edges> names edges to keep: give <preset cad>, or <keep_edges> with an angle, as well"},
+    {[](const Command& c, const Asked&) {
+         return c.options.smooth_rims && (c.options.denoise || c.options.keep_edges);
+     },
+     0,
+     "<boundary> is smooth, so that it alone moves: give a radius or a time step, and leave out <keep_edges> and "
+     "<denoise>"},
+    {[](const Command& c, const Asked& asked) {
+         return c.options.takes_whole_mesh() && (c.options.cut.subdomains > 1 || asked.has("labels"));
+     },
+     0,
+     "{whole} is given, which takes the whole mesh without equations and rules out sub-meshes: leave one of them out"},
+    {[](const Command& c, const Asked& asked) {
+         return c.options.takes_whole_mesh() &&
+                (!is_plain_flow(c.options) || asked.has("attachment") || asked.has("attachment_weights"));
+     },
+     0,
+     "{whole} is given, which takes the whole mesh without equations and rules out another flow, a filter or an "
+     "attachment: leave one of them out"},
+    {[](const Command& c, const Asked& asked) { return c.options.takes_whole_mesh() && asked.has("laplacian"); }, 0,
+     "{whole} is given, which takes the whole mesh without equations and rules out <laplacian>: leave one of them out"},
+    {[](const Command& c, const Asked&) { return c.options.takes_whole_mesh(); },
+     concern::equations & ~concern::sub_meshes,
+     "{whole} is given, which takes the whole mesh without equations and rules out <{other}>: leave one of them out"},
+};
+
 /// Checks the rules of the library, too, and names options as they were given.
 void require_consistent(const CLI::App& app, const SmoothCommand& command)
 {
     const AskedOptions asked = given_options(app, command);
     require_ply(command, asked);
-    require_none_broken<Command>(rules_of_effects, command, command.options, asked);
+    require_none_broken<Command>(rules_of_effects, command, asked, filling(command.options));
     try {
         require_compatible(command.options, asked);
+        require_none_broken<Command>(rules_of_whole_mesh, command, asked, filling(command.options));
     } catch (const OptionError& error) {
         throw OptionError(sentence(error.wording(), [&](std::string_view option, std::string_view value) {
             if (option == "denoise" && !command.preset.empty())
@@ -228,7 +260,9 @@ void take_derivatives(const CLI::App& app, InterfaceOptions& interface)
 
 void settle(const CLI::App& app, SmoothCommand& command)
 {
-    require_none_broken<Command>(rules_of_amounts, command, command.options, given_options(app, command));
+    command.options.smooth_rims = command.boundary == BoundaryWord::Smooth;
+    command.options.motion.boundary = command.boundary == BoundaryWord::Fixed ? Boundary::Fixed : Boundary::Free;
+    require_none_broken<Command>(rules_of_amounts, command, given_options(app, command), filling(command.options));
     take_derivatives(app, command.options.interface);
     command.chooses_threads = command.options.resources.threads == 0;
     if (command.chooses_threads)
@@ -237,7 +271,7 @@ void settle(const CLI::App& app, SmoothCommand& command)
     command.limits_iterations = app.count("--converge-iterations") > 0;
     if (app.count("--approach") == 0 && !first_given(app, concern::implies_sweeps).empty())
         command.options.accuracy.approach = Approach::Sweep;
-    if (command.options.accuracy.approach == Approach::Automatic && !smooths_normals(command.options) &&
+    if (command.options.accuracy.approach == Approach::Automatic && !command.options.takes_whole_mesh() &&
         !first_given(app, concern::sub_meshes).empty())
         command.options.accuracy.approach = Approach::Decomposed;
     require_consistent(app, command);

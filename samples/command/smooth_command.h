@@ -8,9 +8,10 @@
 
 #include "engine/fields/diffuse.h"
 #include "engine/measure/flow_report.h"
-#include "engine/options/flow_options.h"
+#include "engine/options/option_names.h"
 #include "samples/files/checkpoints.h"
 #include "samples/files/step_pattern.h"
+#include "samples/options/all_options.h"
 #include "samples/process/exit_status.h"
 #include "samples/report/smoothing_request.h"
 
@@ -29,6 +30,15 @@ struct FieldRequest {
     [[nodiscard]] bool exists() const { return !names.empty() || !from.empty(); }
 };
 
+/// What the boundary of a surface does.
+enum class BoundaryWord { Fixed, Free, Smooth };
+
+template <>
+struct OptionNames<BoundaryWord> {
+    static constexpr NamedOption<BoundaryWord> list[]{
+        {"fixed", BoundaryWord::Fixed}, {"free", BoundaryWord::Free}, {"smooth", BoundaryWord::Smooth}};
+};
+
 /// The command line of `smooth` or `smooth-distributed`.
 struct SmoothCommand {
     /// The name of the program.
@@ -41,7 +51,9 @@ struct SmoothCommand {
     std::filesystem::path out_dir;
     /// All options except `labels`, `fixed_vertices`, the attachment and strength of vertices, and `time_step`, which
     /// need the mesh.
-    FlowOptions options;
+    AllOptions options;
+    /// What --boundary says.
+    BoundaryWord boundary = BoundaryWord::Fixed;
     SmoothingRequest amount;
     FieldRequest fields;
     /// Whether the preset chooses the amount, and the noise on which to base it, if that is known.

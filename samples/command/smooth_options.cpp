@@ -95,7 +95,7 @@ std::optional<LengthOnMesh> parse_weld(const std::string& text)
 /// The fields whose values need more than a text: a mesh, a file, or another field.
 std::map<std::string_view, Add> fields_of_command(SmoothCommand& command)
 {
-    FlowOptions& options = command.options;
+    AllOptions& options = command.options;
     const auto converge = [&options](CLI::App& app, const OptionTraits& traits) {
         return add_converge(app, options, std::string(traits.text));
     };
@@ -113,6 +113,7 @@ std::map<std::string_view, Add> fields_of_command(SmoothCommand& command)
             {"attachment_weights", to(command.attach_weights)},
             {"strength", to(command.region, "FILE|PROPERTY")},
             {"direction", to(options.motion.direction, parse_direction, "x|y|z|normal|X,Y,Z")},
+            {"boundary", to(command.boundary)},
             {"weld", to(command.weld, parse_weld, "never|LENGTH")},
             {"labels", to(command.labels)},
             {"tolerance", converge},
@@ -179,7 +180,9 @@ void Entries::add_of_flow()
             return add_choice(app, "--preset", preset, names, std::string(traits.text));
         });
     const std::map<std::string_view, Add> other = fields_of_command(c);
-    for_each_option(c.options, [&](const auto& row) {
+    for_each_option(static_cast<FlowOptions&>(c.options), [&](const auto& row) {
+        if (row.field == "feature_edges")
+            add(row_of_keep_edges, to(c.options.keep_edges));
         if (const auto found = other.find(row.field); found != other.end())
             add(row, found->second);
         else if constexpr (IsReadable<std::remove_reference_t<decltype(*row.value)>>)

@@ -39,6 +39,10 @@ constexpr Rule rules_of_tiles[]{
      "--out-dir cannot be combined with --checkpoint: such a run keeps its own state in that folder, and the same "
      "command resumes"},
     {always, concern::whole_surface, "--out-dir cannot be combined with <{other}>: it needs the whole surface at once"},
+    {[](const SmoothCommand& c, const AskedOptions&) {
+         return c.options.smooth_rims || c.boundary == BoundaryWord::Smooth;
+     },
+     0, "--out-dir cannot be combined with --boundary smooth: it needs the whole surface at once"},
     {always, concern::numbers, "--out-dir cannot be combined with <{other}>: it numbers vertices or faces of one mesh"},
     {always, concern::one_mesh, "--out-dir cannot be combined with <{other}>: it shows the steps of one mesh"},
     {[](const SmoothCommand&, const AskedOptions& asked) { return asked.first(concern::amount).empty(); }, 0,
@@ -56,7 +60,7 @@ constexpr Rule rules_of_tiles[]{
 
 void require_options(const CLI::App& app, const SmoothCommand& command)
 {
-    require_none_broken<SmoothCommand>(rules_of_tiles, command, command.options, given_options(app, command));
+    require_none_broken<SmoothCommand>(rules_of_tiles, command, given_options(app, command), filling(command.options));
 }
 
 void require_inputs(const SmoothCommand& command)

@@ -17,13 +17,13 @@ Checkpoints::Checkpoints(const std::filesystem::path& folder, const CheckpointPe
 {
 }
 
-std::shared_ptr<const FlowState> Checkpoints::find(const PolygonMesh& mesh, const FlowOptions& options) const
+std::shared_ptr<const FlowState> Checkpoints::find(const PolygonMesh& mesh, const AllOptions& options) const
 {
     make_checkpoint_folder(file_.parent_path());
     if (!std::filesystem::exists(file_))
         return nullptr;
     auto state = std::make_shared<const FlowState>(read_checkpoint(file_));
-    require_belongs(file_, state->identity, identify(mesh, options), state->n_steps(), options.steps);
+    require_belongs(file_, state->identity, identity_of(mesh, options), state->n_steps(), options.steps);
     return state;
 }
 

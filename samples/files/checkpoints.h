@@ -4,9 +4,9 @@
 #include <memory>
 
 #include "engine/measure/flow_report.h"
-#include "engine/options/flow_options.h"
 #include "engine/state/flow_state.h"
 #include "engine/tasks/stopwatch.h"
+#include "samples/options/smooth_surface.h"
 
 namespace seamflow {
 
@@ -31,7 +31,7 @@ class Checkpoints {
     /// @returns null if there is no checkpoint.
     /// @throws OutputError if the folder cannot be created; InputError and OptionError, naming the file, if it is
     ///         damaged or belongs to another input or other options.
-    std::shared_ptr<const FlowState> find(const PolygonMesh& mesh, const FlowOptions& options) const;
+    std::shared_ptr<const FlowState> find(const PolygonMesh& mesh, const AllOptions& options) const;
 
     /// Saves the state after a step if the period or the end of the run requires it.
     /// @throws OutputError.

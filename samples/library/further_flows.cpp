@@ -1,12 +1,12 @@
-// One mesh, six flows: plain, with a low-pass filter, attached to where it was, conformalized, with sharp edges kept,
-// and as much as its noise asks for; and how far each moves it.
+// One mesh, smoothed in six ways: by flows that are plain, with a low-pass filter, attached to where it was, and
+// conformalized; between its sharp edges; and by removing its noise; and how far each moves it.
 //
 //     further_flows INPUT
 
 #include <iostream>
 
+#include <seamflow/engine/denoise.h>
 #include <seamflow/engine/mean_curvature_flow.h>
-#include <seamflow/engine/setup/presets.h>
 #include <seamflow/partition/formats/mesh_io.h>
 #include <seamflow/partition/metrics/vertex_distance.h>
 
@@ -18,6 +18,10 @@ try {
     }
     const seamflow::PolygonMesh mesh = seamflow::read_mesh(argv[1]).mesh;
     const double edge = seamflow::mean_edge_length(mesh);
+    const auto print = [&](const char* name, const seamflow::PolygonMesh& smooth) {
+        std::cout << name << ": moved by "
+                  << seamflow::vertex_distance(mesh, mesh.vertices, smooth.vertices).mean / edge << " mean edges\n";
+    };
     const auto flow = [&](const char* name, auto change) {
         seamflow::FlowOptions options;
         options.laplacian = seamflow::Laplacian::VirtualRefinement;
@@ -26,8 +30,7 @@ try {
         change(options);
         seamflow::PolygonMesh smooth = mesh;
         seamflow::mean_curvature_flow(smooth, options);
-        std::cout << name << ": moved by "
-                  << seamflow::vertex_distance(mesh, mesh.vertices, smooth.vertices).mean / edge << " mean edges\n";
+        print(name, smooth);
     };
     using Options = seamflow::FlowOptions;
     flow("plain", [](Options&) {});
@@ -35,10 +38,14 @@ try {
     flow("attached", [&](Options& options) { options.motion.attachment = 1.0 / (9.0 * edge * edge); });
     flow("conformalized", [](Options& options) { options.flow = seamflow::FlowEquation::Conformalized; });
     // This needs no Laplacian; the angle is in degrees.
-    flow("edges kept", [](Options& options) { options.keep_edges = 30.0; });
-    // The default of the program; a mesh without noise stays unchanged.
-    flow("its noise removed",
-         [&](Options& options) { options = seamflow::options_for(seamflow::Preset::Scan, mesh).options; });
+    const seamflow::SmoothBetweenEdges between{.edge_angle = 30.0, .amount = {.time_step = 5.0 * edge * edge}};
+    seamflow::PolygonMesh smooth = mesh;
+    seamflow::denoise(smooth, {.method = between, .steps = 3});
+    print("edges kept", smooth);
+    // What the program does without an option; a mesh without noise stays unchanged.
+    smooth = mesh;
+    seamflow::denoise(smooth);
+    print("its noise removed", smooth);
 } catch (const std::exception& error) {
     std::cerr << "further_flows: " << error.what() << '\n';
     return 1;

@@ -155,9 +155,7 @@ py::tuple run(const Array<double>& positions, const Array<Integer>& corners, con
     SmoothCommand command = make_command(words, arrays);
     PolygonMesh mesh = make_mesh(positions, corners, offsets);
     const auto work = [&](const FlowControl& control) {
-        FlowCall flow(std::move(command), std::move(mesh), control);
-        flow.take_all_steps();
-        return flow.result();
+        return MeshCall(std::move(command), std::move(mesh)).smooth(control);
     };
     return to_tuple(run_interruptibly(work, progress));
 }

@@ -10,38 +10,73 @@
 
 namespace seamflow {
 
-FlowCall::FlowCall(SmoothCommand command, PolygonMesh mesh, const FlowControl& control)
-    : command_(std::move(command))
-    , mesh_(std::move(mesh))
-    , record_(begin_record(command_))
+namespace {
+
+/// Calls work(); messages about the mesh get their beginning.
+template <class Work>
+auto about_mesh(Work&& work)
 {
     try {
-        begin(control);
+        return work();
     } catch (const InputError& error) {
         throw InputError(Wording{"mesh: " + error.wording().text});
     }
 }
 
-void FlowCall::begin(const FlowControl& control)
+}  // namespace
+
+MeshCall::MeshCall(SmoothCommand of_call, PolygonMesh given)
+    : command(std::move(of_call))
+    , mesh(std::move(given))
+    , record_(begin_record(command))
 {
-    if (mesh_.n_vertices() == 0)
-        throw InputError("has no vertices");
-    Workers workers(command_.options.resources.threads);
-    require_valid(mesh_, workers.exec());
-    resolve_amount(command_, mesh_, workers.exec(), record_);
-    change_.emplace(mesh_, workers.exec());
-    flow_.emplace(mesh_, command_.options, StepObserver(), control);
+    about_mesh([&] {
+        if (mesh.n_vertices() == 0)
+            throw InputError("has no vertices");
+        Workers workers(command.options.resources.threads);
+        require_valid(mesh, workers.exec());
+        resolve_amount(command, mesh, workers.exec(), record_);
+        change_.emplace(mesh, workers.exec());
+    });
+}
+
+FlowResult MeshCall::smooth(const FlowControl& control)
+{
+    return result(about_mesh([&] { return smooth_surface(mesh, command.options, {}, control); }));
+}
+
+FlowResult MeshCall::result(SmoothReport report)
+{
+    report.remarks.insert(report.remarks.begin(), record_.remarks.begin(), record_.remarks.end());
+    Workers workers(command.options.resources.threads);
+    record_.surface = change_->measure(mesh, report.mesh, command.self_intersections, workers.exec());
+    remark_on_loss(command.options, record_.surface, report.remarks);
+    remark_on_folds(command.options, record_.surface, report.remarks);
+    for (Remark& remark : report.remarks)
+        remark.wording = unmarked(in_words_of_keywords(sentence(remark, option_of_program)));
+    record_.seconds = watch_.seconds();
+    FlowResult result{.positions = mesh.vertices,
+                      .labels = {},
+                      .report = smooth_report_json(record_, command.options, report),
+                      .missed = missed_tolerance(command, report.convergence)};
+    result.labels = std::move(report.cut.labels);
+    return result;
+}
+
+FlowCall::FlowCall(SmoothCommand command, PolygonMesh mesh)
+    : call_(std::move(command), std::move(mesh))
+{
+    if (call_.command.options.takes_whole_mesh())
+        throw OptionError(
+            "a Flow takes steps of mean curvature flow, by an amount that is given: give --radius, or call "
+            "smooth(), which removes noise and keeps edges");
+    about_mesh([&] { flow_.emplace(call_.mesh, call_.command.options); });
 }
 
 void FlowCall::step(int n)
 {
     const std::lock_guard lock(mutex_);
     flow_->step(n);
-}
-
-void FlowCall::take_all_steps()
-{
-    step(command_.options.steps - flow_->n_steps());
 }
 
 int FlowCall::n_steps()
@@ -53,27 +88,13 @@ int FlowCall::n_steps()
 Points FlowCall::positions()
 {
     const std::lock_guard lock(mutex_);
-    return mesh_.vertices;
+    return call_.mesh.vertices;
 }
 
 FlowResult FlowCall::result()
 {
     const std::lock_guard lock(mutex_);
-    FlowReport report = flow_->report();
-    report.remarks.insert(report.remarks.begin(), record_.remarks.begin(), record_.remarks.end());
-    Workers workers(command_.options.resources.threads);
-    record_.surface = change_->measure(mesh_, report.mesh, command_.self_intersections, workers.exec());
-    remark_on_loss(command_.options, record_.surface, report.remarks);
-    remark_on_folds(command_.options, record_.surface, report.remarks);
-    for (Remark& remark : report.remarks)
-        remark.wording = unmarked(in_words_of_keywords(sentence(remark, option_of_program)));
-    record_.seconds = watch_.seconds();
-    FlowResult result{.positions = mesh_.vertices,
-                      .labels = {},
-                      .report = smooth_report_json(record_, command_.options, report),
-                      .missed = missed_tolerance(command_, report.convergence)};
-    result.labels = std::move(report.cut.labels);
-    return result;
+    return call_.result(flow_->report());
 }
 
 }  // namespace seamflow

@@ -10,6 +10,7 @@
 #include "engine/tasks/stopwatch.h"
 #include "partition/polygon_mesh.h"
 #include "samples/command/smooth_command.h"
+#include "samples/options/smooth_surface.h"
 #include "samples/report/run_record.h"
 #include "samples/report/surface_change.h"
 
@@ -27,14 +28,34 @@ struct FlowResult {
     std::string missed;
 };
 
-/// A flow of a mesh in memory, as `smooth` smooths one in a file, with the same bits. Its functions may be called from
-/// any thread, one after the other.
-class FlowCall {
+/// A mesh in memory that is smoothed as `smooth` smooths one in a file, with the same bits.
+class MeshCall {
   public:
     /// @param command from parse_flow_options; labels, fixed vertices and weights are in its options.
     /// @param mesh need not be valid.
-    /// @throws the exceptions of mean_curvature_flow; messages about the mesh begin with "mesh: ".
-    FlowCall(SmoothCommand command, PolygonMesh mesh, const FlowControl& control = {});
+    /// @throws InputError whose message about the mesh begins with "mesh: ".
+    MeshCall(SmoothCommand command, PolygonMesh mesh);
+
+    /// All steps.
+    /// @throws the exceptions of smooth_surface.
+    FlowResult smooth(const FlowControl& control);
+
+    [[nodiscard]] FlowResult result(SmoothReport report);
+
+    SmoothCommand command;
+    PolygonMesh mesh;
+
+  private:
+    Stopwatch watch_;
+    RunRecord record_;
+    std::optional<SurfaceChangeMeter> change_;
+};
+
+/// A flow of a mesh in memory. Its functions may be called from any thread, one after the other.
+class FlowCall {
+  public:
+    /// @throws as MeshCall; the exceptions of Flow; OptionError for options that remove noise, which is no flow.
+    FlowCall(SmoothCommand command, PolygonMesh mesh);
 
     /// @throws as Flow::step.
     void step(int n);
@@ -47,9 +68,6 @@ class FlowCall {
         action(*flow_);
     }
 
-    /// All steps of the command that have not been taken.
-    void take_all_steps();
-
     [[nodiscard]] int n_steps();
 
     /// After the steps so far.
@@ -59,14 +77,8 @@ class FlowCall {
     [[nodiscard]] Points positions();
 
   private:
-    void begin(const FlowControl& control);
-
     std::mutex mutex_;
-    Stopwatch watch_;
-    SmoothCommand command_;
-    PolygonMesh mesh_;
-    RunRecord record_;
-    std::optional<SurfaceChangeMeter> change_;
+    MeshCall call_;
     std::optional<Flow> flow_;
 };
 

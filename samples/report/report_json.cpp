@@ -118,7 +118,7 @@ std::string text_of_cell(const Json& value)
 }
 
 /// The flow and its amount.
-void add_flow(Json& json, const RunRecord& run, const FlowOptions& options, const FlowReport& report)
+void add_flow(Json& json, const RunRecord& run, const AllOptions& options, const SmoothReport& report)
 {
     const MotionOptions& motion = options.motion;
     const StepFilter filter = filter_of(options);
@@ -153,7 +153,7 @@ void add_flow(Json& json, const RunRecord& run, const FlowOptions& options, cons
 
 }  // namespace
 
-std::string smooth_report_json(const RunRecord& run, const FlowOptions& options, const FlowReport& report)
+std::string smooth_report_json(const RunRecord& run, const AllOptions& options, const SmoothReport& report)
 {
     Json json = begin_report(run);
     json["vertices"] = report.mesh.vertices;

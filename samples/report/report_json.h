@@ -6,6 +6,7 @@
 #include "engine/measure/flow_report.h"
 #include "partition/inspection/mesh_inspection.h"
 #include "partition/io/fault_log.h"
+#include "samples/options/smooth_surface.h"
 #include "samples/process/exit_status.h"
 #include "samples/report/comparison.h"
 #include "samples/report/run_record.h"
@@ -17,7 +18,7 @@ namespace seamflow {
 /// finite becomes null. v_mean, v_rms and v_max are in mean edge lengths of the undecomposed flow's mesh,
 /// v_mean_absolute and so on in units of length; displacements are in mean edge lengths of the input.
 /// @param options with the amount.
-std::string smooth_report_json(const RunRecord& run, const FlowOptions& options, const FlowReport& report);
+std::string smooth_report_json(const RunRecord& run, const AllOptions& options, const SmoothReport& report);
 
 /// STEPS.csv of --csv: one row per step, with all keys of steps in the report, and the smallest and the largest Robin
 /// parameter p of sub-meshes, in 1/length. A cell is empty if there is no such number.

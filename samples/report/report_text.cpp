@@ -135,26 +135,39 @@ void print_preset(std::ostream& out, const RunRecord& run, const std::string& op
     out << ": " << options << std::endl;
 }
 
+namespace {
+
+/// "3 steps of 2 squared mean edge lengths (dt 0.1)".
+std::string amount_of_steps(const MeshScale& scale, const FlowOptions& options)
+{
+    return fmt::format("amount     {} of {:.6g} squared mean edge lengths (dt {:.6g})",
+                       counted(options.steps, "step", "steps"), options.time_step / (scale.mean_edge * scale.mean_edge),
+                       options.time_step);
+}
+
+}  // namespace
+
+void print_amount(std::ostream& out, const MeshScale& scale, const AllOptions& options)
+{
+    if (options.steps > 0 && options.denoise)
+        out << "amount     as much as there is noise at each place" << std::endl;
+    else if (options.steps > 0 && options.keep_edges)
+        out << fmt::format("{}, edges sharper than {:g} degrees kept", amount_of_steps(scale, options),
+                           *options.keep_edges)
+            << std::endl;
+    else
+        print_amount(out, scale, static_cast<const FlowOptions&>(options));
+}
+
 void print_amount(std::ostream& out, const MeshScale& scale, const FlowOptions& options)
 {
     if (options.steps == 0) {
         out << "amount     none" << std::endl;
         return;
     }
-    if (options.denoise) {
-        out << "amount     as much as there is noise at each place" << std::endl;
-        return;
-    }
-    const std::string steps = fmt::format("amount     {} of {:.6g} squared mean edge lengths (dt {:.6g})",
-                                          counted(options.steps, "step", "steps"),
-                                          options.time_step / (scale.mean_edge * scale.mean_edge), options.time_step);
-    if (options.keep_edges) {
-        out << fmt::format("{}, edges sharper than {:g} degrees kept", steps, *options.keep_edges) << std::endl;
-        return;
-    }
     const double radius = smoothed_radius(options.time_step, options.steps, filter_of(options));
-    out << fmt::format("{}: bumps of radius {:.6g}, {:.3g}% of the diagonal, lose half their height", steps, radius,
-                       100.0 * radius / scale.diagonal)
+    out << fmt::format("{}: bumps of radius {:.6g}, {:.3g}% of the diagonal, lose half their height",
+                       amount_of_steps(scale, options), radius, 100.0 * radius / scale.diagonal)
         << std::endl;
 }
 
@@ -180,7 +193,7 @@ void print_step(std::ostream& out, const StepReport& report, int step, int steps
     out << std::endl;
 }
 
-void print_details(std::ostream& out, const RunRecord& run, const FlowOptions& options, const FlowReport& report)
+void print_details(std::ostream& out, const RunRecord& run, const AllOptions& options, const SmoothReport& report)
 {
     const StepFilter filter = filter_of(options);
     out << "flow       "
@@ -246,7 +259,7 @@ void print_remarks(std::ostream& out, const std::vector<Remark>& remarks)
         out << "remark     " << sentence(remark, option_of_program) << '\n';
 }
 
-void print_result(std::ostream& out, const RunRecord& run, const FlowReport& report)
+void print_result(std::ostream& out, const RunRecord& run, const SmoothReport& report)
 {
     print_choices(out, report.choices);
     out << fmt::format(

@@ -7,6 +7,7 @@
 
 #include "engine/measure/flow_report.h"
 #include "engine/options/flow_options.h"
+#include "samples/options/smooth_surface.h"
 #include "samples/report/comparison.h"
 #include "samples/report/error_map.h"
 #include "samples/report/run_record.h"
@@ -21,6 +22,7 @@ void print_input(std::ostream& out, const RunRecord& run, std::int64_t n_vertice
 void print_preset(std::ostream& out, const RunRecord& run, const std::string& options);
 
 /// Prints the amount of smoothing, in all units in which it can be given.
+void print_amount(std::ostream& out, const MeshScale& scale, const AllOptions& options);
 void print_amount(std::ostream& out, const MeshScale& scale, const FlowOptions& options);
 
 /// One line for a step.
@@ -29,7 +31,7 @@ void print_amount(std::ostream& out, const MeshScale& scale, const FlowOptions& 
 void print_step(std::ostream& out, const StepReport& report, int step, int steps, double mean_edge);
 
 /// Prints how steps were taken: the cut, factors, the time per task and displacements.
-void print_details(std::ostream& out, const RunRecord& run, const FlowOptions& options, const FlowReport& report);
+void print_details(std::ostream& out, const RunRecord& run, const AllOptions& options, const SmoothReport& report);
 
 /// Prints how many vertices each rank had, or that there was nothing for others to do.
 /// @param n_ranks that were started.
@@ -45,7 +47,7 @@ void print_choices(std::ostream& out, const std::vector<Remark>& choices);
 void print_remarks(std::ostream& out, const std::vector<Remark>& remarks);
 
 /// Prints choices with reasons, remarks, time and memory, where the result is, and how it differs from the input.
-void print_result(std::ostream& out, const RunRecord& run, const FlowReport& report);
+void print_result(std::ostream& out, const RunRecord& run, const SmoothReport& report);
 
 /// Prints the results of `compare`, absolute and in mean edge lengths of the reference; displacements only in these.
 void print_comparison(std::ostream& out, const Comparison& comparison);

@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "engine/setup/smoothed_radius.h"
+#include "engine/measure/smoothed_radius.h"
 #include "partition/metrics/spikes.h"
 #include "partition/polygon_mesh.h"
 

@@ -16,6 +16,7 @@
 #include "engine/fields/diffuse.h"
 #include "engine/fields/geodesic_distance.h"
 #include "engine/ranks/rank_group.h"
+#include "engine/setup/flow_amount.h"
 #include "engine/tasks/stopwatch.h"
 #include "engine/tasks/workers.h"
 #include "partition/errors.h"

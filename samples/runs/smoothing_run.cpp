@@ -9,8 +9,8 @@
 
 #include <fmt/format.h>
 
+#include "engine/setup/flow_amount.h"
 #include "engine/setup/presets.h"
-#include "engine/setup/smoothed_radius.h"
 #include "partition/errors.h"
 #include "partition/formats/index_files.h"
 #include "partition/io/input_file.h"
@@ -27,10 +27,14 @@ namespace {
 /// The amount that the preset chooses.
 void choose_amount(SmoothCommand& command, const PolygonMesh& mesh, const Executor& exec, RunRecord& run)
 {
-    PresetChoice choice{.options = std::move(command.options)};
     const PresetTraits& preset = preset_of(command.preset);
+    if (command.options.denoise) {
+        command.options.motion.limits = DenoiseOptions::default_motion().limits;
+        return;
+    }
+    PresetChoice choice{.options = command.options};
     choose_amount(preset, mesh, command.noise, choice, exec);
-    command.options = std::move(choice.options);
+    static_cast<FlowOptions&>(command.options) = std::move(choice.options);
     if (choice.remark)
         run.remarks.push_back(*choice.remark);
     if (choice.noise)
@@ -39,7 +43,7 @@ void choose_amount(SmoothCommand& command, const PolygonMesh& mesh, const Execut
         command.chosen = "nothing is smoothed";
     else if (preset.radius)
         command.chosen += amount_of(preset);
-    else if (!command.options.denoise)
+    else
         command.chosen += fmt::format("--time-step-edges {:.3g}",
                                       command.options.time_step / (run.scale.mean_edge * run.scale.mean_edge));
 }
@@ -170,13 +174,13 @@ double large_loss(const Size& before, const Size& after)
 }
 
 /// What helps, after a colon.
-std::string remedies_of_loss(const FlowOptions& options, const SurfaceChange& change)
+std::string remedies_of_loss(const AllOptions& options, const SurfaceChange& change)
 {
     std::string remedies = "less smoothing is gentler";
     if (!change.before.volume)
         return remedies;
     const MotionOptions& motion = options.motion;
-    const bool has_equation = !options.denoise && !options.keep_edges && options.scheme == Scheme::BackwardEuler;
+    const bool has_equation = !options.takes_whole_mesh() && options.scheme == Scheme::BackwardEuler;
     if (options.filter != Filter::LowPass && has_equation)
         remedies += ", --filter low-pass loses less";
     const bool moves_all =
@@ -189,7 +193,7 @@ std::string remedies_of_loss(const FlowOptions& options, const SurfaceChange& ch
 
 }  // namespace
 
-void remark_on_loss(const FlowOptions& options, const SurfaceChange& change, std::vector<Remark>& remarks)
+void remark_on_loss(const AllOptions& options, const SurfaceChange& change, std::vector<Remark>& remarks)
 {
     if (options.motion.rescale != Rescale::None)
         return;
@@ -216,7 +220,7 @@ void remark_on_loss(const FlowOptions& options, const SurfaceChange& change, std
                                       change.before.volume && change.after.volume ? "volume" : "area", remedies));
 }
 
-void remark_on_folds(const FlowOptions& options, const SurfaceChange& change, std::vector<Remark>& remarks)
+void remark_on_folds(const AllOptions& options, const SurfaceChange& change, std::vector<Remark>& remarks)
 {
     if (change.overlaps > 0)
         remarks.push_back(

@@ -45,11 +45,11 @@ void resolve_amount(SmoothCommand& command, const PolygonMesh& mesh, const Execu
 
 /// A surface that flows by mean curvature shrinks, which surprises those who only wanted it smooth: adds a remark if it
 /// has lost much of its volume, or most of its area if it encloses none; where sheets meet, if cells have lost much.
-void remark_on_loss(const FlowOptions& options, const SurfaceChange& change, std::vector<Remark>& remarks);
+void remark_on_loss(const AllOptions& options, const SurfaceChange& change, std::vector<Remark>& remarks);
 
 /// Adds a remark, with a remedy, if the surface has folded over, or crosses itself where it did not before, or if
 /// sheets lie on each other so that cells are not known.
-void remark_on_folds(const FlowOptions& options, const SurfaceChange& change, std::vector<Remark>& remarks);
+void remark_on_folds(const AllOptions& options, const SurfaceChange& change, std::vector<Remark>& remarks);
 
 /// "the tolerance 1e-08 was missed in 2 steps"; empty if the user has requested no tolerance or no step has failed.
 /// Those fail that missed it, or, if the user has limited the iterations, those that stagnated.

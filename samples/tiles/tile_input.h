@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/options/flow_options.h"
 #include "partition/executor.h"
 #include "partition/formats/mesh_io.h"
 #include "partition/io/fault_log.h"

@@ -20,7 +20,7 @@ namespace {
 
 struct Case {
     PolygonMesh mesh;
-    FlowOptions options;
+    AllOptions options;
     Points expected;
 };
 
@@ -31,7 +31,7 @@ std::vector<Case> many_kinds()
     for (const PolygonMesh& mesh : {make_mixed_polygons(1200), make_noisy_sphere(1000)}) {
         const std::vector<test::FlowKind> kinds = test::flow_kinds(mean_edge_length(mesh));
         for (std::size_t i = cases.size(); i < kinds.size(); i += 5) {
-            FlowOptions options = kinds[i].options;
+            AllOptions options = kinds[i].options;
             options.resources.threads = 1;
             cases.push_back({mesh, options, test::flowed(mesh, options)});
         }
@@ -41,7 +41,7 @@ std::vector<Case> many_kinds()
 
 bool gives_the_same(const Case& c, int threads)
 {
-    FlowOptions options = c.options;
+    AllOptions options = c.options;
     options.resources.threads = threads;
     return test::same_bits(test::flowed(c.mesh, options), c.expected);
 }
@@ -74,7 +74,7 @@ void check_one_thread(const std::vector<Case>& cases, int threads)
     for (Case c : cases) {
         c.options.resources.threads = threads;
         c.options.report.record_schedule = true;
-        const FlowReport report = mean_curvature_flow(c.mesh, c.options);
+        const FlowReport report = smooth_surface(c.mesh, c.options);
         CHECK(report.resources.threads == 1);
         CHECK(c.mesh.vertices == c.expected);
         std::set<int> slots;
@@ -138,9 +138,9 @@ TEST_CASE("no more threads work than the caller's arena has")
 {
     tbb::task_arena arena(2);
     PolygonMesh mesh = make_quads(3000);
-    FlowOptions options{.time_step = 0.001, .cut = {.subdomains = 24}};
+    AllOptions options = FlowOptions{.time_step = 0.001, .cut = {.subdomains = 24}};
     options.report.record_schedule = true;
-    const FlowReport report = arena.execute([&] { return mean_curvature_flow(mesh, options); });
+    const FlowReport report = arena.execute([&] { return smooth_surface(mesh, options); });
     CHECK(report.resources.threads <= 2);
     for (const TaskRecord& record : report.schedule->records)
         CHECK(record.thread < 2);

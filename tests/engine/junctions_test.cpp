@@ -11,6 +11,7 @@
 #include <Eigen/Geometry>
 #include <doctest/doctest.h>
 
+#include "engine/denoise.h"
 #include "engine/measure/remarks.h"
 #include "engine/measure/surface_measures.h"
 #include "engine/options/option_names.h"
@@ -307,6 +308,26 @@ TEST_CASE("parts reach across junctions that move, and end at those that are hel
     CHECK(cut.repaired_faces == 0);
 }
 
+TEST_CASE("where edges are kept junctions stay, and a remark says why; where noise is removed they move")
+{
+    const PolygonMesh first = roughened(plates_at({0, 90, 180}, 8, 8), 0.1);
+    DenoiseOptions options;
+    options.motion.boundary = Boundary::Fixed;
+    for (const bool keeps_edges : {true, false}) {
+        if (keeps_edges)
+            options.method = SmoothBetweenEdges{30.0, {.time_step = 1.0}};
+        else
+            options.method = RemoveNoise{};
+        PolygonMesh mesh = first;
+        const DenoiseReport report = denoise(mesh, options);
+        CHECK((!keeps_edges || mesh.vertices.middleRows(1, 7) == first.vertices.middleRows(1, 7)));
+        CHECK(report.mesh.junction_vertices == (keeps_edges ? 0 : 7));
+        CHECK(report.mesh.non_manifold_vertices == (keeps_edges ? 9 : 0));
+        CHECK(std::ranges::count(report.remarks, remark_on_non_manifold_vertices(9, "Without edges that are kept")) ==
+              keeps_edges);
+    }
+}
+
 TEST_CASE("where steps cannot move junctions, or must not, they stay, and a remark says why")
 {
     const PolygonMesh first = roughened(plates_at({0, 90, 180}, 8, 8), 0.1);
@@ -330,9 +351,6 @@ TEST_CASE("where steps cannot move junctions, or must not, they stay, and a rema
     options = plain;
     options.laplacian = Laplacian::PtackovaVelho;
     CHECK_FALSE(line_moves(options, "With a symmetric Laplacian"));
-    options = plain;
-    options.keep_edges = 30.0;
-    CHECK_FALSE(line_moves(options, "Without edges that are kept"));
     options = plain;
     options.accuracy.approach = Approach::Sweep;
     CHECK_FALSE(line_moves(options, "In converged steps"));

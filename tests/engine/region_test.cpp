@@ -49,7 +49,7 @@ std::vector<double> disc(const PolygonMesh& mesh, double radius)
 }
 
 /// (1 / s + dt Δ + dt w) V' = V / s + dt w V⁰ where s is not 0, by a dense matrix.
-Points dense_region_step(const PolygonMesh& mesh, const FlowOptions& options, const Points& first)
+Points dense_region_step(const PolygonMesh& mesh, const AllOptions& options, const Points& first)
 {
     const Topology topology = make_topology(mesh);
     const std::vector<double>& strength = options.motion.strength;
@@ -69,7 +69,7 @@ Points dense_region_step(const PolygonMesh& mesh, const FlowOptions& options, co
 }
 
 /// Two steps, each with the Laplacian of the surface before it.
-Points dense_region_flow(PolygonMesh mesh, const FlowOptions& options)
+Points dense_region_flow(PolygonMesh mesh, const AllOptions& options)
 {
     const Points first = mesh.vertices;
     for (int i = 0; i < options.steps; ++i)
@@ -77,38 +77,38 @@ Points dense_region_flow(PolygonMesh mesh, const FlowOptions& options)
     return mesh.vertices;
 }
 
-FlowOptions region_options(const PolygonMesh& mesh, Laplacian laplacian)
+AllOptions region_options(const PolygonMesh& mesh, Laplacian laplacian)
 {
     const double edge = mean_edge_length(mesh, mesh.vertices);
-    FlowOptions options{.laplacian = laplacian, .time_step = 4.0 * edge * edge, .steps = 2};
+    AllOptions options = FlowOptions{.laplacian = laplacian, .time_step = 4.0 * edge * edge, .steps = 2};
     options.uniform_edge = edge;
     options.motion.strength = some_strengths(mesh);
     return options;
 }
 
-FlowOptions in_four_sub_meshes(FlowOptions options)
+AllOptions in_four_sub_meshes(AllOptions options)
 {
     options.cut.subdomains = 4;
     options.accuracy.tolerance = 1e-12;
     return options;
 }
 
-FlowOptions by_gradients(FlowOptions options)
+AllOptions by_gradients(AllOptions options)
 {
     options.accuracy.approach = Approach::ConjugateGradients;
     options.accuracy.tolerance = 1e-12;
     return options;
 }
 
-FlowOptions in_one_factor(FlowOptions options)
+AllOptions in_one_factor(AllOptions options)
 {
     options.accuracy.approach = Approach::Undecomposed;
     return options;
 }
 
-std::vector<FlowOptions> all_ways(const FlowOptions& options)
+std::vector<AllOptions> all_ways(const AllOptions& options)
 {
-    std::vector<FlowOptions> ways{in_one_factor(options), in_four_sub_meshes(options)};
+    std::vector<AllOptions> ways{in_one_factor(options), in_four_sub_meshes(options)};
     if (is_symmetric(options.laplacian))
         ways.push_back(by_gradients(options));
     return ways;
@@ -135,13 +135,13 @@ TEST_CASE("steps of a region are those of the dense equations with M / s, attach
             CAPTURE(name_of(laplacian));
             CAPTURE(mesh.n_vertices());
             // Of Δ_P longer steps are indefinite.
-            FlowOptions options = region_options(mesh, laplacian);
+            AllOptions options = region_options(mesh, laplacian);
             options.time_step *= is_symmetric(laplacian) ? 1.0 : 0.1;
             for (const double attachment : {0.0, is_symmetric(laplacian) ? 1.0 / options.time_step : 0.0}) {
                 options.motion.attachment = attachment;
                 const Points expected = dense_region_flow(mesh, options);
                 CHECK(largest_difference(expected, mesh.vertices) > 1e-3);
-                for (const FlowOptions& way : all_ways(options))
+                for (const AllOptions& way : all_ways(options))
                     CHECK(largest_difference(flowed(mesh, way), expected) < 1e-10);
             }
         }
@@ -153,16 +153,16 @@ TEST_CASE("a mask is the flow with all other vertices fixed, of which the faces 
         for (const PolygonMesh& mesh : height_fields(1600)) {
             CAPTURE(name_of(laplacian));
             CAPTURE(mesh.n_faces());
-            FlowOptions options = region_options(mesh, laplacian);
+            AllOptions options = region_options(mesh, laplacian);
             options.time_step *= is_symmetric(laplacian) ? 1.0 : 0.1;
             options.motion.strength = disc(mesh, 0.2);
-            FlowOptions fixed = in_one_factor(options);
+            AllOptions fixed = in_one_factor(options);
             fixed.motion.strength = {};
             for (Index v = 0; v < mesh.n_vertices(); ++v)
                 if (options.motion.strength[v] == 0.0)
                     fixed.motion.fixed_vertices.push_back(v);
             const Points expected = flowed(mesh, fixed);
-            for (const FlowOptions& way : all_ways(options)) {
+            for (const AllOptions& way : all_ways(options)) {
                 PolygonMesh flowing = mesh;
                 const FlowReport report = mean_curvature_flow(flowing, way);
                 CHECK(largest_difference(flowing.vertices, expected) < 1e-9);
@@ -183,7 +183,7 @@ TEST_CASE("a mask is the flow with all other vertices fixed, of which the faces 
 TEST_CASE("explicit steps of a region scale dt, and steps that keep edges scale displacements")
 {
     const PolygonMesh mesh = make_triangles(400);
-    FlowOptions options = region_options(mesh, Laplacian::Fujiwara);
+    AllOptions options = region_options(mesh, Laplacian::Fujiwara);
     options.steps = 1;
     // Edges are kept by fits to normals, which notice vertices that are held.
     for (double& s : options.motion.strength)
@@ -193,7 +193,7 @@ TEST_CASE("explicit steps of a region scale dt, and steps that keep edges scale 
         options.scheme = keeps_edges ? Scheme::BackwardEuler : Scheme::ExplicitEuler;
         if (keeps_edges)
             options.keep_edges = 40.0;
-        FlowOptions everywhere = options;
+        AllOptions everywhere = options;
         everywhere.motion.strength.clear();
         const Points part = flowed(mesh, options) - mesh.vertices;
         const Points whole = flowed(mesh, everywhere) - mesh.vertices;
@@ -206,8 +206,8 @@ TEST_CASE("explicit steps of a region scale dt, and steps that keep edges scale 
 TEST_CASE("a strength of 1 everywhere is none, bit for bit")
 {
     for (const PolygonMesh& mesh : height_fields(900)) {
-        FlowOptions options = region_options(mesh, Laplacian::AlexaWardetzky);
-        FlowOptions without = options;
+        AllOptions options = region_options(mesh, Laplacian::AlexaWardetzky);
+        AllOptions without = options;
         options.motion.strength.assign(usize(mesh.n_vertices()), 1.0);
         without.motion.strength.clear();
         CHECK(same_bits(flowed(mesh, options), flowed(mesh, without)));
@@ -217,11 +217,11 @@ TEST_CASE("a strength of 1 everywhere is none, bit for bit")
 TEST_CASE("strengths too small to move anything are none, bit for bit")
 {
     const PolygonMesh mesh = make_triangles(900);
-    FlowOptions options = region_options(mesh, Laplacian::Fujiwara);
+    AllOptions options = region_options(mesh, Laplacian::Fujiwara);
     options.motion.strength = disc(mesh, 0.3);
     // So that faces elsewhere are not left out.
     options.motion.boundary = Boundary::Free;
-    const FlowOptions masked = options;
+    const AllOptions masked = options;
     for (double& strength : options.motion.strength)
         strength = std::max(strength, 0.5 * MotionOptions::least_strength);
     for (std::size_t way = 0; way < 3; ++way)
@@ -231,14 +231,14 @@ TEST_CASE("strengths too small to move anything are none, bit for bit")
 TEST_CASE("filters and further flows of a region are those of one factor in sub-meshes")
 {
     const PolygonMesh mesh = make_quads(900);
-    const FlowOptions plain = region_options(mesh, Laplacian::VirtualRefinement);
-    FlowOptions low_pass = plain;
+    const AllOptions plain = region_options(mesh, Laplacian::VirtualRefinement);
+    AllOptions low_pass = plain;
     low_pass.filter = Filter::LowPass;
-    FlowOptions conformalized = plain;
+    AllOptions conformalized = plain;
     conformalized.flow = FlowEquation::Conformalized;
-    FlowOptions linear = plain;
+    AllOptions linear = plain;
     linear.flow = FlowEquation::Linear;
-    for (const FlowOptions& options : {low_pass, conformalized, linear})
+    for (const AllOptions& options : {low_pass, conformalized, linear})
         CHECK(largest_difference(flowed(mesh, in_four_sub_meshes(options)), flowed(mesh, in_one_factor(options))) <
               1e-9);
 }
@@ -247,7 +247,7 @@ TEST_CASE("in an empty region nothing moves, and a remark says so")
 {
     PolygonMesh mesh = make_triangles(400);
     const Points before = mesh.vertices;
-    FlowOptions options = region_options(mesh, Laplacian::Fujiwara);
+    AllOptions options = region_options(mesh, Laplacian::Fujiwara);
     options.motion.strength.assign(usize(mesh.n_vertices()), 0.0);
     const FlowReport report = mean_curvature_flow(mesh, options);
     CHECK(same_bits(mesh.vertices, before));
@@ -262,7 +262,7 @@ TEST_CASE("a region with a feather has no crease at its rim")
     // A bump over the whole sheet, of which one half is smoothed.
     for (auto row : mesh.vertices.rowwise())
         row.z() = 2.0 * std::sin(0.1 * row.x()) * std::sin(0.1 * row.y());
-    FlowOptions options{.time_step = 100.0, .steps = 3};
+    AllOptions options = FlowOptions{.time_step = 100.0, .steps = 3};
     for (const auto& row : mesh.vertices.rowwise())
         options.motion.strength.push_back(row.x() > 24.5 ? 1.0 : 0.0);
     const double sharp = sharpest_bend(flowed(mesh, options), n);
@@ -279,10 +279,10 @@ TEST_CASE("motion along an axis leaves the other coordinates bit for bit, howeve
     const Index middle = mesh.n_vertices() / 2 + 15;
     mesh.vertices.col(0).array() -= double{mesh.vertices(middle, 0)};
     mesh.vertices(middle, 0) = -0.0;
-    FlowOptions options = region_options(mesh, Laplacian::Fujiwara);
+    AllOptions options = region_options(mesh, Laplacian::Fujiwara);
     options.motion.strength.clear();
     options.motion.direction = {.kind = MotionDirection::Kind::Vector, .vector = {0.0, 0.0, 5.0}};
-    std::vector<FlowOptions> ways = all_ways(options);
+    std::vector<AllOptions> ways = all_ways(options);
     ways.push_back(options);
     ways.back().cut.subdomains = 6;
     ways.back().accuracy.approach = Approach::Sweep;
@@ -297,7 +297,7 @@ TEST_CASE("motion along an axis leaves the other coordinates bit for bit, howeve
     ways.back().motion.limits.slide = 1e-4;
     // Up and down: one of the two would add 0 to -0, and not -0.
     for (const double sense : {1.0, -1.0})
-        for (FlowOptions way : ways) {
+        for (AllOptions way : ways) {
             way.motion.direction.vector[2] *= sense;
             const Points after = flowed(mesh, way);
             Points flat = after;
@@ -311,7 +311,7 @@ TEST_CASE("a step along lines ends on the surface that the step makes, and the f
 {
     PolygonMesh mesh = make_quads(400);
     mesh.vertices.col(2) *= 0.5;
-    FlowOptions options = region_options(mesh, Laplacian::VirtualRefinement);
+    AllOptions options = region_options(mesh, Laplacian::VirtualRefinement);
     options.motion.strength.clear();
     options.steps = 1;
     for (const MotionDirection& direction : {MotionDirection{MotionDirection::Kind::Vector, Point(0.1, -0.1, 3.0)},
@@ -331,10 +331,10 @@ TEST_CASE("a step along lines ends on the surface that the step makes, and the f
                 expected.vertices.row(v) += way.dot(n) / d.dot(n) * d;
             }
         }
-        FlowOptions directed = options;
+        AllOptions directed = options;
         directed.steps = 3;
         directed.motion.direction = direction;
-        for (FlowOptions& way : all_ways(directed)) {
+        for (AllOptions& way : all_ways(directed)) {
             way.report.measures = false;
             CHECK(largest_difference(flowed(mesh, way), expected.vertices) < 1e-9);
         }
@@ -361,7 +361,8 @@ TEST_CASE(
             for (const Laplacian laplacian : {Laplacian::Fujiwara, Laplacian::Uniform, Laplacian::VirtualRefinement})
                 for (const Boundary boundary : {Boundary::Fixed, Boundary::Free})
                     for (const Filter filter : {Filter::Diffusion, Filter::LowPass}) {
-                        FlowOptions options{.laplacian = laplacian, .filter = filter, .time_step = 1e-3, .steps = 3};
+                        AllOptions options =
+                            FlowOptions{.laplacian = laplacian, .filter = filter, .time_step = 1e-3, .steps = 3};
                         options.accuracy.approach = Approach::Undecomposed;
                         options.motion.boundary = boundary;
                         const Points free = flowed(mesh, options);
@@ -381,7 +382,7 @@ TEST_CASE(
 {
     PolygonMesh mesh = make_noisy_sphere(2500);
     mesh.vertices.rowwise().normalize();
-    FlowOptions options{.laplacian = Laplacian::VirtualRefinement};
+    AllOptions options = FlowOptions{.laplacian = Laplacian::VirtualRefinement};
     options.accuracy.approach = Approach::Undecomposed;
     options.motion.direction = {.kind = MotionDirection::Kind::Vector, .vector = {0.0, 0.0, 1.0}};
     for (const double dt : {3e-3, 3e-2}) {
@@ -403,7 +404,7 @@ TEST_CASE(
 TEST_CASE("a flow of a region holds and moves vertices between steps")
 {
     const PolygonMesh mesh = make_triangles(1600);
-    FlowOptions options = in_four_sub_meshes(region_options(mesh, Laplacian::Fujiwara));
+    AllOptions options = in_four_sub_meshes(region_options(mesh, Laplacian::Fujiwara));
     options.motion.strength = disc(mesh, 0.3);
     options.motion.direction = {.kind = MotionDirection::Kind::Normal};
     options.steps = 3;
@@ -429,8 +430,8 @@ TEST_CASE("copies of a vertex along a seam have the least of their strengths, an
     const PolygonMesh whole = make_triangles(900);
     const PolygonMesh mesh = split(whole, halves(whole));
     REQUIRE(mesh.n_vertices() > whole.n_vertices());
-    FlowOptions options = in_four_sub_meshes(region_options(mesh, Laplacian::Fujiwara));
-    FlowOptions of_whole = options;
+    AllOptions options = in_four_sub_meshes(region_options(mesh, Laplacian::Fujiwara));
+    AllOptions of_whole = options;
     of_whole.motion.strength.resize(usize(whole.n_vertices()));
     const std::vector<Index> of = originals(mesh, whole);
     for (Index v = whole.n_vertices(); v < mesh.n_vertices(); ++v) {
@@ -450,7 +451,7 @@ TEST_CASE("a face that repeats another is in its sub-mesh, also where faces besi
     for (Index f = 0; f < mesh.n_faces(); ++f)
         for (int i = 0; i < (f == repeated ? 2 : 1); ++i)
             with_repeated.add_face(mesh.face(f));
-    FlowOptions options = in_four_sub_meshes(region_options(mesh, Laplacian::Fujiwara));
+    AllOptions options = in_four_sub_meshes(region_options(mesh, Laplacian::Fujiwara));
     options.motion.strength = disc(mesh, 0.3);
     PolygonMesh flowing = mesh;
     std::vector<Index> expected = mean_curvature_flow(flowing, options).cut.labels;
@@ -465,7 +466,7 @@ TEST_CASE("the way of taking steps that is chosen for a region is never by sweep
     PolygonMesh mesh = make_triangles(12'000);
     for (const Laplacian laplacian : all_laplacians)
         for (const int subdomains : {0, 8}) {
-            FlowOptions options = region_options(mesh, laplacian);
+            AllOptions options = region_options(mesh, laplacian);
             options.time_step *= 0.1;
             options.cut.subdomains = subdomains;
             options.steps = 1;

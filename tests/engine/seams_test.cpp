@@ -17,9 +17,9 @@ using namespace seamflow::test;
 
 namespace {
 
-FlowOptions in_sub_meshes()
+AllOptions in_sub_meshes()
 {
-    FlowOptions options;
+    AllOptions options;
     options.laplacian = Laplacian::VirtualRefinement;
     options.time_step = 0.001;
     options.steps = 3;
@@ -28,7 +28,7 @@ FlowOptions in_sub_meshes()
 }
 
 /// Compares bit for bit.
-void check_flows_as_one(const PolygonMesh& parts, const PolygonMesh& whole, const FlowOptions& options)
+void check_flows_as_one(const PolygonMesh& parts, const PolygonMesh& whole, const AllOptions& options)
 {
     const Points expected = flowed(whole, options);
     CHECK(same_bits(flowed(parts, options), expected(originals(parts, whole), Eigen::all)));
@@ -43,12 +43,12 @@ TEST_CASE("a surface with seams flows as the one without, bit for bit")
         REQUIRE(parts.n_vertices() > whole.n_vertices() + 5);
         for (const Laplacian laplacian : all_laplacians)
             for (const int threads : {1, 4}) {
-                FlowOptions options = in_sub_meshes();
+                AllOptions options = in_sub_meshes();
                 options.laplacian = laplacian;
                 options.resources.threads = threads;
                 check_flows_as_one(parts, whole, options);
             }
-        FlowOptions options = in_sub_meshes();
+        AllOptions options = in_sub_meshes();
         options.cut.subdomains = 0;
         options.keep_edges = 30.0;
         check_flows_as_one(parts, whole, options);
@@ -67,7 +67,7 @@ TEST_CASE("faces that have all their vertices to themselves flow as a closed sur
     std::vector<Index> labels;
     for (Index f = 0; f < whole.n_faces(); ++f)
         labels.push_back(f);
-    FlowOptions options = in_sub_meshes();
+    AllOptions options = in_sub_meshes();
     options.time_step = 0.02;
     options.motion.rescale = Rescale::Volume;
     check_flows_as_one(split(whole, labels), whole, options);
@@ -83,10 +83,10 @@ TEST_CASE("what is said of seams: a remark, who moved with whom, and who was fix
     PolygonMesh parts = split(whole, halves(whole));
     const Points before = parts.vertices;
     PolygonMesh mesh = whole;
-    const FlowReport of_whole = mean_curvature_flow(mesh, in_sub_meshes());
+    const FlowReport of_whole = smooth_surface(mesh, in_sub_meshes());
     CHECK(of_whole.mesh.moved_with.empty());
     mesh = parts;
-    const FlowReport report = mean_curvature_flow(mesh, in_sub_meshes());
+    const FlowReport report = smooth_surface(mesh, in_sub_meshes());
     CHECK(report.mesh.moved_with == originals(parts, whole));
     CHECK(report.mesh.vertices == parts.n_vertices());
     CHECK(count_with(report.remarks, "along seams") == 1);
@@ -94,10 +94,10 @@ TEST_CASE("what is said of seams: a remark, who moved with whom, and who was fix
     CHECK(report.mesh.fixed_vertices == of_whole.mesh.fixed_vertices + 2);
     CHECK(report.mesh.non_manifold_vertices == 0);
 
-    FlowOptions apart = in_sub_meshes();
+    AllOptions apart = in_sub_meshes();
     apart.motion.weld.reset();
     mesh = parts;
-    const FlowReport of_parts = mean_curvature_flow(mesh, apart);
+    const FlowReport of_parts = smooth_surface(mesh, apart);
     CHECK(of_parts.mesh.moved_with.empty());
     for (Index v = 0; v < whole.n_vertices(); ++v)
         if (std::ranges::count(report.mesh.moved_with, v) > 1)
@@ -110,8 +110,8 @@ TEST_CASE("a copy that is fixed or attached holds all of them")
     const PolygonMesh parts = split(whole, halves(whole));
     const Index copy = parts.n_vertices() - 3;
     const Index first = originals(parts, whole)[copy];
-    FlowOptions of_parts = in_sub_meshes();
-    FlowOptions of_whole = in_sub_meshes();
+    AllOptions of_parts = in_sub_meshes();
+    AllOptions of_whole = in_sub_meshes();
     of_parts.motion.fixed_vertices = {copy};
     of_whole.motion.fixed_vertices = {first};
     const Points held = flowed(parts, of_parts);
@@ -130,10 +130,10 @@ TEST_CASE("feature edges may name any copies of the vertices along a seam")
 {
     const PolygonMesh whole = make_triangles(400);
     const PolygonMesh parts = split(whole, halves(whole));
-    FlowOptions of_parts;
+    AllOptions of_parts;
     of_parts.keep_edges = 30.0;
     of_parts.time_step = 0.01;
-    FlowOptions of_whole = of_parts;
+    AllOptions of_whole = of_parts;
     // All edges between copies: those along the seam in the second part.
     const std::vector<Index> of = originals(parts, whole);
     for (Index f = 0; f < parts.n_faces(); ++f)
@@ -148,7 +148,7 @@ TEST_CASE("feature edges may name any copies of the vertices along a seam")
     const Points expected = flowed(whole, of_whole);
     CHECK(same_bits(flowed(parts, of_parts), expected(of, Eigen::all)));
     CHECK_FALSE(same_bits(expected, flowed(whole, [&] {
-                              FlowOptions without = of_whole;
+                              AllOptions without = of_whole;
                               without.motion.feature_edges.clear();
                               return without;
                           }())));
@@ -161,7 +161,7 @@ TEST_CASE("copies that are a little apart come to one place, and stay where they
     const std::vector<Index> of = originals(parts, whole);
     for (Index v = whole.n_vertices(); v < parts.n_vertices(); ++v)
         parts.vertices.row(v) += Point(1e-5, 0.0, -1e-5);
-    FlowOptions options = in_sub_meshes();
+    AllOptions options = in_sub_meshes();
     options.motion.weld = 1e-4;
     options.motion.fixed_vertices = {parts.n_vertices() - 2};
     const Topology topology = make_topology(whole);
@@ -184,9 +184,9 @@ TEST_CASE("a distance that joins a tenth of all vertices is warned of, unless th
     PolygonMesh parts = split(whole, halves(whole));
     const auto remarks = [&](double distance) {
         PolygonMesh mesh = parts;
-        FlowOptions options = in_sub_meshes();
+        AllOptions options = in_sub_meshes();
         options.motion.weld = distance;
-        for (const std::string& remark : sentences(mean_curvature_flow(mesh, options).remarks))
+        for (const std::string& remark : sentences(smooth_surface(mesh, options).remarks))
             if (remark.find("along seams") != std::string::npos || remark.starts_with("weld has joined no vertices"))
                 return remark;
         return std::string();
@@ -221,18 +221,18 @@ TEST_CASE("sub-meshes that are written as they are keep seams, and what an obser
     const PolygonMesh whole = make_triangles(400);
     const PolygonMesh parts = split(whole, halves(whole));
     const std::vector<Index> of = originals(parts, whole);
-    FlowOptions options = in_sub_meshes();
+    AllOptions options = in_sub_meshes();
     options.interface.conditions = Conditions::Robin;
     options.report.keep_gaps = true;
     options.report.reference = true;
     PolygonMesh mesh = parts;
     std::vector<Points> seen;
-    FlowReport report = mean_curvature_flow(mesh, options, [&](const StepState& state) {
+    FlowReport report = smooth_surface(mesh, options, [&](const StepState& state) {
         seen = {state.positions, *state.reference_positions, state.separated->vertices};
     });
     PolygonMesh mesh_of_whole = whole;
     std::vector<Points> seen_of_whole;
-    const FlowReport of_whole = mean_curvature_flow(mesh_of_whole, options, [&](const StepState& state) {
+    const FlowReport of_whole = smooth_surface(mesh_of_whole, options, [&](const StepState& state) {
         seen_of_whole = {state.positions, *state.reference_positions};
     });
     for (const std::size_t i : {0, 1})

@@ -30,7 +30,7 @@ FlowOptions threaded_options(Laplacian laplacian, int threads)
     return options;
 }
 
-void check_threads(const std::string& name, const PolygonMesh& mesh, FlowOptions options)
+void check_threads(const std::string& name, const PolygonMesh& mesh, AllOptions options)
 {
     CAPTURE(name);
     options.resources.threads = 1;
@@ -67,7 +67,7 @@ TEST_CASE("every kind of flow and every option give the same bits on any number 
             check_threads(kind.name, any, kind.options);
     const double edge = mean_edge_length(mesh);
     for (const test::OptionCase& option : test::option_cases()) {
-        FlowOptions options = test::options_without_cases(edge);
+        AllOptions options = test::options_without_cases(edge);
         option.set(options, mesh, edge);
         check_threads(option.name(), mesh, options);
     }

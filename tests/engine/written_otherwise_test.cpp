@@ -75,7 +75,7 @@ constexpr Allowance differences[]{
 };
 
 /// What is measured of steps: the largest of all vertices, which copies do not change, in mean edge lengths.
-std::map<std::string, double> measures_of(const FlowReport& report, double edge)
+std::map<std::string, double> measures_of(const SmoothReport& report, double edge)
 {
     std::map<std::string, double> of;
     for (std::size_t i = 0; i < report.steps.size(); ++i) {
@@ -99,7 +99,7 @@ struct Original {
     const PolygonMesh& mesh;
     std::vector<OptionCase> cases;
     double edge;
-    FlowOptions options;
+    AllOptions options;
     Outcome outcome;
 
     Original(const PolygonMesh& of, const std::vector<OptionCase>& with)
@@ -122,7 +122,7 @@ std::vector<std::string> names_of(const Original& original)
         names.emplace_back(c.field);
         names.push_back(c.name());
     }
-    const FlowOptions& o = original.options;
+    const AllOptions& o = original.options;
     const InterfaceOptions& on_interface = o.interface;
     const auto add_if = [&](bool condition, const char* name) {
         if (condition)
@@ -185,10 +185,10 @@ bool are_independent(const SimpleChange& a, const SimpleChange& b)
     return a.name != b.name && !needs_first(b) && !(rounds(a) && (rounds(b) || scales(b))) && !(scales(a) && rounds(b));
 }
 
-std::vector<std::string> fields_that_differ(const FlowOptions& options, const FlowOptions& from)
+std::vector<std::string> fields_that_differ(const AllOptions& options, const AllOptions& from)
 {
     std::vector<std::string> fields;
-    for_each_option(options, from, [&](const auto& a, const auto& b) {
+    for_each_pair(all_option_table(options), all_option_table(from), [&](const auto& a, const auto& b) {
         if (*a.value != *b.value)
             fields.emplace_back(a.field);
     });
@@ -204,8 +204,8 @@ TEST_CASE("every option has a case that sets it")
                       row.field << " has no case in tests/support/option_cases.cpp");
     const PolygonMesh mesh = creased_sheet();
     for (const OptionCase& option : option_cases()) {
-        const FlowOptions without = options_without_cases(1.0);
-        FlowOptions options = without;
+        const AllOptions without = options_without_cases(1.0);
+        AllOptions options = without;
         option.set(options, mesh, 1.0);
         CHECK_MESSAGE(std::ranges::count(fields_that_differ(options, without), option.field) == 1, option.name());
     }
@@ -234,12 +234,12 @@ TEST_CASE("however the surface is written, reported distances are those of the p
         for (const SimpleChange& change : simple_changes()) {
             CAPTURE(change.name);
             const double edge = mean_edge_length(original);
-            FlowOptions options = options_without_cases(edge);
+            AllOptions options = options_without_cases(edge);
             option_case("reference yes").set(options, original, edge);
             const Writing w = Change{{change}}(original);
             PolygonMesh mesh = w.mesh;
             const PolygonMesh given = w.mesh;
-            mean_curvature_flow(mesh, w.options(options), [&](const StepState& state) {
+            smooth_surface(mesh, w.options(options), [&](const StepState& state) {
                 const VertexDistance seen = vertex_distance(given, *state.reference_positions, state.positions);
                 CHECK(std::abs(state.report.distance->max - seen.max) <= 1e-6 * seen.max);
             });

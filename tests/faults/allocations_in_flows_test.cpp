@@ -19,19 +19,19 @@ std::string bytes_of(const Points& points)
 }
 
 /// @param resume where to go on; nullptr: the flow begins.
-void fail_every_allocation_of(const FlowOptions& options, const std::vector<test::Failing>& ways,
+void fail_every_allocation_of(const AllOptions& options, const std::vector<test::Failing>& ways,
                               const std::shared_ptr<const FlowState>& resume = nullptr)
 {
     const PolygonMesh input = test::small_mesh();
     PolygonMesh mesh = input;
     std::vector<Points> states{input.vertices};
-    mean_curvature_flow(mesh, options, [&](const StepState& state) { states.push_back(state.positions); });
+    smooth_surface(mesh, options, [&](const StepState& state) { states.push_back(state.positions); });
     int steps_done = 0;
     const auto run = [&] {
         mesh.vertices = input.vertices;
         steps_done = 0;
         const FlowControl control{.stop = {}, .on_progress = {}, .resume = resume};
-        mean_curvature_flow(
+        smooth_surface(
             mesh, options, [&](const StepState& state) { steps_done = state.step; }, control);
     };
     const auto check = [&] {
@@ -47,7 +47,7 @@ void fail_every_allocation_of(const FlowOptions& options, const std::vector<test
                                  .ways = ways});
 }
 
-FlowOptions options_of(const std::string& name, int threads = 1)
+AllOptions options_of(const std::string& name, int threads = 1)
 {
     for (const test::FlowKind& kind : test::small_flows(2, threads))
         if (kind.name == name)
@@ -98,10 +98,10 @@ TEST_CASE("explicit steps")
 
 TEST_CASE("a flow that continues from a state")
 {
-    const FlowOptions options = options_of("alexa-wardetzky converged");
+    const AllOptions options = options_of("alexa-wardetzky converged");
     std::shared_ptr<const FlowState> first;
     PolygonMesh mesh = test::small_mesh();
-    mean_curvature_flow(mesh, options, [&](const StepState& state) {
+    smooth_surface(mesh, options, [&](const StepState& state) {
         if (state.step == 1)
             first = std::make_shared<const FlowState>(state.capture());
     });

@@ -19,7 +19,7 @@ constexpr int n_steps = 2;
 
 /// Runs a flow whose n-th factorisation fails.
 /// @returns whether there was such a one.
-bool fails_well(const FlowOptions& options, int n, After after, int& n_complaints)
+bool fails_well(const AllOptions& options, int n, After after, int& n_complaints)
 {
     PolygonMesh mesh = test::small_mesh();
     Points latest = mesh.vertices;
@@ -27,7 +27,7 @@ bool fails_well(const FlowOptions& options, int n, After after, int& n_complaint
     std::string message;
     const test::FailingFactorisation failing(n, after);
     try {
-        mean_curvature_flow(mesh, options, [&](const StepState& state) {
+        smooth_surface(mesh, options, [&](const StepState& state) {
             steps_done = state.step;
             latest = state.positions;
         });
@@ -71,17 +71,17 @@ TEST_CASE("a factorisation that fails is made up for, or comes out with its step
 TEST_CASE("conjugate gradients go without factors that fail")
 {
     const PolygonMesh mesh = make_mixed_polygons(10'000);
-    const FlowOptions options = test::collapsing_flow(mesh);
+    const AllOptions options = test::collapsing_flow(mesh);
     PolygonMesh moved = mesh;
     FlowReport report;
     {
         const test::FailingFactorisation failing(1, After::Fails);
-        report = mean_curvature_flow(moved, options);
+        report = smooth_surface(moved, options);
         CHECK(failing.has_failed());
     }
     REQUIRE(report.choices.size() == 3);
     CHECK(sentence(report.choices.back()).find("there was none") != std::string::npos);
-    FlowOptions asked_for = options;
+    AllOptions asked_for = options;
     asked_for.accuracy.approach = Approach::ConjugateGradients;
     CHECK(test::same_bits(moved.vertices, test::flowed(mesh, asked_for)));
 }

@@ -17,23 +17,23 @@ namespace {
 constexpr int n_task_steps = 3;
 
 /// The states of a flow: before it and after each of its steps.
-std::vector<Points> states_of(PolygonMesh mesh, const FlowOptions& options)
+std::vector<Points> states_of(PolygonMesh mesh, const AllOptions& options)
 {
     std::vector<Points> states{mesh.vertices};
-    mean_curvature_flow(mesh, options, [&](const StepState& state) { states.push_back(state.positions); });
+    smooth_surface(mesh, options, [&](const StepState& state) { states.push_back(state.positions); });
     return states;
 }
 
 /// Runs a flow whose task fails in its run of that number.
 /// @returns whether there was such a task.
-bool fails_well(const FlowOptions& options, const std::vector<Points>& states, int task, int run)
+bool fails_well(const AllOptions& options, const std::vector<Points>& states, int task, int run)
 {
     PolygonMesh mesh = test::small_mesh();
     int steps_done = 0;
     int caught = 0;
     const test::FailingTask failing(task, run);
     try {
-        mean_curvature_flow(mesh, options, [&](const StepState& state) { steps_done = state.step; });
+        smooth_surface(mesh, options, [&](const StepState& state) { steps_done = state.step; });
     } catch (const test::TaskFailure& failure) {
         caught = failure.task;
     }
@@ -103,7 +103,7 @@ struct Parts {
     PolygonMesh mesh = test::small_mesh();
     Topology topology = make_topology(mesh);
     Cut cut = cut_into(mesh, topology, 3);
-    FlowOptions options = test::small_flows(n_task_steps, 0).front().options;
+    AllOptions options = test::small_flows(n_task_steps, 0).front().options;
     std::vector<double> curvature = std::vector<double>(static_cast<std::size_t>(mesh.n_vertices()), 0.0);
 };
 

@@ -126,7 +126,7 @@ TEST_CASE("displacements are in mean edge lengths of the input")
 
 TEST_CASE("the report says how vertices were to move")
 {
-    FlowOptions options;
+    AllOptions options;
     options.keep_edges = 30.0;
     options.motion = {.attachment = 0.25, .attachment_weights = {1.0, 2.0}, .strength = {0.0, 1.0}};
     const Json json = Json::parse(smooth_report_json(RunRecord{}, options, FlowReport{}));

@@ -172,6 +172,36 @@ TEST_CASE("usage errors begin with the name of the program, and an option mistyp
     }
 }
 
+TEST_CASE("what takes the whole mesh without equations rules out what is about them, by name")
+{
+    const Workshop w;
+    const std::string whole = " is given, which takes the whole mesh without equations and rules out ";
+    for (const auto& example : {
+             std::pair{std::string("--time-step 1 --keep-edges 30 --scheme explicit"),
+                       "--keep-edges" + whole + "--scheme: leave one of them out"},
+             {"--time-step 1 --keep-edges 30 --subdomains 2", "--keep-edges" + whole + "sub-meshes: leave one"},
+             {"--time-step 1 --keep-edges 30 --coloring label", "--keep-edges" + whole + "--coloring: leave one"},
+             {"--time-step 1 --keep-edges 30 --approach cg", "--keep-edges" + whole + "--approach: leave one"},
+             {"--time-step 1 --keep-edges 30 --converge 1e-3", "--keep-edges" + whole + "--converge: leave one"},
+             {"--time-step 1 --keep-edges 30 --reference", "--keep-edges" + whole + "--reference: leave one"},
+             {"--time-step 1 --keep-edges 30 --laplacian uniform", "--keep-edges" + whole + "--laplacian: leave one"},
+             {"--time-step 1 --keep-edges 30 --filter low-pass", "--keep-edges" + whole + "another flow, a filter"},
+             {"--preset cad --reference", "--preset cad" + whole + "--reference: leave one"},
+             {"--radius 1% --boundary smooth --subdomains 3", "--boundary smooth" + whole + "sub-meshes"},
+             {"--radius 1% --boundary smooth --keep-edges 30", "--boundary is smooth, so that it alone moves"},
+             {"--time-step 1 --edges labels.txt", "--edges names edges to keep: give --preset cad, or --keep-edges"},
+             {"--time-step 1 --keep-edges 30 --edges labels.txt --within 1",
+              "--rescale and --within move vertices off --edges"},
+         }) {
+        const std::string& arguments = example.first;
+        const std::string& sentence = example.second;
+        CAPTURE(arguments);
+        CHECK(w.smooth("mesh.obj out.obj " + arguments) == 2);
+        CHECK_MESSAGE(w.said().starts_with("smooth: " + sentence), w.said());
+        CHECK(!w.has("out.obj"));
+    }
+}
+
 TEST_CASE("a refused command line removes the report of an earlier run, and no other file")
 {
     const Workshop w;

@@ -5,6 +5,7 @@
 
 #include "engine/mean_curvature_flow.h"
 #include "samples/meshes/meshes.h"
+#include "samples/options/smooth_surface.h"
 #include "tests/support/test_meshes.h"
 
 namespace seamflow::test {
@@ -21,9 +22,9 @@ inline constexpr std::array symmetric_geometric_laplacians{Laplacian::Fujiwara, 
                                                            Laplacian::VirtualRefinement};
 
 /// The positions after a flow.
-inline Points flowed(PolygonMesh mesh, const FlowOptions& options)
+inline Points flowed(PolygonMesh mesh, const AllOptions& options)
 {
-    mean_curvature_flow(mesh, options);
+    smooth_surface(mesh, options);
     return mesh.vertices;
 }
 

@@ -8,17 +8,17 @@ namespace seamflow::test {
 
 namespace {
 
-using Setter = std::function<void(FlowOptions&, const PolygonMesh&, double)>;
+using Setter = std::function<void(AllOptions&, const PolygonMesh&, double)>;
 
 /// A change that depends on options alone.
 template <class Change>
 Setter plain(Change change)
 {
-    return [change](FlowOptions& o, const PolygonMesh&, double) { change(o); };
+    return [change](AllOptions& o, const PolygonMesh&, double) { change(o); };
 }
 
 /// Four parts in stripes, which any numbers of faces leave as they are.
-void cut_into_stripes(FlowOptions& o, const PolygonMesh& mesh)
+void cut_into_stripes(AllOptions& o, const PolygonMesh& mesh)
 {
     const auto x = mesh.vertices.col(0);
     o.cut.labels.clear();
@@ -33,7 +33,7 @@ void cut_into_stripes(FlowOptions& o, const PolygonMesh& mesh)
 template <class Change>
 Setter sweeps(Change change)
 {
-    return [change](FlowOptions& o, const PolygonMesh& mesh, double edge) {
+    return [change](AllOptions& o, const PolygonMesh& mesh, double edge) {
         o.accuracy.tolerance.reset();
         o.accuracy.approach = Approach::Sweep;
         cut_into_stripes(o, mesh);
@@ -73,9 +73,9 @@ std::vector<OptionCase> of_this_build(std::vector<OptionCase> cases)
 
 }  // namespace
 
-FlowOptions options_without_cases(double edge)
+AllOptions options_without_cases(double edge)
 {
-    FlowOptions options{.laplacian = Laplacian::VirtualRefinement, .time_step = edge * edge, .steps = 2};
+    AllOptions options(FlowOptions{.laplacian = Laplacian::VirtualRefinement, .time_step = edge * edge, .steps = 2});
     options.accuracy.tolerance = 1e-13;
     options.resources.threads = 1;
     return options;
@@ -83,7 +83,7 @@ FlowOptions options_without_cases(double edge)
 
 const std::vector<OptionCase>& option_cases()
 {
-    using O = FlowOptions;
+    using O = AllOptions;
     static const std::vector<OptionCase> list = of_this_build({
         {"laplacian", "fujiwara", plain([](O& o) { o.laplacian = Laplacian::Fujiwara; })},
         {"laplacian", "alexa-wardetzky", plain([](O& o) { o.laplacian = Laplacian::AlexaWardetzky; })},
@@ -162,8 +162,9 @@ const std::vector<OptionCase>& option_cases()
                  o.motion.feature_edges.push_back({mesh.face(f)[0], mesh.face(f)[1]});
          }},
         {"boundary", "free", plain([](O& o) { o.motion.boundary = Boundary::Free; })},
-        {"boundary", "smooth",
-         plain([](O& o) { o.motion.boundary = Boundary::Smooth, o.accuracy.tolerance.reset(); })},
+        {"smooth_rims", "yes", plain([](O& o) {
+             o.smooth_rims = true, o.motion.boundary = Boundary::Free, o.accuracy.tolerance.reset();
+         })},
         {"junctions", "hold", plain([](O& o) { o.motion.junctions = Junctions::Hold; })},
         {"fixed_vertices", "some",
          [](O& o, const PolygonMesh& mesh, double) { o.motion.fixed_vertices = some_vertices(mesh); }},

@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/options/flow_options.h"
 #include "partition/polygon_mesh.h"
+#include "samples/options/all_options.h"
 
 namespace seamflow::test {
 
@@ -16,7 +16,7 @@ struct OptionCase {
     std::string_view field;
     std::string_view value;
     /// @param edge mean edge length of the mesh.
-    std::function<void(FlowOptions& options, const PolygonMesh& mesh, double edge)> set;
+    std::function<void(AllOptions& options, const PolygonMesh& mesh, double edge)> set;
 
     [[nodiscard]] std::string name() const { return std::string(field) + " " + std::string(value); }
 };
@@ -28,6 +28,6 @@ const std::vector<OptionCase>& option_cases();
 const OptionCase& option_case(std::string_view name);
 
 /// Without any case: steps of one squared mean edge length that are converged as far as rounding lets them.
-FlowOptions options_without_cases(double edge);
+AllOptions options_without_cases(double edge);
 
 }  // namespace seamflow::test

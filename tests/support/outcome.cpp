@@ -7,7 +7,7 @@
 
 namespace seamflow::test {
 
-Outcome outcome_of(PolygonMesh mesh, const FlowOptions& options, const FlowControl& control, bool is_captured)
+Outcome outcome_of(PolygonMesh mesh, const AllOptions& options, const FlowControl& control, bool is_captured)
 {
     Outcome outcome;
     outcome.states.push_back(mesh.vertices);
@@ -17,7 +17,7 @@ Outcome outcome_of(PolygonMesh mesh, const FlowOptions& options, const FlowContr
     };
     const PolygonMesh before = mesh;
     try {
-        outcome.report = mean_curvature_flow(
+        outcome.report = smooth_surface(
             mesh, options,
             [&](const StepState& state) {
                 outcome.states.push_back(state.positions);

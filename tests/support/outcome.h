@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/mean_curvature_flow.h"
 #include "engine/state/flow_state.h"
+#include "samples/options/smooth_surface.h"
 
 namespace seamflow::test {
 
@@ -15,7 +15,7 @@ struct Outcome {
     std::vector<FlowState> captured;
     /// When all was over, one way or the other.
     Points end;
-    FlowReport report;
+    SmoothReport report;
     /// OptionError and so on with the message; empty: it succeeded.
     std::string refusal;
     std::string message;
@@ -23,7 +23,7 @@ struct Outcome {
 
 /// Runs a flow on a copy of the mesh; what it may throw is noted, other exceptions go through.
 /// @param is_captured whether to keep the states to resume from.
-Outcome outcome_of(PolygonMesh mesh, const FlowOptions& options, const FlowControl& control = {},
+Outcome outcome_of(PolygonMesh mesh, const AllOptions& options, const FlowControl& control = {},
                    bool is_captured = false);
 
 }  // namespace seamflow::test

@@ -8,9 +8,9 @@
 #include <stop_token>
 #include <utility>
 
-#include "engine/measure/origin_offset.h"
 #include "engine/setup/automatic_choices.h"
 #include "engine/state/checkpoint.h"
+#include "engine/surface/origin_offset.h"
 #include "partition/surface_components.h"
 #include "partition/topology.h"
 #include "solvers/laplacian/geometry.h"

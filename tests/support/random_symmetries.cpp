@@ -3,7 +3,7 @@
 #include <string>
 #include <utility>
 
-#include "engine/measure/origin_offset.h"
+#include "engine/surface/origin_offset.h"
 #include "partition/metrics/vertex_distance.h"
 #include "tests/support/flow_kinds.h"
 #include "tests/support/random_case.h"

@@ -8,10 +8,10 @@
 
 #include <Eigen/LU>
 
-#include "engine/measure/origin_offset.h"
 #include "engine/setup/automatic_choices.h"
-#include "engine/setup/constraints.h"
-#include "engine/setup/flowing_mesh.h"
+#include "engine/surface/constraints.h"
+#include "engine/surface/flowing_mesh.h"
+#include "engine/surface/origin_offset.h"
 #include "tests/support/matrices.h"
 
 namespace seamflow::test {
@@ -79,10 +79,10 @@ std::optional<UndecomposedStep> undecomposed_step(const PolygonMesh& mesh, const
     if (!need_of_junctions(options).empty())
         of_joined.motion.junctions = Junctions::Hold;
     flowing.weld_seams(topology, of_joined.motion, run_serially);
-    constrain(topology, flowing.mesh(), of_joined, false, run_serially, remarks);
+    constrain(topology, flowing.mesh(), of_joined.motion, of_joined.laplacian, false, run_serially, remarks);
     if (!options.report.keep_gaps && flowing.leave_out_repeated_faces(topology)) {
         topology = make_topology(flowing.mesh());
-        constrain(topology, flowing.mesh(), of_joined, false, run_serially, remarks);
+        constrain(topology, flowing.mesh(), of_joined.motion, of_joined.laplacian, false, run_serially, remarks);
     }
     PolygonMesh near = flowing.mesh();
     near.vertices = from.rowwise() - offset;

@@ -113,11 +113,11 @@ Eigen::MatrixXd Writing::field(const Eigen::MatrixXd& of_original, double otherw
     return written;
 }
 
-FlowOptions Writing::options(FlowOptions of_original) const
+AllOptions Writing::options(AllOptions of_original) const
 {
     std::vector<Index>& fixed = of_original.motion.fixed_vertices;
     fixed.insert(fixed.end(), held.begin(), held.end());
-    for_each_option(of_original, [&](const auto& row) {
+    for_each_row(all_option_table(of_original), [&](const auto& row) {
         const Translation translate{*this, std::pow(scale, power_of_length(row.field)), row.field};
         if constexpr (requires { translate(*row.value); })
             translate(*row.value);

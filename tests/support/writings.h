@@ -8,8 +8,8 @@
 
 #include <Eigen/Core>
 
-#include "engine/options/flow_options.h"
 #include "partition/polygon_mesh.h"
+#include "samples/options/all_options.h"
 
 /// One surface, written in many ways that should make no difference to what is computed on it.
 namespace seamflow::test {
@@ -41,7 +41,7 @@ struct Writing {
     [[nodiscard]] Eigen::MatrixXd field(const Eigen::MatrixXd& of_original, double otherwise) const;
 
     /// Options for the original, for `mesh`: lengths are scaled, vectors turned, lists translated.
-    [[nodiscard]] FlowOptions options(FlowOptions of_original) const;
+    [[nodiscard]] AllOptions options(AllOptions of_original) const;
 
     /// The largest difference of two rows that belong together; of a vertex that is written several times, each counts.
     [[nodiscard]] double difference(const Eigen::MatrixXd& here, const Eigen::MatrixXd& of_original) const;

@@ -10,7 +10,7 @@
 #include <doctest/doctest.h>
 
 #include "engine/fields/diffuse.h"
-#include "engine/setup/flowing_mesh.h"
+#include "engine/surface/flowing_mesh.h"
 #include "partition/metrics/vertex_distance.h"
 #include "samples/meshes/meshes.h"
 #include "solvers/laplacian/delaunay_stiffness.h"

@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include "engine/mean_curvature_flow.h"
+#include "engine/measure/flow_remarks.h"
 #include "engine/measure/remarks.h"
 #include "samples/meshes/meshes.h"
 #include "tests/support/messages.h"

@@ -39,10 +39,10 @@ struct Told {
 };
 
 /// The states of a flow: before it and after each of its steps.
-std::vector<Points> states_of(PolygonMesh mesh, const FlowOptions& options)
+std::vector<Points> states_of(PolygonMesh mesh, const AllOptions& options)
 {
     std::vector<Points> states{mesh.vertices};
-    mean_curvature_flow(mesh, options, [&](const StepState& state) { states.push_back(state.positions); });
+    smooth_surface(mesh, options, [&](const StepState& state) { states.push_back(state.positions); });
     return states;
 }
 
@@ -52,11 +52,11 @@ TEST_CASE("progress goes from 0 to 1 and never back, one call at a time, and cha
 {
     const PolygonMesh mesh = small_mesh();
     for (const test::FlowKind& kind : test::flow_kinds(mean_edge_length(mesh))) {
-        const FlowOptions& options = kind.options;
+        const AllOptions& options = kind.options;
         CAPTURE(kind.name);
         Told told;
         PolygonMesh moved = mesh;
-        mean_curvature_flow(moved, options, {}, told.control());
+        smooth_surface(moved, options, {}, told.control());
         CHECK(test::same_bits(moved.vertices, test::flowed(mesh, options)));
         CHECK_FALSE(told.overlapped);
         REQUIRE(told.all.size() >= 7);
@@ -97,12 +97,12 @@ TEST_CASE("progress does not go back where a phase begins before the end of the 
 TEST_CASE("progress is told some hundred times at most, however many steps there are")
 {
     PolygonMesh mesh = make_quads(100);
-    FlowOptions options;
+    AllOptions options;
     options.time_step = 1e-6;
     options.steps = 3000;
     options.cut.subdomains = 4;
     Told told;
-    mean_curvature_flow(mesh, options, {}, told.control());
+    smooth_surface(mesh, options, {}, told.control());
     CHECK(told.all.size() > 400);
     CHECK(told.all.size() < 2 * 3000);
 }
@@ -112,12 +112,12 @@ TEST_CASE("stopped at any call of the observer, the mesh has the last complete s
     const PolygonMesh mesh = small_mesh();
     std::mt19937 random(1);
     for (const test::FlowKind& kind : test::flow_kinds(mean_edge_length(mesh))) {
-        const FlowOptions& options = kind.options;
+        const AllOptions& options = kind.options;
         CAPTURE(kind.name);
         const std::vector<Points> states = states_of(mesh, options);
         Told told;
         PolygonMesh moved = mesh;
-        mean_curvature_flow(moved, options, {}, told.control());
+        smooth_surface(moved, options, {}, told.control());
         std::size_t n_calls = told.all.size();
         for (std::size_t call = 0; call + 1 < n_calls; call += 1 + random() % (n_calls / 12 + 1)) {
             std::stop_source source;
@@ -130,7 +130,7 @@ TEST_CASE("stopped at any call of the observer, the mesh has the last complete s
                                       }};
             bool cancelled = false;
             try {
-                mean_curvature_flow(
+                smooth_surface(
                     stopped, options, [&](const StepState& state) { steps_done = state.step; }, control);
             } catch (const Cancelled&) {
                 cancelled = true;
@@ -147,7 +147,7 @@ TEST_CASE("stopped from another thread at any time, the mesh has the last comple
     const PolygonMesh mesh = make_mixed_polygons(3000);
     std::mt19937 random(2);
     for (const test::FlowKind& kind : test::flow_kinds(mean_edge_length(mesh))) {
-        const FlowOptions& options = kind.options;
+        const AllOptions& options = kind.options;
         CAPTURE(kind.name);
         const auto start = std::chrono::steady_clock::now();
         const std::vector<Points> states = states_of(mesh, options);
@@ -161,7 +161,7 @@ TEST_CASE("stopped from another thread at any time, the mesh has the last comple
             int steps_done = 0;
             PolygonMesh stopped = mesh;
             try {
-                mean_curvature_flow(stopped, options, [&](const StepState& state) { steps_done = state.step; },
+                smooth_surface(stopped, options, [&](const StepState& state) { steps_done = state.step; },
                                     {.stop = source.get_token()});
                 CHECK(steps_done == options.steps);
             } catch (const Cancelled&) {
@@ -175,19 +175,19 @@ TEST_CASE("a flow that is to stop before it begins does nothing; one that has en
 {
     std::stop_source source;
     PolygonMesh mesh = small_mesh();
-    FlowOptions options;
+    AllOptions options;
     options.time_step = 1e-3;
-    CHECK_NOTHROW(mean_curvature_flow(mesh, options, [&](const StepState&) { source.request_stop(); },
+    CHECK_NOTHROW(smooth_surface(mesh, options, [&](const StepState&) { source.request_stop(); },
                                       {.stop = source.get_token()}));
     const Points before = mesh.vertices;
-    CHECK_THROWS_AS(mean_curvature_flow(mesh, options, {}, {.stop = source.get_token()}), Cancelled);
+    CHECK_THROWS_AS(smooth_surface(mesh, options, {}, {.stop = source.get_token()}), Cancelled);
     CHECK(test::same_bits(mesh.vertices, before));
 }
 
 TEST_CASE("what the observer throws ends the flow, from a task, too")
 {
     const PolygonMesh mesh = small_mesh();
-    FlowOptions options;
+    AllOptions options;
     options.time_step = 1e-3;
     options.cut.subdomains = 8;
     for (const int last : {0, 3, 9, 20}) {
@@ -197,6 +197,6 @@ TEST_CASE("what the observer throws ends the flow, from a task, too")
             if (calls++ == last)
                 throw std::length_error("enough");
         };
-        CHECK_THROWS_AS(mean_curvature_flow(moved, options, {}, {.stop = {}, .on_progress = fail}), std::length_error);
+        CHECK_THROWS_AS(smooth_surface(moved, options, {}, {.stop = {}, .on_progress = fail}), std::length_error);
     }
 }

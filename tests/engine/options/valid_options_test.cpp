@@ -63,8 +63,6 @@ constexpr auto make_low_pass = [](O& o) { o.filter = Filter::LowPass; };
 constexpr auto make_robin = [](O& o) { o.interface.conditions = Conditions::Robin; };
 constexpr auto make_schwarz = [](O& o) { o.interface.conditions = Conditions::Schwarz; };
 constexpr auto make_gradients = [](O& o) { o.accuracy.approach = Approach::ConjugateGradients; };
-constexpr auto make_edges_kept = [](O& o) { o.keep_edges = 30.0; };
-constexpr auto make_features_kept = [](O& o) { o.keep_edges = 30.0, o.motion.feature_edges = {{0, 1}}; };
 constexpr auto make_region = [](O& o) { o.motion.strength.assign(121, 1.0); };
 
 constexpr Refusal refusals[]{
@@ -135,18 +133,18 @@ constexpr Refusal refusals[]{
      [](O& o) { o.motion.direction.kind = MotionDirection::Kind::Vector; }},
     {"direction lets vertices move along lines alone",
      [](O& o) { o.motion.direction.kind = MotionDirection::Kind::Normal, o.motion.rescale = Rescale::Volume; }},
-    {"keep_edges is given", [](O& o) { make_edges_kept(o), o.scheme = Scheme::ExplicitEuler; }},
-    {"keep_edges is given", [](O& o) { make_edges_kept(o), o.cut.subdomains = 2; }},
-    {"keep_edges is given", [](O& o) { make_edges_kept(o), o.interface.colouring = Colouring::Label; }},
-    {"keep_edges is given", [](O& o) { make_edges_kept(o), make_gradients(o); }},
-    {"keep_edges is given", [](O& o) { make_edges_kept(o), o.accuracy.tolerance = 1e-3; }},
-    {"keep_edges is given", [](O& o) { make_edges_kept(o), o.report.reference = true; }},
-    {"denoise is given", [](O& o) { o.denoise = true, o.accuracy.tolerance = 1e-6; }},
-    {"feature_edges names edges to keep: give preset cad, or keep_edges with an angle",
-     [](O& o) { make_features_kept(o), o.keep_edges.reset(); }},
-    {"rescale and within move vertices off feature_edges", [](O& o) { make_features_kept(o), o.motion.within = 1.0; }},
+    {"feature_edges names edges to keep, which flows do not",
+     [](O& o) {
+         o.motion.feature_edges = {{0, 1}};
+     }},
     {"rescale and within move vertices off feature_edges",
-     [](O& o) { make_features_kept(o), o.motion.rescale = Rescale::Area; }},
+     [](O& o) {
+         o.motion.feature_edges = {{0, 1}}, o.motion.within = 1.0;
+     }},
+    {"rescale and within move vertices off feature_edges",
+     [](O& o) {
+         o.motion.feature_edges = {{0, 1}}, o.motion.rescale = Rescale::Area;
+     }},
 };
 
 }  // namespace
@@ -195,8 +193,7 @@ TEST_CASE("options that exclude each other are refused with what to do")
                       refusal.message << " expected, but found: " << refusal_of(options));
     }
     for (void (*const change)(FlowOptions&) : std::initializer_list<void (*)(FlowOptions&)>{
-             make_linear, make_conformalized, make_low_pass, make_robin, make_schwarz, make_gradients, make_edges_kept,
-             make_features_kept, make_region}) {
+             make_linear, make_conformalized, make_low_pass, make_robin, make_schwarz, make_gradients, make_region}) {
         FlowOptions options = plain_steps();
         change(options);
         CHECK(refusal_of(options).empty());

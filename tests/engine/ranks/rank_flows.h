@@ -7,7 +7,7 @@
 
 #include <doctest/doctest.h>
 
-#include "engine/mean_curvature_flow.h"
+#include "samples/options/smooth_surface.h"
 #include "engine/ranks/rank_group.h"
 #include "engine/ranks/thread_transport.h"
 #include "engine/state/flow_state.h"
@@ -26,10 +26,10 @@ struct Flowed {
     std::vector<FlowState> states = {};
 };
 
-inline Flowed flowed_with(PolygonMesh mesh, const FlowOptions& options, const FlowControl& control)
+inline Flowed flowed_with(PolygonMesh mesh, const AllOptions& options, const FlowControl& control)
 {
     Flowed result;
-    result.report = mean_curvature_flow(
+    result.report = smooth_surface(
         mesh, options,
         [&](const StepState& state) {
             result.observed.push_back(state.positions);
@@ -64,7 +64,7 @@ void on_ranks(int n, Work&& work)
         std::rethrow_exception(thrown);
 }
 
-inline Flowed flowed_on(RankGroup& ranks, const PolygonMesh& mesh, const FlowOptions& options, FlowControl control = {})
+inline Flowed flowed_on(RankGroup& ranks, const PolygonMesh& mesh, const AllOptions& options, FlowControl control = {})
 {
     control.ranks = &ranks;
     ranks.set_threads_of_each(options.resources.threads);
@@ -112,7 +112,7 @@ inline void check_same(const Flowed& found, const Flowed& expected, int n_ranks)
 }
 
 /// Runs a flow in one process, and with each of these numbers of ranks.
-inline void check_bits(const std::string& name, const PolygonMesh& mesh, FlowOptions options, int subdomains,
+inline void check_bits(const std::string& name, const PolygonMesh& mesh, AllOptions options, int subdomains,
                        const std::vector<int>& n_ranks)
 {
     CAPTURE(name);
@@ -126,9 +126,9 @@ inline void check_bits(const std::string& name, const PolygonMesh& mesh, FlowOpt
     }
 }
 
-inline FlowOptions by_sweeps(Laplacian laplacian, double time_step, int steps = 3)
+inline AllOptions by_sweeps(Laplacian laplacian, double time_step, int steps = 3)
 {
-    FlowOptions options;
+    AllOptions options;
     options.laplacian = laplacian;
     options.time_step = time_step;
     options.steps = steps;
@@ -137,9 +137,9 @@ inline FlowOptions by_sweeps(Laplacian laplacian, double time_step, int steps = 
     return options;
 }
 
-inline FlowOptions converged(Laplacian laplacian, double time_step, double tolerance = 1e-8)
+inline AllOptions converged(Laplacian laplacian, double time_step, double tolerance = 1e-8)
 {
-    FlowOptions options = by_sweeps(laplacian, time_step);
+    AllOptions options = by_sweeps(laplacian, time_step);
     options.accuracy.approach = Approach::Converged;
     options.accuracy.tolerance = tolerance;
     return options;

@@ -59,7 +59,7 @@ TEST_CASE("ranks find the bits of one process: every kind of flow and every opti
 {
     int n_shared = 0;
     int n_alone = 0;
-    const auto check = [&](const std::string& name, const PolygonMesh& mesh, FlowOptions options) {
+    const auto check = [&](const std::string& name, const PolygonMesh& mesh, AllOptions options) {
         CAPTURE(name);
         options.resources.threads = 1;
         // What is left open is chosen so that ranks can share it.
@@ -83,7 +83,7 @@ TEST_CASE("ranks find the bits of one process: every kind of flow and every opti
     const PolygonMesh ball = test::rimmed_ball();
     const double edge = mean_edge_length(ball);
     for (const test::OptionCase& option : test::option_cases()) {
-        FlowOptions options = test::options_without_cases(edge);
+        AllOptions options = test::options_without_cases(edge);
         option.set(options, ball, edge);
         check(option.name(), ball, options);
     }

@@ -5,9 +5,10 @@
 
 #include <doctest/doctest.h>
 
+#include "engine/denoise.h"
 #include "engine/mean_curvature_flow.h"
+#include "engine/measure/smoothed_radius.h"
 #include "engine/setup/presets.h"
-#include "engine/setup/smoothed_radius.h"
 #include "engine/tasks/parallel_executor.h"
 #include "partition/errors.h"
 #include "partition/metrics/bounding_box.h"
@@ -17,6 +18,7 @@
 #include "samples/meshes/meshes.h"
 #include "tests/support/denoising.h"
 #include "tests/support/flows.h"
+#include "tests/support/preset_choices.h"
 #include "tests/support/random_meshes.h"
 #include "tests/support/relative.h"
 
@@ -51,7 +53,7 @@ double distance(const PolygonMesh& truth, const Points& positions)
 
 PolygonMesh smoothed(PolygonMesh mesh, Preset preset)
 {
-    mean_curvature_flow(mesh, options_for(preset, mesh).options);
+    mesh.vertices = test::moved_by(options_for(preset, mesh), mesh);
     return mesh;
 }
 
@@ -203,17 +205,16 @@ TEST_CASE("clean parts are fixed points where edges are kept, whatever the amoun
         if (mesh.n_vertices() == 12 * 7)
             continue;
         const double edge = mean_edge_length(mesh, mesh.vertices);
-        const auto check = [&](const FlowOptions& options) {
-            const Points moved = flowed(mesh, options);
+        const auto check_moved = [&](const Points& moved) {
             CHECK((moved - mesh.vertices).rowwise().norm().maxCoeff() <= 1e-6 * box_of_faces(mesh).diagonal());
             CHECK(folded_faces(mesh, mesh.vertices, moved, flipped_faces(mesh, mesh.vertices, moved)).empty());
         };
-        check(options_for(Preset::Cad, mesh).options);
+        check_moved(test::moved_by(options_for(Preset::Cad, mesh), mesh));
         for (const double edges : {1e-12, 1.0, 1000.0}) {
-            FlowOptions options;
+            AllOptions options;
             options.keep_edges = 30.0;
             options.time_step = edges * edge * edge;
-            check(options);
+            check_moved(flowed(mesh, options));
         }
     }
 }
@@ -223,9 +224,9 @@ TEST_CASE("a clean globe keeps its poles and its faces where edges are kept")
     for (const PolygonMesh& mesh : {globe(48, 24), globe(24, 12), globe(64, 16)}) {
         CAPTURE(mesh.n_vertices());
         const double edge = mean_edge_length(mesh, mesh.vertices);
-        CHECK(same_bits(flowed(mesh, options_for(Preset::Cad, mesh).options), mesh.vertices));
+        CHECK(same_bits(test::moved_by(options_for(Preset::Cad, mesh), mesh), mesh.vertices));
         for (const double edges : {1e-12, 1.0, 1000.0}) {
-            FlowOptions options;
+            AllOptions options;
             options.keep_edges = 30.0;
             options.time_step = edges * edge * edge;
             CHECK(flipped_faces(mesh, mesh.vertices, flowed(mesh, options)).empty());
@@ -238,9 +239,9 @@ TEST_CASE("the cad preset takes the noise of each place as its amount, also with
     const PolygonMesh mesh = make_box(400);
     FlowOptions with_edge;
     with_edge.motion.feature_edges = {{mesh.face_vertices[0], mesh.face_vertices[1]}};
-    CHECK(options_for(Preset::Cad, mesh, with_edge).options.denoise);
-    CHECK(options_for(Preset::Cad, mesh, {}, LengthOnMesh{0.01, true}).options.denoise);
-    CHECK(!options_for(Preset::Terrain, mesh, {}, LengthOnMesh{0.01, true}).options.denoise);
+    CHECK(options_for(Preset::Cad, mesh, with_edge).denoise);
+    CHECK(options_for(Preset::Cad, mesh, {}, LengthOnMesh{0.01, true}).denoise);
+    CHECK(!options_for(Preset::Terrain, mesh, {}, LengthOnMesh{0.01, true}).denoise);
 }
 
 TEST_CASE("noise that is said is believed, and no more is taken than it")
@@ -341,7 +342,7 @@ TEST_CASE("presets have names, and all of them work on a scan")
         CHECK_FALSE(choice.remark);
         CHECK(choice.options.time_step == options_for(preset.preset, c.noisy).options.time_step);
         if (preset.measures_noise() || preset.denoise)
-            CHECK(distance(c.truth, flowed(c.noisy, choice.options)) < distance(c.truth, c.noisy.vertices));
+            CHECK(distance(c.truth, test::moved_by(choice, c.noisy)) < distance(c.truth, c.noisy.vertices));
     }
     PolygonMesh point = c.noisy;
     point.vertices.setZero();

@@ -20,21 +20,21 @@ namespace {
 /// The result of a flow and what it reported.
 struct Outcome {
     Points positions;
-    FlowReport report;
+    SmoothReport report;
 };
 
-Outcome run(PolygonMesh mesh, const FlowOptions& options, std::shared_ptr<const FlowState> resume = nullptr)
+Outcome run(PolygonMesh mesh, const AllOptions& options, std::shared_ptr<const FlowState> resume = nullptr)
 {
-    FlowReport report = mean_curvature_flow(mesh, options, {}, {.stop = {}, .on_progress = {}, .resume = resume});
+    SmoothReport report = smooth_surface(mesh, options, {}, {.stop = {}, .on_progress = {}, .resume = resume});
     return {mesh.vertices, std::move(report)};
 }
 
 /// The state after a step, by way of a file.
-std::shared_ptr<const FlowState> state_after(int step, PolygonMesh mesh, FlowOptions options)
+std::shared_ptr<const FlowState> state_after(int step, PolygonMesh mesh, AllOptions options)
 {
     const test::TemporaryDirectory directory;
     options.steps = step;
-    mean_curvature_flow(mesh, options, [&](const StepState& state) {
+    smooth_surface(mesh, options, [&](const StepState& state) {
         if (state.step == step)
             write_checkpoint(directory / "state", state.capture());
     });
@@ -66,12 +66,12 @@ void check_same(const StepReport& a, const StepReport& b)
 }
 
 /// Going on after each step gives the same bits and the same report.
-void check_resumed(const PolygonMesh& mesh, const FlowOptions& options)
+void check_resumed(const PolygonMesh& mesh, const AllOptions& options)
 {
     const Outcome whole = run(mesh, options);
     for (int step = 1; step <= options.steps; ++step) {
         CAPTURE(step);
-        FlowOptions other_threads = options;
+        AllOptions other_threads = options;
         other_threads.resources.threads = 3;
         const auto state = state_after(step, mesh, other_threads);
         CHECK(state->n_steps() == step);
@@ -122,7 +122,7 @@ TEST_CASE("a flow that goes on after any step ends with the same bits and the sa
         if (option.field == "radius")
             continue;
         CAPTURE(option.name());
-        FlowOptions options = test::options_without_cases(edge);
+        AllOptions options = test::options_without_cases(edge);
         option.set(options, mesh, edge);
         check_resumed(mesh, options);
     }
@@ -130,7 +130,7 @@ TEST_CASE("a flow that goes on after any step ends with the same bits and the sa
 
 TEST_CASE("steps that remove noise go on with what the first one found")
 {
-    FlowOptions options;
+    AllOptions options;
     options.denoise = true;
     options.steps = 3;
     check_resumed(make_noisy_sphere(1500, {.amplitude = 0.1, .noise = 0.3}), options);
@@ -141,7 +141,7 @@ TEST_CASE("sweeps that begin with rescaled surfaces go on with the same bits, wi
     PolygonMesh mesh = make_noisy_sphere(500);
     mesh.vertices.rowwise() += Point(0.1, 2.0, -0.7);
     for (const Conditions conditions : {Conditions::AdaptedRobin, Conditions::Robin, Conditions::Schwarz}) {
-        FlowOptions options;
+        AllOptions options;
         options.time_step = 0.02;
         options.steps = 4;
         options.cut.subdomains = 3;
@@ -157,15 +157,15 @@ TEST_CASE("sweeps that begin with rescaled surfaces go on with the same bits, wi
 TEST_CASE("a state continues from a state")
 {
     const PolygonMesh mesh = make_mixed_polygons(600);
-    const FlowOptions options = test::flow_kinds(mean_edge_length(mesh)).front().options;
+    const AllOptions options = test::flow_kinds(mean_edge_length(mesh)).front().options;
     auto state = state_after(1, mesh, options);
     for (int step = 2; step <= options.steps; ++step) {
-        FlowOptions one_more = options;
+        AllOptions one_more = options;
         one_more.steps = step;
         PolygonMesh moved = mesh;
-        mean_curvature_flow(moved, one_more,
-                            [&](const StepState& now) { state = std::make_shared<const FlowState>(now.capture()); },
-                            {.stop = {}, .on_progress = {}, .resume = state});
+        smooth_surface(moved, one_more,
+                       [&](const StepState& now) { state = std::make_shared<const FlowState>(now.capture()); },
+                       {.stop = {}, .on_progress = {}, .resume = state});
         CHECK(test::same_bits(state->positions(), moved.vertices));
     }
     CHECK(test::same_bits(state->positions(), test::flowed(mesh, options)));
@@ -174,9 +174,9 @@ TEST_CASE("a state continues from a state")
 TEST_CASE("a state of another flow is refused, and one that was changed")
 {
     const PolygonMesh mesh = make_mixed_polygons(600);
-    const FlowOptions options = test::flow_kinds(mean_edge_length(mesh)).front().options;
+    const AllOptions options = test::flow_kinds(mean_edge_length(mesh)).front().options;
     const auto state = state_after(2, mesh, options);
-    FlowOptions other = options;
+    AllOptions other = options;
     other.accuracy.tolerance = 0.1;
     CHECK_THROWS_WITH_AS(run(mesh, other, state), doctest::Contains("belongs to another mesh or to other options"),
                          InputError);
@@ -212,7 +212,7 @@ TEST_CASE("positions of sub-meshes that are not finite are refused; an estimate 
 {
     const PolygonMesh mesh = make_triangles(600);
     const double infinity = std::numeric_limits<double>::infinity();
-    const auto with_infinite_arrays = [&](const FlowOptions& options) {
+    const auto with_infinite_arrays = [&](const AllOptions& options) {
         FlowState state = *state_after(1, mesh, options);
         REQUIRE(!state.flow.arrays.empty());
         for (Points& array : state.flow.arrays)

@@ -6,6 +6,7 @@
 #include <doctest/doctest.h>
 
 #include "partition/inspection/mesh_inspection.h"
+#include "partition/repeated_faces.h"
 #include "partition/vector_area.h"
 #include "tests/support/test_meshes.h"
 

@@ -1,0 +1,140 @@
+#include "engine/denoise.h"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+#include <variant>
+
+#include "engine/denoise/denoise_identity.h"
+#include "engine/denoise/denoise_run.h"
+#include "engine/measure/remarks.h"
+#include "engine/measure/smoothed_radius.h"
+#include "engine/tasks/stopwatch.h"
+#include "engine/tasks/workers.h"
+#include "partition/errors.h"
+
+namespace seamflow {
+
+namespace {
+
+/// The fraction of the call that setup takes: about as long as this many steps.
+double fraction_of_setup(int steps_to_do)
+{
+    constexpr double as_steps = 3.0;
+    return as_steps / (as_steps + steps_to_do);
+}
+
+/// The amount of a method, or null.
+SmoothingAmount* amount_of(DenoiseMethod& method)
+{
+    if (auto* const between = std::get_if<SmoothBetweenEdges>(&method))
+        return &between->amount;
+    auto* const rims = std::get_if<SmoothRims>(&method);
+    return rims != nullptr ? &rims->amount : nullptr;
+}
+
+/// With a time step in place of a radius.
+DenoiseOptions resolved(const DenoiseOptions& options, const PolygonMesh& mesh)
+{
+    DenoiseOptions own = options;
+    if (SmoothingAmount* const amount = amount_of(own.method)) {
+        amount->time_step = time_step_of(amount->time_step, amount->radius, own.steps, mesh);
+        amount->radius.reset();
+    }
+    return own;
+}
+
+/// When vertices at junctions would move; empty if they do, or are to stay.
+std::string_view need_of_junctions(const DenoiseOptions& options)
+{
+    if (options.motion.junctions == Junctions::Hold)
+        return {};
+    if (std::holds_alternative<SmoothBetweenEdges>(options.method))
+        return "Without edges that are kept";
+    // Vertices at junctions have no normal.
+    return options.motion.direction.kind == MotionDirection::Kind::Normal ? "In any direction but normals" : "";
+}
+
+/// A call, on its own threads.
+class Denoising {
+  public:
+    Denoising(PolygonMesh& mesh, DenoiseOptions options, const StepObserver& on_step, const FlowControl& control)
+        : options_(std::move(options))
+        , on_step_(on_step)
+        , control_(control)
+        , progress_(control)
+        , mesh_(mesh)
+    {
+    }
+
+    void run(DenoiseReport& report)
+    {
+        Stopwatch watch;
+        const int n_taken = control_.resume != nullptr ? control_.resume->n_steps() : 0;
+        const double setup = fraction_of_setup(options_.steps - n_taken);
+        progress_.set_steps(options_.steps);
+        progress_.enter(FlowPhase::Cut, 0, 0.0, 0.6 * setup);
+        require_valid(mesh_.mesh(), progress_.exec());
+        const std::uint64_t identity = identify_if_needed();
+        const std::string_view need = need_of_junctions(options_);
+        if (!need.empty())
+            options_.motion.junctions = Junctions::Hold;
+        const Surface surface = make_surface(mesh_, options_.motion, {}, progress_);
+        begin_report(surface, need, report);
+        report.seconds.cut = watch.lap();
+        DenoiseRun run(mesh_, surface, options_, identity, setup, progress_, report, control_);
+        for (auto step = static_cast<int>(report.steps.size()); step < options_.steps; ++step)
+            run.take_step(on_step_);
+        progress_.finish();
+        run.complete(report);
+    }
+
+  private:
+    [[nodiscard]] std::uint64_t identify_if_needed() const
+    {
+        const FlowState* const resume = control_.resume.get();
+        if (resume == nullptr && !on_step_)
+            return 0;
+        const std::uint64_t identity = identify(mesh_.mesh(), options_);
+        if (resume != nullptr && resume->identity != identity)
+            throw InputError("the state to resume from belongs to another mesh or to other options: resume with those "
+                             "that made it");
+        return identity;
+    }
+
+    void begin_report(const Surface& surface, std::string_view need, DenoiseReport& report)
+    {
+        report.mesh = report_on(surface, mesh_, options_.motion.strength);
+        if (const SmoothingAmount* const amount = amount_of(options_.method))
+            report.time_step = amount->time_step;
+        report.choices = surface.choices;
+        report.remarks = surface.remarks;
+        if (report.mesh.non_manifold_vertices > 0)
+            report.remarks.push_back(remark_on_non_manifold_vertices(report.mesh.non_manifold_vertices, need));
+        if (report.mesh.junction_vertices > 0)
+            report.remarks.push_back(remark_on_junctions(report.mesh.junction_vertices, Laplacian::Fujiwara));
+    }
+
+    DenoiseOptions options_;
+    const StepObserver& on_step_;
+    const FlowControl& control_;
+    Progress progress_;
+    FlowingMesh mesh_;
+};
+
+}  // namespace
+
+DenoiseReport denoise(PolygonMesh& mesh, const DenoiseOptions& options, const StepObserver& on_step,
+                      const FlowControl& control)
+{
+    require_valid(options);
+    if (control.resume != nullptr)
+        require_not_beyond(*control.resume, options.steps);
+    Workers workers(options.threads);
+    DenoiseReport report;
+    report.threads = workers.threads();
+    workers.execute([&] { Denoising(mesh, resolved(options, mesh), on_step, control).run(report); });
+    return report;
+}
+
+}  // namespace seamflow

@@ -1,0 +1,99 @@
+// Which options of denoise() are valid.
+
+#include <functional>
+#include <string>
+#include <string_view>
+#include <variant>
+
+#include "engine/denoise/denoise_options.h"
+#include "engine/options/motion_option_table.h"
+#include "engine/options/motion_rules.h"
+#include "engine/options/option_limits.h"
+#include "partition/errors.h"
+
+namespace seamflow {
+
+namespace {
+
+using Asked = AskedOptions;
+
+template <class Method>
+bool is(const DenoiseOptions& options)
+{
+    return std::holds_alternative<Method>(options.method);
+}
+
+constexpr OptionRule<DenoiseOptions> of_methods[]{
+    {[](const DenoiseOptions& o, const Asked& asked) { return is<SmoothRims>(o) && asked.has("feature_edges"); }, 0,
+     "<feature_edges> names edges to keep, but the boundary alone moves: leave them out"},
+    {[](const DenoiseOptions&, const Asked& asked) {
+         return asked.has("attachment") || asked.has("attachment_weights");
+     },
+     0, "<attachment> is for flows, whose equations it is a term of: leave it out"},
+};
+
+/// The options of motion that are not as by default.
+AskedOptions changed_options(const MotionOptions& motion)
+{
+    const auto first = [&motion](const std::function<bool(const OptionTraits&)>& matches) {
+        static const MotionOptions defaults = DenoiseOptions::default_motion();
+        std::string found;
+        for_each_pair(motion_table(motion), motion_table(defaults), [&](const auto& row, const auto& by_default) {
+            if (found.empty() && matches(row) && *row.value != *by_default.value)
+                found = row.field;
+        });
+        return found;
+    };
+    return {[first](std::string_view option) {
+                return !first([&](const OptionTraits& row) { return row.field == option; }).empty();
+            },
+            [first](unsigned concerns) {
+                return first([&](const OptionTraits& row) { return (row.concerns & concerns) != 0; });
+            }};
+}
+
+constexpr OptionTraits row_of_angle{.field = "keep_edges",
+                                    .limits = {0.0, 180.0, true, true, "above 0 and below 180 (degrees)"}};
+constexpr OptionTraits row_of_radius{
+    .field = "radius", .limits = positive("positive and finite (a length, or a part of the bounding box's diagonal)")};
+constexpr OptionTraits row_of_time_step{.field = "time_step", .limits = positive("positive and finite (length²)")};
+
+void require_valid(const SmoothingAmount& amount)
+{
+    if (amount.radius && amount.time_step != 0.0)
+        refuse("<time_step> and <radius> both say how much is smoothed: leave one of them out");
+    require_within(row_of_radius, amount.radius);
+    if (!amount.radius)
+        require_within(row_of_time_step, amount.time_step);
+}
+
+/// Checks each method.
+struct RequireValid {
+    void operator()(const RemoveNoise& method) const { require_within(row_of_angle, method.edge_angle); }
+    void operator()(const SmoothBetweenEdges& method) const
+    {
+        require_within(row_of_angle, method.edge_angle);
+        require_valid(method.amount);
+    }
+    void operator()(const SmoothRims& method) const { require_valid(method.amount); }
+};
+
+}  // namespace
+
+void require_valid(const DenoiseOptions& options)
+{
+    std::visit(RequireValid(), options.method);
+    require_within({.field = "steps", .limits = limits_of_steps}, options.steps);
+    require_within({.field = "threads", .limits = limits_of_threads}, options.threads);
+    for_each_row(motion_table(options.motion), [](const auto& row) {
+        if constexpr (requires { require_within(row, *row.value); })
+            if (!row.limits.text.empty())
+                require_within(row, *row.value);
+    });
+    require_valid_vertices(options.motion);
+    const AskedOptions asked = changed_options(options.motion);
+    require_compatible(options.motion, asked);
+    require_none_broken<DenoiseOptions>(of_methods, options, asked, fill_other);
+}
+
+}  // namespace seamflow

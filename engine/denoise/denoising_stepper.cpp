@@ -1,0 +1,149 @@
+#include "engine/denoise/denoising_stepper.h"
+
+#include <algorithm>
+#include <cassert>
+
+#include <fmt/format.h>
+
+#include "partition/errors.h"
+#include "partition/index_lists.h"
+#include "solvers/normals/feature_lines.h"
+
+namespace seamflow {
+
+namespace {
+
+/// If the fraction of the surface without noise is smaller than this, it is not mentioned.
+constexpr double small_fraction = 0.05;
+
+}  // namespace
+
+std::unique_ptr<const DenoisingStepper::CutOpen> DenoisingStepper::cut_open(const PolygonMesh& mesh,
+                                                                            const Topology& topology,
+                                                                            const std::vector<Edge>& feature_edges,
+                                                                            const Executor& exec)
+{
+    if (feature_edges.empty())
+        return nullptr;
+    auto open = std::make_unique<CutOpen>();
+    open->mesh = FeatureLines(mesh, topology, feature_edges).cut_open(mesh, topology);
+    open->topology = make_topology(open->mesh, exec);
+    free_boundary(open->topology);
+    std::vector<Index> on_feature_edges;
+    for (const Edge& edge : feature_edges)
+        on_feature_edges.insert(on_feature_edges.end(), edge.begin(), edge.end());
+    sort_unique(on_feature_edges);
+    for (Index h = 0; h < mesh.n_corners(); ++h) {
+        const Index v = mesh.face_vertices[h];
+        open->mesh.vertices.row(open->mesh.face_vertices[h]) = mesh.vertices.row(v);
+        if (!topology.moves(v) || std::ranges::binary_search(on_feature_edges, v))
+            open->topology.fixed[open->mesh.face_vertices[h]] = 1;
+    }
+    return open;
+}
+
+DenoisingStepper::DenoisingStepper(const PolygonMesh& mesh, const Topology& topology, const MotionOptions& motion,
+                                   double edge_angle, Progress& progress)
+    : mesh_(&mesh)
+    , open_(cut_open(mesh, topology, motion.feature_edges, progress.exec()))
+    , step_scales_(motion.strength)
+    , denoiser_(open_ ? open_->mesh : mesh, open_ ? open_->topology : topology, progress.exec(), edge_angle)
+    , positions_(mesh.vertices)
+    , loops_(1.0, progress)
+{
+    if (motion.direction.kind != MotionDirection::Kind::Any)
+        denoiser_.keep_rims();
+    if (open_ && !step_scales_.empty()) {
+        step_scales_.resize(usize(open_->mesh.n_vertices()));
+        for (Index h = 0; h < mesh.n_corners(); ++h)
+            step_scales_[open_->mesh.face_vertices[h]] = motion.strength[mesh.face_vertices[h]];
+    }
+}
+
+void DenoisingStepper::step(const Points& before)
+{
+    assert(&before != &positions_);
+    const Executor exec = loops_.begin();
+    if (open_) {
+        // The additional copies of a vertex, on the other sides of a feature edge, do not move. The first copy has the
+        // number of the vertex.
+        Points of_copies(open_->mesh.n_vertices(), 3);
+        of_copies.topRows(before.rows()) = before;
+        for (Index h = 0; h < mesh_->n_corners(); ++h)
+            of_copies.row(open_->mesh.face_vertices[h]) = before.row(mesh_->face_vertices[h]);
+        positions_ = denoiser_.denoise(of_copies, step_scales_, exec).topRows(before.rows());
+    } else {
+        positions_ = denoiser_.denoise(before, step_scales_, exec);
+    }
+    if (!noise_)
+        noise_ = denoiser_.noise();
+    loops_.end();
+    if (!positions_.allFinite())
+        throw ComputationError("the result is not finite: scale the mesh to a size nearer to 1");
+}
+
+void DenoisingStepper::save(StepMemory& memory) const
+{
+    memory.positions = positions_;
+    if (noise_)
+        memory.numbers = {noise_->deviation,      noise_->edge,           noise_->part,
+                          noise_->rim_vertices,   noise_->kept.vertices,  noise_->kept.height,
+                          noise_->kept.place.x(), noise_->kept.place.y(), noise_->kept.place.z()};
+}
+
+void DenoisingStepper::restore(const StepMemory& memory)
+{
+    positions_ = memory.positions;
+    StepMemoryReader reader(memory);
+    noise_.emplace();
+    KeptStructure& kept = noise_->kept;
+    for (double* number : {&noise_->deviation, &noise_->edge, &noise_->part, &noise_->rim_vertices, &kept.vertices,
+                           &kept.height, &kept.place.x(), &kept.place.y(), &kept.place.z()})
+        *number = reader.number();
+    reader.require_end();
+}
+
+void DenoisingStepper::report_to(DenoiseReport& report) const
+{
+    if (mesh_->n_faces() == 0 || !noise_)
+        return;
+    report.noise = {noise_->edge > 0.0 ? noise_->deviation / noise_->edge : 0.0, noise_->part};
+    if (!denoiser_.spikes().empty())
+        report.remarks.push_back(remark_on_spikes(denoiser_.spikes()));
+    const KeptStructure& kept = noise_->kept;
+    if (kept.vertices > 0.0)
+        report.remarks.push_back(
+            {"pattern kept",
+             {{"vertices", kept.vertices},
+              {"height", kept.height},
+              {"x", kept.place.x()},
+              {"y", kept.place.y()},
+              {"z", kept.place.z()}},
+             {fmt::format("What looked like noise comes back like a pattern, so it stays as it is: {:.0f} vertices, "
+                          "which would have moved by up to {:.3g}, most clearly at {:.6g}, {:.6g}, {:.6g}. Use "
+                          "<radius> to smooth it all the same.",
+                          kept.vertices, kept.height, kept.place.x(), kept.place.y(), kept.place.z())}});
+    const bool has_noise = noise_->part > 0.0;
+    if (noise_->rim_vertices > 0.0)
+        report.choices.push_back(
+            {"smooth rims",
+             {{"vertices", noise_->rim_vertices}},
+             {fmt::format("noise or stairs of rims of {:.0f} vertices: removed; they became smooth curves{}",
+                          noise_->rim_vertices, has_noise ? ";" : "")}});
+    if (!has_noise) {
+        if (noise_->rim_vertices == 0.0 && kept.vertices == 0.0)
+            report.remarks.push_back(
+                {"no noise", {}, {"No noise was found: nothing is smoothed. Use <radius> to smooth anyway."}});
+        return;
+    }
+    std::string where;
+    if (noise_->part < 1.0 - small_fraction)
+        where = fmt::format(" on {:.0f}% of the vertices, none on the others", 100.0 * noise_->part);
+    report.choices.push_back(
+        {"noise",
+         {{"edge lengths", report.noise->deviation}, {"part", noise_->part}},
+         {fmt::format("noise of {:.2g} edge lengths{}: removed; edges and details that it does not explain were kept",
+                      report.noise->deviation, where)}});
+}
+
+}  // namespace seamflow

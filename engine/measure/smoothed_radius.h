@@ -1,0 +1,34 @@
+#pragma once
+
+#include <optional>
+
+#include "engine/options/length_on_mesh.h"
+#include "partition/polygon_mesh.h"
+#include "solvers/filters/step_filter.h"
+
+namespace seamflow {
+
+/// The length on the surface over which a flow smooths: bumps of this radius have half their height after all steps;
+/// smaller bumps have less, much larger ones hardly change. A bump is z = a sin(πx/2R) sin(πy/2R), whose height each
+/// step multiplies by the filter's transfer(dt π²/(2R²)), to first order in a. With Laplacian::Uniform that holds where
+/// edges are as long as its h.
+/// @param time_step in length². @param steps at least 1.
+/// @returns R, in units of length.
+/// @param filter of each step.
+double smoothed_radius(double time_step, int steps, const StepFilter& filter = {});
+
+/// The time step, in length², with which that many steps smooth bumps of radius R: the inverse of smoothed_radius.
+double time_step_for_radius(double radius, int steps, const StepFilter& filter = {});
+
+/// The time step, in length², for a radius that may be relative to the mesh.
+/// @param steps 0 counts as 1. @param diagonal of the bounding box, in units of length.
+/// @throws InputError for a mesh without a size, without naming the mesh: "has no size …"; OptionError for a
+///         time step that no double can hold.
+double time_step_for_radius(const LengthOnMesh& radius, int steps, double diagonal, const StepFilter& filter = {});
+
+/// A time step that is given, or the one for a radius, in length².
+/// @param radius empty: `time_step` is given. @throws InputError for a mesh that is not valid; as time_step_for_radius.
+double time_step_of(double time_step, const std::optional<LengthOnMesh>& radius, int steps, const PolygonMesh& mesh,
+                    const StepFilter& filter = {});
+
+}  // namespace seamflow

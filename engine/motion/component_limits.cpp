@@ -1,0 +1,182 @@
+#include "engine/motion/component_limits.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "engine/tasks/parallel_executor.h"
+#include "partition/vector_area.h"
+
+namespace seamflow {
+
+namespace {
+
+/// Factors of a displacement below this count as zero.
+constexpr double smallest_factor = 0.1;
+/// The number of bisections that find a factor.
+constexpr int bisections = 20;
+
+}  // namespace
+
+LimitedComponents::LimitedComponents(const PolygonMesh& mesh, const Topology& topology, const ComponentLimits& limits)
+    : mesh_(&mesh)
+    , limits_(limits)
+    , normals_(mesh, topology)
+    , components_(face_components(mesh, topology))
+    , is_closed_(usize(components_.count()), topology.oriented ? 1 : 0)
+    , initial_(mesh.vertices)
+    , factors_(usize(components_.count()), 1.0)
+    , losses_(usize(components_.count()))
+{
+    for (Index c = 0; c < components_.count(); ++c) {
+        std::vector<Index> vertices;
+        for (const Index f : components_.nodes[c]) {
+            const auto corners = mesh.face(f);
+            vertices.insert(vertices.end(), corners.begin(), corners.end());
+            for (Index h = mesh.face_offsets[f]; h < mesh.face_offsets[f + 1]; ++h)
+                if (topology.twin[h] < 0)
+                    is_closed_[c] = 0;
+        }
+        sort_unique(vertices);
+        vertices_.values.insert(vertices_.values.end(), vertices.begin(), vertices.end());
+        vertices_.close();
+    }
+}
+
+/// The volume of a component with this fraction of its displacements, relative to the component's first vertex.
+double LimitedComponents::volume_of(Index component, const Points& positions, double factor) const
+{
+    const auto where = [&](Index v) -> Point {
+        return initial_.row(v) + factor * (positions.row(v) - initial_.row(v));
+    };
+    const Point origin = where(vertices_[component].front());
+    const std::span<const Index> faces = components_.nodes[component];
+    return sum(run_in_parallel, static_cast<Index>(faces.size()), [&](Index i) {
+        const auto corners = mesh_->face(faces[i]);
+        Point mean = Point::Zero();
+        for (const Index v : corners)
+            mean += where(v) - origin;
+        mean /= static_cast<double>(corners.size());
+        double volume = 0.0;
+        Point from = where(corners.back()) - origin;
+        for (const Index v : corners) {
+            const Point to = where(v) - origin;
+            volume += mean.dot(from.cross(to)) / 6.0;
+            from = to;
+        }
+        return volume;
+    });
+}
+
+double LimitedComponents::factor_by_volume(Index component, const Points& positions)
+{
+    losses_[component] = {};
+    if (is_closed_[component] == 0)
+        return 1.0;
+    const double first = volume_of(component, positions, 0.0);
+    const auto change = [&](double factor) { return std::abs(volume_of(component, positions, factor) - first); };
+    const auto is_within = [&](double lost) { return lost <= limits_.volume * std::abs(first); };
+    const double lost = change(1.0);
+    if (is_within(lost))
+        return 1.0;
+    losses_[component] = {lost, lost / std::abs(first)};
+    double within = 0.0;
+    double beyond = 1.0;
+    for (int i = 0; i < bisections; ++i) {
+        const double middle = 0.5 * (within + beyond);
+        (is_within(change(middle)) ? within : beyond) = middle;
+    }
+    return within;
+}
+
+double LimitedComponents::factor_by_move(Index component, const Points& positions) const
+{
+    const std::span<const Index> vertices = vertices_[component];
+    const double squares = sum(run_in_parallel, static_cast<Index>(vertices.size()), [&](Index i) {
+        const Index v = vertices[i];
+        const double move = (positions.row(v) - initial_.row(v)).dot(normals_(v, positions));
+        return move * move;
+    });
+    const double move = std::sqrt(squares / static_cast<double>(vertices.size()));
+    return move > limits_.move ? limits_.move / move : 1.0;
+}
+
+double LimitedComponents::factor_of(Index component, const Points& positions)
+{
+    double factor = 1.0;
+    if (std::isfinite(limits_.move))
+        factor = factor_by_move(component, positions);
+    if (std::isfinite(limits_.volume))
+        factor = std::min(factor, factor_by_volume(component, positions));
+    return factor >= smallest_factor ? factor : 0.0;
+}
+
+/// Shortens the components of displacements that are tangential to the result.
+void LimitedComponents::limit_slides(Points& positions) const
+{
+    Points limited = positions;
+    for_each(run_in_parallel, mesh_->n_vertices(), [&](Index v) {
+        const Point move = positions.row(v) - initial_.row(v);
+        const Point normal = normals_(v, positions);
+        const Point slide = move - move.dot(normal) * normal;
+        if (const double length = slide.norm(); length > limits_.slide)
+            limited.row(v) -= (1.0 - limits_.slide / length) * slide;
+    });
+    positions = std::move(limited);
+}
+
+void LimitedComponents::apply(Points& positions)
+{
+    if (std::isfinite(limits_.slide))
+        limit_slides(positions);
+    for (Index c = 0; c < components_.count(); ++c) {
+        factors_[c] = factor_of(c, positions);
+        if (factors_[c] == 1.0)
+            continue;
+        const std::span<const Index> vertices = vertices_[c];
+        for_each(run_in_parallel, static_cast<Index>(vertices.size()), [&](Index i) {
+            const Index v = vertices[i];
+            positions.row(v) = factors_[c] == 0.0
+                                   ? Point(initial_.row(v))
+                                   : initial_.row(v) + factors_[c] * (positions.row(v) - initial_.row(v));
+        });
+    }
+}
+
+/// A text in brackets on the largest loss; empty if no component would have lost too much.
+std::string LimitedComponents::largest_loss() const
+{
+    const Loss largest = *std::ranges::max_element(losses_, {}, &Loss::fraction);
+    if (largest.fraction == 0.0)
+        return {};
+    return fmt::format(" ({}{:.2g} %: {:.3g} in units of the file)", components_.count() == 1 ? "" : "up to ",
+                       100.0 * largest.fraction, largest.volume);
+}
+
+std::optional<Remark> LimitedComponents::remark() const
+{
+    const auto n_unmoved = std::ranges::count(factors_, 0.0);
+    const auto n_less = std::ranges::count_if(factors_, [](double factor) { return factor > 0.0 && factor < 1.0; });
+    if (n_unmoved + n_less == 0)
+        return {};
+    const auto components = [&](auto n) {
+        return components_.count() == 1 ? std::string("The surface")
+                                        : fmt::format("{} of {} components", n, components_.count());
+    };
+    std::string text;
+    const std::string loss = fmt::format("would have lost {}more than {:g} % of its volume{}",
+                                         std::isfinite(limits_.move) ? "more than its noise, or " : "",
+                                         100.0 * limits_.volume, largest_loss());
+    if (n_less > 0)
+        text = fmt::format("{} {}: less was taken off there. <radius> smooths as much as it says.", components(n_less),
+                           loss);
+    if (n_unmoved > 0)
+        text += fmt::format("{}{} {}, however little was taken off, and stayed as it was: say how much to smooth with "
+                            "<radius>.",
+                            text.empty() ? "" : " ", components(n_unmoved), loss);
+    return Remark("limited loss", {{"moved less", n_less}, {"stayed", n_unmoved}, {"of", components_.count()}}, {text});
+}
+
+}  // namespace seamflow

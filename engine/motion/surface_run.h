@@ -1,0 +1,104 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+
+#include "engine/measure/displacement_meter.h"
+#include "engine/measure/run_report.h"
+#include "engine/motion/motion_constraints.h"
+#include "engine/motion/step_fractions.h"
+#include "engine/motion/surface_stepper.h"
+#include "engine/state/flow_state.h"
+#include "engine/surface/flowing_mesh.h"
+#include "engine/tasks/progress.h"
+#include "partition/errors.h"
+#include "solvers/laplacian/laplacian.h"
+
+namespace seamflow {
+
+/// Calls body(); a ComputationError from it gets a name before its message.
+template <class Body>
+void named(const std::string& name, Body&& body)
+{
+    try {
+        body();
+    } catch (const ComputationError& error) {
+        throw ComputationError(name + ", " + error.what());
+    }
+}
+
+/// Takes the steps of a surface, whatever moves it: applies the constraints on its motion, and measures and reports
+/// each step. A subclass has the stepper, and what else its kind of steps needs.
+class SurfaceRun {
+  public:
+    SurfaceRun(const SurfaceRun&) = delete;
+    SurfaceRun& operator=(const SurfaceRun&) = delete;
+    virtual ~SurfaceRun() = default;
+
+    /// Takes one step. The mesh moves when it is complete.
+    /// @throws ComputationError naming the step; Cancelled. Afterwards no further step can be taken.
+    void take_step(const StepObserver& on_step);
+
+  protected:
+    /// @param mesh, topology, progress, report must outlive the run; the mesh moves with each step.
+    /// @param resume the state to resume from, or null.
+    SurfaceRun(FlowingMesh& mesh, const Topology& topology, Progress& progress, RunReport& report,
+               const FlowState* resume);
+
+    /// Measures mean curvature and displacements after each step, from now on.
+    /// @param meter refers to the topology. @param curvature the largest one now, in 1/length.
+    void measure_by(DisplacementMeter meter, const ScaledLaplacian& laplacian, double curvature);
+
+    /// Begins the steps, once there is a stepper.
+    /// @param setup the fraction of the whole run that is done. @param steps the number of steps of the whole run.
+    /// @param compares whether each step is compared with another.
+    void begin(const MotionOptions& motion, bool continues_scaled, double largest_update, double setup, int steps,
+               bool compares = false);
+
+    [[nodiscard]] virtual SurfaceStepper& stepper() const = 0;
+    /// Takes the step itself.
+    virtual void move(const Points& before) { stepper().step(before); }
+    /// Fills in the data on the last step.
+    virtual void describe(StepReport&) const {}
+    /// #F: the sub-mesh of every face, for messages; empty: there are none.
+    [[nodiscard]] virtual std::span<const Index> labels() const { return {}; }
+    /// Takes the same step in another way, and compares.
+    virtual void compare([[maybe_unused]] int step, StepReport&) {}
+    /// Adds to what the observer gets, and calls it.
+    virtual void show(const StepState& state, const StepObserver& on_step) const { on_step(state); }
+
+    /// The parts of a state that all runs have. `restore` checks them, and sets the stepper and the mesh accordingly.
+    [[nodiscard]] virtual FlowState capture() const;
+    virtual void restore(const FlowState& state);
+    /// @throws InputError if the positions of a state do not fit the mesh.
+    void require_positions(const StepMemory& memory) const;
+
+    /// Adds remarks on what the constraints have done.
+    /// @param on_components a remark on components that holds unless they were limited.
+    void remark_on_constraints(RunReport& report, const std::optional<Remark>& on_components = {}) const;
+    /// Adds the measurements over all steps.
+    void report_measures(RunReport& report) const;
+
+    FlowingMesh& mesh_;
+    const Topology& topology_;
+    Progress& progress_;
+    RunReport& report_;
+    const FlowState* resume_;
+    std::optional<MotionConstraints> constraints_;
+    std::optional<StepFractions> fractions_;
+    std::optional<DisplacementMeter> meter_;
+
+  private:
+    void measure(const Points& after, StepReport& of_step);
+
+    ScaledLaplacian laplacian_;
+    double curvature_before_ = 0.0;
+    /// The size of the surface before the first step (see box_of_faces).
+    double extent_before_;
+    /// #V by 3: the positions from which the run continues; empty if they are also its results.
+    Points of_run_ = Points(0, 3);
+    Points result_ = Points(0, 3);
+};
+
+}  // namespace seamflow

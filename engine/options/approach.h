@@ -1,0 +1,29 @@
+#pragma once
+
+namespace seamflow {
+
+/// The solver of a backward Euler step.
+enum class Approach {
+    /// The fastest of Decomposed, ConjugateGradients and Undecomposed, by a cost model. It is Decomposed if another
+    /// option concerns sub-meshes or sweeps, or if the Laplacian is not symmetric.
+    Automatic,
+    /// Sub-meshes: Converged with a tolerance, or to a loose one where that pays, otherwise Sweep.
+    Decomposed,
+    /// One sweep over the colours. Not with a tolerance.
+    Sweep,
+    /// Sub-meshes that converge to the undecomposed step, to AccuracyOptions::tolerance or a loose one.
+    Converged,
+    /// Conjugate gradients on the whole mesh, to AccuracyOptions::tolerance or a loose one: no sub-meshes, no
+    /// factorisation, and the shortest set-up. For symmetric Laplacians.
+    ConjugateGradients,
+    /// One factorisation of the whole mesh: exact.
+    Undecomposed,
+};
+
+/// Whether steps are taken without sub-meshes.
+constexpr bool takes_whole_mesh(Approach approach)
+{
+    return approach == Approach::ConjugateGradients || approach == Approach::Undecomposed;
+}
+
+}  // namespace seamflow

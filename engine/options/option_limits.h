@@ -1,0 +1,39 @@
+#pragma once
+
+#include <optional>
+#include <type_traits>
+
+#include <fmt/format.h>
+
+#include "engine/options/length_on_mesh.h"
+#include "engine/options/option_traits.h"
+#include "partition/errors.h"
+
+namespace seamflow {
+
+/// Checks a number against the limits of its option; an empty one has none.
+/// @throws OptionError naming the option, its value and its limits.
+template <class Value>
+requires std::is_arithmetic_v<Value>
+void require_within(const OptionTraits& row, Value value)
+{
+    if (row.limits.hold(static_cast<double>(value)))
+        return;
+    constexpr const char* text =
+        std::is_same_v<Value, double> ? "<{}> is {:.17g}, but must be {}" : "<{}> is {}, but must be {}";
+    throw OptionError(Wording{fmt::format(fmt::runtime(text), row.field, value, row.limits.text)});
+}
+
+inline void require_within(const OptionTraits& row, LengthOnMesh length)
+{
+    require_within(row, length.value);
+}
+
+template <class Value>
+void require_within(const OptionTraits& row, const std::optional<Value>& value)
+{
+    if (value)
+        require_within(row, *value);
+}
+
+}  // namespace seamflow

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <tuple>
+
+#include "engine/options/length_on_mesh.h"
+#include "engine/options/motion_options.h"
+#include "engine/state/transfer.h"
+
+/// The parts of options that checksums and archives take apart (see transfer.h).
+namespace seamflow {
+
+auto fields(Is<LengthOnMesh> auto& of)
+{
+    auto& [value, of_diagonal] = of;
+    return std::tie(value, of_diagonal);
+}
+
+auto fields(Is<MotionDirection> auto& of)
+{
+    auto& [kind, vector] = of;
+    return std::tie(kind, vector[0], vector[1], vector[2]);
+}
+
+}  // namespace seamflow
