@@ -10,6 +10,7 @@
 #include "partition/vector_area.h"
 #include "solvers/denoising/correlated_noise.h"
 #include "solvers/denoising/filter_sample.h"
+#include "solvers/denoising/flatter_normals.h"
 #include "solvers/denoising/mesh_piece.h"
 #include "solvers/denoising/normal_motion.h"
 #include "solvers/denoising/smoother_places.h"
@@ -126,8 +127,7 @@ MeshDenoiser::Findings MeshDenoiser::examine(const Points& before, const Executo
     Findings found{
         denoise_normals(*mesh_, *topology_, before, exec), before, flat_vertices(*mesh_, *topology_, before, exec), {}};
     const Points& normals = found.normals.normals;
-    fit_vertices(*mesh_, *topology_, {},
-                 {normals, std::min(most_relaxation, mean_chord(*mesh_, before, normals, exec))}, found.fitted, exec);
+    fit(normals, mean_chord(*mesh_, before, normals, exec), found.fitted, exec);
     found.places = places_.find(denoised(before, found), exec);
     return found;
 }
@@ -163,7 +163,7 @@ Points MeshDenoiser::without_noise(const Points& before, std::span<const double>
     const KeptStructure kept = n_thinned_ == 0 ? put_back_structure(before, begun, found, exec) : KeptStructure{};
     const Points& normals = found.normals.normals;
     if (n_thinned_ == 0 && std::ranges::any_of(found.places.shares, [](double part) { return part > 0.0; }))
-        fit_further(normals, found.fitted, exec);
+        improve_fit(begun, found, exec);
     std::vector<double>& shares = found.places.shares;
     Points& fitted = found.fitted;
     std::vector<double> has_noise = shares;
@@ -267,13 +267,25 @@ void MeshDenoiser::remove_on_thinned(const Points& before, std::span<const Noisy
     });
 }
 
-void MeshDenoiser::fit_further(const Points& normals, Points& fitted, const Executor& exec) const
+void MeshDenoiser::fit(const Points& normals, double chord, Points& positions, const Executor& exec) const
 {
-    for (int fit = 0; fit < most_further_fits; ++fit) {
-        const double chord = mean_chord(*mesh_, fitted, normals, exec);
-        if (chord <= near_enough)
+    fit_vertices(*mesh_, *topology_, {}, {normals, std::min(most_relaxation, chord)}, positions, exec);
+}
+
+void MeshDenoiser::improve_fit(const Points& before, Findings& found, const Executor& exec) const
+{
+    const Points& normals = found.normals.normals;
+    const auto chord = [&] { return mean_chord(*mesh_, found.fitted, normals, exec); };
+    if (take_flatter_normals({*mesh_, *topology_, averages_, signs_, before, found.places.shares}, found.normals,
+                             exec)) {
+        found.fitted = before;
+        fit(normals, chord(), found.fitted, exec);
+    }
+    for (int n = 0; n < most_further_fits; ++n) {
+        const double now = chord();
+        if (now <= near_enough)
             return;
-        fit_vertices(*mesh_, *topology_, {}, {normals, std::min(most_relaxation, chord)}, fitted, exec);
+        fit(normals, now, found.fitted, exec);
     }
 }
 

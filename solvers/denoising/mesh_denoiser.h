@@ -112,9 +112,14 @@ class MeshDenoiser {
     /// 3: receives positions without noise where thinned meshes have noise.
     void remove_on_thinned(const Points& before, std::span<const NoisyPlaces::Correlation> correlated,
                            NoisyPlaces::Correlation which, Points& result, const Executor& exec) const;
-    /// Fits vertices to normals again where one fit was not enough.
-    /// @param normals #F by 3. @param fitted #V by 3.
-    void fit_further(const Points& normals, Points& fitted, const Executor& exec) const;
+    /// Moves vertices to fit normals.
+    /// @param normals #F by 3. @param chord the mean chord between them and those of the faces. @param positions #V
+    /// by 3.
+    void fit(const Points& normals, double chord, Points& positions, const Executor& exec) const;
+    /// Takes flatter normals where they are nearer to the truth (see take_flatter_normals), and fits vertices again:
+    /// from `before` if there are such normals, and further where one fit is not enough.
+    /// @param before #V by 3.
+    void improve_fit(const Points& before, Findings& found, const Executor& exec) const;
     /// Puts back structure: at its vertices, `begun` becomes `before` again, and the shares of the further
     /// displacements become 0.
     /// @param begun #V by 3: without correlated noise.

@@ -13,8 +13,12 @@
 #include "engine/tasks/parallel_executor.h"
 #include "partition/metrics/vertex_distance.h"
 #include "samples/meshes/meshes.h"
+#include "solvers/denoising/denoised_normals.h"
 #include "solvers/denoising/filter_sample.h"
+#include "solvers/denoising/flatter_normals.h"
 #include "solvers/denoising/mesh_denoiser.h"
+#include "solvers/denoising/vertex_averages.h"
+#include "solvers/normals/face_neighbours.h"
 #include "tests/support/denoising.h"
 #include "tests/support/random_meshes.h"
 #include "tests/support/relative.h"
@@ -312,4 +316,47 @@ TEST_CASE("where normals diffuse between edges, neither a second part of another
     // Rounding may decide at a place.
     CHECK((beside - alone).rowwise().norm().maxCoeff() < 5e-3 * mean_edge_length(part));
     CHECK(MeshDenoiser(part, topology, run_in_parallel).denoise(part.vertices, {}, run_in_parallel) == alone);
+}
+
+TEST_CASE("under much noise facets become flatter than the estimated normals are")
+{
+    struct Case {
+        PolygonMesh part;
+        /// In degrees: between the angle that is left and that without flatter normals.
+        double most;
+    };
+    for (const Case& one :
+         {Case{make_box(8000), 0.84}, Case{make_gear(8000), 3.24}, Case{make_chamfered_plate(8000), 3.48}}) {
+        CAPTURE(one.part.n_faces());
+        PolygonMesh result = with_noise(one.part, 0.3);
+        const Topology topology = make_topology(result);
+        result.vertices = MeshDenoiser(result, topology).denoise(result.vertices);
+        CHECK(test::angle_to_truth(one.part, result) < one.most);
+    }
+}
+
+TEST_CASE("normals become flatter on facets alone, where there is noise, whichever way faces turn and on any threads")
+{
+    const auto n_changed = [](const PolygonMesh& mesh, double share) {
+        const Topology topology = make_topology(mesh);
+        const VertexAverages averages(mesh, topology);
+        const std::vector<std::int8_t> signs = face_signs(mesh, topology);
+        const std::vector<double> shares(usize(mesh.n_vertices()), share);
+        const NoisySurface surface{mesh, topology, averages, signs, mesh.vertices, shares};
+        const DenoisedNormals estimated = denoise_normals(mesh, topology, mesh.vertices);
+        DenoisedNormals found = estimated;
+        DenoisedNormals found_in_parallel = estimated;
+        const bool is_any = take_flatter_normals(surface, found);
+        CHECK(take_flatter_normals(surface, found_in_parallel, run_in_parallel) == is_any);
+        CHECK(found_in_parallel.normals == found.normals);
+        CHECK(is_any == (found.normals != estimated.normals));
+        return ((found.normals - estimated.normals).rowwise().norm().array() > 0.0).count();
+    };
+    const PolygonMesh box = with_noise(make_box(8000), 0.3);
+    CHECK(static_cast<double>(n_changed(box, 1.0)) > 0.95 * box.n_faces());
+    CHECK(static_cast<double>(n_changed(test::with_faces_flipped(box, 5), 1.0)) > 0.95 * box.n_faces());
+    CHECK(n_changed(box, 0.0) == 0);
+    CHECK(n_changed(with_noise(make_box(8000), 0.1), 1.0) == 0);
+    CHECK(n_changed(with_noise(test::triangle_torus(100, 50), 0.3), 1.0) == 0);
+    CHECK(n_changed(with_noise(bumpy_sphere(3000), 0.3), 1.0) == 0);
 }
