@@ -31,8 +31,8 @@ void require_valid_filter(const FlowOptions& options)
     const auto [least, most] = orders_of(options.filter);
     const int order = filter_of(options).order;
     if (order < least || order > most)
-        throw OptionError(Wording{fmt::format("<order> is {}, but must be {} to {} with the filter {}", order, least,
-                                              most, option_name(options.filter))});
+        refuse(fmt::format("<order> is {}, but must be {} to {} with the filter {}", order, least, most,
+                           option_name(options.filter)));
 }
 
 }  // namespace

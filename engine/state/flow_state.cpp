@@ -2,17 +2,16 @@
 
 #include <fmt/format.h>
 
-#include "partition/errors.h"
+#include "engine/options/option_rule.h"
 
 namespace seamflow {
 
 void require_not_beyond(const FlowState& state, int steps)
 {
     if (state.n_steps() > steps)
-        throw OptionError(
-            Wording{fmt::format("<steps> is {}, but the state to resume from is already after step {}: ask for at "
-                                "least as many, or start over",
-                                steps, state.n_steps())});
+        refuse(fmt::format("<steps> is {}, but the state to resume from is already after step {}: ask for at least as "
+                           "many, or start over",
+                           steps, state.n_steps()));
 }
 
 }  // namespace seamflow

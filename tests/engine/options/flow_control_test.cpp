@@ -162,7 +162,7 @@ TEST_CASE("stopped from another thread at any time, the mesh has the last comple
             PolygonMesh stopped = mesh;
             try {
                 smooth_surface(stopped, options, [&](const StepState& state) { steps_done = state.step; },
-                                    {.stop = source.get_token()});
+                               {.stop = source.get_token()});
                 CHECK(steps_done == options.steps);
             } catch (const Cancelled&) {
             }
@@ -177,8 +177,8 @@ TEST_CASE("a flow that is to stop before it begins does nothing; one that has en
     PolygonMesh mesh = small_mesh();
     AllOptions options;
     options.time_step = 1e-3;
-    CHECK_NOTHROW(smooth_surface(mesh, options, [&](const StepState&) { source.request_stop(); },
-                                      {.stop = source.get_token()}));
+    CHECK_NOTHROW(
+        smooth_surface(mesh, options, [&](const StepState&) { source.request_stop(); }, {.stop = source.get_token()}));
     const Points before = mesh.vertices;
     CHECK_THROWS_AS(smooth_surface(mesh, options, {}, {.stop = source.get_token()}), Cancelled);
     CHECK(test::same_bits(mesh.vertices, before));
