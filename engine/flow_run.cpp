@@ -11,7 +11,6 @@
 
 #include "engine/measure/flow_remarks.h"
 #include "engine/measure/surface_measures.h"
-#include "engine/ranks/rank_stepper.h"
 #include "engine/state/transfer.h"
 #include "engine/steppers/make_stepper.h"
 #include "engine/steppers/switching_stepper.h"
@@ -125,9 +124,9 @@ void FlowRun::make_stepper_of_flow()
         filter_of(options()).is_plain())
         stepper_ = std::make_unique<SwitchingStepper>(mesh, prepared_->surface.topology, options(), *prepared_->costs,
                                                       progress_);
-    else if (ranks_ != nullptr && !prepared_->stiffness && can_share(*ranks_, prepared_->cut, options()))
-        stepper_ = std::make_unique<RankStepper>(*ranks_, mesh, prepared_->surface.topology, prepared_->cut, options(),
-                                                 std::move(prepared_->curvature), progress_);
+    else if (ranks_ != nullptr && !prepared_->stiffness && ranks_->can_share(prepared_->cut, options()))
+        stepper_ = ranks_->make_stepper(mesh, topology_, prepared_->cut, options(), std::move(prepared_->curvature),
+                                        progress_);
     else
         stepper_ = make_stepper(mesh, prepared_->surface.topology, prepared_->cut, options(),
                                 std::move(prepared_->curvature), progress_);

@@ -76,7 +76,7 @@ class FlowRun final : public SurfaceRun {
     std::unique_ptr<Stepper> reference_;
     std::optional<VanishingComponents> vanishing_;
     /// Null if one process takes all steps.
-    RankGroup* ranks_;
+    StepSharing* ranks_;
     /// Whether the flow was changed between steps, so that the options no longer describe it.
     bool was_changed_ = false;
     /// #V: 1 for vertices that were fixed between steps.

@@ -3,11 +3,38 @@
 #include <functional>
 #include <memory>
 #include <stop_token>
+#include <vector>
 
 namespace seamflow {
 
-class RankGroup;
+class Progress;
+class Stepper;
+struct Cut;
+struct FlowOptions;
 struct FlowState;
+struct PolygonMesh;
+struct Topology;
+
+/// Those who share the steps of a flow with the one that runs it, such as ranks (see RankGroup).
+class StepSharing {
+  public:
+    StepSharing() = default;
+    StepSharing(const StepSharing&) = delete;
+    StepSharing& operator=(const StepSharing&) = delete;
+    virtual ~StepSharing() = default;
+
+    /// Whether they can share these steps.
+    /// @param options with all choices made.
+    [[nodiscard]] virtual bool can_share(const Cut& cut, const FlowOptions& options) const = 0;
+
+    /// Makes a stepper that shares its steps.
+    /// @param mesh, topology, cut are not needed later; progress must outlive the stepper. @param curvature #V: ‖ΔV⁰‖,
+    /// in 1/length; empty: as if it were 0.
+    /// @pre can_share(cut, options). @throws as make_stepper.
+    virtual std::unique_ptr<Stepper> make_stepper(const PolygonMesh& mesh, const Topology& topology, const Cut& cut,
+                                                  const FlowOptions& options, std::vector<double> curvature,
+                                                  Progress& progress) = 0;
+};
 
 /// What a flow is doing.
 enum class FlowPhase {
@@ -49,7 +76,7 @@ struct FlowControl {
     /// share: sweeps, or converged steps. Rank 0, which runs the flow, does everything else alone, and those steps,
     /// too, that they cannot share. Nothing but the approach depends on them. A flow that they share changes nothing
     /// between its steps but positions (see Flow).
-    RankGroup* ranks = nullptr;
+    StepSharing* ranks = nullptr;
 };
 
 }  // namespace seamflow

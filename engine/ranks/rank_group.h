@@ -1,5 +1,6 @@
 #pragma once
 
+#include "engine/options/flow_control.h"
 #include "engine/ranks/communicator.h"
 #include "engine/ranks/transport.h"
 
@@ -8,16 +9,14 @@ namespace seamflow {
 /// The ranks that share the steps of flows (see FlowControl::ranks), as rank 0 sees them: rank 0 runs each flow, with
 /// the whole mesh, and the others have sub-meshes of the flow and do their part of each step. Between steps the others
 /// wait for rank 0 in serve_flows. One flow at a time takes a step; a flow ends before the group does.
-class RankGroup {
+class RankGroup final : public StepSharing {
   public:
     /// All ranks begin together, the other ranks in serve_flows.
     /// @param transport of rank 0, which must outlive this.
     explicit RankGroup(Transport& transport);
-    RankGroup(const RankGroup&) = delete;
-    RankGroup& operator=(const RankGroup&) = delete;
 
     /// Dismisses the other ranks, with status 0, if `dismiss` has not been called.
-    ~RankGroup();
+    ~RankGroup() override;
 
     [[nodiscard]] Communicator& comm() { return comm_; }
     [[nodiscard]] int size() const { return comm_.size(); }
@@ -30,6 +29,14 @@ class RankGroup {
     /// while it works alone.
     void set_threads_of_each(int threads) { threads_of_each_ = threads; }
     [[nodiscard]] int threads_of_each() const { return threads_of_each_; }
+
+    /// Several ranks can share sweeps with the adapted conditions, and converged steps of symmetric Laplacians. All
+    /// other steps are taken by rank 0 alone.
+    [[nodiscard]] bool can_share(const Cut& cut, const FlowOptions& options) const override;
+    /// See RankStepper.
+    std::unique_ptr<Stepper> make_stepper(const PolygonMesh& mesh, const Topology& topology, const Cut& cut,
+                                          const FlowOptions& options, std::vector<double> curvature,
+                                          Progress& progress) override;
 
     /// Returns a number for a further flow.
     int add_flow() { return n_flows_++; }

@@ -10,14 +10,21 @@
 
 namespace seamflow {
 
-bool can_share(const RankGroup& ranks, const Cut& cut, const FlowOptions& options)
+bool RankGroup::can_share(const Cut& cut, const FlowOptions& options) const
 {
     const Conditions conditions = options.interface.conditions;
     const bool is_adapted = conditions == Conditions::AdaptedRobin || conditions == Conditions::AdaptedVentcell;
     const bool is_in_sub_meshes =
         options.scheme == Scheme::BackwardEuler && !takes_whole_mesh(options.accuracy.approach);
     const bool is_known = options.accuracy.tolerance || (options.flow != FlowEquation::Linear && is_adapted);
-    return ranks.size() > 1 && cut.n_parts > 1 && is_in_sub_meshes && is_known && !options.report.record_schedule;
+    return size() > 1 && cut.n_parts > 1 && is_in_sub_meshes && is_known && !options.report.record_schedule;
+}
+
+std::unique_ptr<Stepper> RankGroup::make_stepper(const PolygonMesh& mesh, const Topology& topology, const Cut& cut,
+                                                 const FlowOptions& options, std::vector<double> curvature,
+                                                 Progress& progress)
+{
+    return std::make_unique<RankStepper>(*this, mesh, topology, cut, options, std::move(curvature), progress);
 }
 
 RankStepper::RankStepper(RankGroup& ranks, const PolygonMesh& mesh, const Topology& topology, const Cut& cut,

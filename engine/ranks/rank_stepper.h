@@ -16,18 +16,13 @@
 
 namespace seamflow {
 
-/// Whether several ranks can take the steps of a flow together: they can take sweeps with the adapted conditions, and
-/// converged steps of symmetric Laplacians. All other steps are taken by rank 0 alone.
-/// @param options with all choices made.
-bool can_share(const RankGroup& ranks, const Cut& cut, const FlowOptions& options);
-
 /// Takes steps in sub-meshes that are dealt to ranks. Each rank, rank 0 included, has a stepper for its own sub-meshes;
 /// ranks exchange the data that cross Γ. The bits are those of a single process, on any number of ranks. Positions are
 /// sent to rank 0 only when it asks for them.
 class RankStepper final : public Stepper {
   public:
     /// Deals the sub-meshes.
-    /// @param ranks, progress must outlive the stepper; can_share is true.
+    /// @param ranks, progress must outlive the stepper; ranks.can_share(cut, options) is true.
     /// @param curvature #V: ‖ΔV⁰‖, in 1/length; empty: as if it were 0.
     /// @throws as make_stepper, on the lowest rank that fails.
     RankStepper(RankGroup& ranks, const PolygonMesh& mesh, const Topology& topology, const Cut& cut,
