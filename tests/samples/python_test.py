@@ -239,6 +239,8 @@ class SameBits(WithFolder):
             seamflow.Flow(V, F, radius="1%", flow="linear", approach="sweep")
         with self.assertRaisesRegex(ValueError, "^mesh: "):
             seamflow.Flow(V[:5], F, radius="1%")
+        with self.assertRaisesRegex(ValueError, "by an amount that is given: give radius, or call smooth"):
+            seamflow.Flow(V, F)
         with self.assertRaisesRegex(TypeError, "Flow has no progress"):
             seamflow.Flow(V, F, radius="1%", progress=print)
         with self.assertRaisesRegex(TypeError, "did you mean radius"):
