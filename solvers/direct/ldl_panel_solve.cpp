@@ -139,9 +139,11 @@ void back_substitute_panel(const LdlPanel<Number>& panel, Number* x)
 
 template void forward_substitute_panel<ldl_row>(const LdlPanel<float>&, float*);
 template void forward_substitute_panel<ldl_row>(const LdlPanel<double>&, double*);
+template void forward_substitute_panel<wide_ldl_row>(const LdlPanel<float>&, float*);
 template void forward_substitute_panel<wide_ldl_row>(const LdlPanel<double>&, double*);
 template void back_substitute_panel<ldl_row>(const LdlPanel<float>&, float*);
 template void back_substitute_panel<ldl_row>(const LdlPanel<double>&, double*);
+template void back_substitute_panel<wide_ldl_row>(const LdlPanel<float>&, float*);
 template void back_substitute_panel<wide_ldl_row>(const LdlPanel<double>&, double*);
 
 }  // namespace seamflow
