@@ -96,9 +96,8 @@ class Denoising {
         if (resume == nullptr && !on_step_)
             return 0;
         const std::uint64_t identity = identify(mesh_.mesh(), options_);
-        if (resume != nullptr && resume->identity != identity)
-            throw InputError("the state to resume from belongs to another mesh or to other options: resume with those "
-                             "that made it");
+        if (resume != nullptr)
+            require_identity(*resume, identity);
         return identity;
     }
 

@@ -52,11 +52,9 @@ AskedOptions changed_options(const MotionOptions& motion)
             }};
 }
 
-constexpr OptionTraits row_of_angle{.field = "keep_edges",
-                                    .limits = {0.0, 180.0, true, true, "above 0 and below 180 (degrees)"}};
-constexpr OptionTraits row_of_radius{
-    .field = "radius", .limits = positive("positive and finite (a length, or a part of the bounding box's diagonal)")};
-constexpr OptionTraits row_of_time_step{.field = "time_step", .limits = positive("positive and finite (length²)")};
+constexpr OptionTraits row_of_angle{.field = "keep_edges", .limits = limits_of_edge_angle};
+constexpr OptionTraits row_of_radius{.field = "radius", .limits = limits_of_radius};
+constexpr OptionTraits row_of_time_step{.field = "time_step", .limits = limits_of_time_step};
 
 void require_valid(const SmoothingAmount& amount)
 {

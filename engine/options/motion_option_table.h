@@ -50,6 +50,10 @@ constexpr Limits not_negative(std::string_view text)
     return {0.0, std::numeric_limits<double>::infinity(), false, true, text};
 }
 
+inline constexpr Limits limits_of_radius =
+    positive("positive and finite (a length, or a part of the bounding box's diagonal)");
+inline constexpr Limits limits_of_time_step = positive("positive and finite (length²)");
+
 /// The table of all options of motion, in the order of --help. A further field of MotionOptions has one row here; the
 /// compiler asks for it.
 /// @param motion MotionOptions, const or not; the rows refer to it.

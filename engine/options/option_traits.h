@@ -72,6 +72,7 @@ struct Limits {
 };
 
 inline constexpr Limits limits_of_steps{0.0, most_steps, false, false, "at least 0 and at most 1000000000"};
+inline constexpr Limits limits_of_edge_angle{0.0, 180.0, true, true, "above 0 and below 180 (degrees)"};
 inline constexpr Limits limits_of_threads{0.0, most_threads, false, false,
                                           "at least 0 and at most 1024 (0: as many as the calling TBB arena has)"};
 

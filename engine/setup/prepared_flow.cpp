@@ -30,9 +30,8 @@ std::uint64_t require_sound(const PolygonMesh& mesh, const FlowOptions& options,
     if (resume == nullptr && !is_observed)
         return 0;
     const std::uint64_t identity = identify(mesh, options);
-    if (resume != nullptr && resume->identity != identity)
-        throw InputError("the state to resume from belongs to another mesh or to other options: resume with those "
-                         "that made it");
+    if (resume != nullptr)
+        require_identity(*resume, identity);
     progress.count();
     return identity;
 }

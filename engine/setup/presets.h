@@ -72,8 +72,8 @@ struct PresetChoice {
     std::optional<Remark> remark = {};
 };
 
-/// The options of a preset for a mesh, to be changed at will and given to mean_curvature_flow. A preset that denoises
-/// does so where no noise is given that its equation could take its amount from.
+/// The options of a preset for a mesh, to be changed at will and given to mean_curvature_flow or denoise. A preset that
+/// denoises does so where no noise is given that its equation could take its amount from.
 /// @param further options unrelated to the preset: fixed vertices, threads, reports, and so on.
 /// @param noise the standard deviation of the noise along the normals, where it is known; Preset::Cad and Preset::Fair
 /// ignore it.
@@ -83,7 +83,7 @@ PresetChoice options_for(Preset preset, const PolygonMesh& mesh, const FlowOptio
 
 /// Chooses the amount of a preset and its limits, also for options other than its own: an amount by the noise halves
 /// the height of those bumps whose height the preset's own options would halve.
-/// @param choice has all options except the amount; receives that, the noise and the remark. What denoises needs none.
+/// @param choice has all options except the amount; receives that, the noise and the remark.
 void choose_amount(const PresetTraits& preset, const PolygonMesh& mesh, const std::optional<LengthOnMesh>& noise,
                    PresetChoice& choice, const Executor& exec = run_serially);
 

@@ -34,6 +34,9 @@ struct FlowState {
     [[nodiscard]] const Points& positions() const { return flow.positions; }
 };
 
+/// @throws InputError if the state is of another identity (see identify).
+void require_identity(const FlowState& state, std::uint64_t identity);
+
 /// @throws OptionError if the state is after more steps than are asked for.
 void require_not_beyond(const FlowState& state, int steps);
 

@@ -43,7 +43,7 @@ inline constexpr OptionTraits row_of_keep_edges{
     "most meshes\n"
     "The surface between them is smoothed: as much as there is noise, or as an amount says. On the whole "
     "mesh.",
-    {0.0, 180.0, true, true, "above 0 and below 180 (degrees)"}};
+    limits_of_edge_angle};
 
 /// The table of all options (see option_table).
 template <class Options>
