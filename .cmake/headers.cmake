@@ -6,12 +6,12 @@ set(SEAMFLOW_HEADERS
     engine/denoise.h
     engine/denoise/denoise_options.h
     engine/denoise/denoise_report.h
+    engine/diffuse.h
     engine/eigen.h
-    engine/fields/diffuse.h
     engine/fields/field_columns.h
     engine/fields/field_options.h
-    engine/fields/geodesic_distance.h
     engine/flow.h
+    engine/geodesic_distance.h
     engine/mean_curvature_flow.h
     engine/measure/displacement_meter.h
     engine/openmesh.h

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "engine/flow.h"
-#include "engine/flow_run.h"
+#include "engine/flow/flow_run.h"
 #include "engine/options/valid_options.h"
 #include "engine/setup/flow_amount.h"
 #include "engine/setup/prepared_flow.h"

@@ -36,13 +36,13 @@ forbid '#include "(solvers|engine|samples|tests)/' 'partition knows meshes, not 
 forbid '#include "(engine|samples|tests)/' 'solvers know equations, not threads' solvers
 forbid '#include "(samples|tests)/' 'the engine knows neither samples nor tests' engine
 # The rooms of products know what they share, and not each other; presets name the options of both.
-forbid '#include "engine/(setup|steppers|ranks|fields|flow|mean_curvature)' 'removing noise knows no flow' \
+forbid '#include "engine/(setup|steppers|ranks|fields|flow|mean_curvature|diffuse|geodesic)' 'removing noise knows no flow' \
     engine/denoise engine/denoise.h engine/denoise.cpp engine/motion engine/surface
-mapfile -t of_flows < <(find engine/setup engine/steppers engine/ranks engine/fields -name '*.h' -o -name '*.cpp' |
+mapfile -t of_flows < <(find engine/flow engine/setup engine/steppers engine/ranks engine/fields -name '*.h' -o -name '*.cpp' |
     grep -v '^engine/setup/presets')
 forbid '#include "(engine/denoise|solvers/denoising)' 'flows do not know how noise is removed' \
-    /dev/null engine/mean_curvature_flow.h engine/mean_curvature_flow.cpp engine/flow.h engine/flow_run.h \
-    engine/flow_run.cpp "${of_flows[@]}"
+    /dev/null engine/mean_curvature_flow.h engine/mean_curvature_flow.cpp engine/flow.h engine/diffuse.h \
+    engine/diffuse.cpp engine/geodesic_distance.h engine/geodesic_distance.cpp "${of_flows[@]}"
 forbid '#include "tests/' 'samples do not use tests' samples
 forbid '#include "[^/"]*"|#include "\.\.?/' 'includes start with the name of their folder' partition solvers engine samples tests
 # Except in the room of what the libraries below do with threads and memory.

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/fields/diffuse.h"
+#include "engine/diffuse.h"
 #include "engine/measure/flow_report.h"
 #include "engine/options/option_names.h"
 #include "samples/files/checkpoints.h"

@@ -17,8 +17,8 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
-#include "engine/fields/diffuse.h"
-#include "engine/fields/geodesic_distance.h"
+#include "engine/diffuse.h"
+#include "engine/geodesic_distance.h"
 #include "partition/errors.h"
 #include "partition/large_arrays.h"
 #include "partition/version.h"

@@ -8,7 +8,7 @@
 
 #include <Eigen/Core>
 
-#include "engine/fields/diffuse.h"
+#include "engine/diffuse.h"
 #include "engine/options/flow_options.h"
 #include "samples/report/run_record.h"
 

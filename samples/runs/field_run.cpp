@@ -13,8 +13,8 @@
 #include <Eigen/Core>
 #include <fmt/format.h>
 
-#include "engine/fields/diffuse.h"
-#include "engine/fields/geodesic_distance.h"
+#include "engine/diffuse.h"
+#include "engine/geodesic_distance.h"
 #include "engine/ranks/rank_group.h"
 #include "engine/setup/flow_amount.h"
 #include "engine/tasks/stopwatch.h"

@@ -9,9 +9,9 @@
 
 #include <doctest/doctest.h>
 
-#include "engine/fields/diffuse.h"
-#include "engine/fields/geodesic_distance.h"
+#include "engine/diffuse.h"
 #include "engine/flow.h"
+#include "engine/geodesic_distance.h"
 #include "partition/metrics/roughness.h"
 #include "partition/metrics/surface_distance.h"
 #include "partition/metrics/vertex_distance.h"

@@ -9,7 +9,7 @@
 #include <Eigen/Geometry>
 #include <doctest/doctest.h>
 
-#include "engine/fields/geodesic_distance.h"
+#include "engine/geodesic_distance.h"
 #include "engine/mean_curvature_flow.h"
 #include "engine/setup/presets.h"
 #include "partition/errors.h"

@@ -9,8 +9,8 @@
 
 #include <fmt/format.h>
 
-#include "engine/fields/diffuse.h"
-#include "engine/fields/geodesic_distance.h"
+#include "engine/diffuse.h"
+#include "engine/geodesic_distance.h"
 #include "partition/formats/mesh_io.h"
 #include "samples/meshes/meshes.h"
 #include "tests/samples/workshop.h"

@@ -9,7 +9,7 @@
 #include <Eigen/Dense>
 #include <doctest/doctest.h>
 
-#include "engine/fields/diffuse.h"
+#include "engine/diffuse.h"
 #include "engine/fields/field_columns.h"
 #include "partition/errors.h"
 #include "partition/metrics/vertex_distance.h"

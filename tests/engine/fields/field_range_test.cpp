@@ -9,7 +9,7 @@
 
 #include <doctest/doctest.h>
 
-#include "engine/fields/diffuse.h"
+#include "engine/diffuse.h"
 #include "engine/surface/flowing_mesh.h"
 #include "partition/metrics/vertex_distance.h"
 #include "samples/meshes/meshes.h"

@@ -7,7 +7,7 @@
 #include <Eigen/Dense>
 #include <doctest/doctest.h>
 
-#include "engine/fields/diffuse.h"
+#include "engine/diffuse.h"
 #include "engine/fields/white_noise.h"
 #include "partition/metrics/vertex_distance.h"
 #include "samples/meshes/meshes.h"

@@ -8,7 +8,7 @@
 
 #include <doctest/doctest.h>
 
-#include "engine/fields/geodesic_distance.h"
+#include "engine/geodesic_distance.h"
 #include "partition/errors.h"
 #include "partition/metrics/vertex_distance.h"
 #include "samples/meshes/meshes.h"

@@ -7,7 +7,7 @@
 
 #include <doctest/doctest.h>
 
-#include "engine/fields/diffuse.h"
+#include "engine/diffuse.h"
 #include "engine/flow.h"
 #include "engine/state/flow_state.h"
 #include "partition/errors.h"

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "engine/flow_run.h"
+#include "engine/flow/flow_run.h"
 #include "partition/errors.h"
 #include "solvers/laplacian/degenerate.h"
 

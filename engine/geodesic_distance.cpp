@@ -1,4 +1,4 @@
-#include "engine/fields/geodesic_distance.h"
+#include "engine/geodesic_distance.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "engine/flow_run.h"
+#include "engine/flow/flow_run.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "engine/fields/diffuse.h"
+#include "engine/diffuse.h"
 
 #include <algorithm>
 #include <cmath>
