@@ -11,8 +11,8 @@
 #include "engine/flow.h"
 #include "engine/flow/flow_run.h"
 #include "engine/options/valid_options.h"
-#include "engine/setup/flow_amount.h"
 #include "engine/setup/prepared_flow.h"
+#include "engine/setup/resolved_options.h"
 #include "engine/surface/flowing_mesh.h"
 #include "engine/tasks/progress.h"
 #include "engine/tasks/stopwatch.h"
@@ -98,10 +98,12 @@ class Flow::Session {
                 "an earlier step has failed, which leaves nothing to continue from: begin a new flow");
     }
 
-    void set_up(PolygonMesh& mesh, FlowOptions options, const FlowControl& control, bool is_observed,
-                FlowReport& report)
+    void set_up(PolygonMesh& mesh, FlowOptions given, const FlowControl& control, bool is_observed, FlowReport& report)
     {
         Stopwatch watch;
+        LengthScale scale(mesh, progress_.exec());
+        std::vector<Remark> remarks;
+        FlowOptions options = resolved(std::move(given), mesh, scale, progress_.exec(), remarks);
         progress_.set_steps(options.steps);
         const double setup = fraction_of_setup(options, control.resume.get());
         progress_.enter(FlowPhase::Cut, 0, 0.0, 0.6 * setup);
@@ -111,6 +113,7 @@ class Flow::Session {
         report.resources.threads = workers_.threads();
         report.seconds.cut = watch.lap();
         run_.emplace(*flowing_, std::move(prepared), progress_, setup, report, control);
+        report.remarks.insert(report.remarks.begin(), remarks.begin(), remarks.end());
     }
 
     int n_expected_;
@@ -127,13 +130,9 @@ Flow::Flow(PolygonMesh& mesh, const FlowOptions& options, StepObserver on_step, 
     , control_(std::move(control))
 {
     require_valid(options);
-    FlowOptions own = options;
-    own.time_step = time_step_of(options, mesh);
-    own.radius.reset();
-    own.uniform_edge = uniform_edge_of(options, mesh);
     if (control_.resume != nullptr)
         require_not_beyond(*control_.resume, options.steps);
-    session_ = std::make_unique<Session>(mesh, std::move(own), control_, static_cast<bool>(on_step_), report_);
+    session_ = std::make_unique<Session>(mesh, options, control_, static_cast<bool>(on_step_), report_);
 }
 
 Flow::~Flow() = default;
