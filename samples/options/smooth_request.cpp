@@ -116,7 +116,7 @@ void require_none_excluded(const SmoothRequest& request)
 {
     for (const auto& [one, other] : exclusions_of_requests())
         if (is_given(request, one) && is_given(request, other))
-            throw OptionError(fmt::format("{} excludes {}", one, other));
+            seamflow::refuse(fmt::format("{} excludes {}", one, other));
 }
 
 }  // namespace
