@@ -8,12 +8,10 @@ set(SEAMFLOW_HEADERS
     engine/denoise/denoise_report.h
     engine/diffuse.h
     engine/eigen.h
-    engine/fields/field_columns.h
     engine/fields/field_options.h
     engine/flow.h
     engine/geodesic_distance.h
     engine/mean_curvature_flow.h
-    engine/measure/displacement_meter.h
     engine/openmesh.h
     engine/options/approach.h
     engine/options/flow_control.h
@@ -22,22 +20,15 @@ set(SEAMFLOW_HEADERS
     engine/options/motion_options.h
     engine/measure/flow_report.h
     engine/measure/run_report.h
-    engine/ranks/communicator.h
     engine/ranks/mpi_transport.h
-    engine/ranks/packing.h
     engine/ranks/rank_group.h
     engine/ranks/thread_transport.h
     engine/ranks/transport.h
     engine/tasks/schedule.h
     engine/options/valid_options.h
     engine/setup/presets.h
-    engine/measure/length_scale.h
     engine/measure/smoothed_radius.h
-    engine/setup/resolved_options.h
     engine/state/checkpoint.h
-    engine/state/flow_identity.h
-    engine/state/flow_state.h
-    engine/state/step_memory.h
     engine/tasks/parallel_executor.h
     partition/eigen.h
     partition/errors.h
@@ -48,11 +39,8 @@ set(SEAMFLOW_HEADERS
     partition/index.h
     partition/io/fault_log.h
     partition/executor.h
-    partition/metrics/bounding_box.h
     partition/metrics/displacement.h
-    partition/metrics/feathered.h
     partition/metrics/length_statistics.h
-    partition/metrics/roughness.h
     partition/metrics/surface_distance.h
     partition/metrics/vertex_distance.h
     partition/metrics/vertex_normals.h

@@ -7,8 +7,8 @@
 
 #include "engine/denoise/denoise_identity.h"
 #include "engine/denoise/denoise_run.h"
+#include "engine/measure/length_scale.h"
 #include "engine/measure/remarks.h"
-#include "engine/measure/smoothed_radius.h"
 #include "engine/motion/resolved_motion.h"
 #include "engine/tasks/parallel_executor.h"
 #include "engine/tasks/stopwatch.h"

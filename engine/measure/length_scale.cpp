@@ -1,7 +1,11 @@
 #include "engine/measure/length_scale.h"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
+#include "engine/measure/smoothed_radius.h"
+#include "partition/errors.h"
 #include "partition/metrics/bounding_box.h"
 #include "partition/metrics/vertex_distance.h"
 
@@ -42,6 +46,24 @@ double LengthScale::diagonal()
 double LengthScale::length_of(const LengthOnMesh& length)
 {
     return length.value * (length.of_diagonal ? diagonal() : 1.0);
+}
+
+double time_step_of(const SmoothingAmount& amount, int steps, LengthScale& scale, const StepFilter& filter)
+{
+    if (amount.time_step_edges) {
+        const double time_step = *amount.time_step_edges * scale.mean_edge() * scale.mean_edge();
+        if (!std::isnormal(time_step))
+            throw InputError(Wording{"the mesh has no size to measure <time_step_edges> by; use <time_step>"});
+        return time_step;
+    }
+    if (!amount.radius)
+        return amount.time_step;
+    const double time_step = time_step_for_radius(scale.length_of(*amount.radius), std::max(steps, 1), filter);
+    if (std::isinf(time_step))
+        throw OptionError("the radius is too large: the time step that it takes is beyond what a double can hold");
+    if (!std::isnormal(time_step))
+        throw InputError("the mesh has no size to measure a radius by; use a time step");
+    return time_step;
 }
 
 }  // namespace seamflow

@@ -5,6 +5,7 @@
 #include "engine/options/amount.h"
 #include "partition/executor.h"
 #include "partition/polygon_mesh.h"
+#include "solvers/filters/step_filter.h"
 
 namespace seamflow {
 
@@ -34,5 +35,11 @@ class LengthScale {
     std::optional<double> mean_edge_;
     std::optional<double> diagonal_;
 };
+
+/// dt of one step, in length².
+/// @param steps 0 counts as 1. @param filter of each step.
+/// @throws InputError for a mesh without a size to measure by, or that is not valid; OptionError for a time step that
+/// no double can hold.
+double time_step_of(const SmoothingAmount& amount, int steps, LengthScale& scale, const StepFilter& filter = {});
 
 }  // namespace seamflow

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -126,9 +127,9 @@ struct StepState {
     const PolygonMesh* separated = nullptr;
     /// #V by 3: the positions of the undecomposed flow, rescaled as well; null without ReportOptions::reference.
     const Points* reference_positions = nullptr;
-    /// Copies everything that the flow needs to resume from here (see FlowState). May be called while the observer
-    /// runs.
-    std::function<FlowState()> capture = {};
+    /// Copies everything that the flow needs to resume from here (see FlowControl::resume and write_checkpoint). May be
+    /// called while the observer runs.
+    std::function<std::shared_ptr<const FlowState>()> capture = {};
 };
 
 /// Called after each step, in the thread that called the flow.

@@ -1,7 +1,5 @@
 #pragma once
 
-#include "engine/measure/length_scale.h"
-#include "engine/options/amount.h"
 #include "solvers/filters/step_filter.h"
 
 namespace seamflow {
@@ -17,11 +15,5 @@ double smoothed_radius(double time_step, int steps, const StepFilter& filter = {
 
 /// The time step, in length², with which that many steps smooth bumps of radius R: the inverse of smoothed_radius.
 double time_step_for_radius(double radius, int steps, const StepFilter& filter = {});
-
-/// dt of one step, in length².
-/// @param steps 0 counts as 1. @param filter of each step.
-/// @throws InputError for a mesh without a size to measure by, or that is not valid; OptionError for a time step that
-/// no double can hold.
-double time_step_of(const SmoothingAmount& amount, int steps, LengthScale& scale, const StepFilter& filter = {});
 
 }  // namespace seamflow

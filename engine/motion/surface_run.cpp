@@ -125,7 +125,9 @@ void SurfaceRun::take_step(const StepObserver& on_step)
     report_.seconds.total += of_step.seconds + measuring;
     mesh_.move_to(after);
     if (on_step)
-        show({step, mesh_.given().vertices, of_step, nullptr, nullptr, [&] { return capture(); }}, on_step);
+        show({step, mesh_.given().vertices, of_step, nullptr, nullptr,
+              [&] { return std::make_shared<const FlowState>(capture()); }},
+             on_step);
 }
 
 void SurfaceRun::remark_on_constraints(RunReport& report, const std::optional<Remark>& on_components) const

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "engine/options/flow_control.h"
+#include "engine/ranks/communicator.h"
 #include "engine/ranks/rank_message.h"
 #include "engine/ranks/rank_part.h"
 #include "engine/tasks/parallel_executor.h"
@@ -134,8 +135,9 @@ class RankServer {
 }  // namespace
 
 RankGroup::RankGroup(Transport& transport)
-    : comm_(transport)
-    , n_on_this_machine_(count_on_this_machine(comm_, transport))
+    : comm_(std::make_unique<Communicator>(transport))
+    , size_(transport.size())
+    , n_on_this_machine_(count_on_this_machine(*comm_, transport))
 {
 }
 
@@ -156,9 +158,9 @@ void RankGroup::dismiss(int status)
     constexpr int most_attempts = 100;
     for (int attempt = 1;; ++attempt) {
         try {
-            return comm_.run([&] {
+            return comm_->run([&] {
                 for (int rank = 1; rank < size(); ++rank)
-                    comm_.give(rank, rank_message({.task = RankTask::Dismiss, .value = status}).take());
+                    comm_->give(rank, rank_message({.task = RankTask::Dismiss, .value = status}).take());
             });
         } catch (const ComputationError&) {
             if (attempt == most_attempts)

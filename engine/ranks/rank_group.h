@@ -1,10 +1,14 @@
 #pragma once
 
+#include <memory>
+#include <vector>
+
 #include "engine/options/flow_control.h"
-#include "engine/ranks/communicator.h"
 #include "engine/ranks/transport.h"
 
 namespace seamflow {
+
+class Communicator;
 
 /// The ranks that share the steps of flows (see FlowControl::ranks), as rank 0 sees them: rank 0 runs each flow, with
 /// the whole mesh, and the others have sub-meshes of the flow and do their part of each step. Between steps the others
@@ -18,8 +22,8 @@ class RankGroup final : public StepSharing {
     /// Dismisses the other ranks, with status 0, if `dismiss` has not been called.
     ~RankGroup() override;
 
-    [[nodiscard]] Communicator& comm() { return comm_; }
-    [[nodiscard]] int size() const { return comm_.size(); }
+    [[nodiscard]] Communicator& comm() { return *comm_; }
+    [[nodiscard]] int size() const { return size_; }
 
     /// The number of ranks, this one included, on the machine of rank 0.
     [[nodiscard]] int n_on_this_machine() const { return n_on_this_machine_; }
@@ -45,7 +49,8 @@ class RankGroup final : public StepSharing {
     void dismiss(int status);
 
   private:
-    Communicator comm_;
+    std::unique_ptr<Communicator> comm_;
+    int size_;
     int n_on_this_machine_;
     int threads_of_each_ = 0;
     int n_flows_ = 0;

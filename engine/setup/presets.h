@@ -8,12 +8,13 @@
 
 #include "engine/denoise/denoise_options.h"
 #include "engine/options/flow_options.h"
-#include "engine/options/option_rule.h"
 #include "partition/executor.h"
 #include "partition/polygon_mesh.h"
 #include "partition/remark.h"
 
 namespace seamflow {
+
+struct AskedOptions;
 
 /// Options that together suit one kind of mesh.
 enum class Preset {

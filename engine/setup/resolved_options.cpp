@@ -3,7 +3,7 @@
 #include <cmath>
 #include <utility>
 
-#include "engine/measure/smoothed_radius.h"
+#include "engine/measure/length_scale.h"
 #include "engine/motion/resolved_motion.h"
 #include "partition/metrics/vertex_distance.h"
 

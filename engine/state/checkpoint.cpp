@@ -72,9 +72,9 @@ void write_checkpoint(const std::filesystem::path& file, const FlowState& state)
     write_archive(file, first_line, state);
 }
 
-FlowState read_checkpoint(const std::filesystem::path& file)
+std::shared_ptr<const FlowState> read_checkpoint(const std::filesystem::path& file)
 {
-    return read_archive<FlowState>(file, first_line);
+    return std::make_shared<const FlowState>(read_archive<FlowState>(file, first_line));
 }
 
 void make_checkpoint_folder(const std::filesystem::path& folder)

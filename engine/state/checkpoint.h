@@ -2,10 +2,11 @@
 
 #include <cstdint>
 #include <filesystem>
-
-#include "engine/state/flow_state.h"
+#include <memory>
 
 namespace seamflow {
+
+struct FlowState;
 
 /// Writes the state of a flow to a file and to the disk. The file holds the whole state, or stays as it was.
 /// @throws OutputError naming the file.
@@ -14,7 +15,7 @@ void write_checkpoint(const std::filesystem::path& file, const FlowState& state)
 /// Reads a state that write_checkpoint has written, bit for bit.
 /// @throws InputError naming the file if it cannot be opened, is not such a file, comes from a version or a machine
 ///         with another format, is cut off, or has changed since it was written.
-FlowState read_checkpoint(const std::filesystem::path& file);
+std::shared_ptr<const FlowState> read_checkpoint(const std::filesystem::path& file);
 
 /// Creates a checkpoint's folder if it does not exist.
 /// @throws OutputError if it cannot be created.

@@ -22,7 +22,7 @@ std::shared_ptr<const FlowState> Checkpoints::find(const PolygonMesh& mesh, cons
     make_checkpoint_folder(file_.parent_path());
     if (!std::filesystem::exists(file_))
         return nullptr;
-    auto state = std::make_shared<const FlowState>(read_checkpoint(file_));
+    auto state = read_checkpoint(file_);
     require_belongs(file_, state->identity, identity_of(mesh, options), state->n_steps(), options.steps);
     return state;
 }
@@ -34,7 +34,7 @@ void Checkpoints::save_if_due(const StepState& state, bool is_last)
                      seconds_of_last_ > period_.most_of_time * (seconds_of_last_ + since)))
         return;
     const Stopwatch saving;
-    write_checkpoint(file_, state.capture());
+    write_checkpoint(file_, *state.capture());
     step_ = state.step;
     seconds_of_last_ = saving.seconds();
     seconds_ += seconds_of_last_;

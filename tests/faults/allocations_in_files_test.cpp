@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "engine/state/checkpoint.h"
+#include "engine/state/flow_state.h"
 #include "partition/cut/cut.h"
 #include "partition/formats/index_files.h"
 #include "partition/formats/mesh_io.h"
@@ -179,12 +180,12 @@ TEST_CASE("a checkpoint, written and read")
     FlowState state;
     FlowOptions options = test::small_flows(1, 1).front().options;
     PolygonMesh mesh = test::small_mesh();
-    mean_curvature_flow(mesh, options, [&](const StepState& now) { state = now.capture(); });
+    mean_curvature_flow(mesh, options, [&](const StepState& now) { state = *now.capture(); });
     const auto target = directory / "state";
     const auto content = [&] { return test::content_of(target); };
     fail_every_allocation({.run = [&] { write_checkpoint(target, state); }, .result = content});
     FlowState read;
     fail_every_allocation(
-        {.run = [&] { read = read_checkpoint(target); }, .result = [&] { return bytes_of(read.positions()); }});
+        {.run = [&] { read = *read_checkpoint(target); }, .result = [&] { return bytes_of(read.positions()); }});
     CHECK(directory.n_files() == 1);
 }

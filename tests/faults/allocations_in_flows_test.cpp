@@ -103,7 +103,7 @@ TEST_CASE("a flow that continues from a state")
     PolygonMesh mesh = test::small_mesh();
     smooth_surface(mesh, options, [&](const StepState& state) {
         if (state.step == 1)
-            first = std::make_shared<const FlowState>(state.capture());
+            first = state.capture();
     });
     fail_every_allocation_of(options, {test::Failing::Once}, first);
 }

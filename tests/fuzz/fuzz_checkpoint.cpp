@@ -11,6 +11,7 @@
 #include "engine/mean_curvature_flow.h"
 #include "engine/state/checkpoint.h"
 #include "engine/state/checksum.h"
+#include "engine/state/flow_state.h"
 #include "partition/errors.h"
 #include "tests/fuzz/checkpointed_flow.h"
 #include "tests/fuzz/fuzzed_file.h"
@@ -41,7 +42,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t n_b
     try {
         const auto whole = with_checksum({bytes, n_bytes});
         const FuzzedFile file("checkpoint", whole.data(), whole.size());
-        state = std::make_shared<const FlowState>(read_checkpoint(file.path()));
+        state = read_checkpoint(file.path());
     } catch (const InputError&) {
         return 0;
     }

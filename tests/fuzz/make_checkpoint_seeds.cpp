@@ -25,7 +25,7 @@ void make_checkpoints(const std::filesystem::path& root)
     std::vector<std::filesystem::path> written;
     mean_curvature_flow(flow.mesh, flow.options, [&](const StepState& state) {
         written.push_back(seeds.path("step" + std::to_string(written.size() + 1)));
-        write_checkpoint(written.back(), state.capture());
+        write_checkpoint(written.back(), *state.capture());
     });
     for (const auto& path : written)
         std::filesystem::resize_file(path, std::filesystem::file_size(path) - sizeof(std::uint64_t));

@@ -1,5 +1,8 @@
+#include <memory>
+
 #include <doctest/doctest.h>
 
+#include "engine/state/flow_state.h"
 #include "partition/errors.h"
 #include "samples/command/command_line.h"
 #include "samples/files/checkpoints.h"
@@ -26,8 +29,11 @@ TEST_CASE("a checkpoint is kept after every so many steps, or when so much time 
     const Points positions(0, 3);
     const StepReport report;
     const auto keep = [&](Checkpoints& checkpoints, int step, bool is_last) {
-        checkpoints.save_if_due(
-            {.step = step, .positions = positions, .report = report, .capture = [] { return FlowState{}; }}, is_last);
+        checkpoints.save_if_due({.step = step,
+                                 .positions = positions,
+                                 .report = report,
+                                 .capture = [] { return std::make_shared<const FlowState>(); }},
+                                is_last);
         return checkpoints.step();
     };
     Checkpoints every_third(directory.path(), {.steps = 3});

@@ -22,7 +22,7 @@ Outcome outcome_of(PolygonMesh mesh, const AllOptions& options, const FlowContro
             [&](const StepState& state) {
                 outcome.states.push_back(state.positions);
                 if (is_captured)
-                    outcome.captured.push_back(state.capture());
+                    outcome.captured.push_back(*state.capture());
             },
             control);
     } catch (const OptionError& error) {

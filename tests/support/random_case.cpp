@@ -10,6 +10,7 @@
 
 #include "engine/setup/automatic_choices.h"
 #include "engine/state/checkpoint.h"
+#include "engine/state/flow_state.h"
 #include "engine/surface/origin_offset.h"
 #include "partition/surface_components.h"
 #include "partition/topology.h"
@@ -197,7 +198,7 @@ void check_resume(Case& c)
     if (c.random.unit() < 0.3) {
         const TemporaryDirectory folder;
         write_checkpoint(folder / "state", state);
-        state = read_checkpoint(folder / "state");
+        state = *read_checkpoint(folder / "state");
     }
     FlowOptions options = c.flow.options;
     options.resources.threads = 2;

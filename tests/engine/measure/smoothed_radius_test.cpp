@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include "engine/mean_curvature_flow.h"
+#include "engine/measure/length_scale.h"
 #include "engine/measure/smoothed_radius.h"
 #include "partition/errors.h"
 #include "samples/meshes/meshes.h"

@@ -33,7 +33,7 @@ inline Flowed flowed_with(PolygonMesh mesh, const AllOptions& options, const Flo
         mesh, options,
         [&](const StepState& state) {
             result.observed.push_back(state.positions);
-            result.states.push_back(state.capture());
+            result.states.push_back(*state.capture());
         },
         control);
     result.positions = mesh.vertices;

@@ -297,8 +297,7 @@ TEST_CASE("what was chosen for few steps stays for more")
     options.steps = 1;
     std::shared_ptr<const FlowState> state;
     PolygonMesh moved = mesh;
-    const FlowReport first = mean_curvature_flow(
-        moved, options, [&](const StepState& now) { state = std::make_shared<const FlowState>(now.capture()); });
+    const FlowReport first = mean_curvature_flow(moved, options, [&](const StepState& now) { state = now.capture(); });
     REQUIRE(first.convergence.approach == Approach::Undecomposed);
     options.steps = 1000;
     CHECK(choose_approach(mesh, make_topology(mesh), size_of(mesh), options).approach == Approach::Converged);

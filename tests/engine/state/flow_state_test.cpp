@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include "engine/state/checkpoint.h"
+#include "engine/state/flow_state.h"
 #include "partition/errors.h"
 #include "partition/metrics/vertex_distance.h"
 #include "samples/meshes/meshes.h"
@@ -36,9 +37,9 @@ std::shared_ptr<const FlowState> state_after(int step, PolygonMesh mesh, AllOpti
     options.steps = step;
     smooth_surface(mesh, options, [&](const StepState& state) {
         if (state.step == step)
-            write_checkpoint(directory / "state", state.capture());
+            write_checkpoint(directory / "state", *state.capture());
     });
-    return std::make_shared<const FlowState>(read_checkpoint(directory / "state"));
+    return read_checkpoint(directory / "state");
 }
 
 void check_same(const LengthStatistics& a, const LengthStatistics& b)
@@ -163,8 +164,7 @@ TEST_CASE("a state continues from a state")
         AllOptions one_more = options;
         one_more.steps = step;
         PolygonMesh moved = mesh;
-        smooth_surface(moved, one_more,
-                       [&](const StepState& now) { state = std::make_shared<const FlowState>(now.capture()); },
+        smooth_surface(moved, one_more, [&](const StepState& now) { state = now.capture(); },
                        {.stop = {}, .on_progress = {}, .resume = state});
         CHECK(test::same_bits(state->positions(), moved.vertices));
     }

@@ -62,8 +62,8 @@ TEST_CASE("such a flow has the same bits on any number of threads, and resumed a
     std::vector<std::shared_ptr<const FlowState>> states;
     PolygonMesh moved = mesh;
     options.resources.threads = 3;
-    const FlowReport report = mean_curvature_flow(
-        moved, options, [&](const StepState& now) { states.push_back(std::make_shared<FlowState>(now.capture())); });
+    const FlowReport report =
+        mean_curvature_flow(moved, options, [&](const StepState& now) { states.push_back(now.capture()); });
     options.resources.threads = 1;
     CHECK(test::same_bits(test::flowed(mesh, options), moved.vertices));
     for (const auto& state : states) {
@@ -107,7 +107,7 @@ TEST_CASE("a flow that is resumed for more steps, or goes on beyond those expect
     PolygonMesh moved = mesh;
     Flow flow(moved, options, [&](const StepState& now) {
         if (now.step == 3)
-            control.resume = std::make_shared<FlowState>(now.capture());
+            control.resume = now.capture();
     });
     flow.step(7);
     CHECK(test::same_bits(moved.vertices, expected));
