@@ -8,8 +8,8 @@ set(SEAMFLOW_HEADERS
     engine/denoise/denoise_report.h
     engine/diffuse.h
     engine/eigen.h
-    engine/fields/field_columns.h
     engine/fields/field_options.h
+    engine/fields/heat_equation.h
     engine/flow.h
     engine/geodesic_distance.h
     engine/mean_curvature_flow.h

@@ -22,4 +22,13 @@ double uniform_edge_of(const FlowOptions& options, const PolygonMesh& mesh)
     return std::isnormal(edge) ? edge : 1.0;
 }
 
+FlowOptions with_amount_on(const FlowOptions& options, const PolygonMesh& mesh)
+{
+    FlowOptions own = options;
+    own.time_step = time_step_of(options, mesh);
+    own.radius.reset();
+    own.uniform_edge = uniform_edge_of(options, mesh);
+    return own;
+}
+
 }  // namespace seamflow

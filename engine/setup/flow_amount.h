@@ -14,4 +14,8 @@ double time_step_of(const FlowOptions& options, const PolygonMesh& mesh);
 /// @throws InputError for a mesh that is not valid.
 double uniform_edge_of(const FlowOptions& options, const PolygonMesh& mesh);
 
+/// The options with the time step, and with the edge of uniform weights, that they have on a mesh.
+/// @throws as time_step_of and uniform_edge_of.
+FlowOptions with_amount_on(const FlowOptions& options, const PolygonMesh& mesh);
+
 }  // namespace seamflow

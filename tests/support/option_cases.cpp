@@ -98,14 +98,6 @@ const std::vector<OptionCase>& option_cases()
         {"radius", "%", plain([](O& o) {
              o.time_step = 0.0, o.radius = {0.1, true};
          })},
-        {"weights", "at-least-zero", plain([](O& o) {
-             o.flow = FlowEquation::Linear, o.laplacian = Laplacian::VirtualRefinement,
-             o.weights = Weights::AtLeastZero;
-         })},
-        {"weights", "at-least-zero-in-faces", plain([](O& o) {
-             o.flow = FlowEquation::Linear, o.laplacian = Laplacian::AlexaWardetzky,
-             o.weights = Weights::AtLeastZeroInFaces;
-         })},
         {"uniform_edge", "given",
          [](O& o, const PolygonMesh&, double edge) { o.laplacian = Laplacian::Uniform, o.uniform_edge = 0.7 * edge; }},
         {"steps", "3", plain([](O& o) { o.steps = 3; })},
