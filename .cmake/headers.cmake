@@ -61,7 +61,7 @@ set(SEAMFLOW_HEADERS
     partition/topology.h
     partition/vector_area.h
     partition/version.h
-    solvers/conditions/robin_parameter.h
+    solvers/conditions/robin_edge.h
     solvers/direct/factorisation.h
     solvers/filters/step_filter.h
     solvers/laplacian/laplacian.h

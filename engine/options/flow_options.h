@@ -8,7 +8,7 @@
 #include "engine/options/length_on_mesh.h"
 #include "engine/options/motion_options.h"
 #include "partition/polygon_mesh.h"
-#include "solvers/conditions/robin_parameter.h"
+#include "solvers/conditions/robin_edge.h"
 #include "solvers/direct/factorisation.h"
 #include "solvers/filters/step_filter.h"
 #include "solvers/laplacian/laplacian.h"

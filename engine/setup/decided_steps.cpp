@@ -6,6 +6,7 @@
 
 #include "engine/measure/remarks.h"
 #include "engine/tasks/parallel_executor.h"
+#include "partition/cut/cut_into.h"
 
 namespace seamflow {
 

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "engine/state/checkpoint.h"
-#include "partition/cut/cut.h"
+#include "partition/cut/cut_into.h"
 #include "partition/formats/index_files.h"
 #include "partition/formats/mesh_io.h"
 #include "partition/topology.h"

@@ -7,6 +7,7 @@
 #include "engine/mean_curvature_flow.h"
 #include "engine/options/option_names.h"
 #include "engine/steppers/schur_stepper.h"
+#include "partition/cut/cut_into.h"
 #include "partition/errors.h"
 #include "samples/meshes/meshes.h"
 #include "tests/support/flows.h"
