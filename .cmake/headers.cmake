@@ -18,7 +18,7 @@ set(SEAMFLOW_HEADERS
     engine/options/approach.h
     engine/options/flow_control.h
     engine/options/flow_options.h
-    engine/options/length_on_mesh.h
+    engine/options/amount.h
     engine/options/motion_options.h
     engine/measure/flow_report.h
     engine/measure/run_report.h
@@ -31,8 +31,9 @@ set(SEAMFLOW_HEADERS
     engine/tasks/schedule.h
     engine/options/valid_options.h
     engine/setup/presets.h
+    engine/measure/length_scale.h
     engine/measure/smoothed_radius.h
-    engine/setup/flow_amount.h
+    engine/setup/resolved_options.h
     engine/state/checkpoint.h
     engine/state/flow_identity.h
     engine/state/flow_state.h

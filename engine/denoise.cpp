@@ -9,6 +9,8 @@
 #include "engine/denoise/denoise_run.h"
 #include "engine/measure/remarks.h"
 #include "engine/measure/smoothed_radius.h"
+#include "engine/motion/resolved_motion.h"
+#include "engine/tasks/parallel_executor.h"
 #include "engine/tasks/stopwatch.h"
 #include "engine/tasks/workers.h"
 #include "partition/errors.h"
@@ -33,14 +35,14 @@ SmoothingAmount* amount_of(DenoiseMethod& method)
     return rims != nullptr ? &rims->amount : nullptr;
 }
 
-/// With a time step in place of a radius.
-DenoiseOptions resolved(const DenoiseOptions& options, const PolygonMesh& mesh)
+/// Options whose amount is a time step, and whose lengths are in units of length.
+DenoiseOptions resolved(const DenoiseOptions& options, const PolygonMesh& mesh, std::vector<Remark>& remarks)
 {
+    LengthScale scale(mesh, run_in_parallel);
     DenoiseOptions own = options;
-    if (SmoothingAmount* const amount = amount_of(own.method)) {
-        amount->time_step = time_step_of(amount->time_step, amount->radius, own.steps, mesh);
-        amount->radius.reset();
-    }
+    own.motion = resolved(options.motion, mesh, scale, run_in_parallel, remarks);
+    if (SmoothingAmount* const amount = amount_of(own.method))
+        *amount = {.time_step = time_step_of(*amount, own.steps, scale)};
     return own;
 }
 
@@ -132,7 +134,12 @@ DenoiseReport denoise(PolygonMesh& mesh, const DenoiseOptions& options, const St
     Workers workers(options.threads);
     DenoiseReport report;
     report.threads = workers.threads();
-    workers.execute([&] { Denoising(mesh, resolved(options, mesh), on_step, control).run(report); });
+    workers.execute([&] {
+        std::vector<Remark> remarks;
+        DenoiseOptions own = resolved(options, mesh, remarks);
+        Denoising(mesh, std::move(own), on_step, control).run(report);
+        report.remarks.insert(report.remarks.begin(), remarks.begin(), remarks.end());
+    });
     return report;
 }
 

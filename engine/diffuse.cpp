@@ -14,7 +14,7 @@
 #include "engine/fields/heat_equation.h"
 #include "engine/fields/white_noise.h"
 #include "engine/options/option_table.h"
-#include "engine/setup/flow_amount.h"
+#include "engine/setup/resolved_options.h"
 #include "engine/tasks/workers.h"
 #include "partition/io/input_position.h"
 #include "partition/large_arrays.h"
@@ -66,7 +66,7 @@ class SeamsOfFields {
         : mesh_(mesh)
     {
         if (motion.weld)
-            weld_ = weld(mesh, make_topology(mesh), *motion.weld);
+            weld_ = weld(mesh, make_topology(mesh), motion.weld->value);
     }
 
     void complete(FieldGroup& group, Eigen::MatrixXd& fields) const
@@ -312,8 +312,7 @@ FieldReport diffuse(const PolygonMesh& mesh, Eigen::MatrixXd& fields, const Flow
     const Executor exec = workers.exec();
     Eigen::MatrixXd results = copy_of(fields, exec);
     FlowOptions of_flow = flow_for_fields(options, field_options);
-    of_flow.time_step = time_step_of(of_flow, mesh);
-    of_flow.radius.reset();
+    of_flow = resolved(std::move(of_flow), mesh);
     const Weights weights = weights_for_fields(field_options);
     // With keep_edges, K changes between steps.
     FlowControl own_control = control;

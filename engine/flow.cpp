@@ -4,11 +4,13 @@
 #include <memory>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "engine/flow/flow_run.h"
+#include "engine/measure/length_scale.h"
 #include "engine/options/valid_options.h"
-#include "engine/setup/flow_amount.h"
 #include "engine/setup/prepared_flow.h"
+#include "engine/setup/resolved_options.h"
 #include "engine/state/flow_state.h"
 #include "engine/surface/flowing_mesh.h"
 #include "engine/tasks/failure_guard.h"
@@ -62,10 +64,12 @@ class Flow::Session {
     }
 
   private:
-    void set_up(PolygonMesh& mesh, FlowOptions options, const FlowControl& control, bool is_observed,
-                FlowReport& report)
+    void set_up(PolygonMesh& mesh, FlowOptions given, const FlowControl& control, bool is_observed, FlowReport& report)
     {
         Stopwatch watch;
+        LengthScale scale(mesh, progress_.exec());
+        std::vector<Remark> remarks;
+        FlowOptions options = resolved(std::move(given), mesh, scale, progress_.exec(), remarks);
         progress_.set_steps(options.steps);
         const double setup = fraction_of_setup(options, control.resume != nullptr ? control.resume->n_steps() : 0);
         progress_.enter(FlowPhase::Cut, 0, 0.0, 0.6 * setup);
@@ -75,6 +79,7 @@ class Flow::Session {
         report.resources.threads = workers_.threads();
         report.seconds.cut = watch.lap();
         run_.emplace(*flowing_, std::move(prepared), progress_, setup, report, control);
+        report.remarks.insert(report.remarks.begin(), remarks.begin(), remarks.end());
     }
 
     int n_expected_;
@@ -90,10 +95,9 @@ Flow::Flow(PolygonMesh& mesh, const FlowOptions& options, StepObserver on_step, 
     , control_(std::move(control))
 {
     require_valid(options);
-    FlowOptions own = with_amount_on(options, mesh);
     if (control_.resume != nullptr)
         require_not_beyond(*control_.resume, options.steps);
-    session_ = std::make_unique<Session>(mesh, std::move(own), control_, static_cast<bool>(on_step_), report_);
+    session_ = std::make_unique<Session>(mesh, options, control_, static_cast<bool>(on_step_), report_);
 }
 
 Flow::~Flow() = default;

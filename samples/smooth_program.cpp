@@ -107,7 +107,7 @@ StepObserver make_observer(const SmoothCommand& command, const MeshFile& input, 
         if (state.separated == nullptr)
             snapshot.vertices = state.positions;
         write_state(command.every_step->path(state.step), snapshot, state.separated, input, exec,
-                    seam_distance_of(command));
+                    seam_distance_of(command.options.motion));
         write_seconds += watch.seconds();
     };
 }
@@ -117,7 +117,7 @@ std::vector<std::string> write_results(const SmoothCommand& command, const MeshF
                                        const Executor& exec)
 {
     auto remarks = write_state(command.output, file.mesh, report.separated ? &*report.separated : nullptr, file, exec,
-                               seam_distance_of(command));
+                               seam_distance_of(command.options.motion));
     if (!command.parts.empty())
         write_labelled_ply(command.parts, file.mesh, report.cut.labels, exec);
     return remarks;

@@ -3,7 +3,7 @@
 #include <optional>
 #include <variant>
 
-#include "engine/options/length_on_mesh.h"
+#include "engine/options/amount.h"
 #include "engine/options/motion_options.h"
 
 namespace seamflow {
@@ -18,16 +18,6 @@ struct RemoveNoise {
     /// Edges at which the normals of faces differ by more than this angle stay where the noise is small; in degrees,
     /// above 0 and below 180.
     double edge_angle = default_edge_angle;
-};
-
-/// How much is smoothed, in each of several steps or in all of them.
-struct SmoothingAmount {
-    /// dt of one step, in length²; one step smooths over a distance of about √dt. Must be positive and finite, or 0 if
-    /// `radius` gives the amount.
-    double time_step = 0.0;
-    /// The amount of all steps together, in place of time_step: bumps of this radius lose half their height, smaller
-    /// ones more (see smoothed_radius). Must be positive and finite.
-    std::optional<LengthOnMesh> radius = {};
 };
 
 /// Smooths the surface between edges by an amount that is given, whether there is noise or not: in each step, face

@@ -27,7 +27,7 @@ constexpr OptionRule<DenoiseOptions> of_methods[]{
     {[](const DenoiseOptions& o, const Asked& asked) { return is<SmoothRims>(o) && asked.has("feature_edges"); }, 0,
      "<feature_edges> names edges to keep, but the boundary alone moves: leave them out"},
     {[](const DenoiseOptions&, const Asked& asked) {
-         return asked.has("attachment") || asked.has("attachment_weights");
+         return asked.has("attachment") || asked.has("attachment_radius") || asked.has("attachment_weights");
      },
      0, "<attachment> is for flows, whose equations it is a term of: leave it out"},
 };
@@ -55,13 +55,15 @@ AskedOptions changed_options(const MotionOptions& motion)
 constexpr OptionTraits row_of_angle{.field = "keep_edges", .limits = limits_of_edge_angle};
 constexpr OptionTraits row_of_radius{.field = "radius", .limits = limits_of_radius};
 constexpr OptionTraits row_of_time_step{.field = "time_step", .limits = limits_of_time_step};
+constexpr OptionTraits row_of_edges{.field = "time_step_edges", .limits = limits_of_time_step_edges};
 
 void require_valid(const SmoothingAmount& amount)
 {
-    if (amount.radius && amount.time_step != 0.0)
-        refuse("<time_step> and <radius> both say how much is smoothed: leave one of them out");
+    if ((amount.time_step != 0.0) + amount.time_step_edges.has_value() + amount.radius.has_value() > 1)
+        refuse("<time_step>, <time_step_edges> and <radius> all say how much to smooth: give one of them");
     require_within(row_of_radius, amount.radius);
-    if (!amount.radius)
+    require_within(row_of_edges, amount.time_step_edges);
+    if (!amount.radius && !amount.time_step_edges)
         require_within(row_of_time_step, amount.time_step);
 }
 

@@ -8,7 +8,7 @@
 
 #include "engine/fields/heat_steps.h"
 #include "engine/options/valid_options.h"
-#include "engine/setup/flow_amount.h"
+#include "engine/setup/resolved_options.h"
 #include "engine/tasks/failure_guard.h"
 #include "engine/tasks/progress.h"
 #include "engine/tasks/workers.h"
@@ -62,7 +62,7 @@ HeatEquation::HeatEquation(PolygonMesh surface, const FlowOptions& options, Weig
     if (options.flow != FlowEquation::Linear)
         throw OptionError("only linear flows are applied to fields: their matrix stays the same");
     require_valid(options);
-    session_ = std::make_unique<Session>(surface_, with_amount_on(options, surface_), weights, control_, report_);
+    session_ = std::make_unique<Session>(surface_, resolved(options, surface_), weights, control_, report_);
 }
 
 HeatEquation::~HeatEquation() = default;

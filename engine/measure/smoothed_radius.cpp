@@ -4,9 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "engine/tasks/parallel_executor.h"
 #include "partition/errors.h"
-#include "partition/metrics/bounding_box.h"
 
 namespace seamflow {
 
@@ -32,30 +30,22 @@ double time_step_for_radius(double radius, int steps, const StepFilter& filter)
     return radius * radius * step_per_squared_radius(steps, filter);
 }
 
-double time_step_for_radius(const LengthOnMesh& radius, int steps, double diagonal, const StepFilter& filter)
+double time_step_of(const SmoothingAmount& amount, int steps, LengthScale& scale, const StepFilter& filter)
 {
-    const double length = radius.value * (radius.of_diagonal ? diagonal : 1.0);
-    const double time_step = time_step_for_radius(length, std::max(steps, 1), filter);
+    if (amount.time_step_edges) {
+        const double time_step = *amount.time_step_edges * scale.mean_edge() * scale.mean_edge();
+        if (!std::isnormal(time_step))
+            throw InputError(Wording{"the mesh has no size to measure <time_step_edges> by; use <time_step>"});
+        return time_step;
+    }
+    if (!amount.radius)
+        return amount.time_step;
+    const double time_step = time_step_for_radius(scale.length_of(*amount.radius), std::max(steps, 1), filter);
     if (std::isinf(time_step))
         throw OptionError("the radius is too large: the time step that it takes is beyond what a double can hold");
     if (!std::isnormal(time_step))
-        throw InputError("has no size to measure a radius by; use a time step");
+        throw InputError("the mesh has no size to measure a radius by; use a time step");
     return time_step;
-}
-
-double time_step_of(double time_step, const std::optional<LengthOnMesh>& radius, int steps, const PolygonMesh& mesh,
-                    const StepFilter& filter)
-{
-    if (!radius)
-        return time_step;
-    if (radius->of_diagonal)
-        require_valid(mesh, run_in_parallel);
-    const double diagonal = radius->of_diagonal ? box_of_faces(mesh, run_in_parallel).diagonal() : 1.0;
-    try {
-        return time_step_for_radius(*radius, steps, diagonal, filter);
-    } catch (const InputError& error) {
-        throw InputError(Wording{"the mesh " + error.wording().text});
-    }
 }
 
 }  // namespace seamflow

@@ -1,9 +1,7 @@
 #pragma once
 
-#include <optional>
-
-#include "engine/options/length_on_mesh.h"
-#include "partition/polygon_mesh.h"
+#include "engine/measure/length_scale.h"
+#include "engine/options/amount.h"
 #include "solvers/filters/step_filter.h"
 
 namespace seamflow {
@@ -20,15 +18,10 @@ double smoothed_radius(double time_step, int steps, const StepFilter& filter = {
 /// The time step, in length², with which that many steps smooth bumps of radius R: the inverse of smoothed_radius.
 double time_step_for_radius(double radius, int steps, const StepFilter& filter = {});
 
-/// The time step, in length², for a radius that may be relative to the mesh.
-/// @param steps 0 counts as 1. @param diagonal of the bounding box, in units of length.
-/// @throws InputError for a mesh without a size, without naming the mesh: "has no size …"; OptionError for a
-///         time step that no double can hold.
-double time_step_for_radius(const LengthOnMesh& radius, int steps, double diagonal, const StepFilter& filter = {});
-
-/// A time step that is given, or the one for a radius, in length².
-/// @param radius empty: `time_step` is given. @throws InputError for a mesh that is not valid; as time_step_for_radius.
-double time_step_of(double time_step, const std::optional<LengthOnMesh>& radius, int steps, const PolygonMesh& mesh,
-                    const StepFilter& filter = {});
+/// dt of one step, in length².
+/// @param steps 0 counts as 1. @param filter of each step.
+/// @throws InputError for a mesh without a size to measure by, or that is not valid; OptionError for a time step that
+/// no double can hold.
+double time_step_of(const SmoothingAmount& amount, int steps, LengthScale& scale, const StepFilter& filter = {});
 
 }  // namespace seamflow

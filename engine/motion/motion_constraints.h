@@ -16,8 +16,9 @@ namespace seamflow {
 /// The objects that change the positions of a step, whatever takes it: the constraints that it obeys, and the maps from
 /// its positions to a result.
 struct MotionConstraints {
-    /// @param continues_scaled whether steps begin with rescaled results, if results are rescaled. @param
-    /// largest_update of a vertex in a step, in diagonals of the box around the faces (see UpdateLimit).
+    /// @param motion resolved (see resolved_motion.h). @param continues_scaled whether steps begin with rescaled
+    /// results, if results are rescaled. @param largest_update of a vertex in a step, in diagonals of the box around
+    /// the faces (see UpdateLimit).
     MotionConstraints(const PolygonMesh& mesh, const Topology& topology, const MotionOptions& motion,
                       bool continues_scaled, double largest_update)
         : is_scaled(motion.rescale != Rescale::None && continues_scaled)
@@ -31,7 +32,7 @@ struct MotionConstraints {
         if (motion.limits.exist())
             limited.emplace(mesh, topology, motion.limits);
         if (motion.within)
-            bound.emplace(mesh, topology, *motion.within);
+            bound.emplace(mesh, topology, motion.within->value);
     }
 
     /// Whether results differ from the positions from which the flow continues.

@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
+#include "engine/options/amount.h"
 #include "engine/options/approach.h"
-#include "engine/options/length_on_mesh.h"
 #include "engine/options/motion_options.h"
 #include "partition/polygon_mesh.h"
 #include "solvers/conditions/robin_edge.h"
@@ -209,11 +209,12 @@ struct FlowOptions {
     /// That of the filter (see Filter). Empty: 1 for Diffusion, 2 for LowPass. Diffusion has 1 to 3, LowPass 2 to 8.
     std::optional<int> order = {};
     /// dt of one step, in length²; one step smooths over a distance of about √dt. Must be positive and finite, or 0 if
-    /// `radius` gives the amount.
+    /// one of the next two gives the amount. FlowReport::time_step has the resulting dt.
     double time_step = 0.0;
-    /// The amount of all steps together, in place of time_step: bumps of this radius lose half their height, smaller
-    /// ones more (see smoothed_radius; with uniform weights those of uneven meshes up to a tenth less). Must be
-    /// positive and finite. FlowReport::time_step has the resulting dt.
+    /// dt of one step, in squared mean edge lengths. Must be positive and finite.
+    std::optional<double> time_step_edges = {};
+    /// The amount of all steps together: bumps of this radius lose half their height, smaller ones more (see
+    /// smoothed_radius; with uniform weights those of uneven meshes up to a tenth less). Must be positive and finite.
     std::optional<LengthOnMesh> radius = {};
     /// h of Laplacian::Uniform: the edge length, in length, for which dt and radii hold. 0: the mean edge length of the
     /// given mesh. Must be finite, and not negative.

@@ -53,6 +53,7 @@ constexpr Limits not_negative(std::string_view text)
 inline constexpr Limits limits_of_radius =
     positive("positive and finite (a length, or a part of the bounding box's diagonal)");
 inline constexpr Limits limits_of_time_step = positive("positive and finite (length²)");
+inline constexpr Limits limits_of_time_step_edges = positive("positive and finite (squared mean edge lengths)");
 
 /// The table of all options of motion, in the order of --help. A further field of MotionOptions has one row here; the
 /// compiler asks for it.
@@ -61,8 +62,8 @@ template <class Motion>
 auto motion_table(Motion& motion)
 {
     using namespace concern;
-    auto& [weld, boundary, junctions, fixed_vertices, feature_edges, strict, attachment, attachment_weights, strength,
-           direction, rescale, within, limits] = motion;
+    auto& [weld, boundary, junctions, fixed_vertices, feature_edges, strict, attachment, attachment_radius,
+           attachment_weights, strength, feather, direction, rescale, within, limits] = motion;
     auto& [volume, move, slide] = limits;
     namespace group = option_group;
     return std::tuple{
@@ -88,6 +89,10 @@ auto motion_table(Motion& motion)
         row(attachment, {"attachment", "--attach", group::kept, equation | concern::motion,
                          "pull every vertex towards where it was: features larger than this stay",
                          not_negative("at least 0 and finite (1/length²)")}),
+        row(attachment_radius,
+            {.field = "attachment_radius",
+             .concerns = equation | concern::motion | no_result,
+             .limits = positive("positive and finite (a length, or a part of the bounding box's diagonal)")}),
         row(attachment_weights,
             {"attachment_weights", "--attach-weights", group::kept, equation | concern::motion | numbers,
              "how strongly each vertex is pulled back, in 1/length²: one number per line, or a .ply\n"
@@ -96,6 +101,11 @@ auto motion_table(Motion& motion)
                        "smooth only there: vertex numbers from 0, one a line, or a .ply that has the strength of each\n"
                        "The strength, from 0 to 1, scales the time step at its vertex; 0 holds it. A name that is no "
                        "file is that of a property of INPUT, a .ply. Not for sweeps."}),
+        row(feather, {"feather", "--feather", group::kept, concern::motion | whole_surface | no_result,
+                      "the strength of the region rises from 0 at its rim over this distance, so that no crease "
+                      "appears\n"
+                      "The boundary of the surface is no rim.",
+                      positive("positive and finite (a length, or a part of the bounding box's diagonal)")}),
         row(direction, {"direction", "--direction", group::kept, concern::motion,
                         "vertices move along this direction only; with z, x and y of a terrain stay bit for bit\n"
                         "normal is that of each vertex after the step."}),

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "engine/options/length_on_mesh.h"
+#include "engine/options/amount.h"
 #include "partition/polygon_mesh.h"
 #include "partition/vector_area.h"
 
@@ -90,11 +90,11 @@ struct MotionOptions {
     /// Strengths below this hold a vertex, as 0 does.
     static constexpr double least_strength = 1e-9;
 
-    /// Distance, in units of length, within which boundary vertices count as coincident where two boundary edges can
+    /// Distance within which boundary vertices count as coincident where two boundary edges can
     /// become one (see weld). Such vertices move as one, but stay separate in the mesh, so that the surface continues
     /// across seams of its texture. Moving copies come to one place; fixed ones stay where they are. 0: coordinates
     /// have to be equal. nullopt disables welding.
-    std::optional<double> weld = 0.0;
+    std::optional<LengthOnMesh> weld = 0.0;
     /// Boundary conditions.
     Boundary boundary = Boundary::Fixed;
     /// Vertices where sheets meet.
@@ -113,14 +113,18 @@ struct MotionOptions {
     /// ∂V/∂t = -ΔV - w (V - V⁰). Features larger than about 1/√w stay, because the flow ends at the solution of
     /// (Δ + w) V = w V⁰. 0: no such term. For symmetric Laplacians and backward Euler steps.
     double attachment = 0.0;
+    /// R in place of w = 1/R²: features larger than about R stay. Positive and finite.
+    std::optional<LengthOnMesh> attachment_radius = {};
     /// The same with a w for each vertex, #V, in place of `attachment`: soft constraints, beside fixed_vertices. Empty:
     /// `attachment` applies.
     std::vector<double> attachment_weights = {};
     /// The strength of each step at each vertex, #V, from 0 to 1: dt there is the strength times time_step, so that 0
-    /// holds a vertex bit for bit, and a mask of 0 and 1 smooths a region alone (see feathered for one without a crease
-    /// at its rim). Faces without a moving vertex cost next to nothing. Not for
-    /// sweeps. In denoise() it scales the displacement of each step. Empty: 1 everywhere.
+    /// holds a vertex bit for bit, and a mask of 0 and 1 smooths a region alone. Faces without a moving vertex cost
+    /// next to nothing. Not for sweeps. In denoise() it scales the displacement of each step. Empty: 1 everywhere.
     std::vector<double> strength = {};
+    /// Lets the strength rise from 0 at the rim of its region over this distance, so that no crease appears there (see
+    /// feathered). The boundary of the surface is no rim. Positive and finite; nullopt: it does not.
+    std::optional<LengthOnMesh> feather = {};
     /// Motion along lines alone: after each step the displacement of every vertex is projected on its line, and the
     /// flow continues from there. Not with rescale, nor for the classical conditions.
     MotionDirection direction = {};
@@ -128,10 +132,10 @@ struct MotionOptions {
     /// unscaled; the conformalized flow continues from the scaled result, so that it does not vanish on its way to a
     /// sphere. Every vertex with faces moves: none of them may be fixed.
     Rescale rescale = Rescale::None;
-    /// Largest distance of any vertex from its first position, above 0, in units of length. It bounds each result; the
+    /// Largest distance of any vertex from its first position, above 0. It bounds each result; the
     /// flow itself is not changed. Vertices beyond it are put back to that distance, and their neighbours follow
     /// smoothly. nullopt: no bound.
-    std::optional<double> within = {};
+    std::optional<LengthOnMesh> within = {};
     /// Limits of each result, like `within`.
     ComponentLimits limits = {};
 };
@@ -139,7 +143,7 @@ struct MotionOptions {
 /// Whether there is a screening term.
 inline bool attaches(const MotionOptions& motion)
 {
-    return motion.attachment > 0.0 || !motion.attachment_weights.empty();
+    return motion.attachment > 0.0 || motion.attachment_radius || !motion.attachment_weights.empty();
 }
 
 }  // namespace seamflow

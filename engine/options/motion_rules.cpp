@@ -50,9 +50,13 @@ constexpr OptionRule<MotionOptions> of_motion[]{
      "<direction> lets vertices move along lines alone, which <rescale> and <feature_edges> do not: leave one of them "
      "out"},
     {[](const MotionOptions&, const Asked& asked) {
-         return asked.has("attachment") && asked.has("attachment_weights");
+         return (asked.has("attachment") || asked.has("attachment_radius")) && asked.has("attachment_weights");
      },
      0, "<attachment> and <attachment_weights> both say how vertices are attached: leave one of them out"},
+    {[](const MotionOptions& m, const Asked&) { return m.attachment > 0.0 && m.attachment_radius; }, 0,
+     "attachment and attachment_radius both say how vertices are attached: leave one of them out"},
+    {[](const MotionOptions&, const Asked& asked) { return asked.has("feather") && !asked.has("strength"); }, 0,
+     "<feather> is for the rim of a region: give <strength> as well"},
 };
 
 }  // namespace

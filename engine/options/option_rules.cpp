@@ -53,7 +53,7 @@ bool is_cut(const O& o, const Asked& asked)
 
 bool is_attached(const Asked& asked)
 {
-    return asked.has("attachment") || asked.has("attachment_weights");
+    return asked.has("attachment") || asked.has("attachment_radius") || asked.has("attachment_weights");
 }
 
 bool is_plain(const O& o, const Asked& asked)
@@ -95,8 +95,10 @@ constexpr Rule of_interface[]{
 };
 
 constexpr Rule of_motion_of_flows[]{
-    {[](const O&, const Asked& asked) { return asked.has("time_step") && asked.has("radius"); }, 0,
-     "<time_step> and <radius> both say how much is smoothed: leave one of them out"},
+    {[](const O&, const Asked& asked) {
+         return asked.has("time_step") + asked.has("time_step_edges") + asked.has("radius") > 1;
+     },
+     0, "<time_step>, <time_step_edges> and <radius> all say how much to smooth: give one of them"},
     {[](const O& o, const Asked&) { return o.motion.boundary == Boundary::Free && !is_symmetric(o.laplacian); }, 0,
      "<boundary> is free, but the Laplacian {laplacian} has no natural boundary conditions (its rows there are "
      "one-sided and unstable): use {symmetric}, or leave the boundary fixed"},

@@ -19,8 +19,8 @@ template <class Options>
 auto option_table(Options& options)
 {
     using namespace concern;
-    auto& [laplacian, flow, filter, order, time_step, radius, uniform_edge, steps, scheme, cut, interface, accuracy,
-           motion, resources, report] = options;
+    auto& [laplacian, flow, filter, order, time_step, time_step_edges, radius, uniform_edge, steps, scheme, cut,
+           interface, accuracy, motion, resources, report] = options;
     auto& [subdomains, labels] = cut;
     auto& [conditions, transmission, p, p_rule, p_edge, q, overlap, colouring, sweep, correction] = interface;
     auto& [tolerance, approach, converge_iterations, largest_update] = accuracy;
@@ -54,6 +54,8 @@ auto option_table(Options& options)
                      limits_of_radius}),
         row(time_step,
             {"time_step", "--time-step", group::amount, amount, "time step, in length²", limits_of_time_step}),
+        row(time_step_edges, {"time_step_edges", "--time-step-edges", group::amount, amount | no_result,
+                              "time step, in squared mean edge lengths", limits_of_time_step_edges}),
         row(uniform_edge,
             {.field = "uniform_edge",
              .limits = not_negative("at least 0 and finite (a length; 0: the mean edge length of the mesh)")}),

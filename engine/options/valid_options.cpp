@@ -19,7 +19,7 @@ namespace {
 void require_limits(const FlowOptions& options)
 {
     for_each_option(options, [&](const auto& row) {
-        const bool is_open = row.field == "time_step" && options.radius.has_value();
+        const bool is_open = row.field == "time_step" && (options.radius || options.time_step_edges);
         if constexpr (requires { require_within(row, *row.value); })
             if (!row.limits.text.empty() && !is_open)
                 require_within(row, *row.value);

@@ -3,10 +3,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
+#include "engine/measure/length_scale.h"
 #include "engine/measure/smoothed_radius.h"
+#include "engine/options/option_names.h"
+#include "engine/options/option_rules.h"
 #include "partition/errors.h"
 #include "partition/metrics/bounding_box.h"
 #include "partition/metrics/spikes.h"
@@ -75,7 +81,7 @@ double require_step(double time_step)
 {
     if (std::isnormal(time_step))
         return time_step;
-    throw InputError(Wording{"has no size to measure noise by; use <time_step>"});
+    throw InputError(Wording{"the mesh has no size to measure noise by; use <time_step>"});
 }
 
 void smooth_nothing(PresetChoice& choice, double mean_edge, std::string_view why)
@@ -111,8 +117,9 @@ void choose_by_noise(const PolygonMesh& mesh, const std::optional<LengthOnMesh>&
                      const Executor& exec)
 {
     const Topology topology = make_topology(mesh, exec);
-    const std::optional<double> within = choice.options.motion.weld;
-    const std::optional<Weld> welded = within ? weld(mesh, topology, *within, exec) : std::nullopt;
+    LengthScale scale(mesh, exec);
+    const std::optional<LengthOnMesh>& within = choice.options.motion.weld;
+    const std::optional<Weld> welded = within ? weld(mesh, topology, scale.length_of(*within), exec) : std::nullopt;
     const PolygonMesh* const joined_mesh = welded ? &welded->mesh : &mesh;
     const std::vector<Spike> spikes = find_spikes(*joined_mesh, joined_mesh->vertices, exec);
     const std::optional<PolygonMesh> without =
@@ -120,8 +127,7 @@ void choose_by_noise(const PolygonMesh& mesh, const std::optional<LengthOnMesh>&
     const PolygonMesh& flowing = without ? *without : *joined_mesh;
     const Topology& joined = welded ? welded->topology : topology;
     const double mean_edge = mean_edge_length(mesh, mesh.vertices, exec);
-    const double diagonal = box_of_faces(mesh, exec).diagonal();
-    choice.noise = known ? length_of(*known, diagonal) : measure_noise(flowing, joined, exec).deviation;
+    choice.noise = known ? scale.length_of(*known) : measure_noise(flowing, joined, exec).deviation;
     if (*choice.noise == 0.0)
         return smooth_nothing(choice, mean_edge, "No noise can be told from the shape of the mesh");
     const double t = denoising_amount(flowing, joined, *choice.noise, exec).amount;
@@ -144,6 +150,101 @@ void choose_by_noise(const PolygonMesh& mesh, const std::optional<LengthOnMesh>&
     choice.options.motion.limits.slide = most_slide * choice.options.motion.limits.move;
 }
 
+/// A setting, and how it is made.
+struct Setting {
+    PresetSetting shown;
+    void (*set)(const PresetTraits& preset, PresetSettings& settings);
+};
+
+Setting setting_of_direction()
+{
+    return {{"direction", "z"}, [](const PresetTraits&, PresetSettings& s) {
+                s.options.motion.direction = {MotionDirection::Kind::Vector, Point::UnitZ()};
+            }};
+}
+
+/// What removing noise needs.
+std::vector<Setting> settings_of_denoise(const PresetTraits& preset)
+{
+    std::vector<Setting> list;
+    if (preset.along_z)
+        list.push_back(setting_of_direction());
+    list.push_back({{"boundary", "free"},
+                    [](const PresetTraits&, PresetSettings& s) { s.options.motion.boundary = Boundary::Free; }});
+    return list;
+}
+
+/// Those of the equation.
+std::vector<Setting> settings_of_flow(const PresetTraits& preset)
+{
+    const PresetTraits defaults{};
+    std::vector<Setting> list;
+    if (preset.along_z)
+        list.push_back(setting_of_direction());
+    // Steps that keep edges do not use the Laplacian.
+    if (!preset.keep_edges)
+        list.push_back({{"laplacian", std::string(name_of(preset.laplacian))},
+                        [](const PresetTraits& p, PresetSettings& s) { s.options.laplacian = p.laplacian; }});
+    if (preset.flow != defaults.flow)
+        list.push_back({{"flow", std::string(option_name(preset.flow))},
+                        [](const PresetTraits& p, PresetSettings& s) { s.options.flow = p.flow; }});
+    if (preset.filter != defaults.filter)
+        list.push_back({{"filter", std::string(option_name(preset.filter))},
+                        [](const PresetTraits& p, PresetSettings& s) { s.options.filter = p.filter; }});
+    if (preset.order != defaults.order)
+        list.push_back({{"order", fmt::format("{}", preset.order)},
+                        [](const PresetTraits& p, PresetSettings& s) { s.options.order = p.order; }});
+    if (preset.keep_edges)
+        list.push_back({{"keep_edges", fmt::format("{}", *preset.keep_edges)},
+                        [](const PresetTraits& p, PresetSettings& s) { s.keep_edges = p.keep_edges; }});
+    if (preset.attach)
+        list.push_back(
+            {{"attachment", fmt::format("{:g}%", 100.0 * preset.attach->value)},
+             [](const PresetTraits& p, PresetSettings& s) { s.options.motion.attachment_radius = p.attach; }});
+    if (preset.steps != defaults.steps)
+        list.push_back({{"steps", fmt::format("{}", preset.steps)},
+                        [](const PresetTraits& p, PresetSettings& s) { s.options.steps = p.steps; }});
+    return list;
+}
+
+/// Whether options are about the equation of a flow.
+bool wants_equation(const AskedOptions& asked)
+{
+    return !asked.first(concern::equations | concern::equation).empty();
+}
+
+/// Whether the caller has asked for a Laplacian with which an option of a preset does not go.
+bool is_against(const FlowOptions& given, const AskedOptions& asked, std::string_view option)
+{
+    const bool is_further = option == "flow" || option == "filter" || option == "order" || option == "attachment";
+    return is_further && asked.has("laplacian") && !is_symmetric(given.laplacian);
+}
+
+/// Whether an option of a preset was given, or does not go with those that were.
+bool is_said(const FlowOptions& given, const AskedOptions& asked, std::string_view option)
+{
+    if (asked.has(option) || is_against(given, asked, option))
+        return true;
+    const Conditions conditions = given.interface.conditions;
+    if (option == "direction")
+        return asked.has("rescale") || asked.has("feature_edges") || is_classical(conditions) ||
+               conditions == Conditions::Schwarz;
+    if (option == "flow")
+        return given.accuracy.approach == Approach::ConjugateGradients;
+    if (option == "attachment")
+        return asked.has("attachment_radius") || asked.has("attachment_weights");
+    return option == "order" && asked.has("filter");
+}
+
+/// Those of denoise(), from those of a flow.
+DenoiseOptions denoise_options_of(const FlowOptions& options)
+{
+    return {.steps = options.steps,
+            .motion = options.motion,
+            .threads = options.resources.threads,
+            .measures = options.report.measures};
+}
+
 }  // namespace
 
 std::span<const PresetTraits> all_presets()
@@ -159,20 +260,32 @@ const PresetTraits& preset_of(std::string_view name)
     return *found;
 }
 
-double length_of(const LengthOnMesh& length, double diagonal)
+const PresetTraits& default_preset(const AskedOptions& asked)
 {
-    return length.value * (length.of_diagonal ? diagonal : 1.0);
+    if (asked.has("keep_edges") || asked.has("feature_edges"))
+        return preset_of("cad");
+    return wants_equation(asked) ? preset_of("scan") : table.front();
 }
 
-double attachment_of(const LengthOnMesh& length, double diagonal)
+PresetSettings apply_preset(const PresetTraits& preset, FlowOptions given, const AskedOptions& asked,
+                            bool is_noise_known)
 {
-    if (length.of_diagonal && !std::isnormal(diagonal))
-        throw InputError(Wording{"has no size to measure <attachment> by; use a length"});
-    const double radius = length_of(length, diagonal);
-    const double weight = 1.0 / (radius * radius);
-    if (!std::isnormal(weight))
-        throw OptionError(Wording{"<attachment> is too small or too large: 1/R² is beyond what a double can hold"});
-    return weight;
+    const bool is_amount_given = !asked.first(concern::amount).empty();
+    const bool needs_equation = is_amount_given || (!preset.keep_edges && (wants_equation(asked) || is_noise_known));
+    PresetSettings settings{.options = given, .chooses_amount = !is_amount_given};
+    settings.denoise = preset.denoise && !needs_equation;
+    if (preset.radius)
+        settings.amount = {"radius", fmt::format("{:g}%", 100.0 * preset.radius->value)};
+    for (const Setting& setting : settings.denoise ? settings_of_denoise(preset) : settings_of_flow(preset)) {
+        const std::string_view option = setting.shown.option;
+        if (!is_said(given, asked, option)) {
+            setting.set(preset, settings);
+            settings.chosen.push_back(setting.shown);
+        } else if (!asked.has(option) && !is_symmetric(given.laplacian)) {
+            settings.left_out.push_back(setting.shown);
+        }
+    }
+    return settings;
 }
 
 void choose_amount(const PresetTraits& preset, const PolygonMesh& mesh, const std::optional<LengthOnMesh>& noise,
@@ -181,8 +294,8 @@ void choose_amount(const PresetTraits& preset, const PolygonMesh& mesh, const st
     FlowOptions& options = choice.options;
     options.motion.limits = {.volume = ComponentLimits::most_volume_change};
     if (preset.radius) {
-        options.time_step = time_step_for_radius(*preset.radius, options.steps, box_of_faces(mesh, exec).diagonal(),
-                                                 filter_of(options));
+        LengthScale scale(mesh, exec);
+        options.time_step = time_step_of({.radius = preset.radius}, options.steps, scale, filter_of(options));
     } else {
         choose_by_noise(mesh, noise, choice, exec);
     }
@@ -193,29 +306,21 @@ PresetChoice options_for(Preset preset, const PolygonMesh& mesh, const FlowOptio
 {
     require_valid(mesh, exec);
     const PresetTraits& traits = *std::ranges::find(table, preset, &PresetTraits::preset);
-    PresetChoice choice{.options = further};
-    FlowOptions& options = choice.options;
-    options.laplacian = traits.laplacian;
-    options.flow = traits.flow;
-    options.filter = traits.filter;
-    options.order = traits.order;
-    if (traits.along_z)
-        options.motion.direction = along_z();
-    if (traits.denoise && !(noise && traits.measures_noise())) {
-        DenoiseOptions& denoise = choice.denoise.emplace();
-        denoise.motion = further.motion;
-        denoise.motion.boundary = Boundary::Free;
-        denoise.motion.limits = DenoiseOptions::default_motion().limits;
-        denoise.motion.direction = options.motion.direction;
-        denoise.threads = further.resources.threads;
-        denoise.measures = further.report.measures;
-        return choice;
+    PresetSettings settings = apply_preset(traits, further, changed_options(further), noise.has_value());
+    PresetChoice choice{.options = std::move(settings.options)};
+    const FlowOptions& options = choice.options;
+    if (settings.denoise) {
+        choice.denoise = denoise_options_of(options);
+        choice.denoise->motion.limits = DenoiseOptions::default_motion().limits;
+    } else if (settings.keep_edges) {
+        choice.denoise = denoise_options_of(options);
+        choice.denoise->method = SmoothBetweenEdges{
+            .edge_angle = *settings.keep_edges,
+            .amount = {options.time_step, options.time_step_edges, options.radius},
+        };
+    } else if (settings.chooses_amount) {
+        choose_amount(traits, mesh, noise, choice, exec);
     }
-    options.steps = traits.steps;
-    options.radius.reset();
-    if (traits.attach)
-        options.motion.attachment = attachment_of(*traits.attach, box_of_faces(mesh, exec).diagonal());
-    choose_amount(traits, mesh, noise, choice, exec);
     return choice;
 }
 

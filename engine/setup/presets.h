@@ -2,10 +2,13 @@
 
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "engine/denoise/denoise_options.h"
 #include "engine/options/flow_options.h"
+#include "engine/options/option_rule.h"
 #include "partition/executor.h"
 #include "partition/polygon_mesh.h"
 #include "partition/remark.h"
@@ -39,7 +42,7 @@ struct PresetTraits {
     bool denoise = false;
     /// Whether vertices move along z alone.
     bool along_z = false;
-    /// Length for attachment_of, if vertices are attached.
+    /// MotionOptions::attachment_radius, if vertices are attached.
     std::optional<LengthOnMesh> attach = {};
     int steps = 1;
     /// The radius that all steps smooth.
@@ -49,22 +52,47 @@ struct PresetTraits {
     [[nodiscard]] bool measures_noise() const { return !keep_edges && !radius; }
 };
 
-inline MotionDirection along_z()
-{
-    return {MotionDirection::Kind::Vector, Point::UnitZ()};
-}
-
 /// All of them, first the one for meshes of unspecified kind.
 std::span<const PresetTraits> all_presets();
 
 /// @throws OptionError for an unknown name.
 const PresetTraits& preset_of(std::string_view name);
 
+/// The preset for a caller who names none and gives no amount.
+const PresetTraits& default_preset(const AskedOptions& asked);
+
+/// An option that a preset sets: its name in the table of options, and its value in words.
+struct PresetSetting {
+    std::string_view option;
+    std::string value;
+};
+
+/// Options of a caller, with those of a preset, besides its amount, where the caller has not asked for others.
+struct PresetSettings {
+    FlowOptions options;
+    /// Whether noise is removed (see denoise) in place of a flow.
+    bool denoise = false;
+    /// In degrees, if the preset keeps edges.
+    std::optional<double> keep_edges = {};
+    /// Whether the preset chooses how much is smoothed.
+    bool chooses_amount = true;
+    std::vector<PresetSetting> chosen = {};
+    /// The amount, if it does not follow from the noise.
+    std::optional<PresetSetting> amount = {};
+    /// Those that the Laplacian that was asked for does not support.
+    std::vector<PresetSetting> left_out = {};
+};
+
+/// @param given options of the caller. @param asked which of them the caller has asked for.
+/// @param is_noise_known whether the caller knows how large the noise is.
+PresetSettings apply_preset(const PresetTraits& preset, FlowOptions given, const AskedOptions& asked,
+                            bool is_noise_known = false);
+
 /// Options, and why they are so.
 struct PresetChoice {
     /// With an amount, and limits for each component of the mesh.
     FlowOptions options;
-    /// In place of them, if the preset removes noise: those of denoise().
+    /// In place of them, if the preset removes noise or keeps edges: those of denoise().
     std::optional<DenoiseOptions> denoise = {};
     /// As measured from the mesh, or given, in length, if the amount follows from it.
     std::optional<double> noise = {};
@@ -73,11 +101,11 @@ struct PresetChoice {
 };
 
 /// The options of a preset for a mesh, to be changed at will and given to mean_curvature_flow or denoise. A preset that
-/// denoises does so where no noise is given that its equation could take its amount from.
-/// @param further options unrelated to the preset: fixed vertices, threads, reports, and so on.
+/// denoises does so where no noise is given, and no option that needs the equation of a flow.
+/// @param further options of the caller; those that are not as by default replace those of the preset.
 /// @param noise the standard deviation of the noise along the normals, where it is known; Preset::Cad and Preset::Fair
 /// ignore it.
-/// @throws InputError for a mesh that is not valid, or that has no size to measure by ("has no size …").
+/// @throws InputError for a mesh that is not valid, or that has no size to measure by.
 PresetChoice options_for(Preset preset, const PolygonMesh& mesh, const FlowOptions& further = {},
                          const std::optional<LengthOnMesh>& noise = {}, const Executor& exec = run_serially);
 
@@ -86,14 +114,5 @@ PresetChoice options_for(Preset preset, const PolygonMesh& mesh, const FlowOptio
 /// @param choice has all options except the amount; receives that, the noise and the remark.
 void choose_amount(const PresetTraits& preset, const PolygonMesh& mesh, const std::optional<LengthOnMesh>& noise,
                    PresetChoice& choice, const Executor& exec = run_serially);
-
-/// In units of length.
-/// @param diagonal of the bounding box of all vertices.
-double length_of(const LengthOnMesh& length, double diagonal);
-
-/// w = 1/R² of an attachment that keeps what is larger than R (see MotionOptions::attachment), in 1/length².
-/// @param diagonal of the bounding box of all vertices, in length.
-/// @throws InputError for a mesh that has no size to measure by; OptionError for a length whose w no double can hold.
-double attachment_of(const LengthOnMesh& length, double diagonal);
 
 }  // namespace seamflow

@@ -2,7 +2,7 @@
 
 #include <tuple>
 
-#include "engine/options/length_on_mesh.h"
+#include "engine/options/amount.h"
 #include "engine/options/motion_options.h"
 #include "engine/state/transfer.h"
 

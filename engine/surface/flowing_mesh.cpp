@@ -37,9 +37,9 @@ void FlowingMesh::weld_seams(Topology& topology, MotionOptions& motion, const Ex
 {
     if (!motion.weld)
         return;
-    std::optional<Weld> welded = weld(mesh(), topology, *motion.weld, exec);
+    std::optional<Weld> welded = weld(mesh(), topology, motion.weld->value, exec);
     if (!welded) {
-        remark_on_seams_ = remark_on_seams(0, 0, given_->n_vertices(), *motion.weld, 0.0);
+        remark_on_seams_ = remark_on_seams(0, 0, given_->n_vertices(), motion.weld->value, 0.0);
         return;
     }
     representative_ = std::move(welded->representative);
@@ -55,7 +55,7 @@ void FlowingMesh::weld_seams(Topology& topology, MotionOptions& motion, const Ex
     double furthest = 0.0;
     for (const Apart& one : apart_)
         furthest = std::max(furthest, (one.joined - one.own).norm());
-    remark_on_seams_ = remark_on_seams(welded->n_vertices, welded->n_edges, given_->n_vertices(), *motion.weld,
+    remark_on_seams_ = remark_on_seams(welded->n_vertices, welded->n_edges, given_->n_vertices(), motion.weld->value,
                                        furthest > 0.0 ? furthest / mean_edge_length(mesh()) : 0.0);
     const auto join = [&](Index& v) {
         if (v >= 0 && v < given_->n_vertices())

@@ -26,7 +26,8 @@ class FlowingMesh {
 
     /// Lets vertices along seams move as one. To be called at most once, before anything refers to mesh().
     /// @param topology of mesh(); becomes that of the mesh with vertices joined.
-    /// @param motion its settings for joined vertices then apply to their representative: it is fixed, or attached by
+    /// @param motion with lengths in units of length; its settings for joined vertices then apply to their
+    /// representative: it is fixed, or attached by
     ///        the largest of their weights.
     void weld_seams(Topology& topology, MotionOptions& motion, const Executor& exec);
 

@@ -40,7 +40,8 @@ struct SurfaceRequest {
 };
 
 /// Leaves out faces, joins vertices along seams, and determines which vertices move.
-/// @param mesh valid, as given. @param motion its settings for joined vertices then apply to those that represent them.
+/// @param mesh valid, as given. @param motion resolved (see resolved_motion.h); its settings for joined vertices then
+/// apply to those that represent them.
 /// @throws as constrain.
 Surface make_surface(FlowingMesh& mesh, MotionOptions& motion, const SurfaceRequest& request, Progress& progress);
 

@@ -1,15 +1,17 @@
 #include "samples/command/settled_options.h"
 
 #include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "engine/options/option_rules.h"
+#include "engine/setup/presets.h"
 #include "partition/errors.h"
 #include "partition/formats/mesh_io.h"
-#include "samples/command/presets.h"
 #include "samples/command/smooth_options.h"
 #include "samples/process/cpu_quota.h"
 #include "samples/process/option_words.h"
@@ -48,10 +50,6 @@ bool shows_tasks(const Command& c)
 
 /// Rules of the command line alone (see require_compatible) that hold before a preset has chosen anything.
 constexpr Rule rules_of_amounts[]{
-    {[](const Command& c, const Asked& asked) {
-         return !c.fields.exists() && asked.has("time_step") + asked.has("--time-step-edges") + asked.has("radius") > 1;
-     },
-     0, "<time_step>, --time-step-edges and <radius> all say how much to smooth: give one of them"},
     {[](const Command& c, const Asked&) { return !c.fields.exists() && c.noise; }, concern::amount,
      "--noise sets how much a preset smooths, and <{other}> does so too: give one of them"},
     {[](const Command& c, const Asked& asked) { return !c.fields.exists() && c.preset.empty() && !has_amount(asked); },
@@ -171,82 +169,40 @@ void require_consistent(const CLI::App& app, const SmoothCommand& command)
     }
 }
 
-bool names_edges(const CLI::App& app)
+/// "--steps 3 --order 2", each followed by `behind`.
+std::string in_words(std::span<const PresetSetting> settings, std::string_view behind)
 {
-    return app.count("--edges") + app.count("--edges-from-file") > 0;
-}
-
-bool keeps_edges(const CLI::App& app)
-{
-    return app.count("--keep-edges") > 0 || names_edges(app);
-}
-
-/// Whether an option of a preset was given, or does not fit those that were.
-bool is_said(const CLI::App& app, const SmoothCommand& command, std::string_view option)
-{
-    if (option.empty())
-        return false;
-    if (app.count(std::string(option)) > 0)
-        return true;
-    const bool is_further = option == "--flow" || option == "--filter" || option == "--order" || option == "--attach";
-    if (option == "--direction" &&
-        (app.count("--rescale") > 0 || names_edges(app) || is_classical(command.options.interface.conditions) ||
-         command.options.interface.conditions == Conditions::Schwarz))
-        return true;
-    if (app.count("--laplacian") > 0 && !is_symmetric(command.options.laplacian))
-        return is_further;
-    if (option == "--flow")
-        return command.options.accuracy.approach == Approach::ConjugateGradients;
-    return (option == "--attach" && app.count("--attach-weights") > 0) ||
-           (option == "--order" && app.count("--filter") > 0);
-}
-
-/// Whether options are about the equation of a flow.
-bool wants_equation(const CLI::App& app)
-{
-    return !first_given(app, concern::equations | concern::equation).empty();
-}
-
-/// The preset without an amount.
-std::string_view default_preset(const CLI::App& app)
-{
-    if (keeps_edges(app))
-        return "cad";
-    return wants_equation(app) ? "scan" : all_presets().front().name;
+    std::string text;
+    for (const PresetSetting& one : settings)
+        text.append(option_of_program(one.option, one.value)).append(behind);
+    return text;
 }
 
 /// Takes options that were not given from the preset that was, or that is the default without an amount.
-void apply_preset(const CLI::App& app, SmoothCommand& command)
+void apply_preset(const AskedOptions& asked, SmoothCommand& command)
 {
     // Amounts of fields are checked with them.
-    if (command.fields.exists())
+    if (command.fields.exists() || (command.preset.empty() && has_amount(asked)))
         return;
-    const bool is_amount_given = !first_given(app, concern::amount).empty();
-    if (command.preset.empty() && is_amount_given)
-        return;
-    if (command.preset.empty())
-        command.preset = default_preset(app);
-    const PresetTraits& preset = preset_of(command.preset);
+    const PresetTraits& preset = command.preset.empty() ? default_preset(asked) : preset_of(command.preset);
+    command.preset = preset.name;
     if (command.noise && !preset.measures_noise())
         throw OptionError("--noise is for --preset scan, terrain and automatic; " + command.preset +
                           (preset.denoise ? " finds out itself how much there is at each place"
                                           : " smooths as much whatever the noise"));
-    std::string left_out;
-    const bool denoise = preset.denoise && !is_amount_given && (preset.keep_edges || !wants_equation(app));
-    for (const PresetOption& option : options_of(preset, denoise)) {
-        if (is_said(app, command, option.name)) {
-            if (app.count(std::string(option.name)) == 0 && !is_symmetric(command.options.laplacian))
-                left_out += fmt::format("{}{} {}", left_out.empty() ? "" : ", ", option.name, option.value);
-            continue;
-        }
-        option.set(command.options, command.attach);
-        if (!option.name.empty())
-            command.chosen += fmt::format("{} {} ", option.name, option.value);
-    }
-    if (!left_out.empty())
+    PresetSettings settings = apply_preset(preset, command.options, asked);
+    if (!settings.left_out.empty()) {
+        std::string left_out = in_words(settings.left_out, ", ");
+        left_out.resize(left_out.size() - 2);
         command.remarks.push_back(fmt::format("--preset {} leaves out {}, which --laplacian {} does not support.",
                                               command.preset, left_out, name_of(command.options.laplacian)));
-    command.chooses_amount = !is_amount_given;
+    }
+    static_cast<FlowOptions&>(command.options) = std::move(settings.options);
+    command.options.denoise = settings.denoise;
+    if (settings.keep_edges)
+        command.options.keep_edges = settings.keep_edges;
+    command.chosen = in_words(settings.chosen, " ");
+    command.chooses_amount = settings.chooses_amount;
 }
 
 /// Options for the derivatives of the paper alone select these.
@@ -267,7 +223,8 @@ void settle(const CLI::App& app, SmoothCommand& command)
     command.chooses_threads = command.options.resources.threads == 0;
     if (command.chooses_threads)
         command.options.resources.threads = threads_within_quota();
-    apply_preset(app, command);
+    apply_preset(given_options(app, command), command);
+    command.gives_radius = command.options.radius.has_value();
     command.limits_iterations = app.count("--converge-iterations") > 0;
     if (app.count("--approach") == 0 && !first_given(app, concern::implies_sweeps).empty())
         command.options.accuracy.approach = Approach::Sweep;

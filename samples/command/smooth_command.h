@@ -13,7 +13,6 @@
 #include "samples/files/step_pattern.h"
 #include "samples/options/all_options.h"
 #include "samples/process/exit_status.h"
-#include "samples/report/smoothing_request.h"
 
 namespace seamflow {
 
@@ -49,18 +48,16 @@ struct SmoothCommand {
     /// `input` and `output`. Empty: there is one input.
     std::vector<std::filesystem::path> tiles;
     std::filesystem::path out_dir;
-    /// All options except `labels`, `fixed_vertices`, the attachment and strength of vertices, and `time_step`, which
-    /// need the mesh.
+    /// All options except `labels`, `fixed_vertices`, the attachment and strength of vertices, which need the mesh.
     AllOptions options;
     /// What --boundary says.
     BoundaryWord boundary = BoundaryWord::Fixed;
-    SmoothingRequest amount;
     FieldRequest fields;
+    /// Whether --radius gives the amount, which options no longer show once they are resolved.
+    bool gives_radius = false;
     /// Whether the preset chooses the amount, and the noise on which to base it, if that is known.
     bool chooses_amount = false;
     std::optional<LengthOnMesh> noise;
-    /// How far any vertex may end from its original position.
-    std::optional<LengthOnMesh> within;
     /// Options that a preset has chosen, as they would be typed, without the amount: "--steps 3". Empty: there is none.
     std::string chosen;
     /// The name of that preset.
@@ -81,19 +78,13 @@ struct SmoothCommand {
     /// File with edges that are kept (see MotionOptions::feature_edges), or whether the input has them; empty: none.
     std::filesystem::path edges;
     bool edges_from_file = false;
-    /// 1/√w of an attachment that is the same for all vertices, if not empty; or a file with w, and if that is a PLY
-    /// file, the property of vertices that holds it.
-    std::optional<LengthOnMesh> attach;
+    /// A file with the w of an attachment, and if that is a PLY file, the property of vertices that holds it.
     std::filesystem::path attach_weights;
     std::string attach_property = "weight";
     /// A file with the region that moves, or the property of the vertices of the input that has it; and the property of
     /// the file, if that is a PLY file. Empty: everything moves.
     std::filesystem::path region;
     std::string region_property = "region";
-    /// The distance from the rim of the region over which its strength rises.
-    std::optional<LengthOnMesh> feather;
-    /// The distance within which vertices along seams move as one; empty: they do not.
-    std::optional<LengthOnMesh> weld = LengthOnMesh{};
     /// The folder of the checkpoint; empty: none is kept.
     std::filesystem::path checkpoint;
     CheckpointPeriod checkpoint_period{.most_of_time = 0.1};

@@ -10,11 +10,12 @@
 
 #include <fmt/format.h>
 
+#include "engine/options/option_rules.h"
 #include "engine/options/option_table.h"
+#include "engine/setup/presets.h"
 #include "partition/errors.h"
 #include "samples/command/command_line.h"
 #include "samples/command/flow_choices.h"
-#include "samples/command/presets.h"
 #include "samples/process/option_words.h"
 
 namespace seamflow {
@@ -43,13 +44,15 @@ std::string describe_presets()
     std::string text = "options for a kind of mesh [automatic if no amount is given]\n"
                        "Without an amount, options about equations choose scan, and edges choose cad. Options on the "
                        "command line override those of the preset.";
+    const FlowOptions defaults;
     for (const PresetTraits& preset : all_presets()) {
         text += fmt::format("\n{}: {} (", preset.name, preset.purpose);
-        for (const PresetOption& option : options_of(preset, preset.denoise))
-            text += option.name.empty() ? "" : fmt::format("{} {} ", option.name, option.value);
+        const PresetSettings settings = apply_preset(preset, defaults, changed_options(defaults));
+        for (const PresetSetting& one : settings.chosen)
+            text += option_of_program(one.option, one.value) + " ";
         text += (preset.denoise            ? "and what the noise of each place asks for"
                  : preset.measures_noise() ? "and what the noise asks for"
-                                           : amount_of(preset)) +
+                                           : option_of_program(settings.amount->option, settings.amount->value)) +
                 ")";
     }
     return text;
@@ -104,17 +107,14 @@ std::map<std::string_view, Add> fields_of_command(SmoothCommand& command)
         CLI::Option* const option = add_value(app, traits, options.resources.factorisation);
         return gpl_parts().empty() ? option->type_name("auto|own") : option;
     };
-    return {{"radius", to(command.amount.radius)},
-            {"time_step", to(command.amount.time_step)},
-            {"within", to(command.within)},
-            {"feature_edges", to(command.edges)},
+    return {{"feature_edges", to(command.edges)},
             {"fixed_vertices", to(command.fix)},
-            {"attachment", to(command.attach)},
+            {"attachment", to(options.motion.attachment_radius)},
             {"attachment_weights", to(command.attach_weights)},
             {"strength", to(command.region, "FILE|PROPERTY")},
             {"direction", to(options.motion.direction, parse_direction, "x|y|z|normal|X,Y,Z")},
             {"boundary", to(command.boundary)},
-            {"weld", to(command.weld, parse_weld, "never|LENGTH")},
+            {"weld", to(options.motion.weld, parse_weld, "never|LENGTH")},
             {"labels", to(command.labels)},
             {"tolerance", converge},
             {"factorisation", factorisation},
@@ -195,10 +195,6 @@ void Entries::add_about_flow()
 {
     using namespace concern;
     SmoothCommand& c = command_;
-    add_behind(
-        "--time-step",
-        {"", "--time-step-edges", option_group::amount, amount, "time step, in squared mean edge lengths", positive()},
-        to(c.amount.time_step_edges));
     add_behind("--edges",
                {"", "--edges-from-file", option_group::kept, motion | numbers,
                 "keep the polylines (.obj) or edges (.ply) of INPUT"},
@@ -214,12 +210,6 @@ void Entries::add_about_flow()
                {"", "--region-property", option_group::kept, motion | numbers,
                 "the name of the property of the .ply with the strength [region]"},
                to(c.region_property), "--region");
-    add_behind("--region-property",
-               {"", "--feather", option_group::kept, motion | whole_surface,
-                "the strength of the region rises from 0 at its rim over this distance, so that "
-                "no crease appears\n"
-                "The boundary of the surface is no rim."},
-               to(c.feather));
     add({"", "--self-intersections", option_group::written, motion | whole_surface,
          "count the pairs of faces that cross each other, before and after; implied by --report"},
         to(c.self_intersections));
@@ -344,7 +334,8 @@ AskedOptions given_options(const CLI::App& app, const SmoothCommand& command)
     const auto has = [&](std::string_view option) {
         const std::string name = option_of_program(option, "");
         return (app.get_option_no_throw(name) != nullptr && app.count(name) > 0) ||
-               (option == "feature_edges" && command.edges_from_file) || (option == "attachment" && command.attach) ||
+               (option == "feature_edges" && command.edges_from_file) ||
+               (option == "attachment" && command.options.motion.attachment_radius) ||
                changed_options(command.options).has(option);
     };
     const auto first = [&](unsigned concerns) {

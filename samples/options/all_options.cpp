@@ -19,7 +19,7 @@ DenoiseOptions denoise_options_of(const AllOptions& options)
                        .motion = options.motion,
                        .threads = options.resources.threads,
                        .measures = options.report.measures};
-    const SmoothingAmount amount{options.time_step, options.radius};
+    const SmoothingAmount amount{options.time_step, options.time_step_edges, options.radius};
     if (options.smooth_rims)
         own.method = SmoothRims{amount};
     else if (options.denoise)

@@ -19,7 +19,8 @@ auto about_mesh(Work&& work)
     try {
         return work();
     } catch (const InputError& error) {
-        throw InputError(Wording{"mesh: " + error.wording().text});
+        const std::string& text = error.wording().text;
+        throw InputError(Wording{text.starts_with("the mesh ") ? text : "mesh: " + text});
     }
 }
 

@@ -9,9 +9,10 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 
+#include "engine/measure/smoothed_radius.h"
 #include "engine/options/option_names.h"
 #include "samples/report/json_parts.h"
-#include "samples/report/smoothing_request.h"
+#include "samples/report/mesh_scale.h"
 
 namespace seamflow {
 

@@ -8,10 +8,11 @@
 
 #include <fmt/format.h>
 
+#include "engine/measure/smoothed_radius.h"
 #include "engine/options/option_names.h"
 #include "partition/io/input_position.h"
 #include "samples/process/option_words.h"
-#include "samples/report/smoothing_request.h"
+#include "samples/report/mesh_scale.h"
 
 namespace seamflow {
 

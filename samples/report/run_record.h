@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "engine/measure/flow_report.h"
-#include "samples/report/smoothing_request.h"
+#include "samples/report/mesh_scale.h"
 #include "samples/report/surface_change.h"
 
 namespace seamflow {

@@ -16,7 +16,7 @@
 #include "engine/diffuse.h"
 #include "engine/geodesic_distance.h"
 #include "engine/ranks/rank_group.h"
-#include "engine/setup/flow_amount.h"
+#include "engine/setup/resolved_options.h"
 #include "engine/tasks/stopwatch.h"
 #include "engine/tasks/workers.h"
 #include "partition/errors.h"
@@ -224,18 +224,15 @@ void write_result(const SmoothCommand& command, const MeshFile& file, FileFields
 void resolve_field_amount(SmoothCommand& command, const PolygonMesh& mesh, const Executor& exec, RunRecord& run)
 {
     run.scale = measure_scale(mesh, exec);
-    command.options.uniform_edge = uniform_edge_of(command.options, mesh);
-    resolve_lengths(command, run);
+    LengthScale scale = run.scale.lengths();
+    FlowOptions& of_flow = command.options;
+    of_flow = resolved(std::move(of_flow), mesh, scale, exec, run.remarks);
     FieldOptions& options = command.fields.options;
     if (command.fields.fwhm) {
-        const LengthOnMesh& fwhm = *command.fields.fwhm;
-        if (fwhm.of_diagonal && !(run.scale.diagonal > 0.0))
-            throw InputError("has no size to measure a part of: give --fwhm as a length");
-        options.fwhm = fwhm.of_diagonal ? fwhm.value * run.scale.diagonal : fwhm.value;
-        command.options.time_step = time_for_fwhm(*options.fwhm) / std::max(command.options.steps, 1);
-    } else if (!command.fields.names.empty()) {
-        command.options.time_step =
-            time_step_of(command.amount, run.scale, command.options.steps, filter_of(command.options));
+        if (command.fields.fwhm->of_diagonal && !(run.scale.diagonal > 0.0))
+            throw InputError("the mesh has no size to measure a part of: give --fwhm as a length");
+        options.fwhm = scale.length_of(*command.fields.fwhm);
+        of_flow.time_step = time_for_fwhm(*options.fwhm) / std::max(of_flow.steps, 1);
     }
 }
 

@@ -40,7 +40,7 @@ LongRun::LongRun(const SmoothCommand& command, const MeshFile& file, Interruptio
         try {
             resume_ = checkpoints_->find(file.mesh, command.options);
         } catch (const OptionError& error) {
-            if (!command.amount.radius)
+            if (!command.gives_radius)
                 throw;
             throw OptionError(
                 sentence(error.wording(), option_of_program) +
@@ -127,7 +127,7 @@ std::filesystem::path LongRun::write_last_step()
                                              : command_->output;
     const auto path = interrupted_path(output, command_->input);
     write_state(path, file_->mesh, separated_ ? &*separated_ : nullptr, *file_, run_serially,
-                seam_distance_of(*command_));
+                seam_distance_of(command_->options.motion));
     return path;
 }
 

@@ -9,16 +9,15 @@
 
 #include <fmt/format.h>
 
-#include "engine/setup/flow_amount.h"
 #include "engine/setup/presets.h"
+#include "engine/setup/resolved_options.h"
 #include "partition/errors.h"
 #include "partition/formats/index_files.h"
 #include "partition/io/input_file.h"
 #include "partition/io/input_position.h"
 #include "partition/metrics/bounding_box.h"
-#include "partition/metrics/feathered.h"
 #include "partition/metrics/spikes.h"
-#include "samples/command/presets.h"
+#include "samples/process/option_words.h"
 
 namespace seamflow {
 
@@ -42,7 +41,7 @@ void choose_amount(SmoothCommand& command, const PolygonMesh& mesh, const Execut
     if (choice.remark)
         command.chosen = "nothing is smoothed";
     else if (preset.radius)
-        command.chosen += amount_of(preset);
+        command.chosen += option_of_program("radius", fmt::format("{:g}%", 100.0 * preset.radius->value));
     else
         command.chosen += fmt::format("--time-step-edges {:.3g}",
                                       command.options.time_step / (run.scale.mean_edge * run.scale.mean_edge));
@@ -68,36 +67,9 @@ std::vector<double> read_region(const SmoothCommand& command, Index n_vertices)
     return read_vertex_strengths(command.input, n_vertices, command.region.string());
 }
 
-void feather(const SmoothCommand& command, const PolygonMesh& mesh, const Executor& exec, RunRecord& run,
-             std::vector<double>& strength)
+double seam_distance_of(const MotionOptions& motion)
 {
-    if (!command.feather)
-        return;
-    if (strength.empty())
-        throw OptionError("--feather is for the rim of a region: give --region as well");
-    const auto largest = [&] { return strength.empty() ? 0.0 : std::ranges::max(strength); };
-    const double given = largest();
-    strength = feathered(mesh, std::move(strength), length_of(*command.feather, run.scale.diagonal),
-                         command.options.motion.weld, exec);
-    constexpr double little = 0.9;
-    if (largest() < little * given)
-        run.remarks.push_back(fmt::format("The region is less deep than --feather is long: nowhere is there more than "
-                                          "{:.2g}% of the strength. Give a shorter --feather.",
-                                          100.0 * largest() / given));
-}
-
-void resolve_lengths(SmoothCommand& command, RunRecord& run)
-{
-    MotionOptions& motion = command.options.motion;
-    motion.weld = command.weld ? std::optional(length_of(*command.weld, run.scale.diagonal)) : std::nullopt;
-    motion.within = command.within ? std::optional(length_of(*command.within, run.scale.diagonal)) : std::nullopt;
-    if (command.attach)
-        motion.attachment = attachment_of(*command.attach, run.scale.diagonal);
-}
-
-double seam_distance_of(const SmoothCommand& command)
-{
-    return command.options.motion.weld.value_or(0.0);
+    return motion.weld ? motion.weld->value : 0.0;
 }
 
 namespace {
@@ -130,18 +102,14 @@ void resolve_amount(SmoothCommand& command, const PolygonMesh& mesh, const Execu
 {
     run.scale = measure_scale(mesh, exec);
     remark_on_vertices(mesh, run.scale, exec, run.remarks);
-    resolve_lengths(command, run);
     if (command.chooses_amount)
         choose_amount(command, mesh, exec, run);
-    else
-        command.options.time_step =
-            time_step_of(command.amount, run.scale, command.options.steps, filter_of(command.options));
     // What removes noise names them itself.
     if (!command.options.denoise && !run.scale.spikes.empty())
         run.remarks.push_back(remark_on_spikes(run.scale.spikes));
-    feather(command, mesh, exec, run, command.options.motion.strength);
-    // As the identity of checkpoints has it.
-    command.options.uniform_edge = uniform_edge_of(command.options, mesh);
+    LengthScale scale = run.scale.lengths();
+    FlowOptions& options = command.options;
+    options = resolved(std::move(options), mesh, scale, exec, run.remarks);
 }
 
 namespace {

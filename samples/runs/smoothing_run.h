@@ -19,28 +19,17 @@ RunRecord begin_record(const SmoothCommand& command);
 /// The strengths of --region, #V: of a file, or of a property of the input; empty without that option.
 std::vector<double> read_region(const SmoothCommand& command, Index n_vertices);
 
-/// Lets strengths rise over the length of --feather, if it is given. A region that is less deep gets a remark in `run`.
-/// @param strength #V of `mesh`. @param run with the size of the whole mesh; lengths are resolved (see
-/// resolve_lengths).
-/// @throws OptionError without a region.
-void feather(const SmoothCommand& command, const PolygonMesh& mesh, const Executor& exec, RunRecord& run,
-             std::vector<double>& strength);
-
-/// Computes the values of `command` that depend on the sizes in `run`: lengths, and an attachment, which it records in
-/// `run`.
-void resolve_lengths(SmoothCommand& command, RunRecord& run);
-
-/// The distance at which --weld joins borders, in length, once lengths are resolved; 0 if it joins none.
-double seam_distance_of(const SmoothCommand& command);
+/// The distance at which --weld joins borders, in length, once options are resolved; 0 if it joins none.
+double seam_distance_of(const MotionOptions& motion);
 
 /// Adds a remark on vertices that count in no length because no face uses them, where they lie far away.
 void remark_on_vertices(const PolygonMesh& mesh, const MeshScale& scale, const Executor& exec,
                         std::vector<Remark>& remarks);
 
-/// Computes the values of `command` that depend on the mesh: an amount that depends on its size or noise, and an
-/// attachment; records them in `run`.
+/// Chooses an amount by the preset, and resolves the options for the mesh (see resolved_options.h); records what they
+/// follow from in `run`.
 /// @param mesh valid (see require_valid).
-/// @throws InputError for a mesh that has no size to measure by, without naming it: "has no size …".
+/// @throws InputError for a mesh that has no size to measure by.
 void resolve_amount(SmoothCommand& command, const PolygonMesh& mesh, const Executor& exec, RunRecord& run);
 
 /// A surface that flows by mean curvature shrinks, which surprises those who only wanted it smooth: adds a remark if it

@@ -87,12 +87,12 @@ void keep_input(const TileFolder& folder, Index tile, PolygonMesh& mesh, const E
     folder.save(tile, TileFaces{std::move(mesh.face_offsets), std::move(mesh.face_vertices)});
 }
 
-void join_tiles(const TileFolder& folder, std::span<const TileSummary> tiles, std::optional<double> weld, TileRun& run,
-                const Executor& exec)
+void join_tiles(const TileFolder& folder, std::span<const TileSummary> tiles, const std::optional<LengthOnMesh>& weld,
+                TileRun& run, const Executor& exec)
 {
     for (Index tile = 0; std::cmp_less(tile, tiles.size()); ++tile) {
         const TileOwners owners =
-            weld ? owners_of(tile, borders_near(folder, tiles, tile, *weld), *weld, exec) : TileOwners{};
+            weld ? owners_of(tile, borders_near(folder, tiles, tile, weld->value), weld->value, exec) : TileOwners{};
         folder.save(tile, owners);
         place_on_owners(folder, tile, owners);
         run.n_border += std::ssize(owners.vertices);
@@ -102,7 +102,7 @@ void join_tiles(const TileFolder& folder, std::span<const TileSummary> tiles, st
         return;
     std::vector<BoundingBox> boxes;
     for (const TileSummary& tile : tiles)
-        boxes.push_back(inflated(tile.box, distances_of_chain * *weld));
+        boxes.push_back(inflated(tile.box, distances_of_chain * weld->value));
     run.n_held = hold_unjoined(folder, boxes);
 }
 

@@ -11,7 +11,7 @@
 #include "partition/formats/mesh_io.h"
 #include "partition/io/fault_log.h"
 #include "partition/metrics/bounding_box.h"
-#include "samples/report/smoothing_request.h"
+#include "samples/report/mesh_scale.h"
 #include "samples/tiles/tile_files.h"
 
 /// The files of tiles, and what is measured of them.
@@ -53,8 +53,8 @@ void keep_input(const TileFolder& folder, Index tile, PolygonMesh& mesh, const E
 /// Finds the owners of all vertices on borders, and moves vertices that coincide to one place.
 /// @param weld the distance within which they coincide, in units of length; empty: none do.
 /// @param run gets the numbers of vertices on borders.
-void join_tiles(const TileFolder& folder, std::span<const TileSummary> tiles, std::optional<double> weld, TileRun& run,
-                const Executor& exec);
+void join_tiles(const TileFolder& folder, std::span<const TileSummary> tiles, const std::optional<LengthOnMesh>& weld,
+                TileRun& run, const Executor& exec);
 
 /// Checksum of all that determines the result of a run: its options, the names of the tiles and their meshes.
 /// @param options with the amount in length².

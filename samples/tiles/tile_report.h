@@ -11,7 +11,7 @@
 #include "partition/metrics/length_statistics.h"
 #include "samples/command/smooth_command.h"
 #include "samples/process/exit_status.h"
-#include "samples/report/smoothing_request.h"
+#include "samples/report/mesh_scale.h"
 #include "samples/tiles/tile_files.h"
 #include "samples/tiles/tile_input.h"
 

@@ -10,8 +10,9 @@
 #include <fmt/format.h>
 #include <malloc.h>
 
+#include "engine/motion/resolved_motion.h"
 #include "engine/options/option_table.h"
-#include "engine/setup/presets.h"
+#include "engine/setup/resolved_options.h"
 #include "engine/state/checkpoint.h"
 #include "engine/tasks/stopwatch.h"
 #include "engine/tasks/workers.h"
@@ -21,6 +22,7 @@
 #include "samples/files/output_files.h"
 #include "samples/process/interruption.h"
 #include "samples/report/progress_bar.h"
+#include "samples/runs/smoothing_run.h"
 #include "samples/tiles/tile_input.h"
 #include "samples/tiles/tile_report.h"
 #include "samples/tiles/tile_stepper.h"
@@ -58,13 +60,12 @@ FlowOptions options_for(const SmoothCommand& command, const MeshScale& scale)
 {
     FlowOptions options = command.options;
     with_name_of(command.out_dir, [&] {
-        options.time_step = time_step_of(command.amount, scale, options.steps, filter_of(options));
-        if (command.attach)
-            options.motion.attachment = attachment_of(*command.attach, scale.diagonal);
+        LengthScale lengths = scale.lengths();
+        options.motion = with_lengths(std::move(options.motion), lengths);
+        options.time_step = time_step_of(options, lengths);
     });
-    options.motion.weld = command.weld ? std::optional(length_of(*command.weld, scale.diagonal)) : std::nullopt;
-    if (command.within)
-        options.motion.within = length_of(*command.within, scale.diagonal);
+    options.time_step_edges.reset();
+    options.radius.reset();
     if (options.laplacian == Laplacian::Uniform)
         options.uniform_edge = scale.mean_edge;
     const Approach approach = options.accuracy.approach;
@@ -271,7 +272,7 @@ void TiledRun::write(Index tile, const Points& positions)
     report_.add_result(input.file.mesh.vertices, positions);
     input.file.mesh.vertices = positions;
     for (const std::string& remark : write_state(command_.out_dir / summary.path.filename(), input.file.mesh, nullptr,
-                                                 input.file, exec_, options_.motion.weld.value_or(0.0)))
+                                                 input.file, exec_, seam_distance_of(options_.motion)))
         report_.add_remark(summary.path, remark);
     if (run_.n_shared > 0 && has_normals(input.file, exec_))
         report_.add_remark(summary.path, summary.path.string() +

@@ -32,7 +32,7 @@ int main()
     seamflow::PolygonMesh mesh = make_bump();
     const double before = mesh.vertices.col(2).maxCoeff();
     seamflow::FlowOptions options;
-    options.radius = {.value = 5.0};
+    options.radius = 5.0;
     options.steps = 3;
     options.cut.subdomains = 4;
     const seamflow::FlowReport report = seamflow::mean_curvature_flow(mesh, options);

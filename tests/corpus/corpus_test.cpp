@@ -43,7 +43,7 @@ void check_flow(const PolygonMesh& mesh, Laplacian laplacian, Index subdomains)
     CHECK(result.allFinite());
     const Topology topology = make_topology(mesh);
     // Along seams vertices move that are on the boundary.
-    const auto joined = weld(mesh, topology, *options.motion.weld);
+    const auto joined = weld(mesh, topology, options.motion.weld->value);
     const auto moves = [&](Index v) {
         return joined ? joined->topology.moves(joined->representative[v]) : topology.kind[v] == VertexKind::Interior;
     };

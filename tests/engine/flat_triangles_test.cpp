@@ -97,7 +97,7 @@ FlowOptions smoothing_with(Laplacian laplacian)
 {
     FlowOptions options;
     options.laplacian = laplacian;
-    options.radius = {.value = 0.03, .of_diagonal = true};
+    options.radius = {0.03, true};
     return options;
 }
 

@@ -40,8 +40,12 @@ struct Allowance {
 };
 
 constexpr Allowance differences[]{
-    {"turned", "", "radius %", anything, "the box is along the axes"},
-    {"second body", "", "radius %", anything, "the box is that of both"},
+    {"turned", "", "a part of the diagonal", anything, "the box is along the axes"},
+    {"second body", "", "a part of the diagonal", anything, "the box is that of both"},
+    {"second body", "", "time_step_edges", anything, "the mean edge length is that of all faces"},
+    {"sliver at the boundary", "", "time_step_edges", 0.1, "the same"},
+    {"hole closed", "", "time_step_edges", 0.1, "the same"},
+    {"sliver at the boundary", "", "feather", 0.1, "distances cross it"},
     {"second body", "", "laplacian uniform", anything, "its unit is the mean edge length of all faces"},
     {"sliver at the boundary", "", "laplacian uniform", 0.1, "the same"},
     {"hole closed", "", "laplacian uniform", 0.1, "the same"},
@@ -130,6 +134,8 @@ std::vector<std::string> names_of(const Original& original)
     };
     const bool has_parameter = !on_interface.p && (on_interface.conditions == Conditions::AdaptedVentcell ||
                                                    is_classical(on_interface.conditions) || !predicts(o));
+    const auto is_part = [](const OptionCase& c) { return c.value == "%"; };
+    add_if(std::ranges::any_of(original.cases, is_part), "a part of the diagonal");
     add_if(o.accuracy.approach == Approach::Sweep, "sweeps");
     add_if(has_parameter, "p of edges");
     add_if(has_parameter && on_interface.p_rule == PRule::Paper, "p of the paper");

@@ -512,7 +512,7 @@ class WrongInput(unittest.TestCase):
             (ValueError, "mesh: face 0 .* names vertex -1", (V, [[0, 1, -1]]), {}),
             (ValueError, "mesh: face 0 .* has 2 corners", (V, [[0, 1]]), {}),
             (ValueError, "face 1 .* list of whole numbers", (V, [[0, 1, 2], [0, 1, 2.5]]), {}),
-            (ValueError, "mesh: has no size to measure a radius by", (np.zeros((3, 3)), [[0, 1, 2]]), {"radius": "1%"}),
+            (ValueError, "the mesh has no size to measure a radius by", (np.zeros((3, 3)), [[0, 1, 2]]), {"radius": "1%"}),
             (TypeError, "V and F are needed, or a mesh", (V,), {}),
         ):
             with self.subTest(sentence=sentence):

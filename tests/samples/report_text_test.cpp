@@ -2,8 +2,8 @@
 
 #include <doctest/doctest.h>
 
+#include "engine/measure/smoothed_radius.h"
 #include "samples/report/report_text.h"
-#include "samples/report/smoothing_request.h"
 
 using namespace seamflow;
 

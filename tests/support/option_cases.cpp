@@ -98,6 +98,7 @@ const std::vector<OptionCase>& option_cases()
         {"radius", "%", plain([](O& o) {
              o.time_step = 0.0, o.radius = {0.1, true};
          })},
+        {"time_step_edges", "3", plain([](O& o) { o.time_step = 0.0, o.time_step_edges = 3.0; })},
         {"uniform_edge", "given",
          [](O& o, const PolygonMesh&, double edge) { o.laplacian = Laplacian::Uniform, o.uniform_edge = 0.7 * edge; }},
         {"steps", "3", plain([](O& o) { o.steps = 3; })},
@@ -162,6 +163,11 @@ const std::vector<OptionCase>& option_cases()
          [](O& o, const PolygonMesh& mesh, double) { o.motion.fixed_vertices = some_vertices(mesh); }},
         {"attachment", "given",
          [](O& o, const PolygonMesh&, double edge) { o.motion.attachment = 0.3 / (edge * edge); }},
+        {"attachment_radius", "length",
+         [](O& o, const PolygonMesh&, double edge) { o.motion.attachment_radius = 2.0 * edge; }},
+        {"attachment_radius", "%", plain([](O& o) {
+             o.motion.attachment_radius = {0.1, true};
+         })},
         {"attachment_weights", "ramp",
          [](O& o, const PolygonMesh& mesh, double edge) {
              o.motion.attachment_weights = ramp(mesh);
@@ -169,16 +175,30 @@ const std::vector<OptionCase>& option_cases()
                  w /= edge * edge;
          }},
         {"strength", "ramp", [](O& o, const PolygonMesh& mesh, double) { o.motion.strength = ramp(mesh); }},
+        {"feather", "length",
+         [](O& o, const PolygonMesh& mesh, double edge) {
+             o.motion.strength = ramp(mesh), o.motion.feather = 3.0 * edge;
+         }},
+        {"feather", "%",
+         [](O& o, const PolygonMesh& mesh, double) {
+             o.motion.strength = ramp(mesh), o.motion.feather = {0.2, true};
+         }},
         {"direction", "vector", plain([](O& o) {
              o.motion.direction = {MotionDirection::Kind::Vector, Point(0.1, 0.2, 1.0)};
          })},
         {"direction", "normal", plain([](O& o) { o.motion.direction.kind = MotionDirection::Kind::Normal; })},
         {"weld", "distance", [](O& o, const PolygonMesh&, double edge) { o.motion.weld = 1e-3 * edge; }},
+        {"weld", "%", plain([](O& o) {
+             o.motion.weld = {1e-4, true};
+         })},
         {"strict", "yes", plain([](O& o) { o.motion.strict = true; })},
         {"rescale", "area", plain([](O& o) { o.motion.rescale = Rescale::Area, o.motion.boundary = Boundary::Free; })},
         {"rescale", "volume",
          plain([](O& o) { o.motion.rescale = Rescale::Volume, o.motion.boundary = Boundary::Free; })},
         {"within", "given", [](O& o, const PolygonMesh&, double edge) { o.motion.within = 0.1 * edge; }},
+        {"within", "%", plain([](O& o) {
+             o.motion.within = {0.01, true};
+         })},
         {"limit_of_volume", "given", plain([](O& o) { o.motion.limits.volume = 0.01; })},
         {"limit_of_move", "given", [](O& o, const PolygonMesh&, double edge) { o.motion.limits.move = 0.05 * edge; }},
         {"limit_of_slide", "given", [](O& o, const PolygonMesh&, double edge) { o.motion.limits.slide = 0.05 * edge; }},

@@ -16,10 +16,12 @@ namespace {
 /// The power of length in the unit of an option.
 int power_of_length(std::string_view field)
 {
-    static const std::map<std::string_view, int> powers{
-        {"time_step", 2},     {"radius", 1},        {"uniform_edge", 1}, {"p", -1},
-        {"weld", 1},          {"within", 1},        {"attachment", -2},  {"attachment_weights", -2},
-        {"limit_of_move", 1}, {"limit_of_slide", 1}};
+    static const std::map<std::string_view, int> powers{{"time_step", 2},     {"radius", 1},
+                                                        {"uniform_edge", 1},  {"p", -1},
+                                                        {"weld", 1},          {"within", 1},
+                                                        {"feather", 1},       {"attachment_radius", 1},
+                                                        {"attachment", -2},   {"attachment_weights", -2},
+                                                        {"limit_of_move", 1}, {"limit_of_slide", 1}};
     const auto found = powers.find(field);
     return found == powers.end() ? 0 : found->second;
 }

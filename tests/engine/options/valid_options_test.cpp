@@ -71,7 +71,7 @@ constexpr Refusal refusals[]{
     {"overlap is 0", [](O& o) { o.interface.overlap = 0; }},
     {"attachment is -1, but must be at least 0 and finite (1/length²)", [](O& o) { o.motion.attachment = -1.0; }},
     {"weld is -1", [](O& o) { o.motion.weld = -1.0; }},
-    {"time_step and radius both say", [](O& o) { o.radius = LengthOnMesh{1.0}; }},
+    {"time_step, time_step_edges and radius all say", [](O& o) { o.radius = LengthOnMesh{1.0}; }},
     {"the label of face 2 is -3",
      [](O& o) {
          o.cut.labels = {0, 1, -3};
@@ -80,6 +80,12 @@ constexpr Refusal refusals[]{
      [](O& o) {
          o.motion.attachment_weights = {1.0, -2.0};
      }},
+    {"time_step, time_step_edges and radius all say", [](O& o) { o.time_step_edges = 1.0; }},
+    {"feather is for the rim of a region: give strength as well", [](O& o) { o.motion.feather = 1.0; }},
+    {"attachment and attachment_radius both say",
+     [](O& o) { o.motion.attachment = 1.0, o.motion.attachment_radius = 1.0; }},
+    {"attachment and attachment_weights both say how vertices are attached: leave one of them out",
+     [](O& o) { o.motion.attachment_radius = 1.0, o.motion.attachment_weights = {1.0}; }},
     {"attachment and attachment_weights both say how vertices are attached: leave one of them out",
      [](O& o) { o.motion.attachment = 1.0, o.motion.attachment_weights = {1.0}; }},
     {"the strength of vertex 1 is 1.5, but must be from 0 to 1",
@@ -163,7 +169,7 @@ TEST_CASE("every number is refused outside its limits by the name of its option,
             const auto before = *row.value;
             const auto is_refused = [&](double value) {
                 put(*row.value, value);
-                if (row.field == "radius")
+                if (row.field == "radius" || row.field == "time_step_edges")
                     options.time_step = 0.0;
                 const std::string refusal = refusal_of(options);
                 options.time_step = 1e-3;

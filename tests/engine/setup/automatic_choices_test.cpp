@@ -8,7 +8,7 @@
 
 #include "engine/mean_curvature_flow.h"
 #include "engine/setup/automatic_choices.h"
-#include "engine/setup/flow_amount.h"
+#include "engine/setup/resolved_options.h"
 #include "engine/state/flow_state.h"
 #include "partition/metrics/vertex_distance.h"
 #include "samples/meshes/meshes.h"

@@ -1,6 +1,7 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include <doctest/doctest.h>
@@ -8,6 +9,7 @@
 #include "engine/denoise.h"
 #include "engine/mean_curvature_flow.h"
 #include "engine/measure/smoothed_radius.h"
+#include "engine/options/option_rules.h"
 #include "engine/setup/presets.h"
 #include "engine/tasks/parallel_executor.h"
 #include "partition/errors.h"
@@ -27,12 +29,12 @@ using namespace seamflow::test;
 
 namespace {
 
-struct Case {
+struct NoisySphere {
     PolygonMesh truth;
     PolygonMesh noisy;
 };
 
-Case bumpy_sphere(double noise, Index vertices = 4000)
+NoisySphere bumpy_sphere(double noise, Index vertices = 4000)
 {
     const PolygonMesh truth = make_noisy_sphere(vertices, {.amplitude = 0.1, .noise = 0.0});
     return {truth, with_gaussian_noise(truth, noise, 7)};
@@ -171,7 +173,7 @@ TEST_CASE("the scan preset comes nearer to the truth than ten passes of Taubin's
 {
     for (const double noise : {0.05, 0.1, 0.2, 0.3}) {
         CAPTURE(noise);
-        const Case c = bumpy_sphere(noise);
+        const NoisySphere c = bumpy_sphere(noise);
         const PolygonMesh result = smoothed(c.noisy, Preset::Scan);
         const PolygonMesh taubin = taubin_smoothed(c.noisy, 10);
         CHECK(distance(c.truth, result.vertices) < distance(c.truth, taubin.vertices));
@@ -246,7 +248,7 @@ TEST_CASE("the cad preset takes the noise of each place as its amount, also with
 
 TEST_CASE("noise that is said is believed, and no more is taken than it")
 {
-    const Case c = bumpy_sphere(0.1);
+    const NoisySphere c = bumpy_sphere(0.1);
     const double edge = mean_edge_length(c.truth, c.truth.vertices);
     const double known = 0.1 * edge / std::sqrt(3.0);
     const PresetChoice choice = options_for(Preset::Scan, c.noisy, {}, LengthOnMesh{known, false});
@@ -301,7 +303,7 @@ TEST_CASE("known noise that cannot be removed is not said to be unknown")
 
 TEST_CASE("an unused vertex changes no preset, however far it is")
 {
-    const Case c = bumpy_sphere(0.1);
+    const NoisySphere c = bumpy_sphere(0.1);
     PolygonMesh more = c.noisy;
     more.vertices.conservativeResize(c.noisy.n_vertices() + 1, 3);
     more.vertices.bottomRows(1).setConstant(1e6);
@@ -313,7 +315,7 @@ TEST_CASE("an unused vertex changes no preset, however far it is")
 
 TEST_CASE("the amount is that of the radius, whatever filter and operator the options have")
 {
-    const Case c = bumpy_sphere(0.2);
+    const NoisySphere c = bumpy_sphere(0.2);
     const PresetChoice own = options_for(Preset::Scan, c.noisy);
     const double radius = smoothed_radius(own.options.time_step, 1, filter_of(own.options));
     const auto check = [&](auto change) {
@@ -333,7 +335,7 @@ TEST_CASE("presets have names, and all of them work on a scan")
 {
     CHECK(all_presets().front().name == "automatic");
     CHECK_THROWS_WITH_AS(preset_of("best"), doctest::Contains("there is no preset \"best\""), OptionError);
-    const Case c = bumpy_sphere(0.2, 2000);
+    const NoisySphere c = bumpy_sphere(0.2, 2000);
     for (const PresetTraits& preset : all_presets()) {
         CAPTURE(preset.name);
         CHECK(preset_of(preset.name).preset == preset.preset);
@@ -347,4 +349,38 @@ TEST_CASE("presets have names, and all of them work on a scan")
     PolygonMesh point = c.noisy;
     point.vertices.setZero();
     CHECK_THROWS_WITH_AS(options_for(Preset::Fair, point), doctest::Contains("has no size"), InputError);
+}
+
+TEST_CASE("options that a caller asks for replace those of a preset")
+{
+    const NoisySphere c = bumpy_sphere(0.2, 2000);
+    const FlowOptions own = options_for(Preset::Scan, c.noisy).options;
+    FlowOptions further;
+    further.laplacian = Laplacian::AlexaWardetzky;
+    CHECK(options_for(Preset::Scan, c.noisy, further).options.laplacian == Laplacian::AlexaWardetzky);
+    CHECK(options_for(Preset::Scan, c.noisy, further).options.order == own.order);
+    further.filter = Filter::LowPass;
+    CHECK_FALSE(options_for(Preset::Scan, c.noisy, further).options.order);
+    // Δ_P has no such flows.
+    FlowOptions unsymmetric;
+    unsymmetric.laplacian = Laplacian::PtackovaVelho;
+    const PresetSettings fair = apply_preset(preset_of("fair"), unsymmetric, changed_options(unsymmetric));
+    CHECK(fair.options.flow == FlowEquation::MeanCurvature);
+    REQUIRE(fair.left_out.size() == 1);
+    CHECK(fair.left_out.front().option == "flow");
+    // An amount, or an option of equations, asks for the equation of a preset that removes noise otherwise.
+    FlowOptions with_amount;
+    with_amount.radius = {0.02, true};
+    const PresetChoice terrain = options_for(Preset::Terrain, c.noisy, with_amount);
+    CHECK_FALSE(terrain.denoise);
+    CHECK(terrain.options.radius == with_amount.radius);
+    CHECK(terrain.options.motion.attachment_radius == LengthOnMesh{0.05, true});
+    const PresetChoice cad = options_for(Preset::Cad, c.noisy, with_amount);
+    REQUIRE(cad.denoise);
+    CHECK(std::get<SmoothBetweenEdges>(cad.denoise->method).amount.radius == with_amount.radius);
+    FlowOptions in_parts;
+    in_parts.cut.subdomains = 4;
+    CHECK_FALSE(options_for(Preset::Automatic, c.noisy, in_parts).denoise);
+    CHECK(default_preset(changed_options(in_parts)).name == "scan");
+    CHECK(default_preset(changed_options({})).name == "automatic");
 }

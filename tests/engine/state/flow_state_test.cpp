@@ -18,12 +18,12 @@ using namespace seamflow;
 namespace {
 
 /// The result of a flow and what it reported.
-struct Outcome {
+struct ResultOfRun {
     Points positions;
     SmoothReport report;
 };
 
-Outcome run(PolygonMesh mesh, const AllOptions& options, std::shared_ptr<const FlowState> resume = nullptr)
+ResultOfRun run(PolygonMesh mesh, const AllOptions& options, std::shared_ptr<const FlowState> resume = nullptr)
 {
     SmoothReport report = smooth_surface(mesh, options, {}, {.stop = {}, .on_progress = {}, .resume = resume});
     return {mesh.vertices, std::move(report)};
@@ -68,14 +68,14 @@ void check_same(const StepReport& a, const StepReport& b)
 /// Going on after each step gives the same bits and the same report.
 void check_resumed(const PolygonMesh& mesh, const AllOptions& options)
 {
-    const Outcome whole = run(mesh, options);
+    const ResultOfRun whole = run(mesh, options);
     for (int step = 1; step <= options.steps; ++step) {
         CAPTURE(step);
         AllOptions other_threads = options;
         other_threads.resources.threads = 3;
         const auto state = state_after(step, mesh, other_threads);
         CHECK(state->n_steps() == step);
-        const Outcome resumed = run(mesh, options, state);
+        const ResultOfRun resumed = run(mesh, options, state);
         CHECK(test::same_bits(resumed.positions, whole.positions));
         REQUIRE(resumed.report.steps.size() == whole.report.steps.size());
         for (std::size_t i = 0; i < whole.report.steps.size(); ++i)
@@ -224,8 +224,8 @@ TEST_CASE("positions of sub-meshes that are not finite are refused; an estimate 
             CHECK_THROWS_AS(run(mesh, kind.options, with_infinite_arrays(kind.options)), InputError);
         if (kind.name != "fujiwara by sweeps")
             continue;
-        const Outcome expected = run(mesh, kind.options);
-        const Outcome resumed = run(mesh, kind.options, with_infinite_arrays(kind.options));
+        const ResultOfRun expected = run(mesh, kind.options);
+        const ResultOfRun resumed = run(mesh, kind.options, with_infinite_arrays(kind.options));
         CHECK(resumed.positions == expected.positions);
         CHECK(expected.report.steps.back().estimated_v_max.has_value());
         CHECK_FALSE(resumed.report.steps.back().estimated_v_max.has_value());

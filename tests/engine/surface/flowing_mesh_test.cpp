@@ -3,7 +3,7 @@
 #include <doctest/doctest.h>
 
 #include "engine/mean_curvature_flow.h"
-#include "engine/setup/flow_amount.h"
+#include "engine/setup/resolved_options.h"
 #include "samples/meshes/meshes.h"
 #include "tests/support/flows.h"
 

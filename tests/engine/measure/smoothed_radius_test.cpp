@@ -4,9 +4,9 @@
 #include <doctest/doctest.h>
 
 #include "engine/mean_curvature_flow.h"
+#include "engine/measure/smoothed_radius.h"
 #include "partition/errors.h"
 #include "samples/meshes/meshes.h"
-#include "samples/report/smoothing_request.h"
 #include "tests/support/flows.h"
 #include "tests/support/relative.h"
 
@@ -76,7 +76,7 @@ TEST_CASE("bumps of the radius lose half their height with every filter, order a
                 options.order = kind.order;
                 options.steps = steps;
                 options.accuracy.tolerance = 1e-8;
-                options.radius = {.value = radius};
+                options.radius = radius;
                 CAPTURE(name_of(laplacian));
                 CAPTURE(kind.order);
                 CAPTURE(steps);
@@ -92,23 +92,24 @@ TEST_CASE("a flow takes a radius in place of a time step")
     by_step.time_step = time_step_for_radius(0.2, 3);
     FlowOptions by_radius;
     by_radius.steps = 3;
-    by_radius.radius = {.value = 0.2};
+    by_radius.radius = 0.2;
     PolygonMesh moved = mesh;
     const FlowReport report = mean_curvature_flow(moved, by_radius);
     CHECK(report.time_step == by_step.time_step);
     CHECK(same_bits(moved.vertices, flowed(mesh, by_step)));
-    by_step.time_step = time_step_of({.radius = LengthOnMesh{0.02, true}}, measure_scale(mesh), 3);
-    by_radius.radius = {.value = 0.02, .of_diagonal = true};
+    LengthScale scale(mesh);
+    by_step.time_step = time_step_of({.radius = LengthOnMesh{0.02, true}}, 3, scale);
+    by_radius.radius = {0.02, true};
     CHECK(same_bits(flowed(mesh, by_radius), flowed(mesh, by_step)));
 
     by_radius.time_step = 1.0;
     CHECK_THROWS_AS(flowed(mesh, by_radius), OptionError);
     by_radius.time_step = 0.0;
-    by_radius.radius = {.value = -1.0};
+    by_radius.radius = -1.0;
     CHECK_THROWS_WITH_AS(flowed(mesh, by_radius), doctest::Contains("radius is -1"), OptionError);
-    by_radius.radius = {.value = 1e300};
+    by_radius.radius = 1e300;
     CHECK_THROWS_AS(flowed(mesh, by_radius), OptionError);
-    by_radius.radius = {.value = 0.1, .of_diagonal = true};
+    by_radius.radius = {0.1, true};
     PolygonMesh point = mesh;
     point.vertices.setZero();
     CHECK_THROWS_WITH_AS(flowed(point, by_radius), doctest::Contains("the mesh has no size"), InputError);

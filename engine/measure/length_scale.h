@@ -1,0 +1,38 @@
+#pragma once
+
+#include <optional>
+
+#include "engine/options/amount.h"
+#include "partition/executor.h"
+#include "partition/polygon_mesh.h"
+
+namespace seamflow {
+
+/// The sizes of a mesh by which lengths and amounts of smoothing are given, in units of length. They are measured when
+/// they are first asked for.
+class LengthScale {
+  public:
+    /// @param mesh must outlive this.
+    explicit LengthScale(const PolygonMesh& mesh, Executor exec = run_serially);
+    /// Sizes that are known.
+    LengthScale(double mean_edge, double diagonal);
+
+    /// See mean_edge_length. @throws InputError for a mesh that is not valid.
+    double mean_edge();
+
+    /// The diagonal of the box around the faces. @throws InputError for a mesh that is not valid.
+    double diagonal();
+
+    /// @returns the length in units of length. @throws as diagonal().
+    double length_of(const LengthOnMesh& length);
+
+  private:
+    const PolygonMesh& mesh() const;
+
+    const PolygonMesh* mesh_ = nullptr;
+    Executor exec_ = run_serially;
+    std::optional<double> mean_edge_;
+    std::optional<double> diagonal_;
+};
+
+}  // namespace seamflow

@@ -1,0 +1,46 @@
+#include "engine/setup/resolved_options.h"
+
+#include <cmath>
+#include <utility>
+
+#include "engine/measure/smoothed_radius.h"
+#include "engine/motion/resolved_motion.h"
+#include "partition/metrics/vertex_distance.h"
+
+namespace seamflow {
+
+FlowOptions resolved(FlowOptions options, const PolygonMesh& mesh, LengthScale& scale, const Executor& exec,
+                     std::vector<Remark>& remarks)
+{
+    options.motion = resolved(std::move(options.motion), mesh, scale, exec, remarks);
+    options.time_step = time_step_of(options, scale);
+    options.time_step_edges.reset();
+    options.radius.reset();
+    options.uniform_edge = uniform_edge_of(options, mesh);
+    return options;
+}
+
+FlowOptions resolved(FlowOptions options, const PolygonMesh& mesh)
+{
+    LengthScale scale(mesh);
+    std::vector<Remark> remarks;
+    return resolved(std::move(options), mesh, scale, run_serially, remarks);
+}
+
+double time_step_of(const FlowOptions& options, LengthScale& scale)
+{
+    return time_step_of({options.time_step, options.time_step_edges, options.radius}, options.steps, scale,
+                        filter_of(options));
+}
+
+double uniform_edge_of(const FlowOptions& options, const PolygonMesh& mesh)
+{
+    if (options.laplacian != Laplacian::Uniform || options.uniform_edge > 0.0)
+        return options.uniform_edge;
+    const double edge = mean_edge_length(mesh, mesh.vertices);
+    if (!std::isfinite(edge) && mesh.n_faces() > 0)
+        require_valid(mesh);
+    return std::isnormal(edge) ? edge : 1.0;
+}
+
+}  // namespace seamflow

@@ -1,0 +1,23 @@
+#include "samples/report/mesh_scale.h"
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "partition/metrics/bounding_box.h"
+#include "partition/metrics/edge_measures.h"
+#include "partition/metrics/vertex_distance.h"
+
+namespace seamflow {
+
+MeshScale measure_scale(const PolygonMesh& mesh, const Executor& exec)
+{
+    const std::vector<std::uint8_t> is_used = used_by_faces(mesh, exec);
+    EdgeMeasures edges = measure_edges(mesh, mesh.vertices, exec);
+    return {.mean_edge = edges.mean,
+            .diagonal = box_of_vertices(mesh.vertices, is_used, exec).diagonal(),
+            .unused_vertices = select(exec, mesh.n_vertices(), [&](Index v) { return is_used[v] == 0; }),
+            .spikes = std::move(edges.spikes)};
+}
+
+}  // namespace seamflow
