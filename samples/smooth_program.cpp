@@ -46,6 +46,7 @@
 #include "samples/report/report_json.h"
 #include "samples/report/report_text.h"
 #include "samples/report/schedule_files.h"
+#include "samples/runs/command_run.h"
 #include "samples/runs/field_run.h"
 #include "samples/runs/long_run.h"
 #include "samples/runs/smoothing_run.h"
@@ -317,6 +318,8 @@ ExitStatus run_smooth_program(int argc, char** argv, const SmoothProgram& progra
     if (ranks != nullptr)
         share_threads(command, *ranks);
     RunRecord record = begin_record(command);
+    record.input = command.input.string();
+    record.output = command.output.string();
     try {
         return command.fields.exists() ? run_fields(command, record, ranks) : run(command, record, ranks);
     } catch (...) {

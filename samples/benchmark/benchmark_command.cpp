@@ -9,12 +9,13 @@
 #include <fmt/format.h>
 
 #include "engine/options/option_rules.h"
+#include "engine/options/option_table.h"
 #include "engine/options/valid_options.h"
 #include "partition/errors.h"
 #include "samples/command/command_line.h"
-#include "samples/command/flow_choices.h"
 #include "samples/files/output_files.h"
 #include "samples/meshes/meshes.h"
+#include "samples/options/smooth_request.h"
 
 namespace seamflow {
 
@@ -48,11 +49,22 @@ void add_mesh_options(CLI::App& app, Words& words, BenchmarkCommand& command)
         ->type_name("FILE");
 }
 
+/// Adds an option of a flow with another description.
+/// @param name in the table of options, "--steps".
+void add_field(CLI::App& app, FlowOptions& options, std::string_view name, const std::string& description)
+{
+    for_each_option(options, [&]<class Value>(const OptionRow<Value>& row) {
+        if constexpr (IsReadable<Value>)
+            if (row.option == name)
+                add_reader(app, std::string(name), reader_of(*row.value, row.limits), description);
+    });
+}
+
 void add_flow_options(CLI::App& app, Words& words, BenchmarkCommand& command)
 {
     FlowOptions& flow = command.flow;
-    std::vector<std::pair<std::string, Laplacian>> laplacians;
-    std::ranges::copy_if(laplacian_choices(), std::back_inserter(laplacians), [](const auto& choice) {
+    NamedValues<Laplacian> laplacians;
+    std::ranges::copy_if(laplacian_words(), std::back_inserter(laplacians), [](const auto& choice) {
         return choice.second == Laplacian::Fujiwara || choice.second == Laplacian::AlexaWardetzky ||
                choice.second == Laplacian::VirtualRefinement;
     });
@@ -64,10 +76,10 @@ void add_flow_options(CLI::App& app, Words& words, BenchmarkCommand& command)
               "most that the factorisations of ours may take at once: 500M, 2GiB [as much as is fast]\n"
               "In bytes or with K, M, G, KiB, MiB, GiB. Converged steps make twice what they cannot keep. By default "
               "sweeps take as little as keeps all threads busy; converged steps have no limit.");
-    add_converge(app, flow,
-                 "ours by converged steps, to this relative residual; never: by sweeps; auto: as the library decides "
-                 "[auto]\n"
-                 "Iterative peers then go to the same residual, without --grid and --whole-run.");
+    add_reader(app, "--converge", reader_of_convergence(flow.accuracy),
+               "ours by converged steps, to this relative residual; never: by sweeps; auto: as the library decides "
+               "[auto]\n"
+               "Iterative peers then go to the same residual, without --grid and --whole-run.");
     add_field(app, flow, "--tune-for", "the number of cores for which ours chooses its approach [2]");
     add_field(app, flow, "--threads", "number of threads, at most 1024; 0: all cores [0]");
 }

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
-#include <cmath>
 #include <iostream>
 #include <limits>
 #include <numeric>
@@ -18,33 +16,6 @@
 namespace seamflow {
 
 namespace {
-
-std::string described(const Limits& limits)
-{
-    std::string text = "a finite number";
-    if (std::isfinite(limits.least))
-        text += fmt::format(" {} {:.6g}", limits.above_least ? "above" : "from", limits.least);
-    if (std::isfinite(limits.most))
-        text += fmt::format(" {} {:.6g}",
-                            limits.below_most             ? "and below"
-                            : std::isfinite(limits.least) ? "to"
-                                                          : "up to",
-                            limits.most);
-    return text;
-}
-
-/// The factor of a suffix; nothing if it is unknown.
-std::optional<double> unit_of(std::string_view suffix)
-{
-    constexpr std::string_view letters = "KMGT";
-    if (suffix.empty())
-        return 1.0;
-    const auto power = letters.find(suffix.front());
-    const std::string_view rest = suffix.substr(1);
-    if (power == std::string_view::npos || !(rest.empty() || rest == "B" || rest == "iB"))
-        return std::nullopt;
-    return std::pow(rest == "iB" ? 1024.0 : 1000.0, static_cast<double>(power + 1));
-}
 
 /// Texts that the build requests for installation.
 std::optional<std::string> text_about(const CLI::App& app, std::string_view asked)
@@ -67,93 +38,6 @@ std::string about_licence()
                              gpl_parts());
 }
 
-Limits positive()
-{
-    return {.least = 0.0, .above_least = true};
-}
-
-namespace {
-
-/// @param what the rest of a sentence on the text: "is not …".
-[[noreturn]] void refuse(std::string_view text, std::string_view what)
-{
-    throw OptionError(fmt::format("\"{}\" {}", text, what));
-}
-
-}  // namespace
-
-double parse_real(std::string_view text, const Limits& limits)
-{
-    double value = 0.0;
-    const char* const end = text.data() + text.size();
-    const auto [rest, error] = std::from_chars(text.data(), end, value);
-    if (error == std::errc() && rest == end && std::isfinite(value) && limits.hold(value))
-        return value;
-    refuse(text, "is not " + described(limits));
-}
-
-long long parse_integer(std::string_view text, long long least, long long most)
-{
-    long long value = 0;
-    const char* const end = text.data() + text.size();
-    const auto [rest, error] = std::from_chars(text.data(), end, value);
-    if (error == std::errc() && rest == end && value >= least && value <= most)
-        return value;
-    refuse(text, fmt::format("is not a whole number from {} to {}", least, most));
-}
-
-std::size_t parse_bytes(std::string_view text)
-{
-    constexpr double most = 0x1p60;
-    const std::size_t n_digits = text.find_last_of("0123456789.") + 1;
-    double value = 0.0;
-    const char* const end = text.data() + n_digits;
-    const auto [rest, error] = std::from_chars(text.data(), end, value);
-    const std::optional<double> unit = unit_of(text.substr(n_digits));
-    const bool number = error == std::errc() && rest == end && unit;
-    const double bytes = number ? value * *unit : 0.0;
-    if (!(bytes >= 1.0 && bytes <= most))
-        refuse(text, "is not a number of bytes from 1 to 2^60: give one, alone or with K, M, G, T (powers of "
-                     "1000) or KiB, MiB, GiB, TiB (of 1024)");
-    return static_cast<std::size_t>(bytes);
-}
-
-LengthOnMesh parse_length(std::string_view text)
-{
-    const bool of_diagonal = text.ends_with('%');
-    try {
-        if (!of_diagonal)
-            return {parse_real(text, positive()), false};
-        return {parse_real(text.substr(0, text.size() - 1), positive()) / 100.0, true};
-    } catch (const OptionError&) {
-        refuse(text, "is neither a positive length (0.5) nor a part of the bounding box's diagonal (2%)");
-    }
-}
-
-MotionDirection parse_direction(std::string_view text)
-{
-    if (text == "normal")
-        return {.kind = MotionDirection::Kind::Normal};
-    MotionDirection direction{.kind = MotionDirection::Kind::Vector};
-    constexpr std::string_view axes = "xyz";
-    if (const std::size_t axis = axes.find(text); text.size() == 1 && axis != std::string_view::npos) {
-        direction.vector[static_cast<Eigen::Index>(axis)] = 1.0;
-        return direction;
-    }
-    const std::size_t first = text.find(',');
-    const std::size_t second = first != std::string_view::npos ? text.find(',', first + 1) : first;
-    try {
-        if (second != std::string_view::npos)
-            direction.vector = {parse_real(text.substr(0, first), {}),
-                                parse_real(text.substr(first + 1, second - first - 1), {}),
-                                parse_real(text.substr(second + 1), {})};
-        if (direction.vector.norm() > 0.0)
-            return direction;
-    } catch (const OptionError&) {
-    }
-    refuse(text, "is neither x, y, z nor normal, nor a vector like 0,0.5,1");
-}
-
 CheckpointPeriod parse_checkpoint_period(std::string_view text)
 {
     constexpr std::array<std::pair<std::string_view, double>, 3> units{{{"s", 1.0}, {"min", 60.0}, {"h", 3600.0}}};
@@ -167,7 +51,8 @@ CheckpointPeriod parse_checkpoint_period(std::string_view text)
                 return {.seconds = seconds * parse_real(number, {0.0, 1e9})};
     } catch (const OptionError&) {
     }
-    refuse(text, "is neither a number of steps from 1 nor a time: give one with s, min or h");
+    throw OptionError(
+        fmt::format("\"{}\" is neither a number of steps from 1 nor a time: give one with s, min or h", text));
 }
 
 namespace {
@@ -215,6 +100,22 @@ std::string complaint_of_surplus(const CLI::App& app)
 }
 
 }  // namespace
+
+CLI::Option* add_reader(CLI::App& app, const std::string& names, const TextReader& reader,
+                        const std::string& description)
+{
+    const auto store = [names, store = reader.store](const std::string& text) {
+        try {
+            store(text);
+        } catch (const OptionError& error) {
+            throw CLI::ValidationError(names, error.what());
+        }
+    };
+    if (reader.type.empty())
+        return app.add_flag_callback(
+            names, [store] { store(""); }, description);
+    return app.add_option_function<std::string>(names, store, description)->type_name(reader.type);
+}
 
 std::optional<ExitStatus> parse_command_line(CLI::App& app, int argc, char** argv)
 {

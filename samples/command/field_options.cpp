@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 
 #include "partition/errors.h"
-#include "samples/command/smooth_options.h"
 
 namespace seamflow {
 
@@ -18,7 +17,7 @@ namespace {
 /// Steps of --fwhm, after which the kernel is nearly a Gaussian.
 constexpr int steps_of_fwhm = 10;
 
-void refuse(std::string_view given, const char* with, const char* reason)
+void refuse_beside(std::string_view given, const char* with, const char* reason)
 {
     if (!given.empty())
         throw OptionError(fmt::format("{} cannot be combined with {}: {}", with, given, reason));
@@ -37,33 +36,33 @@ constexpr OptionRule<SmoothCommand> rules_of_field_amounts[]{
 };
 
 /// The first option about what diffuses that was given.
-std::string_view first_of_diffusion(const CLI::App& app)
+std::string_view first_of_diffusion(const SmoothCommand& command)
 {
-    for (const OptionTraits& one : smooth_options())
-        if (app.count(std::string(one.option)) > 0 && one.option != "--from" && one.option != "--threads" &&
-            one.group != option_group::written)
+    for (const OptionTraits& one : command.given)
+        if (one.option != "--from" && one.option != "--threads" && one.group != option_group::written)
             return one.option;
     return {};
 }
 
 }  // namespace
 
-void require_fields(const CLI::App& app, SmoothCommand& command)
+void require_fields(SmoothCommand& command)
 {
     const char* const by = command.fields.names.empty() ? "--from" : "--fields";
-    refuse(first_given(app, concern::motion), by, "the surface stays");
-    refuse(first_given(app, {"--out-dir"}), by, "fields diffuse on one mesh");
+    refuse_beside(first_given(command, concern::motion), by, "the surface stays");
+    refuse_beside(command.boundary == BoundaryWord::Smooth ? "--boundary smooth" : "", by, "the surface stays");
+    refuse_beside(is_given(command, "--out-dir") ? "--out-dir" : "", by, "fields diffuse on one mesh");
     if (command.fields.names.empty())
-        return refuse(first_of_diffusion(app), by, "it concerns what diffuses, and distances do not");
-    require_none_broken<SmoothCommand>(rules_of_field_amounts, command, given_options(app, command),
+        return refuse_beside(first_of_diffusion(command), by, "it concerns what diffuses, and distances do not");
+    require_none_broken<SmoothCommand>(rules_of_field_amounts, command, asked_options(command),
                                        filling(command.options));
-    if (command.fields.fwhm && app.count("--steps") == 0)
+    if (command.fields.fwhm && !is_given(command, "--steps"))
         command.options.steps = steps_of_fwhm;
-    if (app.count("--laplacian") == 0)
+    if (!is_given(command, "--laplacian"))
         command.options.laplacian = FieldOptions().laplacian;
     command.fields.options.laplacian = command.options.laplacian;
-    if (app.count("--boundary") > 0)
-        command.fields.options.boundary = command.options.motion.boundary;
+    if (is_given(command, "--boundary"))
+        command.fields.options.boundary = command.boundary == BoundaryWord::Fixed ? Boundary::Fixed : Boundary::Free;
 }
 
 }  // namespace seamflow

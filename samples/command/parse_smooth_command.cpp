@@ -1,5 +1,6 @@
 #include "samples/command/parse_smooth_command.h"
 
+#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
@@ -10,7 +11,6 @@
 #include "partition/io/input_file.h"
 #include "samples/command/command_line.h"
 #include "samples/command/field_options.h"
-#include "samples/command/settled_options.h"
 #include "samples/command/smooth_options.h"
 #include "samples/command/tile_options.h"
 #include "samples/files/output_files.h"
@@ -19,6 +19,20 @@
 namespace seamflow {
 
 namespace {
+
+/// Properties are those of a .ply file.
+void require_ply_with_properties(const SmoothCommand& command)
+{
+    const auto require = [&](std::string_view option, const std::filesystem::path& path, std::string_view text) {
+        if (is_given(command, option) && format_of(path) != FileFormat::Ply)
+            refuse(filling(command.options)(text, unmarked(path.string()).text));
+    };
+    require("--fix-property", command.fix, "--fix-property is for a .ply file; {other} has vertex numbers");
+    require("--region-property", command.region,
+            "--region-property is for a .ply file; {other} has vertex numbers, or is a property itself");
+    require("--attach-property", command.attach_weights,
+            "--attach-property is for a .ply file; {other} has one number per line");
+}
 
 /// Requires results in known formats.
 void require_usable_results(const SmoothCommand& command)
@@ -110,15 +124,17 @@ std::optional<ExitStatus> parse_smooth_command(int argc, char** argv, SmoothComm
         return end;
     command.program = program.name;
     command.arguments.assign(argv + 1, argv + argc);
+    command.given = given_options(app);
     if (command.fields.exists())
-        require_fields(app, command);
-    if (app.count("--out-dir") > 0) {
-        require_tiles(app, command);
-        settle(app, command);
+        require_fields(command);
+    if (!command.out_dir.empty())
+        require_tiles(command);
+    settle(command);
+    require_ply_with_properties(command);
+    if (!command.out_dir.empty()) {
         command.options.report.measures = false;
         return std::nullopt;
     }
-    settle(app, command);
     // Only if they are shown.
     command.options.report.measures = command.verbose || !command.report.empty() || !command.csv.empty() ||
                                       !command.html.empty() || !command.checkpoint.empty();
@@ -127,44 +143,6 @@ std::optional<ExitStatus> parse_smooth_command(int argc, char** argv, SmoothComm
     require_usable_results(command);
     require_usable_files(command);
     return std::nullopt;
-}
-
-std::vector<FlowOptionText> flow_options()
-{
-    CLI::App app;
-    SmoothCommand command;
-    add_options(app, command);
-    std::vector<FlowOptionText> list;
-    for (const OptionTraits& traits : smooth_options()) {
-        if ((traits.concerns & (concern::files | concern::numbers)) != 0)
-            continue;
-        const CLI::Option* const option = app.get_option(std::string(traits.option));
-        for (const std::string& name : option->get_lnames())
-            list.push_back({.name = name,
-                            .type = option->get_type_name(),
-                            .description = option->get_description(),
-                            .is_flag = option->get_items_expected_max() == 0,
-                            .moves_surface = (traits.concerns & concern::motion) != 0});
-    }
-    return list;
-}
-
-SmoothCommand parse_flow_options(const std::vector<std::string>& words)
-{
-    CLI::App app;
-    app.set_help_flag();
-    SmoothCommand command;
-    add_options(app, command);
-    // CLI11 expects reverse order.
-    std::vector<std::string> reversed(words.rbegin(), words.rend());
-    try {
-        app.parse(std::move(reversed));
-    } catch (const CLI::ParseError& error) {
-        throw OptionError(error.what());
-    }
-    command.arguments = words;
-    settle(app, command);
-    return command;
 }
 
 }  // namespace seamflow

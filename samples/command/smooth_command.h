@@ -8,10 +8,9 @@
 
 #include "engine/diffuse.h"
 #include "engine/measure/flow_report.h"
-#include "engine/options/option_names.h"
 #include "samples/files/checkpoints.h"
 #include "samples/files/step_pattern.h"
-#include "samples/options/all_options.h"
+#include "samples/options/smooth_request.h"
 #include "samples/process/exit_status.h"
 
 namespace seamflow {
@@ -29,17 +28,8 @@ struct FieldRequest {
     [[nodiscard]] bool exists() const { return !names.empty() || !from.empty(); }
 };
 
-/// What the boundary of a surface does.
-enum class BoundaryWord { Fixed, Free, Smooth };
-
-template <>
-struct OptionNames<BoundaryWord> {
-    static constexpr NamedOption<BoundaryWord> list[]{
-        {"fixed", BoundaryWord::Fixed}, {"free", BoundaryWord::Free}, {"smooth", BoundaryWord::Smooth}};
-};
-
 /// The command line of `smooth` or `smooth-distributed`.
-struct SmoothCommand {
+struct SmoothCommand : SmoothRequest {
     /// The name of the program.
     std::string program = "smooth";
     std::filesystem::path input;
@@ -48,22 +38,7 @@ struct SmoothCommand {
     /// `input` and `output`. Empty: there is one input.
     std::vector<std::filesystem::path> tiles;
     std::filesystem::path out_dir;
-    /// All options except `labels`, `fixed_vertices`, the attachment and strength of vertices, which need the mesh.
-    AllOptions options;
-    /// What --boundary says.
-    BoundaryWord boundary = BoundaryWord::Fixed;
     FieldRequest fields;
-    /// Whether --radius gives the amount, which options no longer show once they are resolved.
-    bool gives_radius = false;
-    /// Whether the preset chooses the amount, and the noise on which to base it, if that is known.
-    bool chooses_amount = false;
-    std::optional<LengthOnMesh> noise;
-    /// Options that a preset has chosen, as they would be typed, without the amount: "--steps 3". Empty: there is none.
-    std::string chosen;
-    /// The name of that preset.
-    std::string preset;
-    /// Whether the user limits the iterations of a step: then it is no failure to reach the limit.
-    bool limits_iterations = false;
     /// Files; empty: none.
     std::filesystem::path labels;
     std::filesystem::path fix;
@@ -91,16 +66,8 @@ struct SmoothCommand {
     /// Whether to print only errors; and details of each step and task.
     bool quiet = false;
     bool verbose = false;
-    /// Whether to count the pairs of faces that cross each other, before and after.
-    bool self_intersections = false;
-    /// Whether the number of threads was left open.
-    bool chooses_threads = false;
     /// Where to write the mesh after every step.
     std::optional<StepPattern> every_step;
-    /// Remarks on the options, one sentence each.
-    std::vector<std::string> remarks;
-    /// As the user typed it.
-    std::vector<std::string> arguments;
 };
 
 }  // namespace seamflow

@@ -1,124 +1,39 @@
 #include "samples/command/smooth_options.h"
 
 #include <algorithm>
-#include <functional>
-#include <map>
 #include <optional>
-#include <type_traits>
 #include <utility>
-#include <vector>
 
-#include <fmt/format.h>
-
-#include "engine/options/option_rules.h"
 #include "engine/options/option_table.h"
-#include "engine/setup/presets.h"
-#include "partition/errors.h"
 #include "samples/command/command_line.h"
-#include "samples/command/flow_choices.h"
-#include "samples/process/option_words.h"
 
 namespace seamflow {
 
 namespace {
 
-using Add = std::function<CLI::Option*(CLI::App& app, const OptionTraits& traits)>;
-
 struct Entry {
-    OptionTraits traits;
-    Add add;
+    RequestOption option;
     /// An option without which it is refused.
     const char* needs = "";
 };
 
-/// Pairs that are refused together.
-constexpr std::pair<const char*, const char*> exclusions[] = {{"--labels", "--subdomains"},
-                                                              {"--edges-from-file", "--edges"},
-                                                              {"--attach-weights", "--attach"},
-                                                              {"--from", "--fields"},
-                                                              {"--verbose", "--quiet"}};
-
-/// "scan: what it is for (--steps 3)", one preset per line.
-std::string describe_presets()
-{
-    std::string text = "options for a kind of mesh [automatic if no amount is given]\n"
-                       "Without an amount, options about equations choose scan, and edges choose cad. Options on the "
-                       "command line override those of the preset.";
-    const FlowOptions defaults;
-    for (const PresetTraits& preset : all_presets()) {
-        text += fmt::format("\n{}: {} (", preset.name, preset.purpose);
-        const PresetSettings settings = apply_preset(preset, defaults, changed_options(defaults));
-        for (const PresetSetting& one : settings.chosen)
-            text += option_of_program(one.option, one.value) + " ";
-        text += (preset.denoise            ? "and what the noise of each place asks for"
-                 : preset.measures_noise() ? "and what the noise asks for"
-                                           : option_of_program(settings.amount->option, settings.amount->value)) +
-                ")";
-    }
-    return text;
-}
+/// Pairs that are refused together, besides those of requests.
+constexpr std::pair<const char*, const char*> exclusions[] = {
+    {"--edges-from-file", "--edges"}, {"--from", "--fields"}, {"--verbose", "--quiet"}};
 
 /// An option that stores its value.
 template <class Value>
-Add to(Value& value, std::string type = {})
+TextReader to(Value& value, const Limits& limits = {})
 {
-    return [&value, type = std::move(type)](CLI::App& app, const OptionTraits& traits) {
-        CLI::Option* const option = add_value(app, traits, value);
-        return type.empty() ? option : option->type_name(type);
-    };
+    return reader_of(value, limits);
 }
 
-/// One whose text is read by parse(text).
-template <class Value, class Parse>
-Add to(Value& value, Parse parse, std::string type)
+/// A file or a folder with another placeholder.
+TextReader to(std::filesystem::path& value, std::string type)
 {
-    return [&value, parse, type = std::move(type)](CLI::App& app, const OptionTraits& traits) {
-        return add_parsed(app, std::string(traits.option), value, parse, type, std::string(traits.text));
-    };
-}
-
-/// A flag that calls action().
-template <class Action>
-Add flag(std::string names, Action action)
-{
-    return [names = std::move(names), action](CLI::App& app, const OptionTraits& traits) {
-        return app.add_flag_callback(names, action, std::string(traits.text));
-    };
-}
-
-std::optional<LengthOnMesh> parse_weld(const std::string& text)
-{
-    try {
-        return text == "never" ? std::nullopt : std::optional(parse_length(text));
-    } catch (const OptionError& error) {
-        throw OptionError(std::string(error.what()) + ", nor never");
-    }
-}
-
-/// The fields whose values need more than a text: a mesh, a file, or another field.
-std::map<std::string_view, Add> fields_of_command(SmoothCommand& command)
-{
-    AllOptions& options = command.options;
-    const auto converge = [&options](CLI::App& app, const OptionTraits& traits) {
-        return add_converge(app, options, std::string(traits.text));
-    };
-    // Those that this build lacks are refused with the reason, by require_valid.
-    const auto factorisation = [&options](CLI::App& app, const OptionTraits& traits) {
-        CLI::Option* const option = add_value(app, traits, options.resources.factorisation);
-        return gpl_parts().empty() ? option->type_name("auto|own") : option;
-    };
-    return {{"feature_edges", to(command.edges)},
-            {"fixed_vertices", to(command.fix)},
-            {"attachment", to(options.motion.attachment_radius)},
-            {"attachment_weights", to(command.attach_weights)},
-            {"strength", to(command.region, "FILE|PROPERTY")},
-            {"direction", to(options.motion.direction, parse_direction, "x|y|z|normal|X,Y,Z")},
-            {"boundary", to(command.boundary)},
-            {"weld", to(options.motion.weld, parse_weld, "never|LENGTH")},
-            {"labels", to(command.labels)},
-            {"tolerance", converge},
-            {"factorisation", factorisation},
-            {"correction", flag("--no-correction", [&options] { options.interface.correction = Correction::None; })}};
+    TextReader reader = reader_of(value, {});
+    reader.type = std::move(type);
+    return reader;
 }
 
 /// The options of programs, in the order of --help within each group.
@@ -127,8 +42,8 @@ class Entries {
     explicit Entries(SmoothCommand& command)
         : command_(command)
     {
-        add_of_flow();
-        add_about_flow();
+        add_of_request();
+        add_about_request();
         add_fields();
         add_results();
         add_of_run();
@@ -137,20 +52,24 @@ class Entries {
     [[nodiscard]] const std::vector<Entry>& list() const { return list_; }
 
   private:
-    void add(const OptionTraits& traits, Add how, const char* needs = "")
+    void add(const OptionTraits& traits, TextReader reader, const char* needs = "")
     {
-        list_.push_back({traits, std::move(how), needs});
+        list_.push_back({{traits, "", std::move(reader)}, needs});
     }
 
     /// Behind another one.
-    void add_behind(std::string_view other, const OptionTraits& traits, Add how, const char* needs = "")
+    void add_behind(std::string_view other, const OptionTraits& traits, TextReader reader, const char* needs = "")
     {
-        const auto place = std::ranges::find(list_, other, [](const Entry& entry) { return entry.traits.option; });
-        list_.insert(place + 1, {traits, std::move(how), needs});
+        list_.insert(find(other) + 1, {{traits, "", std::move(reader)}, needs});
     }
 
-    void add_of_flow();
-    void add_about_flow();
+    std::vector<Entry>::iterator find(std::string_view option)
+    {
+        return std::ranges::find(list_, option, [](const Entry& entry) { return entry.option.traits.option; });
+    }
+
+    void add_of_request();
+    void add_about_request();
     void add_fields();
     void add_results();
     void add_of_run();
@@ -159,39 +78,20 @@ class Entries {
     std::vector<Entry> list_;
 };
 
-void Entries::add_of_flow()
+/// Numbers of vertices, edges and faces are in files.
+void Entries::add_of_request()
 {
-    using namespace concern;
     SmoothCommand& c = command_;
-    static const std::string presets = describe_presets();
-    std::vector<std::pair<std::string, std::string>> names;
-    for (const PresetTraits& preset : all_presets())
-        names.emplace_back(preset.name, preset.name);
-    // First, so that the others refine it.
-    add({"", "--paper", option_group::sub_meshes, sweeps | method,
-         "the paper's method for any number of sub-meshes: a fixed sweep, derivatives at the old positions"},
-        flag("--paper,--plain", [&options = c.options] { options = FlowOptions::plain(); }));
-    add({"", "--noise", option_group::amount, motion | equation | whole_surface,
-         "noise that is the same everywhere, on rounded shapes: sharp edges lose by it [measured at each place]\n"
-         "The standard deviation along the normals. A preset derives the amount of its equation from it."},
-        to(c.noise));
-    add({"", "--preset", option_group::kind, motion | whole_surface, presets},
-        [&preset = c.preset, names](CLI::App& app, const OptionTraits& traits) {
-            return add_choice(app, "--preset", preset, names, std::string(traits.text));
-        });
-    const std::map<std::string_view, Add> other = fields_of_command(c);
-    for_each_option(static_cast<FlowOptions&>(c.options), [&](const auto& row) {
-        if (row.field == "feature_edges")
-            add(row_of_keep_edges, to(c.options.keep_edges));
-        if (const auto found = other.find(row.field); found != other.end())
-            add(row, found->second);
-        else if constexpr (IsReadable<std::remove_reference_t<decltype(*row.value)>>)
-            if (!row.option.empty())
-                add(row, to(*row.value));
-    });
+    for (RequestOption& option : request_options(c))
+        list_.push_back({std::move(option)});
+    find("--edges")->option.reader = to(c.edges);
+    find("--fix")->option.reader = to(c.fix);
+    find("--attach-weights")->option.reader = to(c.attach_weights);
+    find("--region")->option.reader = to(c.region, "FILE|PROPERTY");
+    find("--labels")->option.reader = to(c.labels);
 }
 
-void Entries::add_about_flow()
+void Entries::add_about_request()
 {
     using namespace concern;
     SmoothCommand& c = command_;
@@ -210,9 +110,6 @@ void Entries::add_about_flow()
                {"", "--region-property", option_group::kept, motion | numbers,
                 "the name of the property of the .ply with the strength [region]"},
                to(c.region_property), "--region");
-    add({"", "--self-intersections", option_group::written, motion | whole_surface,
-         "count the pairs of faces that cross each other, before and after; implied by --report"},
-        to(c.self_intersections));
 }
 
 void Entries::add_fields()
@@ -223,15 +120,15 @@ void Entries::add_fields()
          "smooth these numbers of the vertices instead of the surface, which stays\n"
          "Properties of PLY files; red, green and blue of OBJ and OFF files; normal, colour. They diffuse by the heat "
          "equation on the surface, with --fwhm, --radius or --time-step. NaN is no data: such vertices take no part."},
-        to(fields.names));
+        {"NAME,…", [&names = fields.names](const std::string& text) { names = CLI::detail::split(text, ','); }});
     add({"", "--fwhm", option_group::fields, files | amount,
          "full width at half maximum of the smoothing, over all steps together; 10 steps unless told otherwise"},
         to(fields.fwhm), "--fields");
     add({"", "--fill", option_group::fields, files, "give vertices without data the harmonic extension of the others"},
         to(fields.options.fill), "--fields");
     add({"", "--keep-field-edges", option_group::fields, files,
-         "differences of fields well above this stay (Perona and Malik)", positive()},
-        to(fields.options.keep_edges), "--fields");
+         "differences of fields well above this stay (Perona and Malik)"},
+        to(fields.options.keep_edges, positive()), "--fields");
     add({"", "--from", option_group::fields, files,
          "write geodesic distances from vertices as the field distance; the surface stays\n"
          "Their numbers from 0, one a line. By the heat method; NaN where the surface does not lead."},
@@ -242,8 +139,8 @@ void Entries::add_results()
 {
     using namespace concern;
     SmoothCommand& c = command_;
-    const auto add_result = [&](const char* option, unsigned concerns, const char* text, Add how) {
-        add({"", option, option_group::written, files | concerns, text}, std::move(how));
+    const auto add_result = [&](const char* option, unsigned concerns, const char* text, TextReader reader) {
+        add({"", option, option_group::written, files | concerns, text}, std::move(reader));
     };
     const auto parse_pattern = [](const std::string& text) { return std::optional(StepPattern(text)); };
     add_result("--out-dir", 0,
@@ -258,7 +155,7 @@ void Entries::add_results()
     add_result("--html", one_mesh, "a page for the browser with the surface step by step, and plots",
                to(c.html, "PAGE.html"));
     add_result("--every-step", motion | one_mesh, "also write the mesh after every step; %d is its number",
-               to(c.every_step, parse_pattern, "PATTERN"));
+               reader_by(c.every_step, parse_pattern, "PATTERN"));
     add_result("--parts", sub_meshes | motion | one_mesh, "the cut: faces with colours and labels",
                to(c.parts, "PARTS.ply"));
     add_result("--trace", sub_meshes | motion | one_mesh, "which task ran when in which thread, for ui.perfetto.dev",
@@ -278,7 +175,7 @@ void Entries::add_of_run()
         to(c.checkpoint, "FOLDER"));
     add({"", "--checkpoint-every", option_group::written, files,
          "how often, in steps (10) or time (30s, 5min, 1h), and at the end [at most a tenth of the time]"},
-        to(c.checkpoint_period, parse_checkpoint_period, "STEPS|TIME"), "--checkpoint");
+        reader_by(c.checkpoint_period, parse_checkpoint_period, "STEPS|TIME"), "--checkpoint");
     add({"", "--quiet", option_group::written, files, "print nothing but errors"}, to(c.quiet));
     add({"", "--verbose", option_group::written, files, "also print each step, the cut, and the time in tasks"},
         to(c.verbose));
@@ -289,15 +186,18 @@ void Entries::add_of_run()
 void add_options(CLI::App& app, SmoothCommand& command)
 {
     const Entries entries(command);
-    for (const Entry& entry : entries.list()) {
-        app.option_defaults()->group(std::string(entry.traits.group));
-        entry.add(app, entry.traits);
+    for (const auto& [option, needs] : entries.list()) {
+        app.option_defaults()->group(std::string(option.traits.group));
+        add_reader(app, option.names.empty() ? std::string(option.traits.option) : option.names, option.reader,
+                   std::string(option.traits.text));
     }
-    for (const Entry& entry : entries.list())
-        if (*entry.needs != '\0')
-            app.get_option(std::string(entry.traits.option))->needs(app.get_option(entry.needs));
+    for (const auto& [option, needs] : entries.list())
+        if (*needs != '\0')
+            app.get_option(std::string(option.traits.option))->needs(app.get_option(needs));
     for (const auto& [one, other] : exclusions)
         app.get_option(one)->excludes(app.get_option(other));
+    for (const auto& [one, other] : exclusions_of_requests())
+        app.get_option(std::string(one))->excludes(app.get_option(std::string(other)));
 }
 
 std::span<const OptionTraits> smooth_options()
@@ -307,44 +207,19 @@ std::span<const OptionTraits> smooth_options()
         const Entries entries(command);
         std::vector<OptionTraits> traits;
         for (const Entry& entry : entries.list())
-            traits.push_back(entry.traits);
+            traits.push_back(entry.option.traits);
         return traits;
     }();
     return list;
 }
 
-std::string first_given(const CLI::App& app, std::initializer_list<std::string_view> names)
+std::vector<OptionTraits> given_options(const CLI::App& app)
 {
-    for (const std::string_view name : names)
-        if (app.count(std::string(name)) > 0)
-            return std::string(name);
-    return {};
-}
-
-std::string first_given(const CLI::App& app, unsigned concerns)
-{
+    std::vector<OptionTraits> given;
     for (const OptionTraits& one : smooth_options())
-        if ((one.concerns & concerns) != 0 && app.count(std::string(one.option)) > 0)
-            return std::string(one.option);
-    return {};
-}
-
-AskedOptions given_options(const CLI::App& app, const SmoothCommand& command)
-{
-    const auto has = [&](std::string_view option) {
-        const std::string name = option_of_program(option, "");
-        return (app.get_option_no_throw(name) != nullptr && app.count(name) > 0) ||
-               (option == "feature_edges" && command.edges_from_file) ||
-               (option == "attachment" && command.options.motion.attachment_radius) ||
-               changed_options(command.options).has(option);
-    };
-    const auto first = [&](unsigned concerns) {
-        for (const OptionTraits& one : smooth_options())
-            if ((one.concerns & concerns) != 0 && app.count(std::string(one.option)) > 0)
-                return std::string(one.field.empty() ? one.option : one.field);
-        return std::string();
-    };
-    return {has, first};
+        if (app.count(std::string(one.option)) > 0)
+            given.push_back(one);
+    return given;
 }
 
 std::string smooth_examples()

@@ -10,7 +10,6 @@
 #include "partition/errors.h"
 #include "partition/formats/mesh_file.h"
 #include "partition/io/input_file.h"
-#include "samples/command/smooth_options.h"
 #include "samples/files/output_files.h"
 
 namespace seamflow {
@@ -58,9 +57,9 @@ constexpr Rule rules_of_tiles[]{
      "--out-dir supports --flow with one step only: further ones start from their own positions"},
 };
 
-void require_options(const CLI::App& app, const SmoothCommand& command)
+void require_options(const SmoothCommand& command)
 {
-    require_none_broken<SmoothCommand>(rules_of_tiles, command, given_options(app, command), filling(command.options));
+    require_none_broken<SmoothCommand>(rules_of_tiles, command, asked_options(command), filling(command.options));
 }
 
 void require_inputs(const SmoothCommand& command)
@@ -112,9 +111,9 @@ void take_tiles(CLI::App& app, SmoothCommand& command)
     app.add_option("INPUT", command.tiles, "meshes whose borders coincide")->required()->type_name("");
 }
 
-void require_tiles(const CLI::App& app, SmoothCommand& command)
+void require_tiles(SmoothCommand& command)
 {
-    require_options(app, command);
+    require_options(command);
     std::ranges::sort(command.tiles, {}, [](const fs::path& one) { return one.filename(); });
     require_inputs(command);
     require_folder(command);

@@ -19,6 +19,6 @@ void take_tiles(CLI::App& app, SmoothCommand& command);
 /// To be called when the command line was parsed: puts the inputs into the order of their names.
 /// @throws OptionError for options that need the whole mesh at once, without an amount, for inputs of the same name,
 ///         and for results that would replace inputs; OutputError if the folder cannot be made.
-void require_tiles(const CLI::App& app, SmoothCommand& command);
+void require_tiles(SmoothCommand& command);
 
 }  // namespace seamflow

@@ -19,18 +19,17 @@
 
 #include "engine/diffuse.h"
 #include "engine/geodesic_distance.h"
+#include "engine/measure/length_scale.h"
+#include "engine/options/option_table.h"
 #include "partition/errors.h"
 #include "partition/large_arrays.h"
 #include "partition/version.h"
 #include "samples/command/command_line.h"
-#include "samples/command/parse_smooth_command.h"
-#include "samples/command/smooth_command.h"
+#include "samples/options/smooth_request.h"
 #include "samples/process/option_words.h"
 #include "samples/programs.h"
 #include "samples/python/flow_call.h"
 #include "samples/python/work_thread.h"
-#include "samples/runs/field_run.h"
-#include "samples/runs/smoothing_run.h"
 
 namespace py = pybind11;
 
@@ -126,18 +125,21 @@ std::vector<Value> to_vector(const Array<Value>& array)
 /// Options that are arrays here: fixed vertices, labels, edges, weights, strengths.
 using ArrayOptions = std::tuple<Array<Index>, Array<Index>, Array<Index>, Array<double>, Array<double>>;
 
-/// @param words see parse_flow_options.
-SmoothCommand make_command(const std::vector<std::string>& words, const ArrayOptions& arrays)
+/// Options and their texts; and the names of those that are arrays (see request_of).
+using Keywords = std::pair<std::vector<std::pair<std::string, std::string>>, std::vector<std::string>>;
+
+SmoothRequest make_request(const Keywords& keywords, const ArrayOptions& arrays)
 {
     const auto& [fixed, labels, edges, weights, strengths] = arrays;
-    SmoothCommand command = parse_flow_options(words);
-    command.options.motion.fixed_vertices = to_vector(fixed);
-    command.options.cut.labels = to_vector(labels);
+    SmoothRequest request = request_of(keywords.first, keywords.second);
+    MotionOptions& motion = request.options.motion;
+    motion.fixed_vertices = to_vector(fixed);
+    request.options.cut.labels = to_vector(labels);
     for (py::ssize_t i = 0; i + 1 < edges.size(); i += 2)
-        command.options.motion.feature_edges.push_back({edges.data()[i], edges.data()[i + 1]});
-    command.options.motion.attachment_weights = to_vector(weights);
-    command.options.motion.strength = to_vector(strengths);
-    return command;
+        motion.feature_edges.push_back({edges.data()[i], edges.data()[i + 1]});
+    motion.attachment_weights = to_vector(weights);
+    motion.strength = to_vector(strengths);
+    return request;
 }
 
 /// Positions, labels, report, and what was missed.
@@ -150,42 +152,54 @@ py::tuple to_tuple(FlowResult result)
 /// @param progress called with the phase, the step, the number of steps and the fraction that is done; or None.
 template <class Integer>
 py::tuple run(const Array<double>& positions, const Array<Integer>& corners, const Array<std::int64_t>& offsets,
-              const std::vector<std::string>& words, const ArrayOptions& arrays, const py::object& progress)
+              const Keywords& keywords, const ArrayOptions& arrays, const py::object& progress)
 {
-    SmoothCommand command = make_command(words, arrays);
+    SmoothRequest request = make_request(keywords, arrays);
     PolygonMesh mesh = make_mesh(positions, corners, offsets);
     const auto work = [&](const FlowControl& control) {
-        return MeshCall(std::move(command), std::move(mesh)).smooth(control);
+        return MeshCall(std::move(request), std::move(mesh)).smooth(control);
     };
     return to_tuple(run_interruptibly(work, progress));
 }
 
 template <class Integer>
 std::unique_ptr<FlowCall> begin(const Array<double>& positions, const Array<Integer>& corners,
-                                const Array<std::int64_t>& offsets, const std::vector<std::string>& words,
+                                const Array<std::int64_t>& offsets, const Keywords& keywords,
                                 const ArrayOptions& arrays)
 {
-    SmoothCommand command = make_command(words, arrays);
+    SmoothRequest request = make_request(keywords, arrays);
     PolygonMesh mesh = make_mesh(positions, corners, offsets);
     const py::gil_scoped_release release;
-    return std::make_unique<FlowCall>(std::move(command), std::move(mesh));
+    return std::make_unique<FlowCall>(std::move(request), std::move(mesh));
 }
 
 template <class Integer>
 void define_run(py::module_& module, py::class_<FlowCall>& flow)
 {
     module.def("run", &run<Integer>, py::arg("positions").noconvert(), py::arg("corners").noconvert(),
-               py::arg("offsets").noconvert(), py::arg("words"), py::arg("arrays"), py::arg("progress"));
+               py::arg("offsets").noconvert(), py::arg("keywords"), py::arg("arrays"), py::arg("progress"));
     flow.def(py::init(&begin<Integer>), py::arg("positions").noconvert(), py::arg("corners").noconvert(),
-             py::arg("offsets").noconvert(), py::arg("words"), py::arg("arrays"));
+             py::arg("offsets").noconvert(), py::arg("keywords"), py::arg("arrays"));
 }
 
+/// Name, type, description, whether it takes no value, and whether it is about where the surface goes, of each option.
 py::list options()
 {
     py::list list;
-    for (const FlowOptionText& option : flow_options())
-        list.append(py::make_tuple(option.name, option.type, in_words_of_keywords(option.description), option.is_flag,
-                                   option.moves_surface));
+    SmoothRequest request;
+    for (const RequestOption& option : request_options(request)) {
+        const OptionTraits& traits = option.traits;
+        if ((traits.concerns & (concern::files | concern::numbers)) != 0)
+            continue;
+        const std::string names = option.names.empty() ? std::string(traits.option) : option.names;
+        for (std::size_t begin = 0; begin < names.size();) {
+            const std::size_t end = std::min(names.find(',', begin), names.size());
+            list.append(py::make_tuple(names.substr(begin + 2, end - begin - 2), option.reader.type,
+                                       in_words_of_keywords(traits.text), option.reader.type.empty(),
+                                       (traits.concerns & concern::motion) != 0));
+            begin = end + 1;
+        }
+    }
     return list;
 }
 
@@ -194,31 +208,25 @@ py::list options()
 /// to fill gaps; and whether the boundary is free.
 using FieldWords = std::tuple<std::string, double, bool, bool>;
 
-/// @param command with labels and fixed vertices. @param fields #V by n, which receives the result.
-FieldReport diffuse_fields(const PolygonMesh& mesh, SmoothCommand command, const FieldWords& of_fields,
+/// @param fields #V by n, which receives the result.
+FieldReport diffuse_fields(const PolygonMesh& mesh, const FlowOptions& of_flow, const FieldWords& of_fields,
                            Eigen::MatrixXd& fields, const FlowControl& control)
 {
     const auto& [fwhm, keep_edges, fill, is_free] = of_fields;
-    command.fields.names = {"fields"};
+    FieldOptions options;
     if (!fwhm.empty())
-        command.fields.fwhm = parse_length(fwhm);
-    RunRecord record = begin_record(command);
-    require_valid(mesh);
-    resolve_field_amount(command, mesh, run_serially, record);
-    FieldOptions options = command.fields.options;
+        options.fwhm = LengthScale(mesh).length_of(parse_length(fwhm));
     if (keep_edges != 0.0)
         options.keep_edges = keep_edges;
-    options.laplacian = command.options.laplacian;
+    options.laplacian = of_flow.laplacian;
     options.fill = fill;
     options.boundary = is_free ? Boundary::Free : Boundary::Fixed;
-    if (options.fwhm)
-        command.options.time_step = 0.0;
-    return diffuse(mesh, fields, command.options, options, control);
+    return diffuse(mesh, fields, of_flow, options, control);
 }
 
 template <class Integer>
 py::tuple diffuse_arrays(const Array<double>& positions, const Array<Integer>& corners,
-                         const Array<std::int64_t>& offsets, std::vector<std::string> words, const Array<Index>& fixed,
+                         const Array<std::int64_t>& offsets, const Keywords& keywords, const Array<Index>& fixed,
                          const Array<Index>& labels, const Array<double>& fields, const FieldWords& of_fields)
 {
     using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
@@ -226,14 +234,11 @@ py::tuple diffuse_arrays(const Array<double>& positions, const Array<Integer>& c
     Eigen::MatrixXd values;
     resize_large(values, fields.shape(0), fields.shape(1));
     values = Eigen::Map<const Rows>(fields.data(), fields.shape(0), fields.shape(1));
-    // So that no preset chooses an amount.
-    if (!std::get<0>(of_fields).empty())
-        words.emplace_back("--time-step=1");
-    SmoothCommand command = parse_flow_options(words);
-    command.options.motion.fixed_vertices = to_vector(fixed);
-    command.options.cut.labels = to_vector(labels);
+    FlowOptions options = request_of(keywords.first, keywords.second, true).options;
+    options.motion.fixed_vertices = to_vector(fixed);
+    options.cut.labels = to_vector(labels);
     const auto work = [&](const FlowControl& control) {
-        return diffuse_fields(mesh, std::move(command), of_fields, values, control);
+        return diffuse_fields(mesh, options, of_fields, values, control);
     };
     const FieldReport report = run_interruptibly(work, py::none());
     py::array_t<double> result({fields.shape(0), fields.shape(1)});
@@ -274,8 +279,8 @@ template <class Integer>
 void define_fields(py::module_& module, py::class_<Geodesics>& geodesics)
 {
     module.def("diffuse", &diffuse_arrays<Integer>, py::arg("positions").noconvert(), py::arg("corners").noconvert(),
-               py::arg("offsets").noconvert(), py::arg("words"), py::arg("fixed"), py::arg("labels"), py::arg("fields"),
-               py::arg("of_fields"));
+               py::arg("offsets").noconvert(), py::arg("keywords"), py::arg("fixed"), py::arg("labels"),
+               py::arg("fields"), py::arg("of_fields"));
     geodesics.def(py::init(&begin_geodesics<Integer>), py::arg("positions").noconvert(), py::arg("corners").noconvert(),
                   py::arg("offsets").noconvert(), py::arg("threads"));
 }

@@ -26,52 +26,52 @@ auto about_mesh(Work&& work)
 
 }  // namespace
 
-MeshCall::MeshCall(SmoothCommand of_call, PolygonMesh given)
-    : command(std::move(of_call))
+MeshCall::MeshCall(SmoothRequest of_call, PolygonMesh given)
+    : request(std::move(of_call))
     , mesh(std::move(given))
-    , record_(begin_record(command))
+    , record_(begin_record(request))
 {
     about_mesh([&] {
         if (mesh.n_vertices() == 0)
             throw InputError("has no vertices");
-        Workers workers(command.options.resources.threads);
+        Workers workers(request.options.resources.threads);
         require_valid(mesh, workers.exec());
-        resolve_amount(command, mesh, workers.exec(), record_);
+        resolve_amount(request, mesh, workers.exec(), record_);
         change_.emplace(mesh, workers.exec());
     });
 }
 
 FlowResult MeshCall::smooth(const FlowControl& control)
 {
-    return result(about_mesh([&] { return smooth_surface(mesh, command.options, {}, control); }));
+    return result(about_mesh([&] { return smooth_surface(mesh, request.options, {}, control); }));
 }
 
 FlowResult MeshCall::result(SmoothReport report)
 {
     report.remarks.insert(report.remarks.begin(), record_.remarks.begin(), record_.remarks.end());
-    Workers workers(command.options.resources.threads);
-    record_.surface = change_->measure(mesh, report.mesh, command.self_intersections, workers.exec());
-    remark_on_loss(command.options, record_.surface, report.remarks);
-    remark_on_folds(command.options, record_.surface, report.remarks);
+    Workers workers(request.options.resources.threads);
+    record_.surface = change_->measure(mesh, report.mesh, request.self_intersections, workers.exec());
+    remark_on_loss(request.options, record_.surface, report.remarks);
+    remark_on_folds(request.options, record_.surface, report.remarks);
     for (Remark& remark : report.remarks)
         remark.wording = unmarked(in_words_of_keywords(sentence(remark, option_of_program)));
     record_.seconds = watch_.seconds();
     FlowResult result{.positions = mesh.vertices,
                       .labels = {},
-                      .report = smooth_report_json(record_, command.options, report),
-                      .missed = missed_tolerance(command, report.convergence)};
+                      .report = smooth_report_json(record_, request.options, report),
+                      .missed = missed_tolerance(request, report.convergence)};
     result.labels = std::move(report.cut.labels);
     return result;
 }
 
-FlowCall::FlowCall(SmoothCommand command, PolygonMesh mesh)
-    : call_(std::move(command), std::move(mesh))
+FlowCall::FlowCall(SmoothRequest request, PolygonMesh mesh)
+    : call_(std::move(request), std::move(mesh))
 {
-    if (call_.command.options.takes_whole_mesh())
+    if (call_.request.options.takes_whole_mesh())
         throw OptionError(
             "a Flow takes steps of mean curvature flow, by an amount that is given: give --radius, or call "
             "smooth(), which removes noise and keeps edges");
-    about_mesh([&] { flow_.emplace(call_.mesh, call_.command.options); });
+    about_mesh([&] { flow_.emplace(call_.mesh, call_.request.options); });
 }
 
 void FlowCall::step(int n)

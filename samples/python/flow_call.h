@@ -9,7 +9,7 @@
 #include "engine/options/flow_control.h"
 #include "engine/tasks/stopwatch.h"
 #include "partition/polygon_mesh.h"
-#include "samples/command/smooth_command.h"
+#include "samples/options/smooth_request.h"
 #include "samples/options/smooth_surface.h"
 #include "samples/report/run_record.h"
 #include "samples/report/surface_change.h"
@@ -31,10 +31,10 @@ struct FlowResult {
 /// A mesh in memory that is smoothed as `smooth` smooths one in a file, with the same bits.
 class MeshCall {
   public:
-    /// @param command from parse_flow_options; labels, fixed vertices and weights are in its options.
+    /// @param request settled; labels, fixed vertices and weights are in its options.
     /// @param mesh need not be valid.
     /// @throws InputError whose message about the mesh begins with "mesh: ".
-    MeshCall(SmoothCommand command, PolygonMesh mesh);
+    MeshCall(SmoothRequest request, PolygonMesh mesh);
 
     /// All steps.
     /// @throws the exceptions of smooth_surface.
@@ -42,7 +42,7 @@ class MeshCall {
 
     [[nodiscard]] FlowResult result(SmoothReport report);
 
-    SmoothCommand command;
+    SmoothRequest request;
     PolygonMesh mesh;
 
   private:
@@ -55,7 +55,7 @@ class MeshCall {
 class FlowCall {
   public:
     /// @throws as MeshCall; the exceptions of Flow; OptionError for options that remove noise, which is no flow.
-    FlowCall(SmoothCommand command, PolygonMesh mesh);
+    FlowCall(SmoothRequest request, PolygonMesh mesh);
 
     /// @throws as Flow::step.
     void step(int n);

@@ -13,10 +13,10 @@ namespace seamflow {
 
 /// The data of a run of `smooth` or `smooth-distributed` beyond the FlowReport.
 struct RunRecord {
-    std::string input;
-    std::string output;
+    std::string input = {};
+    std::string output = {};
     /// As the user typed them.
-    std::vector<std::string> arguments;
+    std::vector<std::string> arguments = {};
     /// The preset that chose options; empty: none.
     std::string preset = {};
     /// Of the input.

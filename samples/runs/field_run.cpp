@@ -35,6 +35,7 @@
 #include "samples/process/interruption.h"
 #include "samples/report/field_report.h"
 #include "samples/report/report_text.h"
+#include "samples/runs/command_run.h"
 #include "samples/runs/smoothing_run.h"
 
 namespace seamflow {

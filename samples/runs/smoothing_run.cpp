@@ -24,47 +24,36 @@ namespace seamflow {
 namespace {
 
 /// The amount that the preset chooses.
-void choose_amount(SmoothCommand& command, const PolygonMesh& mesh, const Executor& exec, RunRecord& run)
+void choose_amount(SmoothRequest& request, const PolygonMesh& mesh, const Executor& exec, RunRecord& run)
 {
-    const PresetTraits& preset = preset_of(command.preset);
-    if (command.options.denoise) {
-        command.options.motion.limits = DenoiseOptions::default_motion().limits;
+    const PresetTraits& preset = preset_of(request.preset);
+    if (request.options.denoise) {
+        request.options.motion.limits = DenoiseOptions::default_motion().limits;
         return;
     }
-    PresetChoice choice{.options = command.options};
-    choose_amount(preset, mesh, command.noise, choice, exec);
-    static_cast<FlowOptions&>(command.options) = std::move(choice.options);
+    PresetChoice choice{.options = request.options};
+    choose_amount(preset, mesh, request.noise, choice, exec);
+    static_cast<FlowOptions&>(request.options) = std::move(choice.options);
     if (choice.remark)
         run.remarks.push_back(*choice.remark);
     if (choice.noise)
         run.noise = run.scale.mean_edge > 0.0 ? *choice.noise / run.scale.mean_edge : 0.0;
     if (choice.remark)
-        command.chosen = "nothing is smoothed";
+        request.chosen = "nothing is smoothed";
     else if (preset.radius)
-        command.chosen += option_of_program("radius", fmt::format("{:g}%", 100.0 * preset.radius->value));
+        request.chosen += option_of_program("radius", fmt::format("{:g}%", 100.0 * preset.radius->value));
     else
-        command.chosen += fmt::format("--time-step-edges {:.3g}",
-                                      command.options.time_step / (run.scale.mean_edge * run.scale.mean_edge));
+        request.chosen += fmt::format("--time-step-edges {:.3g}",
+                                      request.options.time_step / (run.scale.mean_edge * run.scale.mean_edge));
 }
 
 }  // namespace
 
-RunRecord begin_record(const SmoothCommand& command)
+RunRecord begin_record(const SmoothRequest& request)
 {
-    return {.input = command.input.string(),
-            .output = command.output.string(),
-            .arguments = command.arguments,
-            .preset = command.preset,
-            .remarks = {command.remarks.begin(), command.remarks.end()}};
-}
-
-std::vector<double> read_region(const SmoothCommand& command, Index n_vertices)
-{
-    if (command.region.empty())
-        return {};
-    if (std::filesystem::exists(command.region))
-        return read_vertex_strengths(command.region, n_vertices, command.region_property);
-    return read_vertex_strengths(command.input, n_vertices, command.region.string());
+    return {.arguments = request.arguments,
+            .preset = request.preset,
+            .remarks = {request.remarks.begin(), request.remarks.end()}};
 }
 
 double seam_distance_of(const MotionOptions& motion)
@@ -98,17 +87,17 @@ void remark_on_vertices(const PolygonMesh& mesh, const MeshScale& scale, const E
         remarks.push_back(remark_on_far_vertices(far));
 }
 
-void resolve_amount(SmoothCommand& command, const PolygonMesh& mesh, const Executor& exec, RunRecord& run)
+void resolve_amount(SmoothRequest& request, const PolygonMesh& mesh, const Executor& exec, RunRecord& run)
 {
     run.scale = measure_scale(mesh, exec);
     remark_on_vertices(mesh, run.scale, exec, run.remarks);
-    if (command.chooses_amount)
-        choose_amount(command, mesh, exec, run);
+    if (request.chooses_amount)
+        choose_amount(request, mesh, exec, run);
     // What removes noise names them itself.
-    if (!command.options.denoise && !run.scale.spikes.empty())
+    if (!request.options.denoise && !run.scale.spikes.empty())
         run.remarks.push_back(remark_on_spikes(run.scale.spikes));
     LengthScale scale = run.scale.lengths();
-    FlowOptions& options = command.options;
+    FlowOptions& options = request.options;
     options = resolved(std::move(options), mesh, scale, exec, run.remarks);
 }
 
@@ -212,29 +201,13 @@ void remark_on_folds(const AllOptions& options, const SurfaceChange& change, std
             (options.motion.within ? "a smaller --within." : "--within with a length below that of the edges there."));
 }
 
-std::string missed_tolerance(const SmoothCommand& command, const ConvergenceReport& report)
+std::string missed_tolerance(const SmoothRequest& request, const ConvergenceReport& report)
 {
-    const std::optional<double>& tolerance = command.options.accuracy.tolerance;
-    const int missed = command.limits_iterations ? report.steps_stagnated : report.steps_short_of_tolerance;
+    const std::optional<double>& tolerance = request.options.accuracy.tolerance;
+    const int missed = request.limits_iterations ? report.steps_stagnated : report.steps_short_of_tolerance;
     return !tolerance || missed == 0 ? ""
                                      : fmt::format("the tolerance {} was missed in {}", *tolerance,
                                                    counted(static_cast<std::uint64_t>(missed), "step", "steps"));
-}
-
-std::ostream& message_stream(const SmoothCommand& command)
-{
-    static std::ostream silence(nullptr);
-    const bool is_taken = is_standard_stream(command.output) || is_standard_stream(command.report);
-    return command.quiet ? silence : is_taken ? std::cerr : std::cout;
-}
-
-ExitStatus require_converged(const SmoothCommand& command, const ConvergenceReport& report)
-{
-    const std::string missed = missed_tolerance(command, report);
-    if (missed.empty())
-        return ExitStatus::Success;
-    std::cerr << command.program << ": " << missed << "; " << command.output.string() << " has the last state\n";
-    return ExitStatus::ComputationFailed;
 }
 
 }  // namespace seamflow

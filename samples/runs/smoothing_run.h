@@ -1,23 +1,18 @@
 #pragma once
 
-#include <iosfwd>
 #include <string>
 #include <vector>
 
 #include "engine/measure/flow_report.h"
 #include "partition/polygon_mesh.h"
-#include "samples/command/smooth_command.h"
-#include "samples/process/exit_status.h"
+#include "samples/options/smooth_request.h"
 #include "samples/report/run_record.h"
 
-/// The work around a flow that `smooth` and the Python module share.
+/// The work around the smoothing of a mesh, in a file or in memory.
 namespace seamflow {
 
 /// The record of a run before its mesh is known.
-RunRecord begin_record(const SmoothCommand& command);
-
-/// The strengths of --region, #V: of a file, or of a property of the input; empty without that option.
-std::vector<double> read_region(const SmoothCommand& command, Index n_vertices);
+RunRecord begin_record(const SmoothRequest& request);
 
 /// The distance at which --weld joins borders, in length, once options are resolved; 0 if it joins none.
 double seam_distance_of(const MotionOptions& motion);
@@ -30,7 +25,7 @@ void remark_on_vertices(const PolygonMesh& mesh, const MeshScale& scale, const E
 /// follow from in `run`.
 /// @param mesh valid (see require_valid).
 /// @throws InputError for a mesh that has no size to measure by.
-void resolve_amount(SmoothCommand& command, const PolygonMesh& mesh, const Executor& exec, RunRecord& run);
+void resolve_amount(SmoothRequest& request, const PolygonMesh& mesh, const Executor& exec, RunRecord& run);
 
 /// A surface that flows by mean curvature shrinks, which surprises those who only wanted it smooth: adds a remark if it
 /// has lost much of its volume, or most of its area if it encloses none; where sheets meet, if cells have lost much.
@@ -42,13 +37,6 @@ void remark_on_folds(const AllOptions& options, const SurfaceChange& change, std
 
 /// "the tolerance 1e-08 was missed in 2 steps"; empty if the user has requested no tolerance or no step has failed.
 /// Those fail that missed it, or, if the user has limited the iterations, those that stagnated.
-std::string missed_tolerance(const SmoothCommand& command, const ConvergenceReport& report);
-
-/// Where messages go: nowhere with --quiet, to standard error where a result takes standard output.
-std::ostream& message_stream(const SmoothCommand& command);
-
-/// The status of a complete run. If steps have missed their tolerance, the results are not what was asked for: prints
-/// that to standard error.
-ExitStatus require_converged(const SmoothCommand& command, const ConvergenceReport& report);
+std::string missed_tolerance(const SmoothRequest& request, const ConvergenceReport& report);
 
 }  // namespace seamflow

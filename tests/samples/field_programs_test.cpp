@@ -156,6 +156,12 @@ TEST_CASE("fields are filled, keep their edges, and stay on a boundary that is f
     CHECK(kept > 0.0);
     REQUIRE(w.smooth("in.ply fixed.ply --fields thickness --radius 2% --boundary fixed") == 0);
     CHECK(w.fields_of("fixed.ply", {"thickness"}).values(0, 0) == 0.0);
+    REQUIRE(w.smooth("in.ply free.ply --fields thickness --radius 2% --boundary free") == 0);
+    REQUIRE(w.smooth("in.ply as_it_is.ply --fields thickness --radius 2%") == 0);
+    CHECK(w.fields_of("free.ply", {"thickness"}).values(0, 0) != 0.0);
+    CHECK(w.fields_of("free.ply", {"thickness"}).values(0, 0) ==
+          w.fields_of("as_it_is.ply", {"thickness"}).values(0, 0));
+    CHECK(w.smooth("in.ply out.ply --fields thickness --radius 2% --boundary smooth") == 2);
     (void)w.directory.with("fix.txt", "401\n");
     REQUIRE(w.smooth("in.ply held.ply --fields thickness --radius 2% --fix fix.txt") == 0);
     const Eigen::MatrixXd held = w.fields_of("held.ply", {"thickness"}).values;

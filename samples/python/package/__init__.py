@@ -199,13 +199,11 @@ def diffuse(V, F=None, fields=None, *, fwhm=None, keep_edges=None, fill=False, b
         options["steps"] = 10
     if options.get("laplacian") is None:
         options["laplacian"] = "virtual-refinement"
-    (V, corners, offsets, words, arrays), _ = _arguments(V, F, options, fixed, labels, None, None, None)
+    (V, corners, offsets, (texts, _), arrays), _ = _arguments(V, F, options, fixed, labels, None, None, None)
     if len(values) != len(V):
         raise ValueError(f"fields has {len(values)} rows, but the mesh has {len(V)} vertices")
-    # The boundary is an argument of its own, and these are arrays.
-    words = [word for word in words if word not in ("--fix=array", "--labels=array")]
     result, reached, without_data, filled, time_step, remarks, missed = _core.diffuse(
-        V, corners, offsets, words, *arrays[:2], np.ascontiguousarray(values.reshape(len(V), -1), dtype=np.float64),
+        V, corners, offsets, (texts, []), *arrays[:2], np.ascontiguousarray(values.reshape(len(V), -1), dtype=np.float64),
         ("" if fwhm is None else str(fwhm), 0.0 if keep_edges is None else float(keep_edges), bool(fill), boundary == "free"))
     if missed:
         warnings.warn(f"the tolerance was missed in {missed} steps", RuntimeWarning, stacklevel=2)
@@ -252,7 +250,7 @@ def _report(text, parts):
 
 
 def _arguments(V, F, options, fixed, labels, edges, attach_weights, region):
-    """Positions, corners, offsets, words and arrays as the module takes them; and whether V is in single precision."""
+    """Positions, corners, offsets, keywords and arrays as the module takes them; and whether V is in single precision."""
     if F is None:
         V, F = _of_mesh(V)
     V = np.asarray(V)
@@ -265,8 +263,9 @@ def _arguments(V, F, options, fixed, labels, edges, attach_weights, region):
         if fixed is not None:
             raise TypeError("fixed and fix are the same: leave one of them out")
         fixed = options.pop("fix")
-    words = [word for name, value in options.items() for word in _words(name, value)]
+    texts = [text for name, value in options.items() for text in _texts(name, value)]
     arrays = []
+    names = []
     for name, convert, kind, value, count in (
         ("fix", lambda value, count: np.unique(_vertex_numbers("fixed", value, count)), np.int32, fixed, len(V)),
         ("labels", _labels, np.int32, labels, len(offsets) - 1),
@@ -277,11 +276,11 @@ def _arguments(V, F, options, fixed, labels, edges, attach_weights, region):
         array = [] if value is None else convert(value, count)
         arrays.append(np.ascontiguousarray(array, dtype=kind))
         if value is not None:
-            # So that the options are checked against each other; no such file is read.
-            words.append(f"--{name}=array")
+            # So that the options are checked against each other.
+            names.append(f"--{name}")
 
-    arrays = tuple(arrays)
-    return (np.ascontiguousarray(V, dtype=np.float64), corners, offsets, words, arrays), V.dtype == np.float32
+    return ((np.ascontiguousarray(V, dtype=np.float64), corners, offsets, (texts, names), tuple(arrays)),
+            V.dtype == np.float32)
 
 
 def _describe_options():
@@ -458,8 +457,8 @@ def _strengths(value, count):
     return strengths
 
 
-def _words(keyword, value):
-    """A keyword as on a command line; nothing where it is None or False."""
+def _texts(keyword, value):
+    """An option and its text; nothing where it is None or False."""
     if keyword not in _OPTIONS:
         known = sorted({*_OPTIONS, "fixed", "labels", "edges", "attach_weights", "region", "progress"})
         nearest = difflib.get_close_matches(keyword, known, 1)
@@ -469,7 +468,7 @@ def _words(keyword, value):
     if is_flag:
         if value is not None and not isinstance(value, (bool, np.bool_)):
             raise TypeError(f"{keyword} is True or False, not {value!r}")
-        return [f"--{name}"] if value else []
+        return [(f"--{name}", "")] if value else []
     if value is None:
         return []
     if isinstance(value, numbers.Number) and not isinstance(value, (bool, np.bool_)):
@@ -477,4 +476,4 @@ def _words(keyword, value):
         value = value.item() if isinstance(value, np.generic) else value
     elif not isinstance(value, str):
         raise TypeError(f"{keyword} is a number or a text, not {value!r}")
-    return [f"--{name}={value}"]
+    return [(f"--{name}", str(value))]
