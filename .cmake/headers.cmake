@@ -9,6 +9,7 @@ set(SEAMFLOW_HEADERS
     engine/diffuse.h
     engine/eigen.h
     engine/fields/field_options.h
+    engine/fields/heat_equation.h
     engine/flow.h
     engine/geodesic_distance.h
     engine/mean_curvature_flow.h
@@ -50,7 +51,7 @@ set(SEAMFLOW_HEADERS
     partition/topology.h
     partition/vector_area.h
     partition/version.h
-    solvers/conditions/robin_parameter.h
+    solvers/conditions/robin_edge.h
     solvers/direct/factorisation.h
     solvers/filters/step_filter.h
     solvers/laplacian/laplacian.h

@@ -11,8 +11,8 @@
 #include <fmt/format.h>
 
 #include "engine/fields/field_columns.h"
+#include "engine/fields/heat_equation.h"
 #include "engine/fields/white_noise.h"
-#include "engine/flow.h"
 #include "engine/options/option_table.h"
 #include "engine/setup/resolved_options.h"
 #include "engine/tasks/workers.h"
@@ -180,8 +180,9 @@ Eigen::RowVectorXd means_of(const Eigen::MatrixXd& fields, const FieldGroup& gro
 
 /// Computes the harmonic extension by one long step.
 /// @param filled #V: receives 1 at vertices that got data. @returns the report of that step.
-FlowReport extend(const PolygonMesh& mesh, FieldGroup& group, const FlowOptions& options, const FlowControl& control,
-                  const Executor& exec, Eigen::MatrixXd& fields, std::vector<std::uint8_t>& filled)
+FlowReport extend(const PolygonMesh& mesh, FieldGroup& group, const FlowOptions& options, Weights weights,
+                  const FlowControl& control, const Executor& exec, Eigen::MatrixXd& fields,
+                  std::vector<std::uint8_t>& filled)
 {
     const std::vector<std::uint8_t> lacked_first = group.lacks;
     PolygonMesh surface = surface_for_extension(mesh, group, options.laplacian);
@@ -206,14 +207,14 @@ FlowReport extend(const PolygonMesh& mesh, FieldGroup& group, const FlowOptions&
     // The means are subtracted first, because M pulls towards 0.
     const Eigen::RowVectorXd means = means_of(fields, group);
     choose_for_columns(surface, std::ssize(group.columns), control, own);
-    Flow flow(surface, own, {}, control);
+    HeatEquation heat(std::move(surface), own, weights, control);
     const std::vector<ValueRange> ranges = ranges_of(fields, group, exec);
     std::vector<ValueRange> about_means = ranges;
     for (std::size_t c = 0; c < ranges.size(); ++c)
         about_means[c] = {ranges[c].least - means[group.columns[c]], ranges[c].most - means[group.columns[c]]};
     ScaledFields scaled(fields(Eigen::all, group.columns).rowwise() - means(group.columns), group, about_means,
                         own.time_step, exec);
-    flow.diffuse(scaled.values());
+    heat.take_steps(scaled.values());
     const std::vector<std::uint8_t> lacked = group.lacks;
     for (Index v = 0; v < mesh.n_vertices(); ++v)
         group.lacks[v] = lacked[v] != 0 && reached[v] != 0 ? 0 : 1;
@@ -222,12 +223,12 @@ FlowReport extend(const PolygonMesh& mesh, FieldGroup& group, const FlowOptions&
         for (Index v = 0; v < mesh.n_vertices(); ++v)
             if (const Eigen::Index c = group.columns[i]; group.lacks[v] == 0)
                 fields(v, c) = extended(v, static_cast<Eigen::Index>(i)) + means[c];
-    if (own.weights != Weights::OfLaplacian)
+    if (weights != Weights::OfLaplacian)
         keep_within(ranges, group, fields, exec);
     for (Index v = 0; v < mesh.n_vertices(); ++v)
         if (lacked_first[v] != 0 && !std::isnan(fields(v, group.columns.front())))
             filled[v] = 1;
-    return flow.report();
+    return heat.report();
 }
 
 /// Adds the report on filling to the report on the steps, without repeating its remarks. The choices made for filling
@@ -275,28 +276,27 @@ void remark_on_unfilled(const Eigen::VectorXd& filled, std::vector<Remark>& rema
                                         n == 1 ? "stays" : "stay", n == 1 ? "it" : "them")}});
 }
 
-/// Takes steps with the columns of a group, once for each block of columns.
-void take_steps(Flow& flow, const FieldOptions& field_options, int steps, ScaledFields& scaled)
+/// Takes steps with the columns of a group.
+void take_steps(HeatEquation& heat, const FieldOptions& field_options, int steps, ScaledFields& scaled)
 {
     if (!field_options.keep_edges)
-        return flow.diffuse(scaled.values(), steps);
+        return heat.take_steps(scaled.values(), steps);
     for (int step = 0; step < steps; ++step) {
-        flow.keep_field_edges(scaled.in_units(), *field_options.keep_edges);
-        flow.diffuse(scaled.values());
+        heat.keep_field_edges(scaled.in_units(), *field_options.keep_edges);
+        heat.take_steps(scaled.values());
     }
 }
 
 /// Measures the width of the kernel by the same steps on white noise, which do not count as steps of the fields.
 /// @param wanted in length. @param of_group gets a remark, and the time.
 /// @returns nothing if the width cannot be measured.
-std::optional<double> measure_width(Flow& flow, const PolygonMesh& surface, double wanted, int steps,
-                                    FlowReport& of_group)
+std::optional<double> measure_width(HeatEquation& heat, double wanted, int steps, FlowReport& of_group)
 {
-    Eigen::MatrixXd noise = white_noise(surface.n_vertices());
-    flow.diffuse(noise, steps);
-    const std::optional<double> fwhm = fwhm_of_noise(surface, noise);
-    remark_on_width(wanted, fwhm, surface, steps, of_group.remarks);
-    of_group.seconds = flow.report().seconds;
+    Eigen::MatrixXd noise = white_noise(heat.surface().n_vertices());
+    heat.take_steps(noise, steps);
+    const std::optional<double> fwhm = fwhm_of_noise(heat.surface(), noise);
+    remark_on_width(wanted, fwhm, heat.surface(), steps, of_group.remarks);
+    of_group.seconds = heat.report().seconds;
     return fwhm;
 }
 
@@ -313,6 +313,7 @@ FieldReport diffuse(const PolygonMesh& mesh, Eigen::MatrixXd& fields, const Flow
     Eigen::MatrixXd results = copy_of(fields, exec);
     FlowOptions of_flow = flow_for_fields(options, field_options);
     of_flow = resolved(std::move(of_flow), mesh);
+    const Weights weights = weights_for_fields(field_options);
     // With keep_edges, K changes between steps.
     FlowControl own_control = control;
     if (field_options.keep_edges)
@@ -330,29 +331,29 @@ FieldReport diffuse(const PolygonMesh& mesh, Eigen::MatrixXd& fields, const Flow
         own.steps = options.steps * (n_blocks(std::ssize(group.columns)) + (measures ? 1 : 0));
         const bool is_whole = choose_for_columns(
             surface, std::ssize(group.columns) * (field_options.keep_edges ? 1 : options.steps), own_control, own);
-        Flow flow(surface, own, {}, own_control);
+        HeatEquation heat(std::move(surface), own, weights, own_control);
         const std::vector<ValueRange> ranges = ranges_of(fields, group, exec);
         const bool has_all = std::ssize(group.columns) == results.cols();
         ScaledFields scaled(has_all ? std::move(results) : Eigen::MatrixXd(results(Eigen::all, group.columns)), group,
                             ranges, own.time_step, exec);
-        take_steps(flow, field_options, options.steps, scaled);
+        take_steps(heat, field_options, options.steps, scaled);
         if (has_all)
             results = scaled.take(group, exec);
         else
             results(Eigen::all, group.columns) = scaled.take(group, exec);
-        if (filter_of(own).is_plain() && own.weights != Weights::OfLaplacian)
+        if (filter_of(own).is_plain() && weights != Weights::OfLaplacian)
             keep_within(ranges, group, results, exec);
-        FlowReport of_group = flow.report();
+        FlowReport of_group = heat.report();
         if (is_whole)
             of_group.choices.push_back(
                 {"approach",
                  {},
                  {"The whole mesh is solved at once by one factorisation: that is fastest for so many columns."}});
         if (measures)
-            report.fwhm = measure_width(flow, surface, *field_options.fwhm, options.steps, of_group);
+            report.fwhm = measure_width(heat, *field_options.fwhm, options.steps, of_group);
         remarks.push_back(of_group.remarks);
         if (field_options.fill && group.n_lacking > 0 && group.n_lacking < mesh.n_vertices()) {
-            const FlowReport of_fill = extend(mesh, group, of_flow, control, exec, results, filled);
+            const FlowReport of_fill = extend(mesh, group, of_flow, weights, control, exec, results, filled);
             add_filling(of_fill, of_group, remarks.back());
         }
         if (field_options.fill)

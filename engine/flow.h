@@ -3,8 +3,6 @@
 #include <memory>
 #include <span>
 
-#include <Eigen/Core>
-
 #include "engine/measure/flow_report.h"
 #include "engine/options/flow_control.h"
 #include "engine/options/flow_options.h"
@@ -60,23 +58,6 @@ class Flow {
     /// @throws OptionError for flows without an attachment.
     void attach(std::span<const Index> vertices, std::span<const double> weights);
 
-    /// Applies n steps to data on the surface in place of its positions, which do not change: n backward Euler steps of
-    /// the heat equation, (M + dt K) Xᵏ⁺¹ = M Xᵏ, with the factorisation of the first step. See also the function
-    /// diffuse, which is easier to use.
-    /// @param fields #V by any number of columns, finite. Fixed vertices keep their values. Vertices joined along seams
-    ///        begin with their mean.
-    /// @throws OptionError for flows that are not linear; InputError for another number of rows, or numbers that are
-    ///         not finite; as step.
-    void diffuse(Eigen::Ref<Eigen::MatrixXd> fields, int n = 1);
-
-    /// Makes further steps of `diffuse` keep edges of fields: K of each face (of each edge for Δ_F and Δ_U) is
-    /// multiplied by 1 / (1 + (d / difference)²), where d is the largest distance between the rows of two of its
-    /// vertices (Perona and Malik, Scale-Space and Edge Detection Using Anisotropic Diffusion, 1990). K is factorised
-    /// anew.
-    /// @param fields #V by any number of columns, finite. @param difference positive.
-    /// @throws OptionError for conjugate gradients, and as diffuse.
-    void keep_field_edges(const Eigen::Ref<const Eigen::MatrixXd>& fields, double difference);
-
     /// The number of steps taken, including the steps before the state that the flow was resumed from.
     [[nodiscard]] int n_steps() const { return static_cast<int>(report_.steps.size()); }
 
@@ -88,9 +69,8 @@ class Flow {
                                           const FlowControl& control);
     class Session;
 
-    void require_fields(const Eigen::Ref<const Eigen::MatrixXd>& fields) const;
+    FlowReport take_report();
 
-    bool is_linear_;
     StepObserver on_step_;
     FlowControl control_;
     FlowReport report_;

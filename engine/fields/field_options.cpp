@@ -92,8 +92,6 @@ FlowOptions flow_for_fields(const FlowOptions& options, const FieldOptions& of_f
     FlowOptions own = options;
     own.flow = FlowEquation::Linear;
     own.laplacian = of_fields.laplacian;
-    own.weights = of_fields.weights == Weights::AtLeastZero && of_fields.keep_edges ? Weights::AtLeastZeroInFaces
-                                                                                    : of_fields.weights;
     own.motion.boundary = of_fields.boundary;
     own.report = {.record_schedule = options.report.record_schedule, .measures = false};
     if (of_fields.fwhm)
@@ -101,6 +99,12 @@ FlowOptions flow_for_fields(const FlowOptions& options, const FieldOptions& of_f
     if (!own.accuracy.tolerance && own.accuracy.approach != Approach::Undecomposed)
         own.accuracy.tolerance = default_field_tolerance;
     return own;
+}
+
+Weights weights_for_fields(const FieldOptions& of_fields)
+{
+    return of_fields.weights == Weights::AtLeastZero && of_fields.keep_edges ? Weights::AtLeastZeroInFaces
+                                                                             : of_fields.weights;
 }
 
 }  // namespace seamflow

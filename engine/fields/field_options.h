@@ -11,14 +11,27 @@ namespace seamflow {
 /// AccuracyOptions::tolerance of fields if it is not set.
 inline constexpr double default_field_tolerance = 1e-8;
 
+/// The weights of the edges of a surface, -K_vw.
+enum class Weights {
+    /// Those of the Laplacian. Cotangents of obtuse angles are below 0.
+    OfLaplacian,
+    /// At least 0, so that no step of Filter::Diffusion of order 1 leaves the range of its data (the discrete maximum
+    /// principle). Where the Laplacian has others, K and M are those of an intrinsic Delaunay triangulation of the
+    /// surface (see make_delaunay). For Δ_A and Δ_B; the others have no such weights.
+    AtLeastZero,
+    /// Those of each face alone, too: where HeatEquation::keep_field_edges weighs faces differently.
+    AtLeastZeroInFaces,
+};
+
 /// The options that only fields have.
 struct FieldOptions {
     /// The amount of all steps together, in place of FlowOptions::time_step and radius: the full width at half maximum
     /// of the Gaussian kernel of the heat equation at the time t = FWHM² / (16 ln 2) of all steps, in length. Backward
     /// Euler steps come near to it if there are several (see FieldReport::fwhm).
     std::optional<double> fwhm = {};
-    /// Keeps edges of the fields: differences well above this diffuse little (see Flow::keep_field_edges). All columns
-    /// count together, as one vector per vertex. K is factorised in each step. Not with conjugate gradients.
+    /// Keeps edges of the fields: differences well above this diffuse little (see
+    /// HeatEquation::keep_field_edges). All columns count together, as one vector per vertex. K is factorised in each
+    /// step. Not with conjugate gradients.
     std::optional<double> keep_edges = {};
     /// Gives vertices without data, after all steps, the harmonic extension of the data: K X = 0 there.
     bool fill = false;
@@ -26,8 +39,8 @@ struct FieldOptions {
     /// operator on any faces, so that times and widths of kernels are exact. M⁻¹ K of Δ_F and Δ_U depends on the faces:
     /// on regular triangles Δ_F smooths √1.5 times as wide.
     Laplacian laplacian = Laplacian::VirtualRefinement;
-    /// Used in place of FlowOptions::weights: AtLeastZero, also in faces with keep_edges, or the weights of the
-    /// Laplacian, with which values can leave their range beside obtuse angles.
+    /// AtLeastZero, which is AtLeastZeroInFaces with keep_edges, or the weights of the Laplacian, with which values can
+    /// leave their range beside obtuse angles. Ranks do not share steps with weights other than the Laplacian's.
     Weights weights = Weights::AtLeastZero;
     /// Free: no heat flows across the boundary. Fixed: values at the boundary do not change, bit for bit.
     Boundary boundary = Boundary::Free;
@@ -45,7 +58,10 @@ double fwhm_for_time(double time);
 /// @throws OptionError for options that fields do not have.
 void require_for_fields(const FlowOptions& options, const FieldOptions& of_fields);
 
-/// The options of the flow that is applied to fields, with the time step that follows from FieldOptions::fwhm.
+/// The options of the linear flow that is applied to fields, with the time step that follows from FieldOptions::fwhm.
 FlowOptions flow_for_fields(const FlowOptions& options, const FieldOptions& of_fields);
+
+/// The weights of edges with which fields diffuse.
+Weights weights_for_fields(const FieldOptions& of_fields);
 
 }  // namespace seamflow

@@ -169,7 +169,7 @@ Topology with_fixed_boundary(Topology topology, std::span<const Index> from)
 
 }  // namespace
 
-HeatEquation::HeatEquation(const PolygonMesh& mesh, const Topology& topology, const Executor& exec)
+HeatSolver::HeatSolver(const PolygonMesh& mesh, const Topology& topology, const Executor& exec)
     : n_vertices_(mesh.n_vertices())
 {
     Decomposition whole = decompose(mesh, topology, std::vector<Index>(usize(mesh.n_faces()), 0), 1, exec);
@@ -181,7 +181,7 @@ HeatEquation::HeatEquation(const PolygonMesh& mesh, const Topology& topology, co
     positions_ = rows_of(mesh.vertices, vertices_);
 }
 
-Eigen::VectorXd HeatEquation::solve(const Eigen::VectorXd& data, double time_step, const Progress& progress)
+Eigen::VectorXd HeatSolver::solve(const Eigen::VectorXd& data, double time_step, const Progress& progress)
 {
     progress.require_going_on();
     Points local = Points::Zero(positions_.rows(), 3);
@@ -222,7 +222,7 @@ Eigen::VectorXd HeatMethod::logarithm_of_heat(std::span<const Index> from, const
     Eigen::VectorXd heat = insulated_->solve(sources, length * length, progress);
     const auto is_on_boundary = [&](Index v) { return topology_.kind[v] == VertexKind::Boundary; };
     if (std::ranges::any_of(from, is_on_boundary)) {
-        heat += HeatEquation(mesh_, with_fixed_boundary(topology_, from), progress.exec())
+        heat += HeatSolver(mesh_, with_fixed_boundary(topology_, from), progress.exec())
                     .solve(sources, length * length, progress);
     } else if (std::ranges::find(topology_.kind, VertexKind::Boundary) != topology_.kind.end()) {
         if (!cooled_)

@@ -17,10 +17,10 @@ namespace seamflow {
 
 /// (M + dt K) X = M D on a whole mesh with Δ_B, in double precision: X is tiny far from the sources, and yet has
 /// correct digits. One factorisation for each dt, which is kept.
-class HeatEquation {
+class HeatSolver {
   public:
     /// @param topology whose moving vertices have equations.
-    HeatEquation(const PolygonMesh& mesh, const Topology& topology, const Executor& exec);
+    HeatSolver(const PolygonMesh& mesh, const Topology& topology, const Executor& exec);
 
     /// @param data #V: D. @returns #V: X; 0 at vertices without an equation.
     /// @throws ComputationError if the equations are singular to rounding; Cancelled.
@@ -54,7 +54,7 @@ class HeatMethod {
     /// The distances from the nearest source.
     /// @param from vertices of the surface; only those of the component are sources: at least one.
     /// @returns the distance of each of vertices().
-    /// @throws as HeatEquation::solve.
+    /// @throws as HeatSolver::solve.
     Eigen::VectorXd distance(std::span<const Index> from, const Progress& progress);
 
   private:
@@ -68,9 +68,9 @@ class HeatMethod {
     Topology topology_;
     double edge_;
     double diagonal_;
-    std::optional<HeatEquation> insulated_;
+    std::optional<HeatSolver> insulated_;
     /// The equation with the boundary at temperature 0, made for the first sources of which none is on the boundary.
-    std::optional<HeatEquation> cooled_;
+    std::optional<HeatSolver> cooled_;
 };
 
 }  // namespace seamflow

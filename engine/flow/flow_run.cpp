@@ -12,8 +12,10 @@
 #include "engine/measure/flow_remarks.h"
 #include "engine/measure/surface_measures.h"
 #include "engine/state/transfer.h"
+#include "engine/steppers/heat_stepper.h"
 #include "engine/steppers/make_stepper.h"
 #include "engine/steppers/switching_stepper.h"
+#include "engine/tasks/named.h"
 #include "engine/tasks/parallel_executor.h"
 #include "engine/tasks/stopwatch.h"
 #include "partition/errors.h"
@@ -101,13 +103,13 @@ void FlowRun::make_steppers()
     try {
         make_stepper_of_flow();
     } catch (const MemoryLimitError&) {
-        if (!prepared_->without_factors)
+        if (!prepared_->steps.without_factors)
             throw;
-        leave_factors(*prepared_, mesh, progress_.exec());
+        leave_factors(prepared_->steps, prepared_->options, mesh, topology_, progress_.exec());
         make_stepper_of_flow();
     }
     report_to(*prepared_, mesh_, flow_report_);
-    flow_report_.cut.labels = std::move(prepared_->cut.labels);
+    flow_report_.cut.labels = std::move(prepared_->steps.cut.labels);
     flow_report_.seconds.analyse = watch.lap();
     flow_report_.seconds.total = flow_report_.seconds.cut + flow_report_.seconds.analyse;
     if (options().report.reference) {
@@ -120,18 +122,16 @@ void FlowRun::make_steppers()
 void FlowRun::make_stepper_of_flow()
 {
     const PolygonMesh& mesh = mesh_.mesh();
-    if (prepared_->costs && options().accuracy.approach == Approach::ConjugateGradients &&
+    if (prepared_->steps.costs && options().accuracy.approach == Approach::ConjugateGradients &&
         filter_of(options()).is_plain())
-        stepper_ = std::make_unique<SwitchingStepper>(mesh, prepared_->surface.topology, options(), *prepared_->costs,
-                                                      progress_);
-    else if (ranks_ != nullptr && !prepared_->stiffness && ranks_->can_share(prepared_->cut, options()))
-        stepper_ = ranks_->make_stepper(mesh, topology_, prepared_->cut, options(), std::move(prepared_->curvature),
-                                        progress_);
+        stepper_ = std::make_unique<SwitchingStepper>(mesh, prepared_->surface.topology, options(),
+                                                      *prepared_->steps.costs, progress_);
+    else if (ranks_ != nullptr && ranks_->can_share(prepared_->steps.cut, options()))
+        stepper_ = ranks_->make_stepper(mesh, topology_, prepared_->steps.cut, options(),
+                                        std::move(prepared_->curvature), progress_);
     else
-        stepper_ = make_stepper(mesh, prepared_->surface.topology, prepared_->cut, options(),
+        stepper_ = make_stepper(mesh, prepared_->surface.topology, prepared_->steps.cut, options(),
                                 std::move(prepared_->curvature), progress_);
-    if (prepared_->stiffness)
-        stepper_->give(*prepared_->stiffness);
 }
 
 void FlowRun::restore(const FlowState& state)
@@ -147,43 +147,6 @@ void FlowRun::restore(const FlowState& state)
     if (reference_)
         reference_->restore(*state.reference);
     SurfaceRun::restore(state);
-}
-
-void FlowRun::diffuse(Points& data, int n, DataSteps steps)
-{
-    mesh_.join(data);
-    stepper_->set_data(data, steps);
-    for (int step = 1; step <= n; ++step) {
-        progress_.enter(FlowPhase::Step, fractions_->number(), fractions_->begin(), fractions_->end());
-        Stopwatch watch;
-        named("step " + std::to_string(step), [&] { stepper_->step(data); });
-        copy(progress_.exec(), stepper_->positions(), data);
-        flow_report_.seconds.step += watch.seconds();
-        flow_report_.seconds.total += watch.seconds();
-        fractions_->end_step(watch.seconds(), 0.0, 0.0);
-    }
-    mesh_.take_along(data);
-}
-
-bool FlowRun::diffuse_further(Eigen::Ref<Eigen::MatrixXd> fields, int n)
-{
-    // The columns of a call: few, so that progress is reported between calls.
-    constexpr Eigen::Index at_once = 192;
-    if (!stepper_->can_take_columns())
-        return false;
-    for (Eigen::Index first = 0; first < fields.cols(); first += at_once) {
-        auto portion = fields.middleCols(first, std::min(at_once, fields.cols() - first));
-        progress_.enter(FlowPhase::Step, fractions_->number(), fractions_->begin(), fractions_->end());
-        Stopwatch watch;
-        mesh_.join(portion);
-        stepper_->take_steps(portion, n, progress_.exec());
-        mesh_.take_along(portion);
-        flow_report_.seconds.step += watch.seconds();
-        flow_report_.seconds.total += watch.seconds();
-        for (Eigen::Index step = 0; step < n * ((portion.cols() + 2) / 3); ++step)
-            fractions_->end_step(watch.seconds(), 0.0, 0.0);
-    }
-    return true;
 }
 
 FlowState FlowRun::capture() const

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -32,18 +31,6 @@ class FlowRun final : public SurfaceRun {
     void set_fixed(std::span<const Index> vertices, bool is_fixed);
     void attach(std::span<const Index> vertices, std::span<const double> weights);
     void move_vertices(std::span<const Index> vertices, const Points& to);
-
-    /// Applies n steps to data in place of positions, which do not change (see Flow::diffuse).
-    /// @param data #V by 3, in the order of the given mesh.
-    void diffuse(Points& data, int n, DataSteps steps);
-
-    /// Applies n steps to further columns of data, if the stepper can take many columns at once. @returns whether it
-    /// did.
-    bool diffuse_further(Eigen::Ref<Eigen::MatrixXd> fields, int n);
-
-    /// Weighs K by differences of data, from now on (see Stepper::weigh).
-    /// @throws OptionError if the steps do not support it.
-    void weigh(const std::function<double(Index v, Index w)>& squared_difference);
 
     /// Completes the report, or a copy of it, on the flow as a whole.
     void complete(FlowReport& report) const;

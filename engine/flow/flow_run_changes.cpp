@@ -1,4 +1,4 @@
-// The changes that Flow makes between steps: vertices fixed, attached or moved, and weights of edges.
+// The changes that Flow makes between steps: vertices fixed, attached or moved.
 
 #include <algorithm>
 #include <cmath>
@@ -21,7 +21,7 @@ std::vector<Index> FlowRun::require_changeable(std::string_view what, std::span<
         throw OptionError(fmt::format("a flow with a reference, rescale, within or limits does not {} vertices between "
                                       "steps: begin a new flow",
                                       what));
-    if (needs_stepper && !stepper_->can_change())
+    if (needs_stepper && stepper_->equations() == nullptr)
         throw OptionError(fmt::format("this flow does not {} vertices between steps: only converged steps of symmetric "
                                       "Laplacians do: begin a new flow with the approach converged, or a linear one",
                                       what));
@@ -47,7 +47,7 @@ void FlowRun::set_fixed(std::span<const Index> vertices, bool is_fixed)
                                           "be released; begin a new flow",
                                           v));
     std::erase_if(flowing, [&](Index v) { return topology.moves(v) != is_fixed; });
-    stepper_->set_fixed(flowing, is_fixed);
+    stepper_->equations()->set_fixed(flowing, is_fixed);
     for (const Index v : flowing)
         topology.fixed[v] = is_fixed_[v] = is_fixed ? 1 : 0;
     vanishing_->look_again();
@@ -68,7 +68,7 @@ void FlowRun::attach(std::span<const Index> vertices, std::span<const double> we
         if (!(weight >= 0.0 && std::isfinite(weight)))
             throw OptionError(
                 fmt::format("an attachment weight is {}, but must be at least 0 and finite (1/length²)", weight));
-    stepper_->attach(flowing, weights);
+    stepper_->equations()->attach(flowing, weights);
     vanishing_->attach(flowing, weights);
     was_changed_ = true;
 }
@@ -84,7 +84,8 @@ void FlowRun::move_vertices(std::span<const Index> vertices, const Points& to)
     require_rows(flowing, there);
     mesh_.move_isolated(vertices, to);
     stepper_->set_vertices(flowing, there);
-    stepper_->set_reference_vertices(flowing, there);
+    if (ChangeableEquations* const equations = stepper_->equations())
+        equations->set_reference_vertices(flowing, there);
     vanishing_->set_reference_vertices(flowing, there);
     mesh_.move_to(stepper_->positions());
     constraints_->limit.emplace(mesh_.mesh(), options().accuracy.largest_update);
@@ -104,14 +105,6 @@ void FlowRun::require_rows(std::span<const Index> vertices, const Points& to) co
                 fmt::format("vertex {} would lie at the same place as one beside it, or have a face without "
                             "area: move it elsewhere",
                             v));
-}
-
-void FlowRun::weigh(const std::function<double(Index v, Index w)>& squared_difference)
-{
-    if (!stepper_->can_change())
-        throw OptionError("edges of fields are kept only in converged and undecomposed steps: leave the approach "
-                          "automatic");
-    stepper_->weigh(squared_difference);
 }
 
 }  // namespace seamflow

@@ -6,7 +6,6 @@
 #include <optional>
 #include <vector>
 
-#include "partition/metrics/displacement.h"
 #include "partition/metrics/length_statistics.h"
 #include "partition/metrics/vertex_distance.h"
 #include "partition/polygon_mesh.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "partition/metrics/feathered.h"
+#include "partition/metrics/fast_marching.h"
 #include "partition/vector_area.h"
 
 namespace seamflow {

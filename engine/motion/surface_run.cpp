@@ -1,10 +1,12 @@
 #include "engine/motion/surface_run.h"
 
 #include <algorithm>
+#include <string>
 #include <utility>
 
 #include "engine/measure/remarks.h"
 #include "engine/measure/surface_measures.h"
+#include "engine/tasks/named.h"
 #include "engine/tasks/parallel_executor.h"
 #include "engine/tasks/stopwatch.h"
 #include "partition/metrics/bounding_box.h"

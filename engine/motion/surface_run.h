@@ -2,7 +2,6 @@
 
 #include <optional>
 #include <span>
-#include <string>
 
 #include "engine/measure/displacement_meter.h"
 #include "engine/measure/run_report.h"
@@ -12,21 +11,9 @@
 #include "engine/state/flow_state.h"
 #include "engine/surface/flowing_mesh.h"
 #include "engine/tasks/progress.h"
-#include "partition/errors.h"
 #include "solvers/laplacian/laplacian.h"
 
 namespace seamflow {
-
-/// Calls body(); a ComputationError from it gets a name before its message.
-template <class Body>
-void named(const std::string& name, Body&& body)
-{
-    try {
-        body();
-    } catch (const ComputationError& error) {
-        throw ComputationError(name + ", " + error.what());
-    }
-}
 
 /// Takes the steps of a surface, whatever moves it: applies the constraints on its motion, and measures and reports
 /// each step. A subclass has the stepper, and what else its kind of steps needs.

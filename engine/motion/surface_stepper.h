@@ -3,7 +3,7 @@
 #include <span>
 
 #include "engine/measure/run_report.h"
-#include "engine/motion/rescaling.h"
+#include "engine/motion/similarity.h"
 #include "engine/state/step_memory.h"
 #include "partition/polygon_mesh.h"
 

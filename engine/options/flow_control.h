@@ -7,8 +7,8 @@
 
 namespace seamflow {
 
+class HeatStepper;
 class Progress;
-class Stepper;
 struct Cut;
 struct FlowOptions;
 struct FlowState;
@@ -31,9 +31,9 @@ class StepSharing {
     /// @param mesh, topology, cut are not needed later; progress must outlive the stepper. @param curvature #V: ‖ΔV⁰‖,
     /// in 1/length; empty: as if it were 0.
     /// @pre can_share(cut, options). @throws as make_stepper.
-    virtual std::unique_ptr<Stepper> make_stepper(const PolygonMesh& mesh, const Topology& topology, const Cut& cut,
-                                                  const FlowOptions& options, std::vector<double> curvature,
-                                                  Progress& progress) = 0;
+    virtual std::unique_ptr<HeatStepper> make_stepper(const PolygonMesh& mesh, const Topology& topology, const Cut& cut,
+                                                      const FlowOptions& options, std::vector<double> curvature,
+                                                      Progress& progress) = 0;
 };
 
 /// What a flow is doing.

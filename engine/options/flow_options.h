@@ -8,7 +8,7 @@
 #include "engine/options/approach.h"
 #include "engine/options/motion_options.h"
 #include "partition/polygon_mesh.h"
-#include "solvers/conditions/robin_parameter.h"
+#include "solvers/conditions/robin_edge.h"
 #include "solvers/direct/factorisation.h"
 #include "solvers/filters/step_filter.h"
 #include "solvers/laplacian/laplacian.h"
@@ -62,18 +62,6 @@ enum class FlowEquation {
     /// matrix is factorised once: every step after the first is one solution. For symmetric Laplacians and backward
     /// Euler steps that are converged (Approach::Converged), undecomposed, or by conjugate gradients.
     Linear,
-};
-
-/// The weights of the edges of a surface, -K_vw.
-enum class Weights {
-    /// Those of the Laplacian. Cotangents of obtuse angles are below 0.
-    OfLaplacian,
-    /// At least 0, so that no step of Filter::Diffusion of order 1 leaves the range of its data (the discrete maximum
-    /// principle). Where the Laplacian has others, K and M are those of an intrinsic Delaunay triangulation of the
-    /// surface (see make_delaunay). For linear flows with Δ_A and Δ_B; the others have no such weights.
-    AtLeastZero,
-    /// Those of each face alone, too: where Flow::keep_field_edges weighs faces differently.
-    AtLeastZeroInFaces,
 };
 
 /// The η in p* = ((k_min² + η)(k_max² + η))^¼ (paper, eq. 26).
@@ -231,8 +219,6 @@ struct FlowOptions {
     /// h of Laplacian::Uniform: the edge length, in length, for which dt and radii hold. 0: the mean edge length of the
     /// given mesh. Must be finite, and not negative.
     double uniform_edge = 0.0;
-    /// Whether data that diffuse stay in their range. Ranks do not share steps with weights other than the Laplacian's.
-    Weights weights = Weights::OfLaplacian;
     /// Number of steps, from 0 (which leaves the mesh as it is) to most_steps.
     int steps = 1;
     /// The time integration scheme.

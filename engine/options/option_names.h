@@ -39,13 +39,6 @@ struct OptionNames<FlowEquation> {
 };
 
 template <>
-struct OptionNames<Weights> {
-    static constexpr NamedOption<Weights> list[]{{"of-laplacian", Weights::OfLaplacian},
-                                                 {"at-least-zero", Weights::AtLeastZero},
-                                                 {"at-least-zero-in-faces", Weights::AtLeastZeroInFaces}};
-};
-
-template <>
 struct OptionNames<Filter> {
     static constexpr NamedOption<Filter> list[]{{"diffusion", Filter::Diffusion}, {"low-pass", Filter::LowPass}};
 };

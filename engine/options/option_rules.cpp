@@ -127,9 +127,6 @@ constexpr Rule of_motion_of_flows[]{
 };
 
 constexpr Rule of_flow[]{
-    {[](const O& o, const Asked&) { return o.weights != Weights::OfLaplacian && o.flow != FlowEquation::Linear; }, 0,
-     "weights of at least 0 are for data that diffuse on a surface that stays: ask for a linear flow, or leave weights "
-     "out"},
     {[](const O& o, const Asked& asked) { return !is_plain(o, asked) && !is_symmetric(o.laplacian); }, 0,
      "{further}, but the Laplacian {laplacian} is not symmetric: use {symmetric}"},
     {[](const O& o, const Asked& asked) { return !is_plain(o, asked) && o.scheme == Scheme::ExplicitEuler; }, 0,

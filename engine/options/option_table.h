@@ -19,8 +19,8 @@ template <class Options>
 auto option_table(Options& options)
 {
     using namespace concern;
-    auto& [laplacian, flow, filter, order, time_step, time_step_edges, radius, uniform_edge, weights, steps, scheme,
-           cut, interface, accuracy, motion, resources, report] = options;
+    auto& [laplacian, flow, filter, order, time_step, time_step_edges, radius, uniform_edge, steps, scheme, cut,
+           interface, accuracy, motion, resources, report] = options;
     auto& [subdomains, labels] = cut;
     auto& [conditions, transmission, p, p_rule, p_edge, q, overlap, colouring, sweep, correction] = interface;
     auto& [tolerance, approach, converge_iterations, largest_update] = accuracy;
@@ -59,7 +59,6 @@ auto option_table(Options& options)
         row(uniform_edge,
             {.field = "uniform_edge",
              .limits = not_negative("at least 0 and finite (a length; 0: the mean edge length of the mesh)")}),
-        row(weights, {"weights"}),
         row(steps, {"steps", "--steps", group::amount, no_result, "number of steps [1]", limits_of_steps})};
     const std::tuple steps_and_report{
         row(subdomains,

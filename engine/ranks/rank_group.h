@@ -38,9 +38,9 @@ class RankGroup final : public StepSharing {
     /// other steps are taken by rank 0 alone.
     [[nodiscard]] bool can_share(const Cut& cut, const FlowOptions& options) const override;
     /// See RankStepper.
-    std::unique_ptr<Stepper> make_stepper(const PolygonMesh& mesh, const Topology& topology, const Cut& cut,
-                                          const FlowOptions& options, std::vector<double> curvature,
-                                          Progress& progress) override;
+    std::unique_ptr<HeatStepper> make_stepper(const PolygonMesh& mesh, const Topology& topology, const Cut& cut,
+                                              const FlowOptions& options, std::vector<double> curvature,
+                                              Progress& progress) override;
 
     /// Returns a number for a further flow.
     int add_flow() { return n_flows_++; }

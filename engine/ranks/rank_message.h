@@ -17,7 +17,7 @@ enum class RankTask : std::uint8_t {
     Step,
     /// Answer: rows, one for each vertex whose position this rank sends.
     Positions,
-    /// Rows of all vertices: Stepper::set_positions, and Stepper::set_data, with its DataSteps.
+    /// Rows of all vertices: Stepper::set_positions, and HeatStepper::set_data, with its DataSteps.
     SetPositions,
     SetData,
     /// Numbers of vertices, and rows: Stepper::set_vertices.

@@ -94,12 +94,9 @@ RankPart::RankPart(Communicator& comm, DealtMesh dealt, Progress& progress)
         names.push_back({dealt_.known[s], decomposition.sub_meshes[s].n_vertices, dealt_.first_faces[s]});
     RankSubMeshes own{std::move(decomposition), std::make_unique<CommunicatorRanks>(comm, dealt_.holders, dealt_.known),
                       std::move(names)};
-    if (dealt_.options.accuracy.tolerance)
-        stepper_ = std::make_unique<SchurStepper>(dealt_.mesh, std::move(own), dealt_.options, progress);
-    else
-        take_sweeps(std::move(own), progress);
     std::vector<Index> around;
-    for (const Index v : stepper_->saved_vertices()) {
+    for (const Index v : dealt_.options.accuracy.tolerance ? take_converged_steps(std::move(own), progress)
+                                                           : take_sweeps(std::move(own), progress)) {
         labels_around(dealt_.topology, dealt_.labels, v, around);
         saved_.push_back({dealt_.known[around.front()], dealt_.vertex_numbers[v]});
     }
@@ -111,7 +108,20 @@ RankPart::RankPart(Communicator& comm, DealtMesh dealt, Progress& progress)
     dealt_.labels = std::vector<Index>();
 }
 
-void RankPart::take_sweeps(RankSubMeshes sub_meshes, Progress& progress)
+/// Makes the stepper for converged steps.
+/// @returns the vertex of each row that it saves.
+std::vector<Index> RankPart::take_converged_steps(RankSubMeshes sub_meshes, Progress& progress)
+{
+    auto stepper = std::make_unique<SchurStepper>(dealt_.mesh, std::move(sub_meshes), dealt_.options, progress);
+    std::vector<Index> saved = stepper->saved_vertices();
+    heat_ = stepper.get();
+    stepper_ = std::move(stepper);
+    return saved;
+}
+
+/// Makes the stepper for sweeps.
+/// @returns the vertex of each row that it saves.
+std::vector<Index> RankPart::take_sweeps(RankSubMeshes sub_meshes, Progress& progress)
 {
     exchange_.emplace(comm_, dealt_);
     SweepSubMeshes own{.own = std::move(sub_meshes), .remote = &*exchange_};
@@ -130,7 +140,11 @@ void RankPart::take_sweeps(RankSubMeshes sub_meshes, Progress& progress)
     };
     for (const FactorWindow& window : sufficient_windows(adjacency, stage_of_all))
         own.windows.push_back({own_of(window.order), own_of(window.freed), window.size});
-    stepper_ = std::make_unique<SweepStepper>(dealt_.mesh, dealt_.topology, std::move(own), dealt_.options, progress);
+    auto stepper =
+        std::make_unique<SweepStepper>(dealt_.mesh, dealt_.topology, std::move(own), dealt_.options, progress);
+    std::vector<Index> saved = stepper->saved_vertices();
+    stepper_ = std::move(stepper);
+    return saved;
 }
 
 /// Takes the step of this rank, and counts the messages sent.
@@ -159,7 +173,7 @@ Bytes RankPart::act(RankTask task, Unpacker& message)
         break;
     case RankTask::SetData: {
         const auto steps = message.get<DataSteps>();
-        stepper_->set_data(message.get_points(), steps);
+        heat_->set_data(message.get_points(), steps);
         break;
     }
     case RankTask::SetVertices: {

@@ -10,7 +10,7 @@
 #include "engine/ranks/dealt_mesh.h"
 #include "engine/ranks/rank_exchange.h"
 #include "engine/ranks/rank_message.h"
-#include "engine/steppers/stepper.h"
+#include "engine/steppers/heat_stepper.h"
 #include "engine/steppers/sweep_stepper.h"
 #include "engine/tasks/progress.h"
 
@@ -32,7 +32,8 @@ class RankPart {
 
   private:
     void step();
-    void take_sweeps(RankSubMeshes sub_meshes, Progress& progress);
+    std::vector<Index> take_converged_steps(RankSubMeshes sub_meshes, Progress& progress);
+    std::vector<Index> take_sweeps(RankSubMeshes sub_meshes, Progress& progress);
     void report_to(Packer& answer) const;
 
     Communicator& comm_;
@@ -48,6 +49,8 @@ class RankPart {
     std::vector<SavedRow> saved_;
     std::optional<RankExchange> exchange_;
     std::unique_ptr<Stepper> stepper_;
+    /// The same stepper, if its steps are converged; null if they are sweeps.
+    HeatStepper* heat_ = nullptr;
     /// #V by 3: Vᵏ, during a step.
     Points before_ = Points(0, 3);
 };

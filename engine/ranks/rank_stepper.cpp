@@ -20,9 +20,9 @@ bool RankGroup::can_share(const Cut& cut, const FlowOptions& options) const
     return size() > 1 && cut.n_parts > 1 && is_in_sub_meshes && is_known && !options.report.record_schedule;
 }
 
-std::unique_ptr<Stepper> RankGroup::make_stepper(const PolygonMesh& mesh, const Topology& topology, const Cut& cut,
-                                                 const FlowOptions& options, std::vector<double> curvature,
-                                                 Progress& progress)
+std::unique_ptr<HeatStepper> RankGroup::make_stepper(const PolygonMesh& mesh, const Topology& topology, const Cut& cut,
+                                                     const FlowOptions& options, std::vector<double> curvature,
+                                                     Progress& progress)
 {
     return std::make_unique<RankStepper>(*this, mesh, topology, cut, options, std::move(curvature), progress);
 }

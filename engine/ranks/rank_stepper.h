@@ -8,7 +8,7 @@
 #include "engine/options/flow_options.h"
 #include "engine/ranks/rank_group.h"
 #include "engine/ranks/rank_part.h"
-#include "engine/steppers/stepper.h"
+#include "engine/steppers/heat_stepper.h"
 #include "engine/tasks/progress.h"
 #include "engine/tasks/workers.h"
 #include "partition/cut/cut.h"
@@ -19,7 +19,7 @@ namespace seamflow {
 /// Takes steps in sub-meshes that are dealt to ranks. Each rank, rank 0 included, has a stepper for its own sub-meshes;
 /// ranks exchange the data that cross Γ. The bits are those of a single process, on any number of ranks. Positions are
 /// sent to rank 0 only when it asks for them.
-class RankStepper final : public Stepper {
+class RankStepper final : public HeatStepper {
   public:
     /// Deals the sub-meshes.
     /// @param ranks, progress must outlive the stepper; ranks.can_share(cut, options) is true.

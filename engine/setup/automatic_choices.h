@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/measure/surface_measures.h"
+#include "engine/measure/mesh_size.h"
 #include "engine/options/flow_options.h"
 #include "engine/setup/cost_model.h"
 #include "partition/polygon_mesh.h"

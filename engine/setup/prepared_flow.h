@@ -3,21 +3,16 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <string>
 #include <string_view>
 #include <vector>
 
 #include "engine/measure/displacement_meter.h"
 #include "engine/options/flow_control.h"
 #include "engine/options/flow_options.h"
-#include "engine/setup/automatic_choices.h"
-#include "engine/setup/cost_model.h"
+#include "engine/setup/decided_steps.h"
 #include "engine/state/flow_state.h"
 #include "engine/surface/surface.h"
 #include "engine/tasks/progress.h"
-#include "partition/cut/cut.h"
-#include "partition/remark.h"
-#include "solvers/laplacian/given_stiffness.h"
 
 namespace seamflow {
 
@@ -26,30 +21,17 @@ struct PreparedFlow {
     /// The given options, with choices where they left something open: the approach, the tolerance. Labels are those of
     /// the flowing faces.
     FlowOptions options;
-    /// The input of the costs of steps; empty if the way of taking steps was not chosen by cost.
-    std::optional<FlowSize> costs;
-    /// The approach that replaces steps whose factors do not fit into the memory limit; empty: none.
-    std::optional<ApproachChoice> without_factors;
-    /// Replaces `choices` if `without_factors` is used.
-    std::vector<Remark> choices_without_factors;
     /// Checksum of the mesh and the given options, by which a checkpoint is recognised. 0 if it is not needed.
     std::uint64_t identity = 0;
     Surface surface;
     /// The condition under which vertices at junctions would move: the result of need_of_junctions in
     /// automatic_choices.h.
     std::string_view need_of_junctions;
-    /// K and M, if the weights of the Laplacian did not satisfy FlowOptions::weights; otherwise empty.
-    std::optional<GivenStiffness> stiffness;
-    /// The sub-mesh of every face.
-    Cut cut;
+    DecidedSteps steps;
     /// #V: ‖ΔV⁰‖, in 1/length; empty if it is not needed per vertex.
     std::vector<double> curvature;
     /// Refers to the topology; empty without ReportOptions::measures.
     std::optional<DisplacementMeter> meter;
-    /// The reasons for the choice of sub-meshes and steps.
-    std::vector<Remark> choices;
-    /// Remarks on the mesh and the cut.
-    std::vector<Remark> remarks;
 };
 
 /// Checks a mesh and decides how it flows: which faces and vertices take part, whether steps are converged, which
@@ -61,9 +43,6 @@ struct PreparedFlow {
 ///         METIS; Cancelled.
 std::unique_ptr<PreparedFlow> prepare(FlowingMesh& mesh, FlowOptions options, bool is_observed,
                                       const FlowControl& control, Progress& progress);
-
-/// Changes the flow to conjugate gradients, as PreparedFlow::without_factors says: no sub-meshes, no factorisations.
-void leave_factors(PreparedFlow& prepared, const PolygonMesh& mesh, const Executor& exec);
 
 /// Adds the decisions and measurements to the report.
 void report_to(const PreparedFlow& prepared, const FlowingMesh& mesh, FlowReport& report);

@@ -10,16 +10,6 @@
 
 namespace seamflow {
 
-FlowTerms terms_of(const FlowOptions& options, const Points& initial)
-{
-    return {.initial = &initial,
-            .keeps_stiffness = options.flow != FlowEquation::MeanCurvature,
-            .keeps_mass = options.flow == FlowEquation::Linear,
-            .weights = options.motion.attachment_weights,
-            .uniform_weight = options.motion.attachment,
-            .step_scales = options.motion.strength};
-}
-
 std::unique_ptr<SubMeshSystem> make_equations(const SubMesh& sub_mesh, std::vector<Index> twin, bool is_only,
                                               const FlowOptions& options, const FlowTerms& terms,
                                               SolverWorkspace& workspace)

@@ -11,10 +11,6 @@
 /// The settings of sub-meshes that follow from the options of a flow.
 namespace seamflow {
 
-/// The terms of the flow's equations besides Vᵏ.
-/// @param initial #V by 3: V⁰. It and the options must outlive the result.
-FlowTerms terms_of(const FlowOptions& options, const Points& initial);
-
 /// Makes the equations of a sub-mesh.
 /// @param sub_mesh must outlive the equations.
 /// @param twin of the sub-mesh, kept by equations that need it.

@@ -1,16 +1,19 @@
 #include "engine/steppers/conjugate_gradient_stepper.h"
 
-#include "engine/setup/sub_mesh_options.h"
+#include "engine/setup/equation_terms.h"
 
 namespace seamflow {
 
 ConjugateGradientStepper::ConjugateGradientStepper(const PolygonMesh& mesh, const Topology& topology,
-                                                   const FlowOptions& options, Progress& progress)
+                                                   const FlowOptions& options, Progress& progress,
+                                                   const GivenStiffness* given)
     : ConvergedStepper(mesh, 0, options, 1.0, progress)
     , mesh_(&mesh)
     , system_(mesh, topology, laplacian_of(options), terms_of(options, mesh.vertices), progress.exec(),
               !filter_of(options).is_plain())
 {
+    if (given != nullptr)
+        system_.give(*given);
 }
 
 InterfaceResult ConjugateGradientStepper::solve_equation(const IterationStop& stop, const Executor& exec)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "engine/steppers/converged_stepper.h"
+#include "solvers/laplacian/given_stiffness.h"
 #include "solvers/systems/whole_mesh_system.h"
 
 namespace seamflow {
@@ -11,14 +12,14 @@ namespace seamflow {
 class ConjugateGradientStepper final : public ConvergedStepper {
   public:
     /// @param mesh, topology, progress must outlive the stepper.
+    /// @param given K and M of a linear flow in place of those of the Laplacian, which must outlive the stepper; null:
+    ///        none.
     ConjugateGradientStepper(const PolygonMesh& mesh, const Topology& topology, const FlowOptions& options,
-                             Progress& progress);
+                             Progress& progress, const GivenStiffness* given = nullptr);
 
     /// Sets the solution with which iterations of the next step begin, #V by 3, unless Vᵏ is nearer to the solution;
     /// null: Vᵏ. It must exist until the step has been taken.
     void begin_with(const Points* guess) { guess_ = guess; }
-
-    void give(const GivenStiffness& given) override { system_.give(given); }
 
     using ConvergedStepper::report_to;
     void report_to(FlowReport& report) const override;

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "engine/options/flow_options.h"
-#include "engine/steppers/stepper.h"
+#include "engine/steppers/heat_stepper.h"
 #include "engine/tasks/progress.h"
 #include "engine/tasks/task_graph.h"
 #include "engine/tasks/workspaces.h"
@@ -16,7 +16,7 @@ namespace seamflow {
 /// Common base of steppers that take the undecomposed step itself. Each step solves an equation to a tolerance by an
 /// iteration: an equation for the vertices that sub-meshes share, with tasks of the sub-meshes before it and perhaps
 /// after it; or an equation for the whole mesh.
-class ConvergedStepper : public Stepper {
+class ConvergedStepper : public HeatStepper {
   public:
     void step(const Points& before) final;
     [[nodiscard]] const Points& positions() const final { return positions_; }

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/setup/sub_mesh_options.h"
+#include "engine/setup/equation_terms.h"
 #include "engine/tasks/parallel_executor.h"
 #include "partition/index_lists.h"
 #include "solvers/direct/columns.h"

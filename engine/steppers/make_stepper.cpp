@@ -6,6 +6,7 @@
 #include "engine/steppers/explicit_stepper.h"
 #include "engine/steppers/schur_stepper.h"
 #include "engine/steppers/sweep_stepper.h"
+#include "partition/cut/cut_into.h"
 
 namespace seamflow {
 

@@ -4,8 +4,6 @@
 #include <limits>
 #include <utility>
 
-#include "engine/setup/automatic_choices.h"
-#include "engine/setup/sub_mesh_options.h"
 #include "engine/tasks/parallel_executor.h"
 #include "engine/tasks/stopwatch.h"
 #include "solvers/direct/columns.h"
@@ -197,7 +195,7 @@ bool SchurStepper::can_take_columns() const
            sub_meshes_.front()->can_take_columns();
 }
 
-void SchurStepper::take_steps(Eigen::Ref<Eigen::MatrixXd> fields, int n, const Executor& exec)
+void SchurStepper::take_columns(Eigen::Ref<Eigen::MatrixXd> fields, int n, const Executor& exec)
 {
     run_for_sub_mesh(names_.front(), [&] { sub_meshes_.front()->take_steps(time_step_, n, fields, exec); });
 }
@@ -246,14 +244,6 @@ void SchurStepper::attach(std::span<const Index> vertices, std::span<const doubl
            [&](std::size_t i, CondensedSubMesh& sub_mesh, Index v) { sub_mesh.system().attach(v, weights[i]); });
 }
 
-void SchurStepper::give(const GivenStiffness& given)
-{
-    for_each(run_in_parallel, static_cast<Index>(sub_meshes_.size()), [&](Index s) {
-        if (is_own(s))
-            sub_meshes_[s]->system().give(given, sub_meshes_[s]->vertices().local_to_global);
-    });
-}
-
 void SchurStepper::weigh(const std::function<double(Index v, Index w)>& squared_difference)
 {
     std::ranges::fill(changed_, 1);
@@ -284,7 +274,6 @@ void SchurStepper::save(StepMemory& memory) const
     memory.arrays = {interface_.update};
 }
 
-/// The vertices of Γ, with which all saved arrays have their rows.
 std::vector<Index> SchurStepper::saved_vertices() const
 {
     const InterfaceCopies& copies = equation_.copies();

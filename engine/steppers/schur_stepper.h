@@ -18,6 +18,7 @@
 #include "partition/topology.h"
 #include "solvers/interface/interface_equation.h"
 #include "solvers/interface/interface_ranks.h"
+#include "solvers/laplacian/given_stiffness.h"
 
 namespace seamflow {
 
@@ -34,30 +35,45 @@ namespace seamflow {
 /// Where the memory limit does not let a sub-mesh's factor live until its back substitution, the factor is recomputed
 /// whenever it is needed, by the same arithmetic: the bits are the same. Such sub-meshes take turns, as many at a time
 /// as there are slots (see KeptFactors).
-class SchurStepper final : public ConvergedStepper {
+class SchurStepper final : public ConvergedStepper, public ChangeableEquations {
   public:
     /// @param progress must outlive the stepper.
+    /// @param given K and M of a linear flow in place of those of the Laplacian, which is a sum over faces; null: none.
     /// @throws ComputationError naming the sub-mesh if an analysis fails; MemoryLimitError if the limit is too low;
     ///         Cancelled, as all functions that take time.
     SchurStepper(const PolygonMesh& mesh, const Topology& topology, const Cut& cut, const FlowOptions& options,
-                 Progress& progress);
+                 Progress& progress, const GivenStiffness* given = nullptr);
 
     /// The stepper for the sub-meshes of one of several ranks, which construct their steppers, and take steps,
     /// together.
     /// @param mesh the part of the mesh that this rank knows; positions() are Vᵏ⁺¹ only in its own sub-meshes.
-    SchurStepper(const PolygonMesh& mesh, RankSubMeshes sub_meshes, const FlowOptions& options, Progress& progress);
+    SchurStepper(const PolygonMesh& mesh, RankSubMeshes sub_meshes, const FlowOptions& options, Progress& progress,
+                 const GivenStiffness* given = nullptr);
 
     void set_data(const Points& data, DataSteps steps) override;
-    [[nodiscard]] bool can_take_columns() const override;
-    void take_steps(Eigen::Ref<Eigen::MatrixXd> fields, int n, const Executor& exec) override;
-    [[nodiscard]] bool can_change() const override { return true; }
+
+    /// Whether take_columns can be called: after a step of a linear flow of the whole mesh.
+    [[nodiscard]] bool can_take_columns() const;
+
+    /// Takes n steps with many columns of other data at once; positions() do not change. Only if can_take_columns() is
+    /// true.
+    /// @param fields #V by any number of columns. @param exec whose threads share the columns.
+    void take_columns(Eigen::Ref<Eigen::MatrixXd> fields, int n, const Executor& exec);
+
+    /// Multiplies the K of each face, or of each edge for Laplacians that are sums over edges, from now on by 1 / (1 +
+    /// d²), where d² is the largest squared_difference(v, w) of two of its vertices: diffusion is reduced where a field
+    /// changes fast (Perona and Malik 1990). Only for linear flows.
+    void weigh(const std::function<double(Index v, Index w)>& squared_difference);
+
+    [[nodiscard]] ChangeableEquations* equations() override { return this; }
     void set_fixed(std::span<const Index> vertices, bool is_fixed) override;
     void attach(std::span<const Index> vertices, std::span<const double> weights) override;
-    void give(const GivenStiffness& given) override;
-    void weigh(const std::function<double(Index v, Index w)>& squared_difference) override;
     void set_reference_vertices(std::span<const Index> vertices, const Points& to) override;
     void save(StepMemory& memory) const override;
-    [[nodiscard]] std::vector<Index> saved_vertices() const override;
+
+    /// Per row of each array that `save` writes: the vertex of Γ to which the row belongs.
+    [[nodiscard]] std::vector<Index> saved_vertices() const;
+
     using ConvergedStepper::report_to;
     void report_to(FlowReport& report) const override;
 
@@ -92,7 +108,7 @@ class SchurStepper final : public ConvergedStepper {
     [[nodiscard]] bool is_own(Index s) const { return ranks_->is_own(s); }
     [[nodiscard]] bool is_kept(Index s) const { return factors_.plan.whole[s] != 0; }
     void make_sub_meshes(Decomposition& decomposition, const PolygonMesh& mesh, const FlowOptions& options,
-                         Progress& progress);
+                         const GivenStiffness* given, Progress& progress);
     void choose_factors(const FlowOptions& options);
     void make_graph();
     void take_turns(const std::vector<TaskGraph::Node>& tasks);

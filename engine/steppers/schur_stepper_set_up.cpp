@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "engine/setup/automatic_choices.h"
-#include "engine/setup/sub_mesh_options.h"
+#include "engine/setup/equation_terms.h"
 #include "engine/steppers/schur_stepper.h"
 #include "engine/tasks/parallel_executor.h"
 #include "solvers/laplacian/geometry.h"
@@ -42,13 +42,14 @@ Balancing balancing_for(const Decomposition& decomposition, const PolygonMesh& m
 }  // namespace
 
 SchurStepper::SchurStepper(const PolygonMesh& mesh, const Topology& topology, const Cut& cut,
-                           const FlowOptions& options, Progress& progress)
-    : SchurStepper(mesh, alone(decompose(mesh, topology, cut.labels, cut.n_parts, progress.exec())), options, progress)
+                           const FlowOptions& options, Progress& progress, const GivenStiffness* given)
+    : SchurStepper(mesh, alone(decompose(mesh, topology, cut.labels, cut.n_parts, progress.exec())), options, progress,
+                   given)
 {
 }
 
 SchurStepper::SchurStepper(const PolygonMesh& mesh, RankSubMeshes sub_meshes, const FlowOptions& options,
-                           Progress& progress)
+                           Progress& progress, const GivenStiffness* given)
     : ConvergedStepper(mesh, static_cast<Index>(sub_meshes.decomposition.sub_meshes.size()), options,
                        static_cast<double>(sub_meshes.decomposition.sub_meshes.size()), progress)
     , ranks_(std::move(sub_meshes.ranks))
@@ -66,7 +67,7 @@ SchurStepper::SchurStepper(const PolygonMesh& mesh, RankSubMeshes sub_meshes, co
     interface_.n_vertices = decomposition.n_interface_vertices;
     interface_.complements.resize(sub_meshes_.size());
     interface_.condensed.resize(equation_.copies().n_copies(), 3);
-    make_sub_meshes(decomposition, mesh, options, progress);
+    make_sub_meshes(decomposition, mesh, options, given, progress);
     choose_factors(options);
     make_graph();
 }
@@ -74,7 +75,7 @@ SchurStepper::SchurStepper(const PolygonMesh& mesh, RankSubMeshes sub_meshes, co
 /// Makes the sub-meshes. Data of `decomposition` that steps need are moved into them; the rest is freed when all are
 /// analysed.
 void SchurStepper::make_sub_meshes(Decomposition& decomposition, const PolygonMesh& mesh, const FlowOptions& options,
-                                   Progress& progress)
+                                   const GivenStiffness* given, Progress& progress)
 {
     const FlowTerms terms = terms_of(options, mesh.vertices);
     const InterfaceCopies& copies = equation_.copies();
@@ -93,6 +94,8 @@ void SchurStepper::make_sub_meshes(Decomposition& decomposition, const PolygonMe
                                                      sub_meshes_.size() == 1 ? run_in_parallel : Executor());
         });
         own.local_to_global = std::move(sub_mesh.local_to_global);
+        if (given != nullptr)
+            system->give(*given, own.local_to_global);
         own.owned = std::move(sub_mesh.owned);
         const auto on_interface = std::span(copies.vertex).subspan(usize(copies.offsets[s]), usize(copies.n_in(s)));
         sub_meshes_[s] = std::make_unique<CondensedSubMesh>(std::move(own), std::move(system), on_interface,

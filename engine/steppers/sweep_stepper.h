@@ -62,7 +62,8 @@ class SweepStepper final : public Stepper {
     void set_positions(const Points& image, const SimilarityOfComponents& similarity) override;
     void set_vertices(std::span<const Index> vertices, const Points& to) override;
     void save(StepMemory& memory) const override;
-    [[nodiscard]] std::vector<Index> saved_vertices() const override;
+    /// Per row of each array that `save` writes: the vertex of the mesh to which the row belongs.
+    [[nodiscard]] std::vector<Index> saved_vertices() const;
     void restore(const StepMemory& memory) override;
     void add_seconds(PhaseSeconds& seconds) const override;
     void report_to(StepReport& report) const override;

@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include "engine/setup/equation_terms.h"
 #include "engine/setup/sub_mesh_options.h"
 #include "engine/steppers/sweep_order.h"
 #include "engine/steppers/sweep_stepper.h"

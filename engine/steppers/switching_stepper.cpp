@@ -49,8 +49,6 @@ void SwitchingStepper::try_to_make_factors()
     complete_ = *topology_;
     complete_.twin = make_topology(*mesh_, progress_->exec()).twin;
     factors_ = make_undecomposed_stepper(*mesh_, complete_, *options_, options_->resources.memory_limit, *progress_);
-    if (given_ != nullptr)
-        factors_->give(*given_);
 }
 
 /// Solves the step by the factors.

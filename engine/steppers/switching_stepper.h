@@ -25,15 +25,9 @@ class SwitchingStepper final : public Stepper {
     void step(const Points& before) override;
     [[nodiscard]] const Points& positions() const override { return gradients_.positions(); }
     void set_positions(const Points& image, const SimilarityOfComponents& similarity) override;
-    void set_data(const Points& data, DataSteps steps) override { gradients_.set_data(data, steps); }
     void set_vertices(std::span<const Index> vertices, const Points& to) override
     {
         gradients_.set_vertices(vertices, to);
-    }
-    void give(const GivenStiffness& given) override
-    {
-        given_ = &given;
-        gradients_.give(given);
     }
     void save(StepMemory& memory) const override;
     void restore(const StepMemory& memory) override;
@@ -52,7 +46,6 @@ class SwitchingStepper final : public Stepper {
     const FlowOptions* options_;
     FlowSize size_;
     Progress* progress_;
-    const GivenStiffness* given_ = nullptr;
     ConjugateGradientStepper gradients_;
     /// The topology with twins, which the factorisation needs; empty until there is a factorisation.
     Topology complete_;

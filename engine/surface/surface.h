@@ -4,8 +4,8 @@
 #include <functional>
 #include <vector>
 
+#include "engine/measure/mesh_size.h"
 #include "engine/measure/run_report.h"
-#include "engine/measure/surface_measures.h"
 #include "engine/options/motion_options.h"
 #include "engine/surface/flowing_mesh.h"
 #include "engine/tasks/progress.h"

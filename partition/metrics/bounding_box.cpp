@@ -1,6 +1,6 @@
 #include "partition/metrics/bounding_box.h"
 
-#include "partition/metrics/box_tree.h"
+#include "partition/metrics/box.h"
 
 namespace seamflow {
 

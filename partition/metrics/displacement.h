@@ -38,11 +38,6 @@ struct DisplacementField {
 DisplacementField displacement_field(const PolygonMesh& mesh, const Points& before, const Points& after);
 
 /// Statistics of both components over all vertices where they are defined, including vertices that do not move.
-struct DisplacementStatistics {
-    LengthStatistics tangential;
-    LengthStatistics normal;
-};
-
 DisplacementStatistics displacement_statistics(const DisplacementField& field);
 
 }  // namespace seamflow

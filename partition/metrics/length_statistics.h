@@ -12,6 +12,12 @@ struct LengthStatistics {
     double max = 0.0;
 };
 
+/// Statistics of the tangential and the normal components of displacements (see displacement_statistics).
+struct DisplacementStatistics {
+    LengthStatistics tangential;
+    LengthStatistics normal;
+};
+
 /// Accumulates the sums for statistics of some lengths.
 class LengthSums {
   public:

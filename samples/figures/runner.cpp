@@ -14,7 +14,7 @@
 
 #include "engine/mean_curvature_flow.h"
 #include "engine/measure/displacement_meter.h"
-#include "engine/measure/surface_measures.h"
+#include "engine/measure/mesh_size.h"
 #include "partition/errors.h"
 #include "partition/metrics/roughness.h"
 #include "partition/metrics/surface_distance.h"

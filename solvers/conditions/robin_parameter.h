@@ -1,23 +1,11 @@
 #pragma once
 
 #include "partition/polygon_mesh.h"
+#include "solvers/conditions/robin_edge.h"
 
 namespace seamflow {
 
 struct SubMesh;
-
-/// Which edge of a sub-mesh stands for ‖e‖ in k_max = π / ‖e‖.
-enum class PEdge {
-    /// The shortest edge if it has at least a tenth of the length of Percentile; otherwise it is that of a sliver, and
-    /// Percentile is used.
-    Automatic,
-    /// The shortest edge, as in the paper. One sliver makes p* huge.
-    Minimum,
-    /// The edge than which 5 % of all edges are shorter.
-    Percentile,
-    /// The mean length over half-edges.
-    Mean,
-};
 
 /// p* of a sub-mesh (paper, eqs. 26 and 27, after Gander 2006): ((k_min² + η)(k_max² + η))^¼ with k_min = π /
 /// l and k_max = π / ‖e‖, in 1/length; ‖e‖ is an edge of the sub-mesh, and l the largest distance from Γ along its

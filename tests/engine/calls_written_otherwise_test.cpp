@@ -10,6 +10,7 @@
 #include <doctest/doctest.h>
 
 #include "engine/diffuse.h"
+#include "engine/fields/heat_equation.h"
 #include "engine/flow.h"
 #include "engine/geodesic_distance.h"
 #include "partition/metrics/roughness.h"
@@ -83,21 +84,32 @@ Eigen::MatrixXd diffused(const Arguments& a, FieldOptions of_fields)
     return fields;
 }
 
-/// With vertices moved, and edges of the fields kept, as they are then.
+/// On the surface with vertices moved, with edges of the fields kept, maybe in place of others.
 Eigen::MatrixXd diffused_after_moves(const Arguments& a, bool keeps_before)
 {
     PolygonMesh mesh = a.w.mesh;
     FlowOptions options = a.options;
     options.flow = FlowEquation::Linear;
     options.accuracy.approach = Approach::Converged;
-    Flow flow(mesh, options);
+    Flow(mesh, options).move(a.vertices, a.to);
+    HeatEquation heat(mesh, options);
     Eigen::MatrixXd fields = a.fields;
     if (keeps_before)
-        flow.keep_field_edges(fields, 0.5);
-    flow.move(a.vertices, a.to);
-    flow.keep_field_edges(fields, 0.5);
-    flow.diffuse(fields, 2);
+        heat.keep_field_edges(2.0 * fields, 0.5);
+    heat.keep_field_edges(fields, 0.5);
+    heat.take_steps(fields, 2);
     return fields;
+}
+
+/// Coordinates that diffuse.
+Eigen::MatrixXd diffused_coordinates(const Arguments& a, Laplacian laplacian, Weights weights)
+{
+    FlowOptions options = a.options;
+    options.flow = FlowEquation::Linear;
+    options.laplacian = laplacian;
+    Eigen::MatrixXd fields = a.w.mesh.vertices;
+    HeatEquation(a.w.mesh, options, weights).take_steps(fields, 2);
+    return a.w.read_back(Points(fields));
 }
 
 /// The same number at every vertex.
@@ -134,6 +146,14 @@ const std::vector<Call>& calls()
              return diffused(with_gaps, {.fill = true});
          }},
         {"diffuse after moves", [](const Arguments& a) { return diffused_after_moves(a, true); }},
+        {"coordinates diffuse, weights at least 0",
+         [](const Arguments& a) {
+             return diffused_coordinates(a, Laplacian::VirtualRefinement, Weights::AtLeastZero);
+         }},
+        {"coordinates diffuse, weights at least 0 in faces",
+         [](const Arguments& a) {
+             return diffused_coordinates(a, Laplacian::AlexaWardetzky, Weights::AtLeastZeroInFaces);
+         }},
         {"distances",
          [](const Arguments& a) -> Eigen::MatrixXd {
              return geodesic_distance(a.w.mesh, a.vertices, a.options.resources) / a.edge;
@@ -253,7 +273,8 @@ TEST_CASE("whatever is called, however the surface is written, the result is the
                 std::string message;
                 try {
                     difference = w.difference(result_of(call, mesh, w), expected);
-                    if (call.name.starts_with("hold") || call.name.starts_with("move") || call.name == "attach")
+                    if (call.name.starts_with("hold") || call.name.starts_with("move") || call.name == "attach" ||
+                        call.name.starts_with("coordinates"))
                         difference /= mean_edge_length(mesh);
                 } catch (const std::exception& error) {
                     message = error.what();
@@ -264,7 +285,7 @@ TEST_CASE("whatever is called, however the surface is written, the result is the
         }
 }
 
-TEST_CASE("edges of fields that are kept before vertices move leave no trace")
+TEST_CASE("edges of fields that are kept leave no trace when others are kept in their place")
 {
     for (const PolygonMesh& mesh : {creased_sheet(), rimmed_ball()}) {
         const Writing w = Change{{{"", [](Writing&) {}}}}(mesh);

@@ -1,6 +1,4 @@
-#include <limits>
 #include <memory>
-#include <string>
 #include <vector>
 
 #include <doctest/doctest.h>
@@ -13,7 +11,6 @@
 #include "samples/meshes/meshes.h"
 #include "tests/support/flow_kinds.h"
 #include "tests/support/flows.h"
-#include "tests/support/messages.h"
 
 using namespace seamflow;
 using test::same_bits;
@@ -113,27 +110,4 @@ TEST_CASE("after a failure a flow has its last complete step, and takes no furth
     CHECK(same_bits(moved.vertices, kept));
     PolygonMesh faulty = mesh;
     CHECK_THROWS_AS(Flow(faulty, FlowOptions{.time_step = -1.0}), OptionError);
-}
-
-TEST_CASE("a flow refuses fields that are not for it, with what is wrong, and leaves them")
-{
-    PolygonMesh mesh = make_quads(400);
-    const Eigen::MatrixXd ones = Eigen::MatrixXd::Ones(mesh.n_vertices(), 2);
-    FlowOptions options{.time_step = 1e-3};
-    Flow moving(mesh, options);
-    Eigen::MatrixXd fields = ones;
-    CHECK(test::message_of<OptionError>([&] { moving.diffuse(fields, 1); }) ==
-          "only linear flows are applied to fields: their matrix stays the same");
-    CHECK(fields == ones);
-    options.flow = FlowEquation::Linear;
-    Flow linear(mesh, options);
-    Eigen::MatrixXd short_ones = ones.topRows(3);
-    const std::string wrong_rows = "the fields have 3 rows, but the mesh has " + std::to_string(mesh.n_vertices()) +
-                                   " vertices: give one for each";
-    CHECK(test::message_of<InputError>([&] { linear.diffuse(short_ones, 1); }) == wrong_rows);
-    CHECK(test::message_of<InputError>([&] { linear.keep_field_edges(short_ones, 1.0); }) == wrong_rows);
-    fields(3, 1) = std::numeric_limits<double>::infinity();
-    CHECK(test::contains(test::message_of<InputError>([&] { linear.diffuse(fields, 1); }),
-                         "fields need a finite number at each"));
-    CHECK(fields.col(0) == ones.col(0));
 }

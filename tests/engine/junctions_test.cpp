@@ -12,12 +12,12 @@
 #include <doctest/doctest.h>
 
 #include "engine/denoise.h"
+#include "engine/measure/mesh_size.h"
 #include "engine/measure/remarks.h"
-#include "engine/measure/surface_measures.h"
 #include "engine/options/option_names.h"
 #include "engine/setup/automatic_choices.h"
 #include "partition/connected_components.h"
-#include "partition/cut/cut.h"
+#include "partition/cut/cut_into.h"
 #include "partition/errors.h"
 #include "partition/metrics/cells.h"
 #include "samples/meshes/label_surfaces.h"

@@ -4,7 +4,7 @@
 
 #include "engine/state/checkpoint.h"
 #include "engine/state/flow_state.h"
-#include "partition/cut/cut.h"
+#include "partition/cut/cut_into.h"
 #include "partition/formats/index_files.h"
 #include "partition/formats/mesh_io.h"
 #include "partition/topology.h"

@@ -5,6 +5,7 @@
 #include "engine/steppers/schur_stepper.h"
 #include "engine/steppers/sweep_stepper.h"
 #include "engine/tasks/workers.h"
+#include "partition/cut/cut_into.h"
 #include "solvers/laplacian/mean_curvature.h"
 #include "tests/faults/failing_work.h"
 #include "tests/faults/small_runs.h"

@@ -4,7 +4,7 @@
 #include <numbers>
 #include <utility>
 
-#include "partition/cut/cut.h"
+#include "partition/cut/cut_into.h"
 #include "samples/meshes/meshes.h"
 #include "tests/support/test_meshes.h"
 

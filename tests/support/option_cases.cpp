@@ -99,14 +99,6 @@ const std::vector<OptionCase>& option_cases()
              o.time_step = 0.0, o.radius = {0.1, true};
          })},
         {"time_step_edges", "3", plain([](O& o) { o.time_step = 0.0, o.time_step_edges = 3.0; })},
-        {"weights", "at-least-zero", plain([](O& o) {
-             o.flow = FlowEquation::Linear, o.laplacian = Laplacian::VirtualRefinement,
-             o.weights = Weights::AtLeastZero;
-         })},
-        {"weights", "at-least-zero-in-faces", plain([](O& o) {
-             o.flow = FlowEquation::Linear, o.laplacian = Laplacian::AlexaWardetzky,
-             o.weights = Weights::AtLeastZeroInFaces;
-         })},
         {"uniform_edge", "given",
          [](O& o, const PolygonMesh&, double edge) { o.laplacian = Laplacian::Uniform, o.uniform_edge = 0.7 * edge; }},
         {"steps", "3", plain([](O& o) { o.steps = 3; })},

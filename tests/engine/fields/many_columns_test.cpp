@@ -8,7 +8,7 @@
 #include <doctest/doctest.h>
 
 #include "engine/diffuse.h"
-#include "engine/flow.h"
+#include "engine/fields/heat_equation.h"
 #include "partition/metrics/vertex_distance.h"
 #include "samples/meshes/meshes.h"
 #include "tests/support/messages.h"
@@ -118,7 +118,7 @@ TEST_CASE("columns that are solved for at once have the bits that they have with
     }
 }
 
-TEST_CASE("many columns diffuse across seams, and where vertices are held in between")
+TEST_CASE("many columns diffuse across seams, and where vertices are fixed in between")
 {
     // A tube, and the same with a seam along which it is cut open.
     PolygonMesh tube;
@@ -159,26 +159,25 @@ TEST_CASE("many columns diffuse across seams, and where vertices are held in bet
             of_cut.row(ring * (sides + 1)).array() += 1e-3;
             of_cut.row(ring * (sides + 1) + sides).array() -= 1e-3;
         }
-        Flow(tube, options_for(approach)).diffuse(of_tube, 2);
-        Flow(cut, options_for(approach)).diffuse(of_cut, 2);
+        HeatEquation(tube, options_for(approach)).take_steps(of_tube, 2);
+        HeatEquation(cut, options_for(approach)).take_steps(of_cut, 2);
         Eigen::MatrixXd expected(cut.n_vertices(), 40);
         for (Index v = 0; v < cut.n_vertices(); ++v)
             expected.row(v) = of_tube.row(in_tube(v));
         CHECK(difference_of_columns(of_cut, expected) < 1e-7);
     }
-    const FlowOptions options = options_for(Approach::Undecomposed);
-    Flow flow(tube, options);
-    flow.hold(std::vector<Index>{200, 201});
+    FlowOptions options = options_for(Approach::Undecomposed);
+    options.motion.fixed_vertices = {200, 201};
+    HeatEquation heat(tube, options);
     const Eigen::MatrixXd between = of_tube;
-    flow.diffuse(of_tube, 1);
+    heat.take_steps(of_tube, 1);
     CHECK(of_tube.row(200) == between.row(200));
     CHECK(of_tube.row(201) == between.row(201));
-    // As if each column had a flow of its own.
-    Flow narrow(tube, options);
-    narrow.hold(std::vector<Index>{200, 201});
+    // As if each column had an equation of its own.
+    HeatEquation narrow(tube, options);
     for (Eigen::Index c = 0; c < 40; ++c) {
         Eigen::MatrixXd column = between.col(c);
-        narrow.diffuse(column, 1);
+        narrow.take_steps(column, 1);
         CHECK((column - of_tube.col(c)).cwiseAbs().maxCoeff() < 1e-9 * std::pow(10.0, c % 13 - 6));
     }
 }

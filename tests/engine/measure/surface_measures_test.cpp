@@ -1,6 +1,6 @@
 #include <doctest/doctest.h>
 
-#include "engine/measure/surface_measures.h"
+#include "engine/measure/mesh_size.h"
 #include "samples/meshes/meshes.h"
 #include "tests/support/relative.h"
 

@@ -6,6 +6,8 @@
 
 #include "engine/mean_curvature_flow.h"
 #include "engine/options/option_names.h"
+#include "engine/steppers/schur_stepper.h"
+#include "partition/cut/cut_into.h"
 #include "partition/errors.h"
 #include "samples/meshes/meshes.h"
 #include "tests/support/flows.h"
@@ -218,4 +220,33 @@ TEST_CASE("the unit of length changes no bit of the result")
                 CHECK(scaled.vertices == unit * expected);
             }
         }
+}
+
+TEST_CASE("vertices that are fixed between steps keep their values in many columns, and the others have those of three")
+{
+    const PolygonMesh mesh = make_triangles(900);
+    Topology topology = make_topology(mesh);
+    free_boundary(topology);
+    FlowOptions options = converged(Laplacian::VirtualRefinement, 1);
+    options.flow = FlowEquation::Linear;
+    const FlowControl control;
+    Progress progress(control);
+    SchurStepper stepper(mesh, topology, cut_into(mesh, topology, 1), options, progress);
+    stepper.set_fixed(std::array<Index, 2>{200, 201}, true);
+    const Eigen::MatrixXd before = Eigen::MatrixXd::Random(mesh.n_vertices(), 40);
+    Eigen::MatrixXd expected = before;
+    for (Eigen::Index c = 0; c < before.cols(); ++c) {
+        Points column = Points::Zero(mesh.n_vertices(), 3);
+        column.col(0) = before.col(c);
+        stepper.set_data(column, DataSteps::Further);
+        stepper.step(column);
+        expected.col(c) = stepper.positions().col(0);
+    }
+    REQUIRE(stepper.can_take_columns());
+    Eigen::MatrixXd fields = before;
+    stepper.take_columns(fields, 1, progress.exec());
+    CHECK((fields - expected).cwiseAbs().maxCoeff() < 1e-12);
+    CHECK(fields.row(200) == before.row(200));
+    CHECK(fields.row(201) == before.row(201));
+    CHECK(fields.row(202) != before.row(202));
 }

@@ -6,7 +6,7 @@
 
 #include "engine/steppers/sweep_order.h"
 #include "partition/cut/colouring.h"
-#include "partition/cut/cut.h"
+#include "partition/cut/cut_into.h"
 #include "partition/decomposition/reverse_cuthill_mckee.h"
 #include "samples/meshes/meshes.h"
 #include "tests/support/cut_meshes.h"

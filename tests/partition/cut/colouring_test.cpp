@@ -4,7 +4,7 @@
 #include <doctest/doctest.h>
 
 #include "partition/cut/colouring.h"
-#include "partition/cut/cut.h"
+#include "partition/cut/cut_into.h"
 #include "tests/support/cut_checks.h"
 #include "tests/support/test_meshes.h"
 

@@ -4,7 +4,7 @@
 #include <doctest/doctest.h>
 
 #include "partition/connected_components.h"
-#include "partition/cut/cut.h"
+#include "partition/cut/cut_into.h"
 #include "partition/errors.h"
 #include "tests/support/backwards.h"
 #include "tests/support/cut_checks.h"

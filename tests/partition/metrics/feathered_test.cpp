@@ -6,6 +6,7 @@
 #include <doctest/doctest.h>
 
 #include "partition/errors.h"
+#include "partition/metrics/fast_marching.h"
 #include "partition/metrics/feathered.h"
 #include "samples/meshes/random_numbers.h"
 #include "tests/support/relative.h"

@@ -106,6 +106,11 @@ TEST_CASE("K of faces with auxiliary unknowns is the same as without, kept and w
             for (const auto& of : {kept.get(), expected.get()})
                 of->set_reference(moved);
             check_equal(*kept, *expected, moved);
+            // Weights of the positions before leave no trace.
+            const auto anew = keep_stiffness(make(no_auxiliary), mesh.n_vertices(), moved);
+            for (const auto& of : {kept.get(), anew.get()})
+                of->weigh(squared);
+            check_equal(*kept, *anew, moved);
         }
 }
 

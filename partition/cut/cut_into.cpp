@@ -1,4 +1,4 @@
-#include "partition/cut/cut.h"
+#include "partition/cut/cut_into.h"
 
 #include <algorithm>
 #include <optional>

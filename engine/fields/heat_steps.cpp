@@ -1,0 +1,198 @@
+#include "engine/fields/heat_steps.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "engine/measure/flow_remarks.h"
+#include "engine/steppers/conjugate_gradient_stepper.h"
+#include "engine/steppers/schur_stepper.h"
+#include "engine/tasks/named.h"
+#include "engine/tasks/parallel_executor.h"
+#include "partition/errors.h"
+#include "solvers/laplacian/delaunay_stiffness.h"
+
+namespace seamflow {
+
+namespace {
+
+/// The columns that steppers take at a time, as those of positions.
+constexpr Eigen::Index columns_of_block = 3;
+/// The columns of a call for many columns: few, so that progress is reported between calls.
+constexpr Eigen::Index columns_at_once = 192;
+
+}  // namespace
+
+HeatSteps::HeatSteps(PolygonMesh& surface, const FlowOptions& options, Weights weights, const FlowControl& control,
+                     Progress& progress, FlowReport& report)
+    : mesh_(surface)
+    , options_(options)
+    , weights_(weights)
+    , ranks_(control.ranks)
+    , progress_(progress)
+    , report_(report)
+{
+    Stopwatch watch;
+    const double setup = fraction_of_setup(options);
+    progress.set_steps(options.steps);
+    progress.enter(FlowPhase::Cut, 0, 0.0, 0.6 * setup);
+    progress.expect(8.0);
+    decide();
+    report.seconds.cut = watch.lap();
+    progress.enter(FlowPhase::Analyse, 0, 0.6 * setup, setup);
+    make_stepper_within_limit();
+    report_to(steps_, surface_, options_, mesh_, {}, report);
+    report.cut.labels = std::move(steps_.cut.labels);
+    free_topology();
+    report.seconds.analyse = watch.lap();
+    report.seconds.total = report.seconds.cut + report.seconds.analyse;
+    fractions_.emplace(setup, std::max(options.steps, 1), false);
+}
+
+/// Replaces faces by those of an intrinsic Delaunay triangulation, if weights are to be at least 0 and are not.
+bool HeatSteps::flip_edges(FlowingMesh& mesh, Surface& surface)
+{
+    if (weights_ == Weights::OfLaplacian)
+        return false;
+    std::optional<DelaunaySurface> flipped = make_delaunay(mesh.mesh(), surface.topology, options_.laplacian,
+                                                           weights_ == Weights::AtLeastZeroInFaces, progress_.exec());
+    if (!flipped)
+        return false;
+    mesh.replace_faces(std::move(flipped->mesh), flipped->face_of);
+    stiffness_ = std::move(flipped->stiffness);
+    // Filters with factors outside 0 to 1 for some modes are excluded.
+    surface.choices.push_back(
+        {"flipped edges",
+         {},
+         {fmt::format("Edges opposite to obtuse angles are flipped within the surface, so that {}.",
+                      filter_of(options_).is_plain() ? "values stay in their range" : "no weight is below 0")}});
+    return true;
+}
+
+/// Decides which vertices have equations, and how these are solved.
+void HeatSteps::decide()
+{
+    require_valid(mesh_.mesh(), progress_.exec());
+    progress_.count();
+    surface_ = make_surface(
+        mesh_, options_.motion,
+        {.laplacian = options_.laplacian,
+         .replace_faces = [this](FlowingMesh& mesh, Surface& surface) { return flip_edges(mesh, surface); }},
+        progress_);
+    options_.cut.labels = mesh_.of_faces_left(options_.cut.labels);
+    progress_.count();
+    steps_ = decide_steps(mesh_.mesh(), surface_, options_, std::nullopt,
+                          ranks_ != nullptr ? Sharing::Ranks : Sharing::None, progress_, [] {});
+}
+
+void HeatSteps::make_stepper_within_limit()
+{
+    try {
+        make_stepper();
+    } catch (const MemoryLimitError&) {
+        if (!steps_.without_factors)
+            throw;
+        leave_factors(steps_, options_, mesh_.mesh(), surface_.topology, progress_.exec());
+        make_stepper();
+    }
+}
+
+void HeatSteps::make_stepper()
+{
+    const PolygonMesh& mesh = mesh_.mesh();
+    const GivenStiffness* const given = stiffness_ ? &*stiffness_ : nullptr;
+    if (ranks_ != nullptr && given == nullptr && ranks_->can_share(steps_.cut, options_)) {
+        stepper_ = ranks_->make_stepper(mesh, surface_.topology, steps_.cut, options_, {}, progress_);
+    } else if (options_.accuracy.approach == Approach::ConjugateGradients) {
+        stepper_ = std::make_unique<ConjugateGradientStepper>(mesh, surface_.topology, options_, progress_, given);
+    } else {
+        auto stepper = std::make_unique<SchurStepper>(mesh, surface_.topology, steps_.cut, options_, progress_, given);
+        in_sub_meshes_ = stepper.get();
+        stepper_ = std::move(stepper);
+    }
+}
+
+/// Frees the topology, except those members that conjugate gradients need.
+void HeatSteps::free_topology()
+{
+    if (options_.accuracy.approach != Approach::ConjugateGradients)
+        surface_.topology = {};
+    surface_.topology.twin = std::vector<Index>();
+    surface_.topology.junctions = std::vector<JunctionLink>();
+}
+
+void HeatSteps::take(Eigen::Ref<Eigen::MatrixXd> fields, int n)
+{
+    for (Eigen::Index c = 0; c < fields.cols(); c += columns_of_block) {
+        const Eigen::Index n_columns = std::min(columns_of_block, fields.cols() - c);
+        Points block = Points::Zero(fields.rows(), columns_of_block);
+        block.leftCols(n_columns) = fields.middleCols(c, n_columns);
+        take_block(block, n, c == 0 ? DataSteps::Further : DataSteps::Again);
+        fields.middleCols(c, n_columns) = block.leftCols(n_columns);
+        // The first columns have made the factor that the others need.
+        if (c == 0 && in_sub_meshes_ != nullptr && in_sub_meshes_->can_take_columns())
+            return take_at_once(fields.rightCols(fields.cols() - n_columns), n);
+    }
+}
+
+/// @param block #V by 3, in the order of the given surface.
+void HeatSteps::take_block(Points& block, int n, DataSteps steps)
+{
+    mesh_.join(block);
+    stepper_->set_data(block, steps);
+    for (int step = 1; step <= n; ++step) {
+        const Stopwatch watch = begin_step();
+        named("step " + std::to_string(step), [&] { stepper_->step(block); });
+        copy(progress_.exec(), stepper_->positions(), block);
+        end_steps(watch, 1);
+    }
+    mesh_.take_along(block);
+}
+
+/// Takes the steps of further columns, many at a time.
+void HeatSteps::take_at_once(Eigen::Ref<Eigen::MatrixXd> fields, int n)
+{
+    for (Eigen::Index first = 0; first < fields.cols(); first += columns_at_once) {
+        auto portion = fields.middleCols(first, std::min(columns_at_once, fields.cols() - first));
+        const Stopwatch watch = begin_step();
+        mesh_.join(portion);
+        in_sub_meshes_->take_columns(portion, n, progress_.exec());
+        mesh_.take_along(portion);
+        end_steps(watch, n * ((portion.cols() + columns_of_block - 1) / columns_of_block));
+    }
+}
+
+Stopwatch HeatSteps::begin_step()
+{
+    progress_.enter(FlowPhase::Step, fractions_->number(), fractions_->begin(), fractions_->end());
+    return {};
+}
+
+/// @param n the number of steps of a block that have been taken.
+void HeatSteps::end_steps(const Stopwatch& watch, Eigen::Index n)
+{
+    report_.seconds.step += watch.seconds();
+    report_.seconds.total += watch.seconds();
+    for (Eigen::Index step = 0; step < n; ++step)
+        fractions_->end_step(watch.seconds(), 0.0, 0.0);
+}
+
+void HeatSteps::weigh(const std::function<double(Index v, Index w)>& squared_difference)
+{
+    if (in_sub_meshes_ == nullptr)
+        throw OptionError("edges of fields are kept only in converged and undecomposed steps: leave the approach "
+                          "automatic");
+    in_sub_meshes_->weigh(squared_difference);
+}
+
+void HeatSteps::complete(FlowReport& report) const
+{
+    stepper_->report_to(report);
+    remark_on_factorisation(options_.resources.factorisation, report);
+    mesh_.complete(report);
+    report.cut.labels = mesh_.labels_of_given(std::move(report.cut.labels), report.cut.n_sub_meshes());
+}
+
+}  // namespace seamflow

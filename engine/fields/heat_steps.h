@@ -1,0 +1,77 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include <Eigen/Core>
+
+#include "engine/fields/field_options.h"
+#include "engine/measure/flow_report.h"
+#include "engine/motion/step_fractions.h"
+#include "engine/options/flow_control.h"
+#include "engine/options/flow_options.h"
+#include "engine/setup/decided_steps.h"
+#include "engine/steppers/heat_stepper.h"
+#include "engine/surface/flowing_mesh.h"
+#include "engine/surface/surface.h"
+#include "engine/tasks/progress.h"
+#include "engine/tasks/stopwatch.h"
+#include "partition/polygon_mesh.h"
+#include "solvers/laplacian/given_stiffness.h"
+
+namespace seamflow {
+
+class SchurStepper;
+
+/// The steps of a HeatEquation, in the arena in which they are constructed.
+class HeatSteps {
+  public:
+    /// Decides how steps are taken, and makes the stepper.
+    /// @param surface, control, progress, report must outlive this. The surface does not change.
+    /// @param options valid, with the amount on the surface.
+    /// @throws as HeatEquation.
+    HeatSteps(PolygonMesh& surface, const FlowOptions& options, Weights weights, const FlowControl& control,
+              Progress& progress, FlowReport& report);
+
+    /// Takes n steps (see HeatEquation::take_steps).
+    /// @param fields #V by any number of columns, in the order of the given surface.
+    void take(Eigen::Ref<Eigen::MatrixXd> fields, int n);
+
+    /// Weighs K by differences of data, from now on (see SchurStepper::weigh).
+    /// @throws OptionError if the steps do not support it.
+    void weigh(const std::function<double(Index v, Index w)>& squared_difference);
+
+    /// Completes a copy of the report.
+    void complete(FlowReport& report) const;
+
+  private:
+    bool flip_edges(FlowingMesh& mesh, Surface& surface);
+    void decide();
+    void make_stepper();
+    void make_stepper_within_limit();
+    void free_topology();
+    void take_block(Points& block, int n, DataSteps steps);
+    void take_at_once(Eigen::Ref<Eigen::MatrixXd> fields, int n);
+    Stopwatch begin_step();
+    void end_steps(const Stopwatch& watch, Eigen::Index n);
+
+    FlowingMesh mesh_;
+    /// The given options, with choices where they left something open. Labels are those of the faces of mesh_.
+    FlowOptions options_;
+    Weights weights_;
+    /// Null if one process takes all steps.
+    StepSharing* ranks_;
+    Progress& progress_;
+    FlowReport& report_;
+    Surface surface_;
+    /// K and M, if the weights of the Laplacian are not those that were asked for; otherwise empty.
+    std::optional<GivenStiffness> stiffness_;
+    DecidedSteps steps_;
+    std::optional<StepFractions> fractions_;
+    std::unique_ptr<HeatStepper> stepper_;
+    /// The same stepper, if it is a SchurStepper; otherwise null.
+    SchurStepper* in_sub_meshes_ = nullptr;
+};
+
+}  // namespace seamflow
