@@ -10,7 +10,6 @@ set(SEAMFLOW_HEADERS
     engine/eigen.h
     engine/fields/field_options.h
     engine/fields/heat_equation.h
-    engine/flow.h
     engine/geodesic_distance.h
     engine/mean_curvature_flow.h
     engine/openmesh.h
@@ -26,7 +25,6 @@ set(SEAMFLOW_HEADERS
     engine/ranks/thread_transport.h
     engine/ranks/transport.h
     engine/tasks/schedule.h
-    engine/options/valid_options.h
     engine/setup/presets.h
     engine/measure/smoothed_radius.h
     engine/state/checkpoint.h
@@ -40,15 +38,12 @@ set(SEAMFLOW_HEADERS
     partition/index.h
     partition/io/fault_log.h
     partition/executor.h
-    partition/metrics/displacement.h
     partition/metrics/length_statistics.h
     partition/metrics/surface_distance.h
     partition/metrics/vertex_distance.h
-    partition/metrics/vertex_normals.h
     partition/openmesh.h
     partition/polygon_mesh.h
     partition/remark.h
-    partition/topology.h
     partition/vector_area.h
     partition/version.h
     solvers/conditions/robin_edge.h

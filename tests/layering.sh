@@ -41,7 +41,7 @@ forbid '#include "engine/(setup|steppers|ranks|fields|flow|mean_curvature|diffus
 mapfile -t of_flows < <(find engine/flow engine/setup engine/steppers engine/ranks engine/fields -name '*.h' -o -name '*.cpp' |
     grep -v '^engine/setup/presets')
 forbid '#include "(engine/denoise|solvers/denoising)' 'flows do not know how noise is removed' \
-    /dev/null engine/mean_curvature_flow.h engine/mean_curvature_flow.cpp engine/flow.h engine/flow.cpp \
+    /dev/null engine/mean_curvature_flow.h engine/mean_curvature_flow.cpp \
     engine/diffuse.h engine/diffuse.cpp engine/geodesic_distance.h engine/geodesic_distance.cpp "${of_flows[@]}"
 forbid '#include "tests/' 'samples do not use tests' samples
 forbid '#include "[^/"]*"|#include "\.\.?/' 'includes start with the name of their folder' partition solvers engine samples tests

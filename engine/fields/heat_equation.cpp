@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "engine/fields/heat_steps.h"
+#include "engine/options/option_rule.h"
 #include "engine/options/valid_options.h"
 #include "engine/setup/resolved_options.h"
 #include "engine/tasks/failure_guard.h"
@@ -61,6 +62,8 @@ HeatEquation::HeatEquation(PolygonMesh surface, const FlowOptions& options, Weig
 {
     if (options.flow != FlowEquation::Linear)
         throw OptionError("only linear flows are applied to fields: their matrix stays the same");
+    if (control_.resume != nullptr)
+        refuse("fields have no state to resume from: leave it out");
     require_valid(options);
     session_ = std::make_unique<Session>(surface_, resolved(options, surface_), weights, control_, report_);
 }

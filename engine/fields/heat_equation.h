@@ -23,9 +23,10 @@ class HeatEquation {
     ///        chosen for FlowOptions::steps steps of three columns; other numbers may be taken. Options on the motion
     ///        of vertices, and on measurements, are not used.
     /// @param weights the weights of edges. Processes do not share steps with weights other than the Laplacian's.
-    /// @param control reports progress, stops the steps, and may have ranks that share them; `resume` is not used.
+    /// @param control reports progress, stops the steps, and may have ranks that share them.
     /// @throws InputError for a surface or labels that cannot be used; OptionError for options of a flow that is not
-    ///         linear, or outside their limits; ComputationError naming the sub-mesh; Cancelled; std::bad_alloc.
+    ///         linear, or outside their limits, and for a state to resume from; ComputationError naming the sub-mesh;
+    ///         Cancelled; std::bad_alloc.
     HeatEquation(PolygonMesh surface, const FlowOptions& options, Weights weights = Weights::OfLaplacian,
                  FlowControl control = {});
     HeatEquation(const HeatEquation&) = delete;

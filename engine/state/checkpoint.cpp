@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "engine/state/archive.h"
+#include "engine/state/flow_state.h"
 #include "partition/errors.h"
 
 namespace seamflow {

@@ -14,7 +14,7 @@
 #include <Eigen/SparseCore>
 #include <fmt/format.h>
 
-#include "engine/flow.h"
+#include "engine/mean_curvature_flow.h"
 #include "engine/tasks/parallel_executor.h"
 #include "engine/tasks/stopwatch.h"
 #include "partition/errors.h"

@@ -5,7 +5,7 @@
 
 #include <iostream>
 
-#include <seamflow/engine/flow.h>
+#include <seamflow/engine/mean_curvature_flow.h>
 #include <seamflow/partition/formats/mesh_io.h>
 #include <seamflow/partition/metrics/vertex_distance.h>
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/flow.h"
+#include "engine/mean_curvature_flow.h"
 #include "engine/options/flow_control.h"
 #include "engine/tasks/stopwatch.h"
 #include "partition/polygon_mesh.h"

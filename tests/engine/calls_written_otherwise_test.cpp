@@ -11,8 +11,8 @@
 
 #include "engine/diffuse.h"
 #include "engine/fields/heat_equation.h"
-#include "engine/flow.h"
 #include "engine/geodesic_distance.h"
+#include "engine/mean_curvature_flow.h"
 #include "partition/metrics/roughness.h"
 #include "partition/metrics/surface_distance.h"
 #include "partition/metrics/vertex_distance.h"

@@ -5,7 +5,6 @@
 
 #include <doctest/doctest.h>
 
-#include "engine/flow.h"
 #include "engine/mean_curvature_flow.h"
 #include "engine/state/flow_state.h"
 #include "partition/errors.h"

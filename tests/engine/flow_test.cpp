@@ -3,7 +3,6 @@
 
 #include <doctest/doctest.h>
 
-#include "engine/flow.h"
 #include "engine/mean_curvature_flow.h"
 #include "engine/options/flow_control.h"
 #include "engine/state/flow_state.h"

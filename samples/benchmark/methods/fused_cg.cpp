@@ -46,14 +46,14 @@ struct Equations {
 };
 
 /// A mesh, and the Laplacian and dt of a task.
-struct Flow {
+struct FusedFlow {
     const PolygonMesh& mesh;
     Topology topology;
     Laplacian laplacian;
     double time_step;
 };
 
-void list_neighbours(const Flow& flow, Index v, std::vector<Index>& neighbours)
+void list_neighbours(const FusedFlow& flow, Index v, std::vector<Index>& neighbours)
 {
     neighbours.clear();
     for (const Index corner : flow.topology.corners_at(v))
@@ -68,7 +68,7 @@ void list_neighbours(const Flow& flow, Index v, std::vector<Index>& neighbours)
     std::erase(neighbours, v);
 }
 
-Equations analyse(const Flow& flow)
+Equations analyse(const FusedFlow& flow)
 {
     const Index n = flow.mesh.n_vertices();
     Equations equations;
@@ -87,7 +87,7 @@ Equations analyse(const Flow& flow)
 /// Calls entry(i, K_vw) for w the i-th column of row v, possibly several times.
 /// @returns M_v.
 template <class Entry>
-double visit_row(const Flow& flow, const Equations& equations, const Points& positions, Index v, Entry&& entry)
+double visit_row(const FusedFlow& flow, const Equations& equations, const Points& positions, Index v, Entry&& entry)
 {
     const Index* const begin = equations.columns.data() + equations.offsets[v];
     const Index* const end = equations.columns.data() + equations.offsets[v + 1];
@@ -130,7 +130,7 @@ Sums squares(const Point& point)
 }
 
 /// Matrix, first residual and norms for the positions Vᵏ.
-void assemble(const Flow& flow, const Points& before, const Point& centroid, Equations& equations)
+void assemble(const FusedFlow& flow, const Points& before, const Point& centroid, Equations& equations)
 {
     const Index n = flow.mesh.n_vertices();
     const double dt = flow.time_step;
@@ -168,7 +168,7 @@ void assemble(const Flow& flow, const Points& before, const Point& centroid, Equ
 }
 
 /// The residual of positions after the step so far, in double precision.
-void renew_residual(const Flow& flow, const Points& before, const Points& after, Equations& equations)
+void renew_residual(const FusedFlow& flow, const Points& before, const Points& after, Equations& equations)
 {
     const double dt = flow.time_step;
     const auto squares_of = [&](Index v) -> Sums {
@@ -284,7 +284,7 @@ class Iteration {
 
 /// @param after receives the positions after the step.
 /// @returns the number of iterations.
-int solve(const Flow& flow, const Points& before, double tolerance, Equations& equations, Iteration& iteration,
+int solve(const FusedFlow& flow, const Points& before, double tolerance, Equations& equations, Iteration& iteration,
           Points& after)
 {
     const Index n = flow.mesh.n_vertices();
@@ -321,7 +321,7 @@ MethodResult run_fused_cg(const PolygonMesh& mesh, const MethodTask& task)
     Workers workers(options.resources.threads);
     workers.execute([&] {
         Stopwatch watch;
-        const Flow flow{mesh, make_topology(mesh, run_in_parallel), options.laplacian, options.time_step};
+        const FusedFlow flow{mesh, make_topology(mesh, run_in_parallel), options.laplacian, options.time_step};
         Equations equations = analyse(flow);
         Iteration iteration(mesh.n_vertices(), options.resources.threads);
         const Point centroid = mesh.vertices.colwise().mean();

@@ -1,11 +1,13 @@
 #include <array>
 #include <limits>
+#include <memory>
 #include <string>
 
 #include <doctest/doctest.h>
 
 #include "engine/fields/heat_equation.h"
-#include "engine/flow.h"
+#include "engine/mean_curvature_flow.h"
+#include "engine/state/flow_state.h"
 #include "partition/errors.h"
 #include "partition/metrics/vertex_distance.h"
 #include "samples/meshes/meshes.h"
@@ -23,6 +25,9 @@ TEST_CASE("an equation refuses fields that are not for it, with what is wrong, a
           "only linear flows are applied to fields: their matrix stays the same");
     Eigen::MatrixXd fields = ones;
     options.flow = FlowEquation::Linear;
+    const FlowControl resuming{.stop = {}, .on_progress = {}, .resume = std::make_shared<const FlowState>()};
+    CHECK(test::message_of<OptionError>([&] { HeatEquation(mesh, options, Weights::OfLaplacian, resuming); }) ==
+          "fields have no state to resume from: leave it out");
     HeatEquation heat(mesh, options);
     Eigen::MatrixXd short_ones = ones.topRows(3);
     const std::string wrong_rows = "the fields have 3 rows, but the mesh has " + std::to_string(mesh.n_vertices()) +

@@ -8,7 +8,7 @@
 #include <doctest/doctest.h>
 
 #include "engine/diffuse.h"
-#include "engine/flow.h"
+#include "engine/mean_curvature_flow.h"
 #include "engine/state/flow_state.h"
 #include "partition/errors.h"
 #include "partition/metrics/vertex_distance.h"

@@ -2,7 +2,6 @@
 
 #include <doctest/doctest.h>
 
-#include "engine/flow.h"
 #include "engine/mean_curvature_flow.h"
 #include "engine/setup/cost_model.h"
 #include "partition/metrics/vertex_distance.h"

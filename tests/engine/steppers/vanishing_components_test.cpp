@@ -6,7 +6,6 @@
 
 #include <doctest/doctest.h>
 
-#include "engine/flow.h"
 #include "engine/mean_curvature_flow.h"
 #include "tests/support/flows.h"
 #include "tests/support/messages.h"
