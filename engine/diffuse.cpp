@@ -300,6 +300,19 @@ std::optional<double> measure_width(HeatEquation& heat, double wanted, int steps
     return fwhm;
 }
 
+/// With the width in length.
+/// @throws InputError for a mesh that is not valid, or that has no size to measure by.
+FieldOptions resolved(FieldOptions options, const PolygonMesh& mesh)
+{
+    if (!options.fwhm)
+        return options;
+    LengthScale scale(mesh);
+    options.fwhm = scale.length_of(*options.fwhm);
+    if (!(options.fwhm->value > 0.0))
+        throw InputError(Wording{"the mesh has no size to measure a part of: give <fwhm> as a length"});
+    return options;
+}
+
 }  // namespace
 
 FieldReport diffuse(const PolygonMesh& mesh, Eigen::MatrixXd& fields, const FlowOptions& options,
@@ -311,8 +324,8 @@ FieldReport diffuse(const PolygonMesh& mesh, Eigen::MatrixXd& fields, const Flow
     Workers workers(options.resources.threads);
     const Executor exec = workers.exec();
     Eigen::MatrixXd results = copy_of(fields, exec);
-    FlowOptions of_flow = flow_for_fields(options, field_options);
-    of_flow = resolved(std::move(of_flow), mesh);
+    const FieldOptions of_fields = resolved(field_options, mesh);
+    const FlowOptions of_flow = resolved(flow_for_fields(options, of_fields), mesh);
     const Weights weights = weights_for_fields(field_options);
     // With keep_edges, K changes between steps.
     FlowControl own_control = control;
@@ -350,7 +363,7 @@ FieldReport diffuse(const PolygonMesh& mesh, Eigen::MatrixXd& fields, const Flow
                  {},
                  {"The whole mesh is solved at once by one factorisation: that is fastest for so many columns."}});
         if (measures)
-            report.fwhm = measure_width(heat, *field_options.fwhm, options.steps, of_group);
+            report.fwhm = measure_width(heat, of_fields.fwhm->value, options.steps, of_group);
         remarks.push_back(of_group.remarks);
         if (field_options.fill && group.n_lacking > 0 && group.n_lacking < mesh.n_vertices()) {
             const FlowReport of_fill = extend(mesh, group, of_flow, weights, control, exec, results, filled);

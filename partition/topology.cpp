@@ -246,14 +246,20 @@ void free_junctions(const PolygonMesh& mesh, Topology& topology, const Executor&
     std::ranges::sort(topology.junctions, {}, &JunctionLink::halfedge);
 }
 
-std::vector<Index> neighbours_of(const PolygonMesh& mesh, const Topology& topology, Index v)
+void edge_neighbours(const PolygonMesh& mesh, const Topology& topology, Index v, std::vector<Index>& neighbours)
 {
-    std::vector<Index> neighbours;
+    neighbours.clear();
     for (const Index corner : topology.corners_at(v)) {
         neighbours.push_back(mesh.face_vertices[topology.next(mesh, corner)]);
         neighbours.push_back(mesh.face_vertices[topology.previous(mesh, corner)]);
     }
     sort_unique(neighbours);
+}
+
+std::vector<Index> neighbours_of(const PolygonMesh& mesh, const Topology& topology, Index v)
+{
+    std::vector<Index> neighbours;
+    edge_neighbours(mesh, topology, v, neighbours);
     std::erase(neighbours, v);
     return neighbours;
 }

@@ -140,6 +140,9 @@ void free_junctions(const PolygonMesh& mesh, Topology& topology, const Executor&
 /// The vertices that share an edge with v, ascending.
 std::vector<Index> neighbours_of(const PolygonMesh& mesh, const Topology& topology, Index v);
 
+/// Lists the vertices at the other ends of the edges at v, ascending: also v itself, if a face names it twice in turn.
+void edge_neighbours(const PolygonMesh& mesh, const Topology& topology, Index v, std::vector<Index>& neighbours);
+
 /// Fixes these vertices, whatever their kind.
 /// @param vertices in any order, repetitions are allowed.
 /// @throws InputError naming the first number out of range.

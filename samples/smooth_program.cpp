@@ -93,34 +93,36 @@ std::optional<PageFlow> make_page(const SmoothCommand& command, const PolygonMes
 }
 
 /// Prints every step, writes it where --every-step asks for that, and hands it to the page.
-StepObserver make_observer(const SmoothCommand& command, const MeshFile& input, double mean_edge, double& write_seconds,
+/// @param steps what --every-step writes; empty without it.
+StepObserver make_observer(const SmoothCommand& command, const std::optional<MeshOutput>& steps,
+                           const PolygonMesh& input, double mean_edge, double& write_seconds,
                            std::optional<PageFlow>& page, std::ostream& out, const Executor& exec)
 {
-    PolygonMesh snapshot = command.every_step ? input.mesh : PolygonMesh{};
-    return [&command, &input, &write_seconds, &page, &out, &exec, mean_edge, snapshot](const StepState& state) mutable {
+    PolygonMesh snapshot = steps ? input : PolygonMesh{};
+    return [&command, &steps, &write_seconds, &page, &out, &exec, mean_edge, snapshot](const StepState& state) mutable {
         if (command.verbose)
             print_step(out, state.report, state.step, command.options.steps, mean_edge);
         if (page)
             page->add_step(state.step, state.positions, state.reference_positions);
-        if (!command.every_step)
+        if (!steps)
             return;
         const Stopwatch watch;
         if (state.separated == nullptr)
             snapshot.vertices = state.positions;
-        write_state(command.every_step->path(state.step), snapshot, state.separated, input, exec,
-                    seam_distance_of(command.options.motion));
+        steps->write_as(command.every_step->path(state.step), snapshot, state.separated, exec,
+                        seam_distance_of(command.options.motion));
         write_seconds += watch.seconds();
     };
 }
 
 /// @returns remarks for the user.
-std::vector<std::string> write_results(const SmoothCommand& command, const MeshFile& file, const SmoothReport& report,
-                                       const Executor& exec)
+std::vector<std::string> write_results(const SmoothCommand& command, const MeshOutput& output, const PolygonMesh& mesh,
+                                       const SmoothReport& report, const Executor& exec)
 {
-    auto remarks = write_state(command.output, file.mesh, report.separated ? &*report.separated : nullptr, file, exec,
-                               seam_distance_of(command.options.motion));
+    auto remarks = output.write(mesh, report.separated ? &*report.separated : nullptr, exec,
+                                seam_distance_of(command.options.motion));
     if (!command.parts.empty())
-        write_labelled_ply(command.parts, file.mesh, report.cut.labels, exec);
+        write_labelled_ply(command.parts, mesh, report.cut.labels, exec);
     return remarks;
 }
 
@@ -153,7 +155,7 @@ SmoothReport run_flow(const SmoothCommand& command, PolygonMesh& mesh, const Ste
 
 /// Reads the mesh, settles what the flow takes, and prints both.
 /// @param left_out receives what is not read. @param whole runs since the beginning.
-/// @throws InputError, OptionError, or OutputError for a mesh that the result's format cannot hold.
+/// @throws InputError, OptionError.
 MeshFile read_input(SmoothCommand& command, FaultLog& left_out, const Stopwatch& whole, RunRecord& run,
                     const Executor& exec, std::ostream& out)
 {
@@ -165,24 +167,32 @@ MeshFile read_input(SmoothCommand& command, FaultLog& left_out, const Stopwatch&
     print_input(out, run, file.mesh.n_vertices(), file.mesh.n_faces());
     print_preset(out, run, command.chosen);
     print_amount(out, run.scale, command.options);
-    require_storable(file.mesh, command.output, kind_for_writing(command.output, file.kind));
-    if (command.every_step)
-        require_storable(file.mesh, command.every_step->path(1),
-                         kind_for_writing(command.every_step->path(1), file.kind));
     return file;
 }
 
 /// Remarks on what of the input file is not in the result, or no longer there.
-std::vector<std::string> remarks_on_input(const SmoothCommand& command, const MeshFile& file, const FaultLog& left_out,
-                                          const Executor& exec)
+std::vector<std::string> remarks_on_input(const SmoothCommand& command, const MeshOutput& output,
+                                          const FaultLog& left_out, const Executor& exec)
 {
-    std::vector<std::string> remarks = remarks_on_losses(command.output, !command.options.report.keep_gaps, file, exec);
+    const bool joined = !command.options.report.keep_gaps;
+    std::vector<std::string> remarks = output.remarks_on_losses(joined, exec);
     if (left_out.count > 0)
-        remarks.push_back(remark_on_faces(left_out, command.output, !command.options.report.keep_gaps, file.kind));
+        remarks.push_back(output.remark_on_faces(left_out, joined));
     std::error_code ignored;
     if (std::filesystem::equivalent(command.input, command.output, ignored))
         remarks.push_back("The result has replaced the input, in one go when it was complete.");
     return remarks;
+}
+
+/// What --every-step writes; empty without it.
+/// @throws OutputError for a mesh that its format cannot hold.
+std::optional<MeshOutput> output_of_steps(const SmoothCommand& command, const MeshFile& input)
+{
+    if (!command.every_step)
+        return {};
+    MeshOutput steps(command.every_step->path(1), input);
+    steps.require_storable();
+    return steps;
 }
 
 /// Reads, flows and writes.
@@ -196,14 +206,17 @@ ExitStatus run(SmoothCommand& command, RunRecord& run, RankGroup* ranks)
     const Executor exec = workers.exec();
     FaultLog left_out{.of_faces_alone = true};
     MeshFile file = read_input(command, left_out, whole, run, exec, out);
-    const std::vector<std::string> losses = remarks_on_input(command, file, left_out, exec);
+    const MeshOutput output(command.output, file);
+    output.require_storable();
+    const std::optional<MeshOutput> steps = output_of_steps(command, file);
+    const std::vector<std::string> losses = remarks_on_input(command, output, left_out, exec);
     std::optional<PageFlow> page = make_page(command, file.mesh, left_out.faces_left_out);
     std::optional<SurfaceChangeMeter> change;
     if (!command.quiet || !command.report.empty() || !command.html.empty())
         change.emplace(file.mesh, exec);
     LongRun long_run(command, file, interruption, out);
-    const StepObserver on_step =
-        long_run.observing(make_observer(command, file, run.scale.mean_edge, run.write_seconds, page, out, exec));
+    const StepObserver on_step = long_run.observing(
+        make_observer(command, steps, file.mesh, run.scale.mean_edge, run.write_seconds, page, out, exec));
     SmoothReport report;
     try {
         FlowControl control = long_run.control();
@@ -237,7 +250,7 @@ ExitStatus run(SmoothCommand& command, RunRecord& run, RankGroup* ranks)
     if (change)
         run.surface = change->measure(file.mesh, report.mesh, command.self_intersections, exec);
     const Stopwatch writing;
-    for (const auto& remarks : {losses, write_results(command, file, report, exec)})
+    for (const auto& remarks : {losses, write_results(command, output, file.mesh, report, exec)})
         report.remarks.insert(report.remarks.end(), remarks.begin(), remarks.end());
     run.write_seconds += writing.seconds();
     if (change) {

@@ -62,7 +62,7 @@ constexpr FieldRule field_rules[]{
     {[](const FlowOfFields& o, const AskedOptions&) { return o.flow.report.reference; }, 0,
      "the steps of fields are solved exactly, so that there is nothing to compare with: leave <reference> out"},
     {[](const FlowOfFields& o, const AskedOptions&) {
-         return o.fields.fwhm && (o.flow.time_step != 0.0 || o.flow.radius);
+         return o.fields.fwhm && (o.flow.time_step != 0.0 || o.flow.time_step_edges || o.flow.radius);
      },
      0, "<fwhm> and <time_step> or <radius> both say how much is smoothed: leave one of them out"},
 };
@@ -79,7 +79,8 @@ void require_for_fields(const FlowOptions& options, const FieldOptions& of_field
         if (value && !(*value > 0.0 && std::isfinite(*value)))
             throw OptionError(fmt::format("{} is {}, but must be positive and finite ({})", name, *value, what));
     };
-    require_positive(of_fields.fwhm, "fwhm", "a length");
+    if (of_fields.fwhm)
+        require_positive(of_fields.fwhm->value, "fwhm", "a length");
     require_positive(of_fields.keep_edges, "the difference of fields to keep", "in the unit of the fields");
     require_none_broken<FlowOfFields>(field_rules, {options, of_fields}, changed_options(options),
                                       [&](std::string_view text, std::string_view other) {
@@ -95,7 +96,7 @@ FlowOptions flow_for_fields(const FlowOptions& options, const FieldOptions& of_f
     own.motion.boundary = of_fields.boundary;
     own.report = {.record_schedule = options.report.record_schedule, .measures = false};
     if (of_fields.fwhm)
-        own.time_step = time_for_fwhm(*of_fields.fwhm) / std::max(options.steps, 1);
+        own.time_step = time_for_fwhm(of_fields.fwhm->value) / std::max(options.steps, 1);
     if (!own.accuracy.tolerance && own.accuracy.approach != Approach::Undecomposed)
         own.accuracy.tolerance = default_field_tolerance;
     return own;

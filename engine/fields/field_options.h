@@ -26,9 +26,9 @@ enum class Weights {
 /// The options that only fields have.
 struct FieldOptions {
     /// The amount of all steps together, in place of FlowOptions::time_step and radius: the full width at half maximum
-    /// of the Gaussian kernel of the heat equation at the time t = FWHM² / (16 ln 2) of all steps, in length. Backward
-    /// Euler steps come near to it if there are several (see FieldReport::fwhm).
-    std::optional<double> fwhm = {};
+    /// of the Gaussian kernel of the heat equation at the time t = FWHM² / (16 ln 2) of all steps. Backward Euler steps
+    /// come near to it if there are several (see FieldReport::fwhm).
+    std::optional<LengthOnMesh> fwhm = {};
     /// Keeps edges of the fields: differences well above this diffuse little (see
     /// HeatEquation::keep_field_edges). All columns count together, as one vector per vertex. K is factorised in each
     /// step. Not with conjugate gradients.
@@ -59,6 +59,7 @@ double fwhm_for_time(double time);
 void require_for_fields(const FlowOptions& options, const FieldOptions& of_fields);
 
 /// The options of the linear flow that is applied to fields, with the time step that follows from FieldOptions::fwhm.
+/// @param of_fields with a width in length.
 FlowOptions flow_for_fields(const FlowOptions& options, const FieldOptions& of_fields);
 
 /// The weights of edges with which fields diffuse.

@@ -64,16 +64,6 @@ bool is_on_interface(const Topology& topology, std::span<const Index> labels, In
     return topology.moves(v) && is_mixed(topology, labels, v);
 }
 
-void edge_neighbours(const PolygonMesh& mesh, const Topology& topology, Index v, std::vector<Index>& neighbours)
-{
-    neighbours.clear();
-    for (const Index corner : topology.corners_at(v)) {
-        neighbours.push_back(mesh.face_vertices[topology.next(mesh, corner)]);
-        neighbours.push_back(mesh.face_vertices[topology.previous(mesh, corner)]);
-    }
-    sort_unique(neighbours);
-}
-
 SubMeshDraft copy_faces(const PolygonMesh& mesh, const Topology& topology, std::vector<Index> faces)
 {
     // Made before the aggregate: if memory runs out for a later member, GCC 12 destroys members made from {} twice.

@@ -15,9 +15,6 @@ namespace seamflow {
 /// Whether vertex v lies on Γ: it may move and has faces of several labels.
 bool is_on_interface(const Topology& topology, std::span<const Index> labels, Index v);
 
-/// Lists the vertices at the other ends of the edges at v, in ascending order.
-void edge_neighbours(const PolygonMesh& mesh, const Topology& topology, Index v, std::vector<Index>& neighbours);
-
 /// A sub-mesh under construction, with lookup tables.
 struct SubMeshDraft {
     SubMesh sub_mesh;

@@ -1,9 +1,9 @@
 #pragma once
 
-#include <span>
 #include <vector>
 
 #include "partition/decomposition/decomposition.h"
+#include "partition/decomposition/grow.h"
 #include "partition/polygon_mesh.h"
 #include "partition/topology.h"
 
@@ -11,21 +11,6 @@
 /// sub-mesh is a part of the cut, grown into parts of the same or a later stage. Its result is used only on the ungrown
 /// part; where ungrown parts meet, on Γ, the result of the earliest stage is used.
 namespace seamflow {
-
-/// The rules by which the parts of a cut grow.
-struct Overlap {
-    /// #F: the part of every face.
-    std::span<const Index> labels;
-    /// #parts, different for parts that share a vertex of Γ: part i grows into parts of the same or a later stage.
-    std::span<const Index> stage;
-    /// The number of times that each part grows by all faces that share a vertex with it, at least 0.
-    int layers = 1;
-};
-
-/// The faces of part s after growing, in ascending order.
-/// @param faces those of the ungrown part.
-std::vector<Index> grow(const PolygonMesh& mesh, const Topology& topology, const Overlap& overlap, Index s,
-                        std::vector<Index> faces);
 
 /// Cuts out the sub-mesh of the grown part s. Its interface is its artificial boundary: the vertices that may move and
 /// have faces outside. Of the interface's lists only `vertices` is filled in (the others are -1 or empty): no fan is

@@ -56,7 +56,7 @@ void require_fields(SmoothCommand& command)
         return refuse_beside(first_of_diffusion(command), by, "it concerns what diffuses, and distances do not");
     require_none_broken<SmoothCommand>(rules_of_field_amounts, command, asked_options(command),
                                        filling(command.options));
-    if (command.fields.fwhm && !is_given(command, "--steps"))
+    if (command.fields.options.fwhm && !is_given(command, "--steps"))
         command.options.steps = steps_of_fwhm;
     if (!is_given(command, "--laplacian"))
         command.options.laplacian = FieldOptions().laplacian;

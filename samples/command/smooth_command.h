@@ -19,8 +19,6 @@ namespace seamflow {
 struct FieldRequest {
     /// Those that diffuse; empty: none.
     std::vector<std::string> names;
-    /// In place of FieldOptions::fwhm.
-    std::optional<LengthOnMesh> fwhm;
     FieldOptions options;
     /// File with the vertices to measure geodesic distances from; empty: none are measured.
     std::filesystem::path from;

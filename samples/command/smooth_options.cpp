@@ -123,7 +123,7 @@ void Entries::add_fields()
         {"NAME,…", [&names = fields.names](const std::string& text) { names = CLI::detail::split(text, ','); }});
     add({"", "--fwhm", option_group::fields, files | amount,
          "full width at half maximum of the smoothing, over all steps together; 10 steps unless told otherwise"},
-        to(fields.fwhm), "--fields");
+        to(fields.options.fwhm), "--fields");
     add({"", "--fill", option_group::fields, files, "give vertices without data the harmonic extension of the others"},
         to(fields.options.fill), "--fields");
     add({"", "--keep-field-edges", option_group::fields, files,

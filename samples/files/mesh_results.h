@@ -10,31 +10,57 @@
 
 namespace seamflow {
 
-/// Writes a state of a mesh: in the form of the input (see write_mesh_like) if the format of `path` is the same and the
-/// sub-meshes are joined, else as a plain mesh.
-/// @param separated the sub-meshes, each with its own copies of shared vertices; null: they are joined.
-/// @param seam_distance see write_mesh_like.
-/// @returns remarks for the user.
-/// @throws OutputError, InputError (see write_mesh_like).
-std::vector<std::string> write_state(const std::filesystem::path& path, const PolygonMesh& mesh,
-                                     const PolygonMesh* separated, const MeshFile& input,
-                                     const Executor& exec = run_serially, double seam_distance = 0.0);
+/// A file that receives states of a mesh. Its form follows from its name and from the input, once: that of the input
+/// (see write_mesh_like) if the formats are the same and the sub-meshes are joined, else that of a plain mesh.
+class MeshOutput {
+  public:
+    /// @param input must outlive this. @throws as kind_for_writing.
+    MeshOutput(std::filesystem::path path, const MeshFile& input);
 
-/// Lists the data of the input that such a file will not have.
-/// @param joined whether the sub-meshes will be joined.
-/// @returns remarks for the user.
-std::vector<std::string> remarks_on_losses(const std::filesystem::path& path, bool joined, const MeshFile& input,
-                                           const Executor& exec = run_serially);
+    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+    [[nodiscard]] const FileKind& kind() const { return kind_; }
+    /// Whether the format is that of the input.
+    [[nodiscard]] bool is_like_input() const { return kind_.format == input_->kind.format; }
+
+    /// @throws OutputError if the format cannot hold the mesh of the input.
+    void require_storable() const;
+
+    /// @param separated the sub-meshes, each with its own copies of shared vertices; null: they are joined.
+    /// @param seam_distance see write_mesh_like.
+    /// @returns remarks for the user.
+    /// @throws OutputError, InputError (see write_mesh_like).
+    std::vector<std::string> write(const PolygonMesh& mesh, const PolygonMesh* separated,
+                                   const Executor& exec = run_serially, double seam_distance = 0.0) const
+    {
+        return write_as(path_, mesh, separated, exec, seam_distance);
+    }
+
+    /// The same to another file of this form.
+    std::vector<std::string> write_as(const std::filesystem::path& path, const PolygonMesh& mesh,
+                                      const PolygonMesh* separated, const Executor& exec = run_serially,
+                                      double seam_distance = 0.0) const;
+
+    /// Lists the data of the input that the file will not have.
+    /// @param joined whether the sub-meshes will be joined.
+    /// @returns remarks for the user.
+    [[nodiscard]] std::vector<std::string> remarks_on_losses(bool joined, const Executor& exec = run_serially) const;
+
+    /// A remark on the parts of the input that were left out of the flow.
+    /// @param joined see remarks_on_losses.
+    [[nodiscard]] std::string remark_on_faces(const FaultLog& faults, bool joined) const;
+
+  private:
+    [[nodiscard]] FileFields colours(const Executor& exec) const;
+
+    std::filesystem::path path_;
+    const MeshFile* input_;
+    FileKind kind_;
+};
 
 /// Checks that there are faces.
 /// @param left_out what of the file is not among the faces.
 /// @throws InputError
 void require_faces(const std::filesystem::path& path, std::int64_t n_faces, const FaultLog& left_out = {});
-
-/// A remark on the parts of a file that were left out of the flow.
-/// @param path, joined see remarks_on_losses. @param input the kind of the file.
-std::string remark_on_faces(const FaultLog& faults, const std::filesystem::path& path, bool joined,
-                            const FileKind& input);
 
 /// The labels of the faces that flow.
 /// @param left_out ascending: the numbers in the file of the other faces, which have labels, too.

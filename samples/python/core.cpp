@@ -19,7 +19,6 @@
 
 #include "engine/diffuse.h"
 #include "engine/geodesic_distance.h"
-#include "engine/measure/length_scale.h"
 #include "engine/options/option_table.h"
 #include "partition/errors.h"
 #include "partition/large_arrays.h"
@@ -215,7 +214,7 @@ FieldReport diffuse_fields(const PolygonMesh& mesh, const FlowOptions& of_flow, 
     const auto& [fwhm, keep_edges, fill, is_free] = of_fields;
     FieldOptions options;
     if (!fwhm.empty())
-        options.fwhm = LengthScale(mesh).length_of(parse_length(fwhm));
+        options.fwhm = parse_length(fwhm);
     if (keep_edges != 0.0)
         options.keep_edges = keep_edges;
     options.laplacian = of_flow.laplacian;

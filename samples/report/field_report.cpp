@@ -91,7 +91,8 @@ void print_field_amount(std::ostream& out, const MeshScale& scale, const FlowOpt
     const double time = options.time_step * options.steps;
     const bool is_of_surface = options.laplacian != Laplacian::Fujiwara && options.laplacian != Laplacian::Uniform;
     if (filter_of(options).is_plain() && options.steps > 0 && is_of_surface)
-        out << fmt::format(": a kernel {:.6g} wide at half its height", of_fields.fwhm.value_or(fwhm_for_time(time)));
+        out << fmt::format(": a kernel {:.6g} wide at half its height",
+                           of_fields.fwhm ? of_fields.fwhm->value : fwhm_for_time(time));
     if (of_fields.keep_edges)
         out << fmt::format(", differences above {:g} kept", *of_fields.keep_edges);
     out << std::endl;

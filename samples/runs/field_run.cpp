@@ -63,12 +63,11 @@ void renormalise(FileFields& fields, const Eigen::MatrixXd& before)
 }
 
 /// Checks that OUTPUT has a place for fields, so that nothing is computed in vain.
-void require_place(const SmoothCommand& command, const MeshFile& file)
+void require_place(const SmoothCommand& command, const MeshOutput& output)
 {
-    const FileFormat format = kind_for_writing(command.output, file.kind).format;
-    if (format != FileFormat::Ply && (format != file.kind.format || command.fields.names.empty()))
+    if (output.kind().format != FileFormat::Ply && (!output.is_like_input() || command.fields.names.empty()))
         throw OutputError(
-            fmt::format("{}: cannot be written: only .ply files hold such fields; write one", command.output.string()));
+            fmt::format("{}: cannot be written: only .ply files hold such fields; write one", output.path().string()));
 }
 
 /// Completes options that the command line leaves to the mesh.
@@ -181,13 +180,12 @@ std::vector<Index> read_sources(const SmoothCommand& command, Index n_vertices)
 
 /// In the form of the input where the format stays.
 /// @param fields are rounded to what was written.
-std::vector<std::string> write_fields(const SmoothCommand& command, const MeshFile& file, FileFields& fields,
+std::vector<std::string> write_fields(const MeshOutput& output, const MeshFile& file, FileFields& fields,
                                       const Executor& exec)
 {
-    const FileKind kind = kind_for_writing(command.output, file.kind);
-    if (kind.format != file.kind.format)
-        return write_mesh(command.output, file.mesh, kind, fields, exec);
-    std::vector<std::string> remarks = write_mesh_like(*file.source, command.output, file.mesh, fields, exec);
+    if (!output.is_like_input())
+        return write_mesh(output.path(), file.mesh, output.kind(), fields, exec);
+    std::vector<std::string> remarks = write_mesh_like(*file.source, output.path(), file.mesh, fields, exec);
     const Eigen::MatrixXd& all = fields.values;
     round_as_written(fields, all, exec);
     return remarks;
@@ -206,17 +204,16 @@ void write_page(const SmoothCommand& command, const PolygonMesh& mesh, FileColou
 }
 
 /// Writes the mesh with its fields, and remarks on what it lacks.
-void write_result(const SmoothCommand& command, const MeshFile& file, FileFields& fields, const FaultLog& left_out,
+void write_result(const MeshOutput& output, const MeshFile& file, FileFields& fields, const FaultLog& left_out,
                   const Executor& exec, RunRecord& run, FieldSummary& summary)
 {
     const Stopwatch writing;
-    for (const auto& remarks :
-         {remarks_on_losses(command.output, true, file, exec), write_fields(command, file, fields, exec)})
+    for (const auto& remarks : {output.remarks_on_losses(true, exec), write_fields(output, file, fields, exec)})
         summary.report.remarks.insert(summary.report.remarks.end(), remarks.begin(), remarks.end());
     remark_on_vertices(file.mesh, run.scale, exec, summary.report.remarks);
     summary.after = ranges_of_columns(fields.values);
     if (left_out.count > 0)
-        summary.report.remarks.push_back(remark_on_faces(left_out, command.output, true, file.kind));
+        summary.report.remarks.push_back(output.remark_on_faces(left_out, true));
     run.write_seconds = writing.seconds();
 }
 
@@ -229,11 +226,11 @@ void resolve_field_amount(SmoothCommand& command, const PolygonMesh& mesh, const
     FlowOptions& of_flow = command.options;
     of_flow = resolved(std::move(of_flow), mesh, scale, exec, run.remarks);
     FieldOptions& options = command.fields.options;
-    if (command.fields.fwhm) {
-        if (command.fields.fwhm->of_diagonal && !(run.scale.diagonal > 0.0))
+    if (options.fwhm) {
+        if (options.fwhm->of_diagonal && !(run.scale.diagonal > 0.0))
             throw InputError("the mesh has no size to measure a part of: give --fwhm as a length");
-        options.fwhm = scale.length_of(*command.fields.fwhm);
-        of_flow.time_step = time_for_fwhm(*options.fwhm) / std::max(of_flow.steps, 1);
+        options.fwhm = scale.length_of(*options.fwhm);
+        of_flow.time_step = time_for_fwhm(options.fwhm->value) / std::max(of_flow.steps, 1);
     }
 }
 
@@ -247,7 +244,8 @@ ExitStatus run_fields(SmoothCommand& command, RunRecord& run, RankGroup* ranks)
     FaultLog left_out{.of_faces_alone = true};
     MeshFile file = read_faulty_mesh(command.input, left_out, exec);
     require_faces(command.input, file.mesh.n_faces(), left_out);
-    require_place(command, file);
+    const MeshOutput output(command.output, file);
+    require_place(command, output);
     FileColours colours;
     if (!command.html.empty()) {
         require_showable(file.mesh, command.html);
@@ -280,7 +278,7 @@ ExitStatus run_fields(SmoothCommand& command, RunRecord& run, RankGroup* ranks)
     }
     if (!from.empty())
         fields.decimals = {of_distances};
-    write_result(command, file, fields, left_out, exec, run, summary);
+    write_result(output, file, fields, left_out, exec, run, summary);
     run.ranks = summary.report.flow.ranks;
     run.seconds = whole.seconds();
     const std::string report = field_report_json(run, command.options, summary);

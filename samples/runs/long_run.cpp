@@ -126,8 +126,9 @@ std::filesystem::path LongRun::write_last_step()
                                              ? std::filesystem::path("smooth" + extension_of(file_->kind.format))
                                              : command_->output;
     const auto path = interrupted_path(output, command_->input);
-    write_state(path, file_->mesh, separated_ ? &*separated_ : nullptr, *file_, run_serially,
-                seam_distance_of(command_->options.motion));
+    MeshOutput(path, *file_)
+        .write(file_->mesh, separated_ ? &*separated_ : nullptr, run_serially,
+               seam_distance_of(command_->options.motion));
     return path;
 }
 

@@ -170,7 +170,7 @@ void TiledRun::read_all()
         TileInput input = read_tile(path, exec_);
         require_storable(input.file.mesh, command_.out_dir / path.filename(), input.file.kind);
         if (input.left_out.count > 0)
-            report_.add_remark(path, remark_on_faces(input.left_out, path, true, input.file.kind));
+            report_.add_remark(path, MeshOutput(path, input.file).remark_on_faces(input.left_out, true));
         tiles_.push_back(summary_of(path, input.file.mesh, exec_));
         if (!has_resumed_)
             keep_input(folder_, n_tiles() - 1, input.file.mesh, exec_);
@@ -271,8 +271,8 @@ void TiledRun::write(Index tile, const Points& positions)
         throw InputError(summary.path.string() + ": has been changed since the run began; start over with it");
     report_.add_result(input.file.mesh.vertices, positions);
     input.file.mesh.vertices = positions;
-    for (const std::string& remark : write_state(command_.out_dir / summary.path.filename(), input.file.mesh, nullptr,
-                                                 input.file, exec_, seam_distance_of(options_.motion)))
+    const MeshOutput output(command_.out_dir / summary.path.filename(), input.file);
+    for (const std::string& remark : output.write(input.file.mesh, nullptr, exec_, seam_distance_of(options_.motion)))
         report_.add_remark(summary.path, remark);
     if (run_.n_shared > 0 && has_normals(input.file, exec_))
         report_.add_remark(summary.path, summary.path.string() +

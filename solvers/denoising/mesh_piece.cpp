@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "partition/cut/boxes.h"
+#include "partition/decomposition/grow.h"
 #include "partition/decomposition/index_set.h"
-#include "partition/decomposition/overlap.h"
 
 namespace seamflow {
 

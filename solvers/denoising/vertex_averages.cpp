@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <vector>
 
-#include "partition/decomposition/local_mesh.h"
 #include "partition/parallel_lists.h"
 
 namespace seamflow {

@@ -78,7 +78,7 @@ Eigen::MatrixXd diffused(const Arguments& a, FieldOptions of_fields)
     FlowOptions options = a.options;
     if (of_fields.fwhm) {
         options.time_step = 0.0;
-        *of_fields.fwhm *= a.edge;
+        of_fields.fwhm->value *= a.edge;
     }
     diffuse(a.w.mesh, fields, options, of_fields);
     return fields;

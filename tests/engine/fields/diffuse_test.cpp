@@ -12,6 +12,7 @@
 #include "engine/diffuse.h"
 #include "engine/fields/field_columns.h"
 #include "partition/errors.h"
+#include "partition/metrics/bounding_box.h"
 #include "partition/metrics/vertex_distance.h"
 #include "samples/meshes/meshes.h"
 #include "tests/support/junction_meshes.h"
@@ -508,6 +509,28 @@ TEST_CASE("a step that misses its tolerance counts once, whatever takes it: colu
     }
 }
 
+TEST_CASE("a width, a radius and a time step may be relative to the mesh")
+{
+    const PolygonMesh mesh = bumpy_triangles(600);
+    const double diagonal = box_of_faces(mesh).diagonal();
+    const double edge = mean_edge_length(mesh);
+    const auto diffused = [&](const FlowOptions& options, const FieldOptions& of_fields = {}) {
+        Eigen::MatrixXd fields = waves_on(mesh);
+        diffuse(mesh, fields, options, of_fields);
+        return fields;
+    };
+    CHECK(diffused({.steps = 3}, {.fwhm = LengthOnMesh{0.1, true}}) ==
+          diffused({.steps = 3}, {.fwhm = 0.1 * diagonal}));
+    CHECK(diffused({.radius = LengthOnMesh{0.1, true}}) == diffused({.radius = 0.1 * diagonal}));
+    CHECK(diffused({.time_step_edges = 4.0}) == diffused({.time_step = 4.0 * edge * edge}));
+    CHECK(diffused({.time_step_edges = 4.0}) != diffused({.time_step_edges = 5.0}));
+    PolygonMesh point = mesh;
+    point.vertices.setZero();
+    Eigen::MatrixXd fields = waves_on(mesh);
+    CHECK_THROWS_WITH_AS(diffuse(point, fields, {}, {.fwhm = LengthOnMesh{0.1, true}}),
+                         doctest::Contains("the mesh has no size to measure a part of"), InputError);
+}
+
 TEST_CASE("vertices along seams get one value")
 {
     const PolygonMesh whole = bumpy_triangles(600);
@@ -556,6 +579,8 @@ TEST_CASE("fields refuse what they do not have, and stay as they were")
     CHECK(complaint(sweeps) == "the steps of fields are solved exactly, and not by sweeps over sub-meshes: leave what "
                                "concerns sweeps out");
     CHECK(complaint({.time_step = 1.0}, {.fwhm = 1.0}) ==
+          "fwhm and time_step or radius both say how much is smoothed: leave one of them out");
+    CHECK(complaint({.time_step_edges = 1.0}, {.fwhm = 1.0}) ==
           "fwhm and time_step or radius both say how much is smoothed: leave one of them out");
     CHECK(complaint({}, {.fwhm = -1.0}) == "fwhm is -1, but must be positive and finite (a length)");
     CHECK(complaint({.laplacian = Laplacian::AlexaWardetzky, .time_step = 1.0}) ==
