@@ -42,9 +42,9 @@ struct WorkOutcome {
 };
 
 /// Runs an action that other ranks wait for, retrying while memory is lacking: a failing rank frees memory meanwhile.
-/// @throws whatever the action throws, std::bad_alloc after some seconds.
+/// @returns what the action returns. @throws whatever the action throws, std::bad_alloc after some seconds.
 template <class Action>
-void retry(Action&& action)
+auto retry(Action&& action)
 {
     constexpr int most_attempts = 500;
     constexpr std::chrono::milliseconds pause{10};

@@ -134,8 +134,9 @@ class RankServer {
 
 }  // namespace
 
+/// Other ranks wait for this one.
 RankGroup::RankGroup(Transport& transport)
-    : comm_(std::make_unique<Communicator>(transport))
+    : comm_(retry([&] { return std::make_unique<Communicator>(transport); }))
     , size_(transport.size())
     , n_on_this_machine_(count_on_this_machine(*comm_, transport))
 {
