@@ -300,19 +300,6 @@ std::optional<double> measure_width(HeatEquation& heat, double wanted, int steps
     return fwhm;
 }
 
-/// With the width in length.
-/// @throws InputError for a mesh that is not valid, or that has no size to measure by.
-FieldOptions resolved(FieldOptions options, const PolygonMesh& mesh)
-{
-    if (!options.fwhm)
-        return options;
-    LengthScale scale(mesh);
-    options.fwhm = scale.length_of(*options.fwhm);
-    if (!(options.fwhm->value > 0.0))
-        throw InputError(Wording{"the mesh has no size to measure a part of: give <fwhm> as a length"});
-    return options;
-}
-
 }  // namespace
 
 FieldReport diffuse(const PolygonMesh& mesh, Eigen::MatrixXd& fields, const FlowOptions& options,
@@ -324,7 +311,8 @@ FieldReport diffuse(const PolygonMesh& mesh, Eigen::MatrixXd& fields, const Flow
     Workers workers(options.resources.threads);
     const Executor exec = workers.exec();
     Eigen::MatrixXd results = copy_of(fields, exec);
-    const FieldOptions of_fields = resolved(field_options, mesh);
+    LengthScale scale(mesh, exec);
+    const FieldOptions of_fields = resolved(field_options, scale);
     const FlowOptions of_flow = resolved(flow_for_fields(options, of_fields), mesh);
     const Weights weights = weights_for_fields(field_options);
     // With keep_edges, K changes between steps.

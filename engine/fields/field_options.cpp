@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/measure/length_scale.h"
 #include "engine/options/option_names.h"
 #include "engine/options/option_rules.h"
 #include "engine/options/option_table.h"
@@ -68,6 +69,16 @@ constexpr FieldRule field_rules[]{
 };
 
 }  // namespace
+
+FieldOptions resolved(FieldOptions options, LengthScale& scale)
+{
+    if (!options.fwhm)
+        return options;
+    options.fwhm = scale.length_of(*options.fwhm);
+    if (!(options.fwhm->value > 0.0))
+        throw InputError(Wording{"the mesh has no size to measure a part of: give <fwhm> as a length"});
+    return options;
+}
 
 void require_for_fields(const FlowOptions& options, const FieldOptions& of_fields)
 {

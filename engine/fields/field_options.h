@@ -8,6 +8,8 @@
 
 namespace seamflow {
 
+class LengthScale;
+
 /// AccuracyOptions::tolerance of fields if it is not set.
 inline constexpr double default_field_tolerance = 1e-8;
 
@@ -54,6 +56,10 @@ double time_for_fwhm(double fwhm);
 
 /// The full width at half maximum, in length, of the kernel after a time in length²: inverse of time_for_fwhm.
 double fwhm_for_time(double time);
+
+/// Options with the width in length.
+/// @throws InputError for a mesh that is not valid, or that has no size to measure by.
+FieldOptions resolved(FieldOptions options, LengthScale& scale);
 
 /// @throws OptionError for options that fields do not have.
 void require_for_fields(const FlowOptions& options, const FieldOptions& of_fields);

@@ -15,6 +15,8 @@ struct Entry {
     RequestOption option;
     /// An option without which it is refused.
     const char* needs = "";
+    /// What several words are added to, in place of a reader; null for all options that take one.
+    std::vector<std::string>* words = nullptr;
 };
 
 /// Pairs that are refused together, besides those of requests.
@@ -120,7 +122,8 @@ void Entries::add_fields()
          "smooth these numbers of the vertices instead of the surface, which stays\n"
          "Properties of PLY files; red, green and blue of OBJ and OFF files; normal, colour. They diffuse by the heat "
          "equation on the surface, with --fwhm, --radius or --time-step. NaN is no data: such vertices take no part."},
-        {"NAME,…", [&names = fields.names](const std::string& text) { names = CLI::detail::split(text, ','); }});
+        {});
+    list_.back().words = &fields.names;
     add({"", "--fwhm", option_group::fields, files | amount,
          "full width at half maximum of the smoothing, over all steps together; 10 steps unless told otherwise"},
         to(fields.options.fwhm), "--fields");
@@ -186,14 +189,18 @@ void Entries::add_of_run()
 void add_options(CLI::App& app, SmoothCommand& command)
 {
     const Entries entries(command);
-    for (const auto& [option, needs] : entries.list()) {
-        app.option_defaults()->group(std::string(option.traits.group));
-        add_reader(app, option.names.empty() ? std::string(option.traits.option) : option.names, option.reader,
-                   std::string(option.traits.text));
+    for (const Entry& entry : entries.list()) {
+        const OptionTraits& traits = entry.option.traits;
+        const std::string names = entry.option.names.empty() ? std::string(traits.option) : entry.option.names;
+        app.option_defaults()->group(std::string(traits.group));
+        if (entry.words != nullptr)
+            app.add_option(names, *entry.words, std::string(traits.text))->delimiter(',')->type_name("NAME,…");
+        else
+            add_reader(app, names, entry.option.reader, std::string(traits.text));
     }
-    for (const auto& [option, needs] : entries.list())
-        if (*needs != '\0')
-            app.get_option(std::string(option.traits.option))->needs(app.get_option(needs));
+    for (const Entry& entry : entries.list())
+        if (*entry.needs != '\0')
+            app.get_option(std::string(entry.option.traits.option))->needs(app.get_option(entry.needs));
     for (const auto& [one, other] : exclusions)
         app.get_option(one)->excludes(app.get_option(other));
     for (const auto& [one, other] : exclusions_of_requests())

@@ -194,6 +194,8 @@ void take_preset(SmoothRequest& request)
     if (settings.keep_edges)
         request.options.keep_edges = settings.keep_edges;
     request.chosen = in_words(settings.chosen, " ");
+    if (settings.amount)
+        request.chosen_amount = option_of_program(settings.amount->option, settings.amount->value);
     request.chooses_amount = settings.chooses_amount;
 }
 

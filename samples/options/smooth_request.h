@@ -44,6 +44,8 @@ struct SmoothRequest {
     bool chooses_amount = false;
     /// Options that a preset has chosen, as they would be typed, without the amount: "--steps 3". Empty: there is none.
     std::string chosen;
+    /// The amount, as it would be typed, if that preset has one: "--radius 3%".
+    std::string chosen_amount;
     /// Whether the user limits the iterations of a step: then it is no failure to reach the limit.
     bool limits_iterations = false;
     /// Whether the number of threads was left open.

@@ -70,6 +70,19 @@ void require_place(const SmoothCommand& command, const MeshOutput& output)
             fmt::format("{}: cannot be written: only .ply files hold such fields; write one", output.path().string()));
 }
 
+/// Completes the amount and the lengths of `command` for fields on a mesh, and records its sizes.
+void resolve_field_amount(SmoothCommand& command, const PolygonMesh& mesh, const Executor& exec, RunRecord& run)
+{
+    run.scale = measure_scale(mesh, exec);
+    LengthScale scale = run.scale.lengths();
+    FlowOptions& of_flow = command.options;
+    of_flow = resolved(std::move(of_flow), mesh, scale, exec, run.remarks);
+    FieldOptions& options = command.fields.options;
+    options = resolved(std::move(options), scale);
+    if (options.fwhm)
+        of_flow.time_step = time_for_fwhm(options.fwhm->value) / std::max(of_flow.steps, 1);
+}
+
 /// Completes options that the command line leaves to the mesh.
 void complete_options(SmoothCommand& command, const MeshFile& file, const FaultLog& left_out, const Executor& exec,
                       RunRecord& run)
@@ -218,21 +231,6 @@ void write_result(const MeshOutput& output, const MeshFile& file, FileFields& fi
 }
 
 }  // namespace
-
-void resolve_field_amount(SmoothCommand& command, const PolygonMesh& mesh, const Executor& exec, RunRecord& run)
-{
-    run.scale = measure_scale(mesh, exec);
-    LengthScale scale = run.scale.lengths();
-    FlowOptions& of_flow = command.options;
-    of_flow = resolved(std::move(of_flow), mesh, scale, exec, run.remarks);
-    FieldOptions& options = command.fields.options;
-    if (options.fwhm) {
-        if (options.fwhm->of_diagonal && !(run.scale.diagonal > 0.0))
-            throw InputError("the mesh has no size to measure a part of: give --fwhm as a length");
-        options.fwhm = scale.length_of(*options.fwhm);
-        of_flow.time_step = time_for_fwhm(options.fwhm->value) / std::max(of_flow.steps, 1);
-    }
-}
 
 ExitStatus run_fields(SmoothCommand& command, RunRecord& run, RankGroup* ranks)
 {

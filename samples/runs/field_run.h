@@ -1,18 +1,11 @@
 #pragma once
 
 #include "engine/ranks/rank_group.h"
-#include "partition/executor.h"
-#include "partition/polygon_mesh.h"
 #include "samples/command/smooth_command.h"
 #include "samples/process/exit_status.h"
 #include "samples/report/run_record.h"
 
 namespace seamflow {
-
-/// Completes the amount and the lengths of `command` for fields on a mesh.
-/// @param run receives the size of the mesh.
-/// @throws InputError as resolve_amount.
-void resolve_field_amount(SmoothCommand& command, const PolygonMesh& mesh, const Executor& exec, RunRecord& run);
 
 /// Runs `smooth` for fields on the surface of INPUT: reads them, lets them diffuse or measures distances, writes OUTPUT
 /// with them, and prints what was done.

@@ -17,7 +17,6 @@
 #include "partition/io/input_position.h"
 #include "partition/metrics/bounding_box.h"
 #include "partition/metrics/spikes.h"
-#include "samples/process/option_words.h"
 
 namespace seamflow {
 
@@ -41,7 +40,7 @@ void choose_amount(SmoothRequest& request, const PolygonMesh& mesh, const Execut
     if (choice.remark)
         request.chosen = "nothing is smoothed";
     else if (preset.radius)
-        request.chosen += option_of_program("radius", fmt::format("{:g}%", 100.0 * preset.radius->value));
+        request.chosen += request.chosen_amount;
     else
         request.chosen += fmt::format("--time-step-edges {:.3g}",
                                       request.options.time_step / (run.scale.mean_edge * run.scale.mean_edge));

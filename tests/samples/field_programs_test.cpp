@@ -145,6 +145,9 @@ TEST_CASE("fields of the largest numbers have a mean, and names that are not UTF
 TEST_CASE("fields are filled, keep their edges, and stay on a boundary that is fixed")
 {
     const FieldWorkshop w;
+    for (const char* const fields :
+         {"--fields thickness,red", "--fields thickness red", "--fields thickness --fields red"})
+        CHECK(w.smooth(std::string("in.ply out.ply --radius 2% ") + fields) == 0);
     REQUIRE(w.smooth("in.ply filled.ply --fields thickness --radius 2% --fill") == 0);
     CHECK(w.said().find("of which 1 were filled") != std::string::npos);
     CHECK(w.fields_of("filled.ply", {"thickness"}).values.allFinite());
