@@ -48,8 +48,8 @@ struct ValueRange {
 /// One for each column of the group, over the vertices with data.
 std::vector<ValueRange> ranges_of(const Eigen::MatrixXd& fields, const FieldGroup& group, const Executor& exec);
 
-/// Columns scaled to units in which the spread of their values is about that of positions in steps, so that the
-/// differences that steps add fit in single precision. Units are powers of two, so that scaling is exact.
+/// Columns, each divided by a power of two, which is exact, so that its values spread over about √dt. Steps move
+/// positions about as far, and steppers are made for these: the updates of columns then fit in single precision, too.
 class ScaledFields {
   public:
     /// @param values #V by the columns of the group. @param ranges of the whole mesh (see ranges_of).

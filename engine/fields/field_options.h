@@ -31,15 +31,14 @@ struct FieldOptions {
     /// of the Gaussian kernel of the heat equation at the time t = FWHM² / (16 ln 2) of all steps. Backward Euler steps
     /// come near to it if there are several (see FieldReport::fwhm).
     std::optional<LengthOnMesh> fwhm = {};
-    /// Keeps edges of the fields: differences well above this diffuse little (see
-    /// HeatEquation::keep_field_edges). All columns count together, as one vector per vertex. K is factorised in each
-    /// step. Not with conjugate gradients.
+    /// Keeps edges of the fields: differences well above this diffuse little (see HeatEquation::keep_field_edges). All
+    /// columns count together, as one vector per vertex. K is factorised in each step. Not with conjugate gradients.
     std::optional<double> keep_edges = {};
     /// Gives vertices without data, after all steps, the harmonic extension of the data: K X = 0 there.
     bool fill = false;
-    /// Used in place of FlowOptions::laplacian; must be symmetric. M⁻¹ K of Δ_A and Δ_B is the Laplace-Beltrami
-    /// operator on any faces, so that times and widths of kernels are exact. M⁻¹ K of Δ_F and Δ_U depends on the faces:
-    /// on regular triangles Δ_F smooths √1.5 times as wide.
+    /// Used in place of FlowOptions::laplacian; must be symmetric. M⁻¹ K of AlexaWardetzky and VirtualRefinement is the
+    /// Laplace-Beltrami operator on any faces, so that times and widths of kernels are exact. M⁻¹ K of Fujiwara and
+    /// Uniform depends on the faces: on regular triangles Fujiwara's smooths √1.5 times as wide.
     Laplacian laplacian = Laplacian::VirtualRefinement;
     /// AtLeastZero, which is AtLeastZeroInFaces with keep_edges, or the weights of the Laplacian, with which values can
     /// leave their range beside obtuse angles. Ranks do not share steps with weights other than the Laplacian's.

@@ -39,19 +39,21 @@ HeatSteps::HeatSteps(PolygonMesh& surface, const FlowOptions& options, Weights w
     progress.set_steps(options.steps);
     progress.enter(FlowPhase::Cut, 0, 0.0, 0.6 * setup);
     progress.expect(8.0);
-    decide();
+    make_surface_and_plan();
     report.seconds.cut = watch.lap();
     progress.enter(FlowPhase::Analyse, 0, 0.6 * setup, setup);
     make_stepper_within_limit();
-    report_to(steps_, surface_, options_, mesh_, {}, report);
-    report.cut.labels = std::move(steps_.cut.labels);
+    report_to(plan_, surface_, options_, mesh_, {}, report);
+    report.cut.labels = std::move(plan_.cut.labels);
     free_topology();
     report.seconds.analyse = watch.lap();
     report.seconds.total = report.seconds.cut + report.seconds.analyse;
     fractions_.emplace(setup, std::max(options.steps, 1), false);
 }
 
-/// Replaces faces by those of an intrinsic Delaunay triangulation, if weights are to be at least 0 and are not.
+/// Replaces the faces by those of an intrinsic Delaunay triangulation of the same surface, if the options ask for
+/// weights of at least 0 and the Laplacian has others. Keeps K and M of the triangulation in stiffness_.
+/// @returns whether the faces were replaced.
 bool HeatSteps::flip_edges(FlowingMesh& mesh, Surface& surface)
 {
     if (weights_ == Weights::OfLaplacian)
@@ -62,7 +64,7 @@ bool HeatSteps::flip_edges(FlowingMesh& mesh, Surface& surface)
         return false;
     mesh.replace_faces(std::move(flipped->mesh), flipped->face_of);
     stiffness_ = std::move(flipped->stiffness);
-    // Filters with factors outside 0 to 1 for some modes are excluded.
+    // Only plain steps keep values in their range: other filters can leave it with any weights.
     surface.choices.push_back(
         {"flipped edges",
          {},
@@ -72,7 +74,7 @@ bool HeatSteps::flip_edges(FlowingMesh& mesh, Surface& surface)
 }
 
 /// Decides which vertices have equations, and how these are solved.
-void HeatSteps::decide()
+void HeatSteps::make_surface_and_plan()
 {
     require_valid(mesh_.mesh(), progress_.exec());
     progress_.count();
@@ -83,8 +85,8 @@ void HeatSteps::decide()
         progress_);
     options_.cut.labels = mesh_.of_faces_left(options_.cut.labels);
     progress_.count();
-    steps_ = decide_steps(mesh_.mesh(), surface_, options_, std::nullopt,
-                          ranks_ != nullptr ? Sharing::Ranks : Sharing::None, progress_, [] {});
+    plan_ = decide(mesh_.mesh(), surface_, options_, std::nullopt, ranks_ != nullptr ? Sharing::Ranks : Sharing::None,
+                   progress_, [](Approach) {});
 }
 
 void HeatSteps::make_stepper_within_limit()
@@ -92,9 +94,9 @@ void HeatSteps::make_stepper_within_limit()
     try {
         make_stepper();
     } catch (const MemoryLimitError&) {
-        if (!steps_.without_factors)
+        if (!plan_.without_factors)
             throw;
-        leave_factors(steps_, options_, mesh_.mesh(), surface_.topology, progress_.exec());
+        leave_factors(plan_, mesh_.mesh(), surface_.topology, progress_.exec());
         make_stepper();
     }
 }
@@ -103,12 +105,17 @@ void HeatSteps::make_stepper()
 {
     const PolygonMesh& mesh = mesh_.mesh();
     const GivenStiffness* const given = stiffness_ ? &*stiffness_ : nullptr;
-    if (ranks_ != nullptr && given == nullptr && ranks_->can_share(steps_.cut, options_)) {
-        stepper_ = ranks_->make_stepper(mesh, surface_.topology, steps_.cut, options_, {}, progress_);
-    } else if (options_.accuracy.approach == Approach::ConjugateGradients) {
-        stepper_ = std::make_unique<ConjugateGradientStepper>(mesh, surface_.topology, options_, progress_, given);
+    const StepSettings settings = settings_of(options_, plan_.way, mesh.vertices);
+    if (ranks_ != nullptr && given == nullptr && ranks_->can_share(plan_, settings)) {
+        stepper_ = ranks_->make_stepper(mesh, surface_.topology, plan_, settings, {}, progress_);
+    } else if (const auto* const gradients = std::get_if<GradientSteps>(&plan_.way)) {
+        stepper_ = std::make_unique<ConjugateGradientStepper>(mesh, surface_.topology, settings, gradients->stop,
+                                                              progress_, given);
     } else {
-        auto stepper = std::make_unique<SchurStepper>(mesh, surface_.topology, steps_.cut, options_, progress_, given);
+        const auto* const converged = std::get_if<ConvergedSteps>(&plan_.way);
+        auto stepper = std::make_unique<SchurStepper>(mesh, surface_.topology, plan_.cut, settings,
+                                                      converged != nullptr ? converged->stop : stop_without_interface,
+                                                      progress_, given);
         in_sub_meshes_ = stepper.get();
         stepper_ = std::move(stepper);
     }
@@ -117,7 +124,7 @@ void HeatSteps::make_stepper()
 /// Frees the topology, except those members that conjugate gradients need.
 void HeatSteps::free_topology()
 {
-    if (options_.accuracy.approach != Approach::ConjugateGradients)
+    if (!std::holds_alternative<GradientSteps>(plan_.way))
         surface_.topology = {};
     surface_.topology.twin = std::vector<Index>();
     surface_.topology.junctions = std::vector<JunctionLink>();

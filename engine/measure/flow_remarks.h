@@ -6,7 +6,7 @@
 namespace seamflow {
 
 /// Adds what the estimate after the last step means for the user, if it means anything.
-void remark_on_drift(const FlowOptions& options, FlowReport& report);
+void remark_on_drift(FlowReport& report);
 
 /// Adds a remark where equations were nearly singular.
 void remark_on_near_singularity(FlowReport& report);

@@ -43,11 +43,11 @@ struct PhaseSeconds {
 /// The displacement of the vertices by a whole flow, tangential to the surface and normal to it, in units of length.
 /// Only tangential displacements deform a texture on the mesh.
 struct TotalDisplacement {
-    /// Per vertex, the sums over all steps of the lengths of its tangential and normal displacements: the path of the
-    /// vertex, there and back.
+    /// Statistics over the vertices of the lengths of their paths, there and back: of the sums over all steps of the
+    /// lengths of the tangential and of the normal displacements.
     DisplacementStatistics path;
-    /// Per vertex, the length of the vector sum of its tangential displacements: how far the vertex, and the texture
-    /// with it, has slid along the surface in the end.
+    /// Statistics over the vertices of the length of the vector sum of the tangential displacements: how far the
+    /// vertex, and the texture with it, has slid along the surface in the end.
     LengthStatistics drift;
 };
 

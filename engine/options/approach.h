@@ -9,7 +9,9 @@ enum class Approach {
     Automatic,
     /// Sub-meshes: Converged with a tolerance, or to a loose one where that pays, otherwise Sweep.
     Decomposed,
-    /// One sweep over the colours. Not with a tolerance.
+    /// One pass over the sub-meshes, colour by colour (adjacent sub-meshes have different colours), in which each
+    /// solves
+    /// once: near the undecomposed step, not equal to it. Not with a tolerance.
     Sweep,
     /// Sub-meshes that converge to the undecomposed step, to AccuracyOptions::tolerance or a loose one.
     Converged,

@@ -9,10 +9,10 @@ namespace seamflow {
 
 class HeatStepper;
 class Progress;
-struct Cut;
-struct FlowOptions;
+struct FlowPlan;
 struct FlowState;
 struct PolygonMesh;
+struct StepSettings;
 struct Topology;
 
 /// Those who share the steps of a flow with the one that runs it, such as ranks (see RankGroup).
@@ -24,16 +24,15 @@ class StepSharing {
     virtual ~StepSharing() = default;
 
     /// Whether they can share these steps.
-    /// @param options with all choices made.
-    [[nodiscard]] virtual bool can_share(const Cut& cut, const FlowOptions& options) const = 0;
+    [[nodiscard]] virtual bool can_share(const FlowPlan& plan, const StepSettings& settings) const = 0;
 
     /// Makes a stepper that shares its steps.
-    /// @param mesh, topology, cut are not needed later; progress must outlive the stepper. @param curvature #V: ‖ΔV⁰‖,
-    /// in 1/length; empty: as if it were 0.
-    /// @pre can_share(cut, options). @throws as make_stepper.
-    virtual std::unique_ptr<HeatStepper> make_stepper(const PolygonMesh& mesh, const Topology& topology, const Cut& cut,
-                                                      const FlowOptions& options, std::vector<double> curvature,
-                                                      Progress& progress) = 0;
+    /// @param mesh, topology, plan, settings are not needed later; progress must outlive the stepper. @param curvature
+    /// #V: ‖ΔV⁰‖, in 1/length; empty: as if it were 0.
+    /// @pre can_share(plan, settings). @throws as make_stepper.
+    virtual std::unique_ptr<HeatStepper> make_stepper(const PolygonMesh& mesh, const Topology& topology,
+                                                      const FlowPlan& plan, const StepSettings& settings,
+                                                      std::vector<double> curvature, Progress& progress) = 0;
 };
 
 /// What a flow is doing.

@@ -31,8 +31,7 @@ enum class Junctions {
     /// They move like others: K and M are sums over the faces of all sheets, so that the lines of three sheets tend to
     /// angles of 120°. Sub-meshes can share such lines only in converged steps, which are then chosen. Held instead
     /// with Δ_P, with SmoothBetweenEdges, and where an option asks for sweeps over sub-meshes; a remark says so.
-    /// Vertices where
-    /// merely several fans of faces touch stay held: they are usually a defect.
+    /// Vertices where merely several fans of faces touch stay held: they are usually a defect.
     Flow,
     /// They stay where they are, and so do all other vertices where the mesh is not manifold.
     Hold,
@@ -90,10 +89,10 @@ struct MotionOptions {
     /// Strengths below this hold a vertex, as 0 does.
     static constexpr double least_strength = 1e-9;
 
-    /// Distance within which boundary vertices count as coincident where two boundary edges can
-    /// become one (see weld). Such vertices move as one, but stay separate in the mesh, so that the surface continues
-    /// across seams of its texture. Moving copies come to one place; fixed ones stay where they are. 0: coordinates
-    /// have to be equal. nullopt disables welding.
+    /// Distance within which boundary vertices count as coincident where two boundary edges can become one (see weld).
+    /// Such vertices move as one, but stay separate in the mesh, so that the surface continues across seams of its
+    /// texture. Moving copies come to one place; fixed ones stay where they are. 0: coordinates have to be equal.
+    /// nullopt disables welding.
     std::optional<LengthOnMesh> weld = 0.0;
     /// Boundary conditions.
     Boundary boundary = Boundary::Fixed;
@@ -132,9 +131,9 @@ struct MotionOptions {
     /// unscaled; the conformalized flow continues from the scaled result, so that it does not vanish on its way to a
     /// sphere. Every vertex with faces moves: none of them may be fixed.
     Rescale rescale = Rescale::None;
-    /// Largest distance of any vertex from its first position, above 0. It bounds each result; the
-    /// flow itself is not changed. Vertices beyond it are put back to that distance, and their neighbours follow
-    /// smoothly. nullopt: no bound.
+    /// Largest distance of any vertex from its first position, above 0. It bounds each result; the flow itself is not
+    /// changed. Vertices beyond it are put back to that distance, and their neighbours follow smoothly. nullopt: no
+    /// bound.
     std::optional<LengthOnMesh> within = {};
     /// Limits of each result, like `within`.
     ComponentLimits limits = {};

@@ -11,26 +11,23 @@ namespace seamflow {
 
 namespace {
 
-/// Calls visit(option) for all options that steps in sub-meshes read, except lists with one entry per vertex.
-template <class Options, class Visit>
-void for_each_dealt(Options& options, Visit&& visit)
+/// Calls visit(value) for all settings but those with one entry per vertex.
+template <class Settings, class Visit>
+void for_each_setting(Settings& settings, Visit&& visit)
 {
-    visit(options.laplacian);
-    visit(options.flow);
-    visit(options.filter);
-    visit(options.order);
-    visit(options.time_step);
-    visit(options.uniform_edge);
-    visit(options.steps);
-    visit(options.interface);
-    visit(options.accuracy);
-    visit(options.motion.boundary);
-    visit(options.motion.attachment);
-    visit(options.resources);
+    auto& equation = settings.equation;
+    visit(equation.laplacian.kind);
+    visit(equation.laplacian.edge_length);
+    visit(equation.filter);
+    visit(equation.time_step);
+    visit(equation.terms.keeps_stiffness);
+    visit(equation.terms.keeps_mass);
+    visit(equation.terms.uniform_weight);
+    visit(settings.factors);
 }
 
 template <class Value>
-void put_rows_of(const std::vector<Value>& all, std::span<const Index> rows, Packer& message)
+void put_rows_of(std::span<const Value> all, std::span<const Index> rows, Packer& message)
 {
     std::vector<Value> own;
     if (!all.empty())
@@ -57,7 +54,9 @@ std::vector<Index> all_of(const std::vector<std::int32_t>& values, int value)
 DealtMesh dealt_mesh(Unpacker& message)
 {
     DealtMesh dealt;
-    for_each_dealt(dealt.options, [&](auto& option) { option = message.get<std::decay_t<decltype(option)>>(); });
+    dealt.way = message.get<WayOfSteps>();
+    for_each_setting(dealt.settings_without_arrays,
+                     [&](auto& setting) { setting = message.get<std::decay_t<decltype(setting)>>(); });
     dealt.holders = message.get_all<Index>();
     dealt.known = message.get_all<Index>();
     dealt.first_faces = message.get_all<Index>();
@@ -76,19 +75,30 @@ DealtMesh dealt_mesh(Unpacker& message)
     dealt.topology.fixed = message.get_all<std::uint8_t>();
     dealt.is_sent = message.get_all<std::uint8_t>();
     dealt.curvature = message.get_all<double>();
-    dealt.options.motion.strength = message.get_all<double>();
-    dealt.options.motion.attachment_weights = message.get_all<double>();
+    dealt.step_scales = message.get_all<double>();
+    dealt.weights = message.get_all<double>();
     return dealt;
 }
 
-Dealer::Dealer(const PolygonMesh& mesh, const Topology& topology, std::span<const Index> labels, Index n_parts,
-               const FlowOptions& options, std::vector<double> curvature, int n_ranks)
+StepSettings DealtMesh::settings() const
+{
+    StepSettings settings = settings_without_arrays;
+    FlowTerms& terms = settings.equation.terms;
+    terms.initial = &mesh.vertices;
+    terms.weights = weights;
+    terms.step_scales = step_scales;
+    return settings;
+}
+
+Dealer::Dealer(const PolygonMesh& mesh, const Topology& topology, const Cut& cut, const WayOfSteps& way,
+               const StepSettings& settings, std::vector<double> curvature, int n_ranks)
     : mesh_(&mesh)
     , topology_(&topology)
-    , labels_(labels)
-    , options_(&options)
+    , labels_(cut.labels)
+    , way_(&way)
+    , settings_(&settings)
     , curvature_(std::move(curvature))
-    , faces_(faces_by_label(labels, n_parts, run_in_parallel))
+    , faces_(faces_by_label(cut.labels, cut.n_parts, run_in_parallel))
     , holder_at_(usize(mesh.n_vertices()), -1)
     , sender_(holder_at_)
     , knows_face_(usize(mesh.n_faces()), -1)
@@ -107,7 +117,7 @@ Dealer::Dealer(const PolygonMesh& mesh, const Topology& topology, std::span<cons
     }
     for (Index f = 0; f < mesh.n_faces(); ++f)
         for (const Index v : mesh.face(f)) {
-            const Index holder = holders_[labels[f]];
+            const Index holder = holders_[labels_[f]];
             holder_at_[v] = holder_at_[v] == -1 || holder_at_[v] == holder ? holder : of_several;
         }
 }
@@ -169,7 +179,8 @@ void Dealer::deal(int rank, Packer& message)
             own_vertices.push_back(v);
     }
 
-    for_each_dealt(*options_, [&](const auto& option) { message.put(option); });
+    message.put(*way_);
+    for_each_setting(*settings_, [&](const auto& setting) { message.put(setting); });
     message.put_all(std::span<const Index>(holders_));
     message.put_all(std::span<const Index>(sub_meshes));
     std::vector<Index> first_faces;
@@ -191,12 +202,12 @@ void Dealer::deal(int rank, Packer& message)
     message.put_all(std::span<const Index>(labels));
     message.put(!topology_->junctions.empty());
     message.put(topology_->oriented);
-    put_rows_of(topology_->kind, vertices, message);
-    put_rows_of(topology_->fixed, vertices, message);
+    put_rows_of(std::span<const VertexKind>(topology_->kind), vertices, message);
+    put_rows_of(std::span<const std::uint8_t>(topology_->fixed), vertices, message);
     message.put_all(std::span<const std::uint8_t>(is_sent));
-    put_rows_of(curvature_, vertices, message);
-    put_rows_of(options_->motion.strength, vertices, message);
-    put_rows_of(options_->motion.attachment_weights, vertices, message);
+    put_rows_of(std::span<const double>(curvature_), vertices, message);
+    put_rows_of(settings_->equation.terms.step_scales, vertices, message);
+    put_rows_of(settings_->equation.terms.weights, vertices, message);
     known_vertices_[rank] = std::move(vertices);
     sent_vertices_[rank] = std::move(own_vertices);
 }

@@ -36,10 +36,10 @@ class RankGroup final : public StepSharing {
 
     /// Several ranks can share sweeps with the adapted conditions, and converged steps of symmetric Laplacians. All
     /// other steps are taken by rank 0 alone.
-    [[nodiscard]] bool can_share(const Cut& cut, const FlowOptions& options) const override;
+    [[nodiscard]] bool can_share(const FlowPlan& plan, const StepSettings& settings) const override;
     /// See RankStepper.
-    std::unique_ptr<HeatStepper> make_stepper(const PolygonMesh& mesh, const Topology& topology, const Cut& cut,
-                                              const FlowOptions& options, std::vector<double> curvature,
+    std::unique_ptr<HeatStepper> make_stepper(const PolygonMesh& mesh, const Topology& topology, const FlowPlan& plan,
+                                              const StepSettings& settings, std::vector<double> curvature,
                                               Progress& progress) override;
 
     /// Returns a number for a further flow.

@@ -5,13 +5,12 @@
 #include <memory>
 #include <vector>
 
-#include "engine/options/flow_options.h"
 #include "engine/ranks/rank_group.h"
 #include "engine/ranks/rank_part.h"
+#include "engine/setup/flow_plan.h"
 #include "engine/steppers/heat_stepper.h"
 #include "engine/tasks/progress.h"
 #include "engine/tasks/workers.h"
-#include "partition/cut/cut.h"
 #include "partition/topology.h"
 
 namespace seamflow {
@@ -22,11 +21,11 @@ namespace seamflow {
 class RankStepper final : public HeatStepper {
   public:
     /// Deals the sub-meshes.
-    /// @param ranks, progress must outlive the stepper; ranks.can_share(cut, options) is true.
+    /// @param ranks, progress must outlive the stepper; ranks.can_share(plan, settings) is true.
     /// @param curvature #V: ‖ΔV⁰‖, in 1/length; empty: as if it were 0.
     /// @throws as make_stepper, on the lowest rank that fails.
-    RankStepper(RankGroup& ranks, const PolygonMesh& mesh, const Topology& topology, const Cut& cut,
-                const FlowOptions& options, std::vector<double> curvature, Progress& progress);
+    RankStepper(RankGroup& ranks, const PolygonMesh& mesh, const Topology& topology, const FlowPlan& plan,
+                const StepSettings& settings, std::vector<double> curvature, Progress& progress);
     ~RankStepper() override;
 
     /// @param before equal to positions().
@@ -45,7 +44,7 @@ class RankStepper final : public HeatStepper {
     /// Appends data to the message for a rank.
     using Put = std::function<void(int rank, Packer& message)>;
 
-    void deal(const PolygonMesh& mesh, const Topology& topology, const Cut& cut, const FlowOptions& options,
+    void deal(const PolygonMesh& mesh, const Topology& topology, const FlowPlan& plan, const StepSettings& settings,
               std::vector<double> curvature, Progress& progress);
     void number_saved_rows(const std::vector<std::vector<SavedRow>>& of_ranks, const std::vector<Index>& holders);
     void in_own_threads(const std::function<void()>& work) const;

@@ -51,12 +51,12 @@ void examine(PreparedFlow& prepared, FlowingMesh& mesh, Progress& progress)
 }
 
 /// Measures what steps and reports need of the mesh before the first step.
-void measure(PreparedFlow& prepared, const PolygonMesh& mesh)
+void measure(PreparedFlow& prepared, const PolygonMesh& mesh, Approach approach)
 {
     const FlowOptions& options = prepared.options;
     // Sweeps order the colours by curvature.
-    const bool is_ordering = options.accuracy.approach == Approach::Sweep;
-    const bool is_beside_cut = options.report.measures && !takes_whole_mesh(options.accuracy.approach);
+    const bool is_ordering = approach == Approach::Sweep;
+    const bool is_beside_cut = options.report.measures && !takes_whole_mesh(approach);
     if (is_ordering || is_beside_cut)
         prepared.curvature = measure_curvature(mesh, prepared.surface.topology, mesh.vertices, laplacian_of(options));
     if (options.report.measures)
@@ -78,12 +78,12 @@ std::unique_ptr<PreparedFlow> prepare(FlowingMesh& mesh, FlowOptions given, bool
         prepared->options.motion.junctions = Junctions::Hold;
     examine(*prepared, mesh, progress);
     progress.count();
-    prepared->steps = decide_steps(mesh.mesh(), prepared->surface, prepared->options,
-                                   resume != nullptr ? std::optional(resume->approach) : std::nullopt,
-                                   control.ranks != nullptr ? Sharing::Ranks : Sharing::None, progress,
-                                   [&] { measure(*prepared, mesh.mesh()); });
-    if (!options.accuracy.tolerance && options.scheme == Scheme::BackwardEuler)
-        require_boundary_unshared(prepared->surface.topology, prepared->steps.cut.labels,
+    prepared->plan = decide(mesh.mesh(), prepared->surface, options,
+                            resume != nullptr ? std::optional(resume->approach) : std::nullopt,
+                            control.ranks != nullptr ? Sharing::Ranks : Sharing::None, progress,
+                            [&](Approach approach) { measure(*prepared, mesh.mesh(), approach); });
+    if (std::holds_alternative<SweepSteps>(prepared->plan.way))
+        require_boundary_unshared(prepared->surface.topology, prepared->plan.cut.labels,
                                   moving_rim(mesh.mesh(), prepared->surface.topology));
     return prepared;
 }
@@ -91,10 +91,10 @@ std::unique_ptr<PreparedFlow> prepare(FlowingMesh& mesh, FlowOptions given, bool
 void report_to(const PreparedFlow& prepared, const FlowingMesh& mesh, FlowReport& report)
 {
     const FlowOptions& options = prepared.options;
-    report_to(prepared.steps, prepared.surface, options, mesh, prepared.need_of_junctions, report);
-    if (prepared.steps.cut.n_parts > 1 && options.steps > 0 && !options.accuracy.tolerance) {
-        const double width =
-            width_in_diffusion_lengths(prepared.surface.size.area, prepared.steps.cut.n_parts, options.time_step);
+    report_to(prepared.plan, prepared.surface, options, mesh, prepared.need_of_junctions, report);
+    const Index n_sub_meshes = prepared.plan.cut.n_parts;
+    if (n_sub_meshes > 1 && options.steps > 0 && std::holds_alternative<SweepSteps>(prepared.plan.way)) {
+        const double width = width_in_diffusion_lengths(prepared.surface.size.area, n_sub_meshes, options.time_step);
         if (width < needs_of_sweeps.width)
             report.remarks.push_back(
                 {"narrow sub-meshes",

@@ -9,7 +9,7 @@
 #include "engine/measure/displacement_meter.h"
 #include "engine/options/flow_control.h"
 #include "engine/options/flow_options.h"
-#include "engine/setup/decided_steps.h"
+#include "engine/setup/flow_plan.h"
 #include "engine/state/flow_state.h"
 #include "engine/surface/surface.h"
 #include "engine/tasks/progress.h"
@@ -18,8 +18,7 @@ namespace seamflow {
 
 /// A flow before its first step: all decisions about it, and the measurements that they are based on.
 struct PreparedFlow {
-    /// The given options, with choices where they left something open: the approach, the tolerance. Labels are those of
-    /// the flowing faces.
+    /// The given options, resolved. Labels are those of the flowing faces.
     FlowOptions options;
     /// Checksum of the mesh and the given options, by which a checkpoint is recognised. 0 if it is not needed.
     std::uint64_t identity = 0;
@@ -27,7 +26,7 @@ struct PreparedFlow {
     /// The condition under which vertices at junctions would move: the result of need_of_junctions in
     /// automatic_choices.h.
     std::string_view need_of_junctions;
-    DecidedSteps steps;
+    FlowPlan plan;
     /// #V: ‖ΔV⁰‖, in 1/length; empty if it is not needed per vertex.
     std::vector<double> curvature;
     /// Refers to the topology; empty without ReportOptions::measures.

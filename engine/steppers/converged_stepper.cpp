@@ -11,22 +11,15 @@
 
 namespace seamflow {
 
-namespace {
-
-/// The tolerance for a mesh that is not cut: a step is exact, whatever its tolerance.
-constexpr double tolerance_without_interface = 1e-10;
-
-}  // namespace
-
-ConvergedStepper::ConvergedStepper(const PolygonMesh& mesh, Index n_sub_meshes, const FlowOptions& options,
-                                   double parts_of_equation, Progress& progress)
-    : time_step_(options.time_step)
-    , filter_(filter_of(options))
+ConvergedStepper::ConvergedStepper(const PolygonMesh& mesh, Index n_sub_meshes, const StepSettings& settings,
+                                   const IterationStop& stop, double parts_of_equation, Progress& progress)
+    : time_step_(settings.equation.time_step)
+    , filter_(settings.equation.filter)
     , seconds_(usize(n_sub_meshes) + 1)
-    , graph_(&progress, options.report.record_schedule)
+    , graph_(&progress, settings.records_schedule)
     , root_(graph_.add_root())
     , equation_solved_(graph_.add_task([this] { solve(); }, {TaskKind::SolveInterface, -1}))
-    , stop_{options.accuracy.tolerance.value_or(tolerance_without_interface), options.accuracy.converge_iterations}
+    , stop_(stop)
     , loops_(parts_of_equation, progress)
 {
     copy(run_in_parallel, mesh.vertices, positions_);

@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "engine/options/flow_options.h"
+#include "engine/setup/step_settings.h"
 #include "engine/steppers/heat_stepper.h"
 #include "engine/tasks/progress.h"
 #include "engine/tasks/task_graph.h"
@@ -30,10 +30,11 @@ class ConvergedStepper : public HeatStepper {
 
   protected:
     /// Adds the solution of the equation to the graph as a task.
+    /// @param stop ends the iterations of each solution.
     /// @param parts_of_equation the number of parts that this task counts for in the progress of a step.
     /// @param progress must outlive the stepper.
-    ConvergedStepper(const PolygonMesh& mesh, Index n_sub_meshes, const FlowOptions& options, double parts_of_equation,
-                     Progress& progress);
+    ConvergedStepper(const PolygonMesh& mesh, Index n_sub_meshes, const StepSettings& settings,
+                     const IterationStop& stop, double parts_of_equation, Progress& progress);
 
     /// Solves the equation.
     virtual InterfaceResult solve_equation(const IterationStop& stop, const Executor& exec) = 0;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/setup/equation_terms.h"
 #include "engine/tasks/parallel_executor.h"
 #include "partition/index_lists.h"
 #include "solvers/direct/columns.h"
@@ -39,21 +38,21 @@ Point scaled(const Point& vector, const Point& normal, double tangentially, doub
 }  // namespace
 
 ErrorEstimate::ErrorEstimate(const Decomposition& decomposition, const PolygonMesh& mesh, const Topology& topology,
-                             const FlowOptions& options, InterfaceRanks& ranks)
+                             const StepEquation& equation, bool has_copies, InterfaceRanks& ranks)
     : decomposition_(&decomposition)
     , mesh_(&mesh)
     , topology_(&topology)
-    , laplacian_(options.laplacian)
-    , time_step_(options.time_step)
-    , has_copies_(is_classical(options.interface.conditions))
+    , laplacian_(equation.laplacian.kind)
+    , time_step_(equation.time_step)
+    , has_copies_(has_copies)
     , ranks_(&ranks)
-    , equation_(decomposition, mesh, topology, laplacian_of(options), ranks, run_in_parallel)
+    , equation_(decomposition, mesh, topology, equation.laplacian, ranks, run_in_parallel)
 {
     for (Points* array : {&correction_, &corrected_, &swept_})
         array->setZero(equation_.size(), 3);
-    if (options.flow == FlowEquation::Conformalized)
+    if (equation.terms.keeps_stiffness)
         initial_ = mesh.vertices;
-    attach(terms_of(options, mesh.vertices));
+    note_attachment(equation.terms);
     if (laplacian_ == Laplacian::PtackovaVelho) {
         solved_ = mesh.vertices;
         list_remote_rows();
@@ -80,7 +79,8 @@ void ErrorEstimate::list_remote_rows()
         sort_unique(rows);
 }
 
-void ErrorEstimate::attach(const FlowTerms& terms)
+/// Notes V⁰ and dt w at each vertex of Γ, if the flow pulls vertices back to V⁰ with weights w (see FlowTerms).
+void ErrorEstimate::note_attachment(const FlowTerms& terms)
 {
     if (!terms.attaches())
         return;

@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "engine/options/flow_options.h"
+#include "engine/setup/step_settings.h"
 #include "engine/state/flow_state.h"
 #include "engine/steppers/sub_mesh_state.h"
 #include "partition/decomposition/decomposition.h"
@@ -27,8 +27,9 @@ namespace seamflow {
 class ErrorEstimate {
   public:
     /// @param decomposition, mesh, topology, ranks must outlive this; see ErrorEquation.
+    /// @param has_copies whether every sub-mesh has its own copy of Γ.
     ErrorEstimate(const Decomposition& decomposition, const PolygonMesh& mesh, const Topology& topology,
-                  const FlowOptions& options, InterfaceRanks& ranks);
+                  const StepEquation& equation, bool has_copies, InterfaceRanks& ranks);
 
     /// Per sub-mesh of another rank: the local indices of further vertices that its state must hold, with Vᵏ and Vᵏ⁺¹
     /// as solved. Empty if no rank needs any.
@@ -60,7 +61,7 @@ class ErrorEstimate {
   private:
     [[nodiscard]] const Points& joined(const std::vector<SubMeshState>& states, Index s, Points& mean) const;
     [[nodiscard]] const Points& stiffness_at(const SubMeshState& state, Points& first) const;
-    void attach(const FlowTerms& terms);
+    void note_attachment(const FlowTerms& terms);
     void list_remote_rows();
     [[nodiscard]] const Points& fill_remote_rows(const std::vector<SubMeshState>& states, const Points& before);
     void carry_over();

@@ -47,14 +47,14 @@ double largest_explicit_step(const PolygonMesh& mesh, const Topology& topology, 
         keep_shorter);
 }
 
-ExplicitStepper::ExplicitStepper(const PolygonMesh& mesh, const Topology& topology, const FlowOptions& options,
+ExplicitStepper::ExplicitStepper(const PolygonMesh& mesh, const Topology& topology, const StepEquation& equation,
                                  Progress& progress)
     : mesh_(&mesh)
     , topology_(&topology)
     , progress_(&progress)
-    , laplacian_(laplacian_of(options))
-    , time_step_(options.time_step)
-    , step_scales_(options.motion.strength)
+    , laplacian_(equation.laplacian)
+    , time_step_(equation.time_step)
+    , step_scales_(equation.terms.step_scales.begin(), equation.terms.step_scales.end())
     , positions_(mesh.vertices)
     , first_limit_(infinity)
     , smallest_limit_(infinity)

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "engine/measure/flow_report.h"
-#include "engine/options/flow_options.h"
+#include "engine/setup/step_settings.h"
 #include "engine/steppers/stepper.h"
 #include "engine/tasks/progress.h"
 #include "partition/polygon_mesh.h"
@@ -19,7 +19,8 @@ double largest_explicit_step(const PolygonMesh& mesh, const Topology& topology, 
 class ExplicitStepper final : public Stepper {
   public:
     /// @param mesh, topology, progress must outlive the stepper.
-    ExplicitStepper(const PolygonMesh& mesh, const Topology& topology, const FlowOptions& options, Progress& progress);
+    ExplicitStepper(const PolygonMesh& mesh, const Topology& topology, const StepEquation& equation,
+                    Progress& progress);
 
     /// @throws OptionError naming largest_explicit_step if dt is above it in the first step; ComputationError if the
     ///         result is not finite.

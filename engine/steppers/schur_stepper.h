@@ -41,14 +41,14 @@ class SchurStepper final : public ConvergedStepper, public ChangeableEquations {
     /// @param given K and M of a linear flow in place of those of the Laplacian, which is a sum over faces; null: none.
     /// @throws ComputationError naming the sub-mesh if an analysis fails; MemoryLimitError if the limit is too low;
     ///         Cancelled, as all functions that take time.
-    SchurStepper(const PolygonMesh& mesh, const Topology& topology, const Cut& cut, const FlowOptions& options,
-                 Progress& progress, const GivenStiffness* given = nullptr);
+    SchurStepper(const PolygonMesh& mesh, const Topology& topology, const Cut& cut, const StepSettings& settings,
+                 const IterationStop& stop, Progress& progress, const GivenStiffness* given = nullptr);
 
     /// The stepper for the sub-meshes of one of several ranks, which construct their steppers, and take steps,
     /// together.
     /// @param mesh the part of the mesh that this rank knows; positions() are Vᵏ⁺¹ only in its own sub-meshes.
-    SchurStepper(const PolygonMesh& mesh, RankSubMeshes sub_meshes, const FlowOptions& options, Progress& progress,
-                 const GivenStiffness* given = nullptr);
+    SchurStepper(const PolygonMesh& mesh, RankSubMeshes sub_meshes, const StepSettings& settings,
+                 const IterationStop& stop, Progress& progress, const GivenStiffness* given = nullptr);
 
     void set_data(const Points& data, DataSteps steps) override;
 
@@ -107,9 +107,9 @@ class SchurStepper final : public ConvergedStepper, public ChangeableEquations {
 
     [[nodiscard]] bool is_own(Index s) const { return ranks_->is_own(s); }
     [[nodiscard]] bool is_kept(Index s) const { return factors_.plan.whole[s] != 0; }
-    void make_sub_meshes(Decomposition& decomposition, const PolygonMesh& mesh, const FlowOptions& options,
-                         const GivenStiffness* given, Progress& progress);
-    void choose_factors(const FlowOptions& options);
+    void make_sub_meshes(Decomposition& decomposition, const StepEquation& equation, const GivenStiffness* given,
+                         Progress& progress);
+    void choose_factors(const FactorSettings& settings);
     void make_graph();
     void take_turns(const std::vector<TaskGraph::Node>& tasks);
     template <class Action>

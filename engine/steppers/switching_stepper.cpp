@@ -10,15 +10,15 @@
 
 namespace seamflow {
 
-SwitchingStepper::SwitchingStepper(const PolygonMesh& mesh, const Topology& topology, const FlowOptions& options,
-                                   const FlowSize& size, Progress& progress)
+SwitchingStepper::SwitchingStepper(const PolygonMesh& mesh, const Topology& topology, const StepSettings& settings,
+                                   const GradientSteps& gradients, Progress& progress)
     : mesh_(&mesh)
     , topology_(&topology)
-    , options_(&options)
-    , size_(size)
+    , settings_(settings)
+    , size_(gradients.costs.value())
     , progress_(&progress)
-    , gradients_(mesh, topology, options, progress)
-    , iterations_{.most = options.accuracy.converge_iterations}
+    , gradients_(mesh, topology, settings, gradients.stop, progress)
+    , iterations_{.most = gradients.stop.iterations}
 {
 }
 
@@ -48,7 +48,7 @@ void SwitchingStepper::try_to_make_factors()
     // The topology of a flow has no twins: it is made again.
     complete_ = *topology_;
     complete_.twin = make_topology(*mesh_, progress_->exec()).twin;
-    factors_ = make_undecomposed_stepper(*mesh_, complete_, *options_, options_->resources.memory_limit, *progress_);
+    factors_ = make_undecomposed_stepper(*mesh_, complete_, settings_, *progress_);
 }
 
 /// Solves the step by the factors.

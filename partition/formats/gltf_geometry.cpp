@@ -56,7 +56,9 @@ class SharedVectors {
     }
 
     /// Joins the spans. To be called when all have been added.
-    /// @returns the number of elements.
+    /// @returns the number of elements. If it exceeds the largest Index, joining was broken off, and nothing else may
+    /// be
+    ///          called.
     std::int64_t join();
 
     [[nodiscard]] const std::vector<GltfVectors>& joined() const { return joined_; }

@@ -128,7 +128,10 @@ PolygonMesh read_in_one_go(const TextScanner& after_header, const OffHeader& hea
                        std::array{std::int64_t{0}, header.n_lines()}, run_serially, faults);
 }
 
-/// @param n_components see fields_of_colours.
+/// Reads the colours of the vertices of a text OFF file whose keyword has a C.
+/// @param n_components 4: all colours must have alpha; 3: alpha may be missing.
+/// @returns #V by 4: red, green, blue and alpha, 0 where alpha is missing.
+/// @throws InputError for other files, and naming the line of a vertex without a colour.
 TextColours read_off_colours(const std::filesystem::path& path, std::string_view text, Index n_components,
                              const Slicing& slicing)
 {

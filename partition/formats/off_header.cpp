@@ -37,8 +37,8 @@ void require_known_variant(const TextScanner& scanner, std::string_view prefix)
                      " is unknown; convert the mesh to OFF, COFF or NOFF");
 }
 
-/// Reads the keyword OFF with its prefix.
-/// @returns the prefix before OFF.
+/// Reads the keyword OFF with its prefix. Counts may follow OFF without a blank.
+/// @returns the prefix before OFF; empty, and nothing is read, if the file begins with its counts.
 std::string_view read_keyword(TextScanner& scanner)
 {
     if (!scanner.next_line())

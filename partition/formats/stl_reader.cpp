@@ -85,6 +85,7 @@ void read_facets(ByteScanner& scanner, std::uint64_t begin, std::uint64_t end, B
 {
     for (std::uint64_t f = begin; f < end; ++f) {
         scanner.enter("facet", f);
+        // Finite facets are read at once; others number by number, which reports the coordinate at fault.
         if (scanner.remaining() >= facet_bytes)
             if (const auto corners = corners_of(scanner.peek(facet_bytes))) {
                 scanner.take(facet_bytes);

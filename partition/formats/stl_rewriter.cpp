@@ -84,7 +84,8 @@ struct StlForm {
         if (is_text) {
             TextScanner scanner(whole, rest);
             TextFacetVisitor<Visit> visitor{visit};
-            scan_text_stl(scanner, piece > 0, visitor);
+            const bool begins_in_solid = piece > 0;
+            scan_text_stl(scanner, begins_in_solid, visitor);
             return;
         }
         for (constexpr std::size_t size = 3 * sizeof(float); !rest.empty(); rest.remove_prefix(stl_facet_bytes))

@@ -99,7 +99,8 @@ class CrossingSearch {
     void search_within(const PiecesOfFan& fan, std::vector<FacePair>& found) const;
     [[nodiscard]] Index first_to_search(Index leaf) const;
     void search(Index leaf, std::vector<FacePair>& found) const;
-    void search(const Piece& piece, const Box& its_box, Index begin, Index end, std::vector<FacePair>& found) const;
+    void search_range(const Piece& piece, const Box& its_box, Index begin, Index end,
+                      std::vector<FacePair>& found) const;
 
     [[nodiscard]] Index begin_of(Index leaf) const { return leaf * leaf_size; }
     [[nodiscard]] Index end_of(Index leaf) const
@@ -209,13 +210,15 @@ void CrossingSearch::search(Index leaf, std::vector<FacePair>& found) const
         boxes[i - begin_of(leaf)] = box(pieces_[i]);
     tree_.for_each_meeting(tree_.leaf(leaf), first_to_search(leaf), [&](Index other) {
         for (Index i = begin_of(leaf); i < end_of(leaf); ++i)
-            search(pieces_[i], boxes[i - begin_of(leaf)], other == leaf ? i + 1 : begin_of(other), end_of(other),
-                   found);
+            search_range(pieces_[i], boxes[i - begin_of(leaf)], other == leaf ? i + 1 : begin_of(other), end_of(other),
+                         found);
     });
 }
 
-void CrossingSearch::search(const Piece& piece, const Box& its_box, Index begin, Index end,
-                            std::vector<FacePair>& found) const
+/// Adds the pairs of a piece and the pieces from begin to end - 1 that cross; those within one crowded fan are left to
+/// search_within.
+void CrossingSearch::search_range(const Piece& piece, const Box& its_box, Index begin, Index end,
+                                  std::vector<FacePair>& found) const
 {
     for (Index j = begin; j < end; ++j)
         if ((pieces_[j].fan == no_fan || pieces_[j].fan != piece.fan) && box(pieces_[j]).meets(its_box))

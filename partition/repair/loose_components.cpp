@@ -82,6 +82,7 @@ void LooseComponents::keep_loose_components(const IndexLists& components)
     }
 }
 
+/// Finds the components of each suspect part, and keeps all but its largest as loose.
 void LooseComponents::find(const std::vector<bool>& suspects, const Executor& exec)
 {
     component_of_.assign(labels_.size(), settled);
@@ -99,7 +100,8 @@ void LooseComponents::find(const std::vector<bool>& suspects, const Executor& ex
         if (n_faces[label] == 0)
             return;
         collect_component(lowest[label], found[label]);
-        if (found[label].values.size() == n_faces[label])
+        const bool is_connected = found[label].values.size() == n_faces[label];
+        if (is_connected)
             found[label] = {};
     });
     const auto is_left = [&](Index f) { return component_of_[f] == unvisited; };

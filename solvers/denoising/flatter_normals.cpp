@@ -152,24 +152,24 @@ FaceRows compared(const NoisySurface& surface, const Points& estimated, const Fl
 bool take_flatter_normals(const NoisySurface& surface, DenoisedNormals& estimated, const Executor& exec)
 {
     const Index n_faces = surface.mesh.n_faces();
-    std::vector<float> parts(usize(n_faces), 0.0F);
+    std::vector<float> weights(usize(n_faces), 0.0F);
     for_each(exec, n_faces, [&](Index f) {
         if (std::ranges::any_of(surface.mesh.face(f), [&](Index v) { return surface.shares[v] > 0.0; }))
-            parts[f] = by_noise(estimated.noise[f]);
+            weights[f] = by_noise(estimated.noise[f]);
     });
-    const auto is_some = [](float part) { return part > 0.0F; };
-    if (std::ranges::none_of(parts, is_some))
+    const auto is_some = [](float weight) { return weight > 0.0F; };
+    if (std::ranges::none_of(weights, is_some))
         return false;
     Points& normals = estimated.normals;
     const FlatterNormals flatter = flattened(surface, normals, exec);
     const FaceRows around = compared(surface, normals, flatter, exec);
     for_each(exec, n_faces, [&](Index f) {
         const float misfit = around(f, 1) > 0.0F ? around(f, 2) / around(f, 1) : by_misfit.zero_at;
-        parts[f] *= by_bends(around(f, 0)) * by_misfit(misfit);
-        if (parts[f] > 0.0F)
-            normals.row(f) = (normals.row(f) + parts[f] * (flatter.normals.row(f) - normals.row(f))).normalized();
+        weights[f] *= by_bends(around(f, 0)) * by_misfit(misfit);
+        if (weights[f] > 0.0F)
+            normals.row(f) = (normals.row(f) + weights[f] * (flatter.normals.row(f) - normals.row(f))).normalized();
     });
-    return std::ranges::any_of(parts, is_some);
+    return std::ranges::any_of(weights, is_some);
 }
 
 }  // namespace seamflow

@@ -50,8 +50,8 @@ class ErrorEquation {
     void measure_whole_rows(const PolygonMesh& mesh, const Topology& topology, const Points& before,
                             const Points& after, double time_step, const Executor& exec);
 
-    /// Adds the attachment of a vertex to V⁰.
-    /// @param weight dt w. @param distance Vᵏ⁺¹ as solved minus V⁰, in length.
+    /// Adds the term dt M w to row i, after `assemble`: it pulls the vertex back to V⁰ (see FlowTerms).
+    /// @param weight dt w. @param distance from V⁰ to Vᵏ⁺¹ as solved, in length.
     void attach(Index i, double weight, const Point& distance)
     {
         const double entry = weight * rows_.mass[i];

@@ -80,8 +80,8 @@ Point InterfaceEquation::measure_right_hand_side()
     return unit;
 }
 
-/// The length of the next step of conjugate gradients, if it had the step size of the last one and its direction were
-/// the preconditioned residual alone.
+/// The farthest that the next step of conjugate gradients would move a vertex of Γ, on any rank, if it had the step
+/// size of the last one and its direction were the preconditioned residual alone.
 double InterfaceEquation::estimate_distance(const Point& unit)
 {
     double largest = 0.0;
@@ -122,8 +122,8 @@ void InterfaceEquation::sum_copies(Points& copies, Points& sums, const Executor&
     });
 }
 
-/// Solves for the coarse unknowns, because the preconditioner is symmetric only with an x that solves for these. Then
-/// moves along the guess as far as this reduces the error.
+/// Begins with an x that satisfies the coarse equations: the balanced preconditioner is symmetric only from there. Then
+/// moves x along the guess to the least error.
 void InterfaceEquation::start(const MapPoints& multiply, const Points* guess, const Point& unit, Points& x,
                               const Executor& exec)
 {
@@ -140,6 +140,7 @@ void InterfaceEquation::start(const MapPoints& multiply, const Points* guess, co
             coarse_->correct(vectors_.r, vectors_.p, exec);
         advance(multiply, x, vectors_, exec);
     }
+    // Until now, α was that of the move along the guess. If no iteration follows, estimate_distance uses 1.
     vectors_.alpha.setOnes();
 }
 

@@ -235,12 +235,14 @@ double WholeMeshSystem::farthest_move(const Executor& exec) const
         keep_larger));
 }
 
-/// The sum of the further updates, if they keep decreasing at the rate of this pass. After a pass too short to show a
-/// rate: the previous estimate, scaled like the residual.
-/// @param length unit of the updates. @param before_pass, left the residual before and after the pass, as fractions of
-///        the first residual.
-double WholeMeshSystem::distance_after(const BlockRowMatrix::Result& pass, double length, double before_pass,
-                                       double left, double distance_before)
+/// The estimated largest distance of a vertex to its position in the exact step, in units of length, after a pass: the
+/// sum of the updates that are still to come, if they decrease at the mean rate of this pass (a geometric series),
+/// times the ratio of the recomputed residual to that at which the pass arrived. After a pass too short to show a rate:
+/// the previous estimate, scaled like the residual.
+/// @param length the unit of pass.last_update. @param before_pass, left the residuals before and after the pass, as
+///        fractions of the first residual. @param distance_before the estimate after the previous pass; 0: none.
+double WholeMeshSystem::estimate_distance_after(const BlockRowMatrix::Result& pass, double length, double before_pass,
+                                                double left, double distance_before)
 {
     if (pass.residual > shortest_pass && distance_before > 0.0)
         return distance_before * left / before_pass;
@@ -401,7 +403,7 @@ WholeMeshSystem::Result WholeMeshSystem::solve(const Beginning& beginning, const
             is_in_rows = true;
             renew();
         }
-        distance = distance_after(pass, length, before_pass, left, distance);
+        distance = estimate_distance_after(pass, length, before_pass, left, distance);
         criterion.note(pass.iterations, left, left / before_pass);
     }
     if (!is_written)

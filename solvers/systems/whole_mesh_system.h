@@ -110,8 +110,8 @@ class WholeMeshSystem {
     PassStart start_pass(double squared, const Executor& exec);
     [[nodiscard]] double farthest_move(const Executor& exec) const;
     void write_without_row(const Points* before, Points& after, const Executor& exec) const;
-    static double distance_after(const BlockRowMatrix::Result& pass, double length, double before_pass, double left,
-                                 double distance_before);
+    static double estimate_distance_after(const BlockRowMatrix::Result& pass, double length, double before_pass,
+                                          double left, double distance_before);
 
     const PolygonMesh* mesh_;
     const Topology* topology_;
