@@ -12,7 +12,6 @@
 #include "engine/setup/prepared_flow.h"
 #include "engine/setup/resolved_options.h"
 #include "engine/state/flow_state.h"
-#include "engine/surface/flowing_mesh.h"
 #include "engine/tasks/failure_guard.h"
 #include "engine/tasks/progress.h"
 #include "engine/tasks/stopwatch.h"
@@ -74,18 +73,16 @@ class Flow::Session {
         const double setup = fraction_of_setup(options, control.resume != nullptr ? control.resume->n_steps() : 0);
         progress_.enter(FlowPhase::Cut, 0, 0.0, 0.6 * setup);
         progress_.expect(8.0);
-        flowing_.emplace(mesh);
-        auto prepared = prepare(*flowing_, std::move(options), is_observed, control, progress_);
+        auto prepared = prepare(mesh, std::move(options), is_observed, control, progress_);
         report.resources.threads = workers_.threads();
         report.seconds.cut = watch.lap();
-        run_.emplace(*flowing_, std::move(prepared), progress_, setup, report, control);
+        run_.emplace(std::move(prepared), progress_, setup, report, control);
         report.remarks.insert(report.remarks.begin(), remarks.begin(), remarks.end());
     }
 
     int n_expected_;
     Workers workers_;
     Progress progress_;
-    std::optional<FlowingMesh> flowing_;
     std::optional<FlowRun> run_;
     FailureGuard guard_;
 };

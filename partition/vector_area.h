@@ -13,9 +13,6 @@
 
 namespace seamflow {
 
-/// One position or vector, a row of Points.
-using Point = Eigen::RowVector3d;
-
 /// The corners of a triangle, in units of length.
 using TriangleCorners = std::array<Point, 3>;
 

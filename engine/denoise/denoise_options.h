@@ -3,7 +3,6 @@
 #include <optional>
 #include <variant>
 
-#include "engine/options/amount.h"
 #include "engine/options/motion_options.h"
 
 namespace seamflow {

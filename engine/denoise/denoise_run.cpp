@@ -40,13 +40,13 @@ constexpr Laplacian laplacian_of_report = Laplacian::Fujiwara;
 
 }  // namespace
 
-DenoiseRun::DenoiseRun(FlowingMesh& mesh, const Surface& surface, const DenoiseOptions& options, std::uint64_t identity,
-                       double setup, Progress& progress, DenoiseReport& report, const FlowControl& control)
-    : SurfaceRun(mesh, surface.topology, progress, report, control.resume.get())
+DenoiseRun::DenoiseRun(Surface& surface, const DenoiseOptions& options, std::uint64_t identity, double setup,
+                       Progress& progress, DenoiseReport& report, const FlowControl& control)
+    : SurfaceRun(surface, progress, report, control.resume.get())
     , identity_(identity)
 {
     const Stopwatch watch;
-    const PolygonMesh& flowing = mesh.mesh();
+    const PolygonMesh& flowing = mesh_.mesh();
     if (options.measures)
         measure_by(DisplacementMeter(flowing, surface.topology), laplacian_of_report,
                    measure_largest_curvature(flowing, surface.topology, flowing.vertices, laplacian_of_report));

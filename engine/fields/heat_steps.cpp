@@ -27,8 +27,7 @@ constexpr Eigen::Index columns_at_once = 192;
 
 HeatSteps::HeatSteps(PolygonMesh& surface, const FlowOptions& options, Weights weights, const FlowControl& control,
                      Progress& progress, FlowReport& report)
-    : mesh_(surface)
-    , options_(options)
+    : options_(options)
     , weights_(weights)
     , ranks_(control.ranks)
     , progress_(progress)
@@ -39,11 +38,11 @@ HeatSteps::HeatSteps(PolygonMesh& surface, const FlowOptions& options, Weights w
     progress.set_steps(options.steps);
     progress.enter(FlowPhase::Cut, 0, 0.0, 0.6 * setup);
     progress.expect(8.0);
-    make_surface_and_plan();
+    make_surface_and_plan(surface);
     report.seconds.cut = watch.lap();
     progress.enter(FlowPhase::Analyse, 0, 0.6 * setup, setup);
     make_stepper_within_limit();
-    report_to(plan_, surface_, options_, mesh_, {}, report);
+    report_to(plan_, *surface_, options_, {}, report);
     report.cut.labels = std::move(plan_.cut.labels);
     free_topology();
     report.seconds.analyse = watch.lap();
@@ -54,15 +53,15 @@ HeatSteps::HeatSteps(PolygonMesh& surface, const FlowOptions& options, Weights w
 /// Replaces the faces by those of an intrinsic Delaunay triangulation of the same surface, if the options ask for
 /// weights of at least 0 and the Laplacian has others. Keeps K and M of the triangulation in stiffness_.
 /// @returns whether the faces were replaced.
-bool HeatSteps::flip_edges(FlowingMesh& mesh, Surface& surface)
+bool HeatSteps::flip_edges(Surface& surface)
 {
     if (weights_ == Weights::OfLaplacian)
         return false;
-    std::optional<DelaunaySurface> flipped = make_delaunay(mesh.mesh(), surface.topology, options_.laplacian,
+    std::optional<DelaunaySurface> flipped = make_delaunay(surface.mesh.mesh(), surface.topology, options_.laplacian,
                                                            weights_ == Weights::AtLeastZeroInFaces, progress_.exec());
     if (!flipped)
         return false;
-    mesh.replace_faces(std::move(flipped->mesh), flipped->face_of);
+    surface.mesh.replace_faces(std::move(flipped->mesh), flipped->face_of);
     stiffness_ = std::move(flipped->stiffness);
     // Only plain steps keep values in their range: other filters can leave it with any weights.
     surface.choices.push_back(
@@ -74,19 +73,21 @@ bool HeatSteps::flip_edges(FlowingMesh& mesh, Surface& surface)
 }
 
 /// Decides which vertices have equations, and how these are solved.
-void HeatSteps::make_surface_and_plan()
+void HeatSteps::make_surface_and_plan(PolygonMesh& given)
 {
-    require_valid(mesh_.mesh(), progress_.exec());
+    FlowingMesh mesh(given);
+    require_valid(mesh.mesh(), progress_.exec());
     progress_.count();
-    surface_ = make_surface(
-        mesh_, options_.motion,
-        {.laplacian = options_.laplacian,
-         .replace_faces = [this](FlowingMesh& mesh, Surface& surface) { return flip_edges(mesh, surface); }},
+    auto [surface, motion] = make_surface(
+        std::move(mesh), std::move(options_.motion),
+        {.laplacian = options_.laplacian, .replace_faces = [this](Surface& made) { return flip_edges(made); }},
         progress_);
-    options_.cut.labels = mesh_.of_faces_left(options_.cut.labels);
+    options_.motion = std::move(motion);
+    options_.cut.labels = surface.mesh.of_faces_left(options_.cut.labels);
+    surface_.emplace(std::move(surface));
     progress_.count();
-    plan_ = decide(mesh_.mesh(), surface_, options_, std::nullopt, ranks_ != nullptr ? Sharing::Ranks : Sharing::None,
-                   progress_, [](Approach) {});
+    plan_ = decide(*surface_, options_, std::nullopt, ranks_ != nullptr ? Sharing::Ranks : Sharing::None, progress_,
+                   [](Approach) {});
 }
 
 void HeatSteps::make_stepper_within_limit()
@@ -96,24 +97,24 @@ void HeatSteps::make_stepper_within_limit()
     } catch (const MemoryLimitError&) {
         if (!plan_.without_factors)
             throw;
-        leave_factors(plan_, mesh_.mesh(), surface_.topology, progress_.exec());
+        leave_factors(plan_, surface_->mesh.mesh(), surface_->topology, progress_.exec());
         make_stepper();
     }
 }
 
 void HeatSteps::make_stepper()
 {
-    const PolygonMesh& mesh = mesh_.mesh();
+    const PolygonMesh& mesh = surface_->mesh.mesh();
     const GivenStiffness* const given = stiffness_ ? &*stiffness_ : nullptr;
     const StepSettings settings = settings_of(options_, plan_.way, mesh.vertices);
     if (ranks_ != nullptr && given == nullptr && ranks_->can_share(plan_, settings)) {
-        stepper_ = ranks_->make_stepper(mesh, surface_.topology, plan_, settings, {}, progress_);
+        stepper_ = ranks_->make_stepper(mesh, surface_->topology, plan_, settings, {}, progress_);
     } else if (const auto* const gradients = std::get_if<GradientSteps>(&plan_.way)) {
-        stepper_ = std::make_unique<ConjugateGradientStepper>(mesh, surface_.topology, settings, gradients->stop,
+        stepper_ = std::make_unique<ConjugateGradientStepper>(mesh, surface_->topology, settings, gradients->stop,
                                                               progress_, given);
     } else {
         const auto* const converged = std::get_if<ConvergedSteps>(&plan_.way);
-        auto stepper = std::make_unique<SchurStepper>(mesh, surface_.topology, plan_.cut, settings,
+        auto stepper = std::make_unique<SchurStepper>(mesh, surface_->topology, plan_.cut, settings,
                                                       converged != nullptr ? converged->stop : stop_without_interface,
                                                       progress_, given);
         in_sub_meshes_ = stepper.get();
@@ -125,9 +126,9 @@ void HeatSteps::make_stepper()
 void HeatSteps::free_topology()
 {
     if (!std::holds_alternative<GradientSteps>(plan_.way))
-        surface_.topology = {};
-    surface_.topology.twin = std::vector<Index>();
-    surface_.topology.junctions = std::vector<JunctionLink>();
+        surface_->topology = {};
+    surface_->topology.twin = std::vector<Index>();
+    surface_->topology.junctions = std::vector<JunctionLink>();
 }
 
 void HeatSteps::take(Eigen::Ref<Eigen::MatrixXd> fields, int n)
@@ -147,7 +148,7 @@ void HeatSteps::take(Eigen::Ref<Eigen::MatrixXd> fields, int n)
 /// @param block #V by 3, in the order of the given surface.
 void HeatSteps::take_block(Points& block, int n, DataSteps steps)
 {
-    mesh_.join(block);
+    surface_->mesh.join(block);
     stepper_->set_data(block, steps);
     for (int step = 1; step <= n; ++step) {
         const Stopwatch watch = begin_step();
@@ -155,7 +156,7 @@ void HeatSteps::take_block(Points& block, int n, DataSteps steps)
         copy(progress_.exec(), stepper_->positions(), block);
         end_steps(watch, 1);
     }
-    mesh_.take_along(block);
+    surface_->mesh.take_along(block);
 }
 
 /// Takes the steps of further columns, many at a time.
@@ -164,9 +165,9 @@ void HeatSteps::take_at_once(Eigen::Ref<Eigen::MatrixXd> fields, int n)
     for (Eigen::Index first = 0; first < fields.cols(); first += columns_at_once) {
         auto portion = fields.middleCols(first, std::min(columns_at_once, fields.cols() - first));
         const Stopwatch watch = begin_step();
-        mesh_.join(portion);
+        surface_->mesh.join(portion);
         in_sub_meshes_->take_columns(portion, n, progress_.exec());
-        mesh_.take_along(portion);
+        surface_->mesh.take_along(portion);
         end_steps(watch, n * ((portion.cols() + columns_of_block - 1) / columns_of_block));
     }
 }
@@ -198,8 +199,8 @@ void HeatSteps::complete(FlowReport& report) const
 {
     stepper_->report_to(report);
     remark_on_factorisation(options_.resources.factorisation, report);
-    mesh_.complete(report);
-    report.cut.labels = mesh_.labels_of_given(std::move(report.cut.labels), report.cut.n_sub_meshes());
+    surface_->mesh.complete(report);
+    report.cut.labels = surface_->mesh.labels_of_given(std::move(report.cut.labels), report.cut.n_sub_meshes());
 }
 
 }  // namespace seamflow

@@ -56,9 +56,9 @@ void in_mean_edges(std::optional<double>& estimate, const PolygonMesh& mesh, con
 
 }  // namespace
 
-FlowRun::FlowRun(FlowingMesh& mesh, std::unique_ptr<PreparedFlow> prepared, Progress& progress, double setup,
-                 FlowReport& report, const FlowControl& control)
-    : SurfaceRun(mesh, prepared->surface.topology, progress, report, control.resume.get())
+FlowRun::FlowRun(std::unique_ptr<PreparedFlow> prepared, Progress& progress, double setup, FlowReport& report,
+                 const FlowControl& control)
+    : SurfaceRun(prepared->surface, progress, report, control.resume.get())
     , prepared_(std::move(prepared))
     , flow_report_(report)
     , setup_(setup)
@@ -66,7 +66,7 @@ FlowRun::FlowRun(FlowingMesh& mesh, std::unique_ptr<PreparedFlow> prepared, Prog
 {
     const MotionOptions& motion = options().motion;
     make_steppers();
-    vanishing_.emplace(mesh.mesh(), topology_, options());
+    vanishing_.emplace(mesh_.mesh(), topology_, options());
     begin(motion, options().flow == FlowEquation::Conformalized, options().accuracy.largest_update, setup,
           options().steps, reference_ != nullptr);
     free_topology();
@@ -108,7 +108,7 @@ void FlowRun::make_steppers()
         leave_factors(prepared_->plan, mesh, topology_, progress_.exec());
         make_stepper_of_flow();
     }
-    report_to(*prepared_, mesh_, flow_report_);
+    report_to(*prepared_, flow_report_);
     flow_report_.cut.labels = std::move(prepared_->plan.cut.labels);
     flow_report_.seconds.analyse = watch.lap();
     flow_report_.seconds.total = flow_report_.seconds.cut + flow_report_.seconds.analyse;

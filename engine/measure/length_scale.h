@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "engine/options/amount.h"
+#include "engine/options/motion_options.h"
 #include "partition/executor.h"
 #include "partition/polygon_mesh.h"
 #include "solvers/filters/step_filter.h"

@@ -4,7 +4,6 @@
 #include <optional>
 #include <vector>
 
-#include "engine/options/amount.h"
 #include "engine/options/approach.h"
 #include "engine/options/motion_options.h"
 #include "partition/polygon_mesh.h"

@@ -1,5 +1,3 @@
-#include "engine/ranks/mpi_transport.h"
-
 #include <algorithm>
 #include <array>
 #include <mutex>
@@ -9,6 +7,7 @@
 #include <mpi.h>
 #include <sched.h>
 
+#include "engine/ranks/transport.h"
 #include "partition/errors.h"
 
 namespace seamflow {

@@ -1,5 +1,3 @@
-#include "engine/ranks/thread_transport.h"
-
 #include <condition_variable>
 #include <deque>
 #include <exception>
@@ -7,6 +5,8 @@
 #include <mutex>
 #include <thread>
 #include <utility>
+
+#include "engine/ranks/transport.h"
 
 namespace seamflow {
 

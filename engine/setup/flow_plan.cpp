@@ -14,10 +14,10 @@ namespace {
 
 /// Cuts the mesh for an approach.
 /// @param choices gets a sentence if the number of sub-meshes is chosen.
-Cut make_cut(const PolygonMesh& mesh, const Surface& surface, const FlowOptions& options,
-             const ApproachChoice& approach, const Executor& exec, const Alongside& alongside,
-             std::vector<Remark>& choices)
+Cut make_cut(const Surface& surface, const FlowOptions& options, const ApproachChoice& approach, const Executor& exec,
+             const Alongside& alongside, std::vector<Remark>& choices)
 {
+    const PolygonMesh& mesh = surface.mesh.mesh();
     const Topology& topology = surface.topology;
     if (options.scheme == Scheme::ExplicitEuler || takes_whole_mesh(approach.approach))
         return cut_into(mesh, topology, 1, exec);
@@ -41,9 +41,8 @@ Remark remark_on(const ApproachChoice& choice)
 }
 
 /// METIS has one thread: other threads measure in the meantime. If METIS is not needed, measuring comes afterwards.
-void cut_and_measure(const PolygonMesh& mesh, const Surface& surface, const FlowOptions& options,
-                     const ApproachChoice& choice, const Executor& exec, const std::function<void()>& measure,
-                     FlowPlan& plan)
+void cut_and_measure(const Surface& surface, const FlowOptions& options, const ApproachChoice& choice,
+                     const Executor& exec, const std::function<void()>& measure, FlowPlan& plan)
 {
     bool is_measured = false;
     const auto measure_once = [&] {
@@ -51,8 +50,8 @@ void cut_and_measure(const PolygonMesh& mesh, const Surface& surface, const Flow
         measure();
     };
     plan.cut = make_cut(
-        mesh, surface, options, choice, exec,
-        [&](const std::function<void()>& serial) { run_both(serial, measure_once); }, plan.choices);
+        surface, options, choice, exec, [&](const std::function<void()>& serial) { run_both(serial, measure_once); },
+        plan.choices);
     if (!is_measured)
         measure();
 }
@@ -105,9 +104,8 @@ double fraction_of_setup(const FlowOptions& options, int n_taken)
     return as_steps / (as_steps + to_do);
 }
 
-FlowPlan decide(const PolygonMesh& mesh, const Surface& surface, const FlowOptions& options,
-                std::optional<Approach> earlier, Sharing sharing, Progress& progress,
-                const std::function<void(Approach)>& measure)
+FlowPlan decide(const Surface& surface, const FlowOptions& options, std::optional<Approach> earlier, Sharing sharing,
+                Progress& progress, const std::function<void(Approach)>& measure)
 {
     FlowPlan plan;
     // Steps continue in the way in which they began.
@@ -119,10 +117,11 @@ FlowPlan decide(const PolygonMesh& mesh, const Surface& surface, const FlowOptio
         std::ranges::copy(surface.choices, std::back_inserter(plan.without_factors->choices));
     plan.choices = surface.choices;
     plan.remarks = surface.remarks;
-    const ApproachChoice choice = choose_approach(mesh, surface.topology, surface.size, options, earlier, sharing);
+    const ApproachChoice choice =
+        choose_approach(surface.mesh.mesh(), surface.topology, surface.size, options, earlier, sharing);
     progress.count();
     cut_and_measure(
-        mesh, surface, options, choice, progress.exec(), [&] { measure(choice.approach); }, plan);
+        surface, options, choice, progress.exec(), [&] { measure(choice.approach); }, plan);
     plan.remarks.insert(plan.remarks.begin(), plan.cut.remarks.begin(), plan.cut.remarks.end());
     plan.way = way_of(choice, options, plan.cut.n_parts);
     if (!choice.reason.empty() && approach_of(plan.way) == choice.approach)
@@ -169,10 +168,10 @@ StepSettings settings_of(const FlowOptions& options, const WayOfSteps& way, cons
             .records_schedule = options.report.record_schedule};
 }
 
-void report_to(const FlowPlan& plan, const Surface& surface, const FlowOptions& options, const FlowingMesh& mesh,
+void report_to(const FlowPlan& plan, const Surface& surface, const FlowOptions& options,
                std::string_view need_of_junctions, FlowReport& report)
 {
-    report.mesh = report_on(surface, mesh, options.motion.strength);
+    report.mesh = report_on(surface, options.motion.strength);
     report.time_step = options.time_step;
     report.convergence.approach = approach_of(plan.way);
     report.convergence.tolerance = tolerance_of(plan.way);

@@ -41,14 +41,12 @@ struct FlowPlan {
 double fraction_of_setup(const FlowOptions& options, int n_taken = 0);
 
 /// Decides how steps are taken, and in which sub-meshes.
-/// @param mesh the mesh that moves.
-/// @param options resolved; with labels of the faces of `mesh`.
+/// @param options resolved; with labels of the faces of the mesh that moves.
 /// @param earlier the approach of the steps that are continued, which is kept; empty: these are the first.
 /// @param measure called once with the approach, at the same time as METIS if there are threads for both.
 /// @throws InputError for labels that cannot be used; ComputationError for a failure of METIS; Cancelled.
-FlowPlan decide(const PolygonMesh& mesh, const Surface& surface, const FlowOptions& options,
-                std::optional<Approach> earlier, Sharing sharing, Progress& progress,
-                const std::function<void(Approach)>& measure);
+FlowPlan decide(const Surface& surface, const FlowOptions& options, std::optional<Approach> earlier, Sharing sharing,
+                Progress& progress, const std::function<void(Approach)>& measure);
 
 /// Changes the plan to its way without factors, on the whole mesh.
 void leave_factors(FlowPlan& plan, const PolygonMesh& mesh, const Topology& topology, const Executor& exec);
@@ -63,7 +61,7 @@ StepSettings settings_of(const FlowOptions& options, const WayOfSteps& way, cons
 
 /// Adds the decisions, and the counts of vertices, to the report.
 /// @param need_of_junctions the result of the function of this name in automatic_choices.h.
-void report_to(const FlowPlan& plan, const Surface& surface, const FlowOptions& options, const FlowingMesh& mesh,
+void report_to(const FlowPlan& plan, const Surface& surface, const FlowOptions& options,
                std::string_view need_of_junctions, FlowReport& report);
 
 }  // namespace seamflow
