@@ -23,7 +23,7 @@ class ErrorOnOptions : public Standard {
     {
     }
 
-    /// For callers that have other names.
+    /// The message with marked options, for callers that have other names for the options.
     [[nodiscard]] const Wording& wording() const { return wording_; }
 
   private:

@@ -28,7 +28,7 @@ std::string option_of_library(std::string_view option, std::string_view value);
 /// The wording in the words of a caller.
 std::string sentence(const Wording& wording, const OptionWriter& write = option_of_library);
 
-/// A message without marks.
+/// The wording that reads as `text` for every caller: nothing is marked, and each < is doubled.
 Wording unmarked(std::string_view text);
 
 /// What a user should know about a result or how it was made: a kind and its numbers, for programs, and what to tell
@@ -47,7 +47,7 @@ struct Remark {
     Numbers numbers;
     Wording wording;
 
-    /// @returns nothing where the kind has no such number.
+    /// The number of this name; nothing if the kind has no such number.
     [[nodiscard]] std::optional<double> number(std::string_view name) const;
 
     friend bool operator==(const Remark&, const Remark&) = default;

@@ -13,7 +13,8 @@ namespace seamflow {
 struct Overlap {
     /// #F: the part of every face.
     std::span<const Index> labels;
-    /// #parts, different for parts that share a vertex of Γ: part i grows into parts of the same or a later stage.
+    /// #parts: the stage of a sweep in which each part is solved, different for parts that share a vertex of Γ. Part i
+    /// grows into parts of the same or a later stage.
     std::span<const Index> stage;
     /// The number of times that each part grows by all faces that share a vertex with it, at least 0.
     int layers = 1;

@@ -52,7 +52,7 @@ void IndexSet::fill_slots(std::span<const Index> values)
 {
     ascending_.assign(values.begin(), values.end());
     sort_unique(ascending_);
-    // At least two values are this far apart, so that the shift is by fewer bits than the product has.
+    // A single value is dense: here are at least two, hence four slots, and the shift is less than 64.
     slots_.assign(std::bit_ceil(2 * ascending_.size()), Slot{-1, -1});
     shift_ = 64 - std::countr_zero(slots_.size());
     for (std::size_t i = 0; i < ascending_.size(); ++i)

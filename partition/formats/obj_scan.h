@@ -54,7 +54,7 @@ inline bool is_obj_face(std::string_view keyword)
 
 /// Scans the next line if it is a vertex or, for visitors of faces, a face in the commonest form, without fault; see
 /// scan_obj.
-/// @param corners scratch.
+/// @param corners scratch. @returns whether it was such a line.
 template <class Visitor>
 bool scan_plain_obj_line(TextScanner& scanner, Visitor& visitor, ObjCounts& counts, std::vector<Index>& corners)
 {

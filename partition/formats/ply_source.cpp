@@ -41,6 +41,7 @@ void PlySource::note_faults_in(FaultLog* log)
 
 void PlySource::pass_over(const PlyElement& element, std::uint64_t begin, std::uint64_t end)
 {
+    // Elements without lists, whose only slot is the end, all have the same number of bytes.
     const std::vector<Index> columns(element.properties.size(), -1);
     if (const PlySlot first = slots_of(element, columns).front(); !is_text() && first.property == nullptr &&
                                                                   first.n_bytes > 0 &&

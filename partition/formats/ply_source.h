@@ -92,7 +92,7 @@ class PlySource {
             end_line();
     }
 
-    /// To be called after the last element.
+    /// Checks that nothing but padding follows. To be called after the last element.
     void finish();
 
     /// The next number, which must be finite, unless faults are collected.
@@ -118,6 +118,7 @@ class PlySource {
     /// @param name of the field, in messages.
     double field(PlyType type, const char* name);
 
+    /// The next number, which must be whole.
     [[gnu::always_inline]] std::int64_t integer(PlyType type)
     {
         if (is_text())
@@ -203,7 +204,9 @@ class PlySource {
             refuse_room(n);
     }
 
+    /// Goes to the line of element i in a text file.
     void begin_line(const PlyElement& element, std::uint64_t i);
+    /// Checks that the line ends; further words are a harmless fault, and are passed over.
     void end_line();
     void pass_over_tokens(std::int64_t n);
     [[noreturn]] void refuse_length(const PlyProperty& list, std::int64_t n) const;
