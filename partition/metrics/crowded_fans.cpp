@@ -15,7 +15,7 @@ namespace {
 /// Edges, or vertices twice for a vertex, each with one of their triangles.
 using Crowd = std::vector<std::pair<Edge, Index>>;
 
-/// Moves the triangles of a crowd that are in no fan yet into fans.
+/// Makes fans of the triangles of a crowd that are in no fan yet, where they are enough for a crowded fan.
 void add_fans(Crowd crowd, std::vector<bool>& is_in_fan, std::vector<CrowdedFan>& fans)
 {
     std::ranges::sort(crowd);
@@ -35,6 +35,7 @@ void add_fans(Crowd crowd, std::vector<bool>& is_in_fan, std::vector<CrowdedFan>
     }
 }
 
+/// A bound of the rounding error of a unit vector.
 constexpr double direction_rounding = 32.0 * std::numeric_limits<double>::epsilon();
 
 Box all_directions()

@@ -31,6 +31,7 @@ struct Ear {
     friend auto operator<=>(const Ear&, const Ear&) = default;
 };
 
+/// Twice the area of triangle abc, positive if the path from a by b to c turns left.
 double turn(const Point2& a, const Point2& b, const Point2& c)
 {
     const Point2 u = b - a;
@@ -42,6 +43,7 @@ double turn(const Point2& a, const Point2& b, const Point2& c)
 class EarClipper {
   public:
     EarClipper(std::span<const Index> corners, const Points& positions);
+    /// Cuts off ears until three corners are left, and appends all triangles.
     void run(std::vector<Triangle>& triangles);
 
   private:
@@ -49,8 +51,10 @@ class EarClipper {
     [[nodiscard]] std::size_t before(std::size_t k) const { return k == 0 ? left_.size() - 1 : k - 1; }
     [[nodiscard]] const Point2& flat(std::size_t k) const { return flat_[left_[k]]; }
     [[nodiscard]] Index vertex(std::size_t k) const { return corners_[left_[k]]; }
+    /// The quality of the ear at k.
     [[nodiscard]] Quality quality_of(std::size_t k) const;
     [[nodiscard]] bool is_empty(const Point2& a, const Point2& b, const Point2& c) const;
+    /// Sets the ear at k.
     void examine(std::size_t k);
     void examine_around(std::size_t k, Quality quality);
 
@@ -94,6 +98,7 @@ Quality EarClipper::quality_of(std::size_t k) const
     const Point2& b = flat(k);
     const Point2& c = flat(after(k));
     const double turning = turn(a, b, c);
+    // The largest sine of a turn that may be rounding.
     constexpr double flatness = 1e-12;
     if (std::abs(turning) <= flatness * (b - a).norm() * (c - b).norm())
         return Quality::Flat;

@@ -17,6 +17,7 @@ Index excess_runs_at_interior(const PolygonMesh& mesh, const Topology& topology,
 {
     const auto label_of = [&](Index halfedge) { return labels[topology.face_of[halfedge]]; };
     const auto corners = topology.corners_at(v);
+    // Twice the number of edges at v between two faces of one part.
     std::size_t n_half_joints = 0;
     for (const Index corner : corners)
         for (const Index spoke : {corner, topology.previous(mesh, corner)})
