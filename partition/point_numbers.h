@@ -52,7 +52,6 @@ class BasicPointNumbers {
     /// The slot with the number of a point, or the free slot for it.
     [[nodiscard]] static std::size_t slot_of(std::span<const Index> slots, std::span<const Place> points,
                                              const Place& point);
-    /// Replaces the hash table by one of n_slots slots and enters all points.
     void resize(std::size_t n_slots);
 
     std::vector<Place> points_;
@@ -86,6 +85,7 @@ std::size_t BasicPointNumbers<Real>::slot_of(std::span<const Index> slots, std::
     return slot;
 }
 
+/// Replaces the hash table by one of n_slots slots and enters all points.
 template <class Real>
 void BasicPointNumbers<Real>::resize(std::size_t n_slots)
 {

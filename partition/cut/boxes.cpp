@@ -77,6 +77,7 @@ class Tree {
     std::vector<Node> nodes_;
 };
 
+/// Sorts points along the longest side of their bounding box.
 void sort_along_longest_side(std::span<Index> points, const Points& positions)
 {
     struct Projection {

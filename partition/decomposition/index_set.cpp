@@ -30,6 +30,8 @@ IndexSet::IndexSet(std::span<const Index> values)
         fill_slots(values);
 }
 
+/// Sets ascending_ and words_ for dense values.
+/// @param width the number of indices from the first value to the last.
 void IndexSet::fill_window(std::span<const Index> values, std::size_t width)
 {
     words_.resize(width / bits_per_word + 1);
@@ -48,6 +50,7 @@ void IndexSet::fill_window(std::span<const Index> values, std::size_t width)
             ascending_.push_back(first_ + static_cast<Index>(word * bits_per_word) + std::countr_zero(left));
 }
 
+/// Sets ascending_ and slots_ for scattered values.
 void IndexSet::fill_slots(std::span<const Index> values)
 {
     ascending_.assign(values.begin(), values.end());

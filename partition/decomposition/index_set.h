@@ -54,10 +54,7 @@ class IndexSet {
         return static_cast<Index>(((bits + (bits >> 4)) & 0x0F0F0F0F0F0F0F0FU) * 0x0101010101010101U >> 56);
     }
 
-    /// Sets ascending_ and words_ for dense values.
-    /// @param width the number of indices from the first value to the last.
     void fill_window(std::span<const Index> values, std::size_t width);
-    /// Sets ascending_ and slots_ for scattered values.
     void fill_slots(std::span<const Index> values);
 
     /// The slot of `value`, or the free slot for it. The upper bits of the product depend on all bits of the value: on

@@ -57,6 +57,7 @@ double in_single_precision(double value, Decimals decimals)
     return read;
 }
 
+/// Checks that each name is one word, no coordinate, and occurs once.
 void require_good_names(const std::filesystem::path& path, const FileFields& fields)
 {
     const auto refuse = [&](const std::string& name, const char* why) {

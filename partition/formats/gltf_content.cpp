@@ -166,6 +166,7 @@ GltfContent::GltfContent(const std::filesystem::path& path, std::string_view con
     }
 }
 
+/// Finds the file, and within it the text and the binary chunk: sets file_, text_ and chunk_.
 void GltfContent::take_apart(std::string_view content)
 {
     file_ = content;
@@ -177,6 +178,7 @@ void GltfContent::take_apart(std::string_view content)
         find_chunks();
 }
 
+/// Finds the text and the binary chunk of a .glb file: sets text_ and chunk_.
 void GltfContent::find_chunks()
 {
     const auto version = number_at<std::uint32_t>(file_, signature.size());

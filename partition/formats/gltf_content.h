@@ -108,9 +108,7 @@ class GltfContent {
     }
 
   private:
-    /// Sets file_, text_ and chunk_.
     void take_apart(std::string_view content);
-    /// Sets text_ and chunk_ of a .glb file.
     void find_chunks();
 
     const std::filesystem::path& path_;

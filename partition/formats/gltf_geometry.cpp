@@ -167,9 +167,7 @@ class GeometryFinder {
     {
     }
 
-    /// Adds a primitive; points and lines are skipped.
     void add(const GltfValue& primitive);
-    /// Numbers the vertices and faces and moves out the surface.
     GltfGeometry finish();
 
   private:
@@ -180,11 +178,7 @@ class GeometryFinder {
         std::optional<std::size_t> normals;
     };
 
-    /// The positions that a primitive names: three floats each.
-    /// @throws InputError for others.
     const GltfSpan& positions_of(const GltfValue& primitive);
-    /// The number in normals_ of the normals of a primitive; nothing if it has none that are floats, one for each
-    /// vertex. Sets has_tangents and has_other_normals of the surface.
     std::optional<std::size_t> normals_of(const GltfValue& attributes, const GltfSpan& positions);
     void relate_normals(const Found& found);
 
@@ -197,6 +191,8 @@ class GeometryFinder {
     GltfGeometry geometry_;
 };
 
+/// The positions that a primitive names: three floats each.
+/// @throws InputError for others.
 const GltfSpan& GeometryFinder::positions_of(const GltfValue& primitive)
 {
     if (primitive["extensions"]["KHR_draco_mesh_compression"].is_there())
@@ -211,6 +207,8 @@ const GltfSpan& GeometryFinder::positions_of(const GltfValue& primitive)
     return span;
 }
 
+/// The number in normals_ of the normals of a primitive; nothing if it has none that are floats, one for each vertex.
+/// Sets has_tangents and has_other_normals of the surface.
 std::optional<std::size_t> GeometryFinder::normals_of(const GltfValue& attributes, const GltfSpan& positions)
 {
     geometry_.has_tangents |= attributes["TANGENT"].is_there();
@@ -226,6 +224,7 @@ std::optional<std::size_t> GeometryFinder::normals_of(const GltfValue& attribute
     return std::nullopt;
 }
 
+/// Adds a primitive; points and lines are skipped.
 void GeometryFinder::add(const GltfValue& primitive)
 {
     const std::uint64_t mode = primitive["mode"].number_or(4);
@@ -273,6 +272,7 @@ void GeometryFinder::relate_normals(const Found& found)
     }
 }
 
+/// Numbers the vertices and faces and moves out the surface.
 GltfGeometry GeometryFinder::finish()
 {
     const auto checked_index = [&](std::int64_t n, const char* what) {

@@ -49,8 +49,6 @@ class ObjReader {
     void face(TextScanner& scanner, const ObjCounts& before);
 
   private:
-    /// Reads a corner of a face.
-    /// @param n_vertices the number of vertices before the line. @returns its vertex; -1 if there is no such vertex.
     Index read_corner(std::int64_t n_vertices);
     void require_attributes(std::string_view attributes);
 
@@ -78,6 +76,8 @@ void ObjReader::face(TextScanner& scanner, const ObjCounts& before)
     builder_.add_face(corners_);
 }
 
+/// Reads a corner of a face.
+/// @param n_vertices the number of vertices before the line. @returns its vertex; -1 if there is no such vertex.
 Index ObjReader::read_corner(std::int64_t n_vertices)
 {
     const auto [number, attributes] = read_obj_corner(scanner_, "a vertex number (as in 7, 7/1, 7//2 or 7/1/2)");

@@ -159,10 +159,7 @@ class VertexRewriter {
         double value;
     };
 
-    /// Writes vertex v: copies it, with the changed numbers in place of numbers_.
-    /// @param end the empty piece of the file after the vertex.
     void write_vertex(Index v, std::string_view end);
-    /// Writes a number in its new type, and sets rounded_ if this rounds a position.
     void write(ByteWriter& file, const Change& change, double number);
 
     Splicer splicer_;
@@ -196,6 +193,8 @@ bool VertexRewriter::rewrite(const PlySlice& slice)
     return rounded_;
 }
 
+/// Writes vertex v: copies it, with the changed numbers in place of numbers_.
+/// @param end the empty piece of the file after the vertex.
 void VertexRewriter::write_vertex(Index v, std::string_view end)
 {
     const bool is_text = data_.header.encoding == Encoding::Ascii;
@@ -217,6 +216,7 @@ void VertexRewriter::write_vertex(Index v, std::string_view end)
     }
 }
 
+/// Writes a number in its new type, and sets rounded_ if this rounds a position.
 void VertexRewriter::write(ByteWriter& file, const Change& change, double number)
 {
     const Encoding encoding = data_.header.encoding;

@@ -204,9 +204,7 @@ class PlySource {
             refuse_room(n);
     }
 
-    /// Goes to the line of element i in a text file.
     void begin_line(const PlyElement& element, std::uint64_t i);
-    /// Checks that the line ends; further words are a harmless fault, and are passed over.
     void end_line();
     void pass_over_tokens(std::int64_t n);
     [[noreturn]] void refuse_length(const PlyProperty& list, std::int64_t n) const;

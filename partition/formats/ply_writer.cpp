@@ -69,6 +69,7 @@ class PlyWriter {
         begins_line_ = true;
     }
 
+    /// Writes numbers, in a binary file all at once.
     template <class Number>
     void write(std::span<const Number> values)
     {
@@ -78,6 +79,7 @@ class PlyWriter {
             write(value);
     }
 
+    /// Writes a number; in a text file after a blank, except at the beginning of a line.
     void write(auto value)
     {
         if (content_.encoding != Encoding::Ascii)

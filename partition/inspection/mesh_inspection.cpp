@@ -117,6 +117,7 @@ bool lacks_area(const PolygonMesh& mesh, Index f)
     return !has_area(mesh.face(f), mesh.vertices) && std::ranges::all_of(mesh.face(f), is_finite);
 }
 
+/// The vertices with the same position as an earlier vertex, ascending.
 std::vector<Index> coincident_vertices(const Points& positions, const Executor& exec)
 {
     std::vector<PointNumbers::Place> places;

@@ -154,6 +154,7 @@ void CrossingSearch::sort_pieces(const Executor& exec)
     pieces_ = std::move(sorted);
 }
 
+/// The box around the pieces of each leaf.
 std::vector<Box> CrossingSearch::boxes_of_leaves(const Executor& exec) const
 {
     const auto n = static_cast<Index>(pieces_.size());

@@ -43,7 +43,6 @@ double turn(const Point2& a, const Point2& b, const Point2& c)
 class EarClipper {
   public:
     EarClipper(std::span<const Index> corners, const Points& positions);
-    /// Cuts off ears until three corners are left, and appends all triangles.
     void run(std::vector<Triangle>& triangles);
 
   private:
@@ -51,10 +50,8 @@ class EarClipper {
     [[nodiscard]] std::size_t before(std::size_t k) const { return k == 0 ? left_.size() - 1 : k - 1; }
     [[nodiscard]] const Point2& flat(std::size_t k) const { return flat_[left_[k]]; }
     [[nodiscard]] Index vertex(std::size_t k) const { return corners_[left_[k]]; }
-    /// The quality of the ear at k.
     [[nodiscard]] Quality quality_of(std::size_t k) const;
     [[nodiscard]] bool is_empty(const Point2& a, const Point2& b, const Point2& c) const;
-    /// Sets the ear at k.
     void examine(std::size_t k);
     void examine_around(std::size_t k, Quality quality);
 
@@ -67,6 +64,7 @@ class EarClipper {
     std::vector<Ear> ears_;
 };
 
+/// Projects the corners onto a plane normal to the vector area.
 EarClipper::EarClipper(std::span<const Index> corners, const Points& positions)
     : corners_(corners)
     , positions_(positions)
@@ -92,6 +90,7 @@ bool EarClipper::is_empty(const Point2& a, const Point2& b, const Point2& c) con
     });
 }
 
+/// The quality of the ear at k.
 Quality EarClipper::quality_of(std::size_t k) const
 {
     const Point2& a = flat(before(k));
@@ -105,6 +104,7 @@ Quality EarClipper::quality_of(std::size_t k) const
     return turning > 0.0 && is_empty(a, b, c) ? Quality::Clean : Quality::None;
 }
 
+/// Sets the ear at k.
 void EarClipper::examine(std::size_t k)
 {
     const Point diagonal = positions_.row(vertex(before(k))) - positions_.row(vertex(after(k)));
@@ -122,6 +122,7 @@ void EarClipper::examine_around(std::size_t k, Quality quality)
         examine(other);
 }
 
+/// Cuts off ears until three corners are left, and appends all triangles.
 void EarClipper::run(std::vector<Triangle>& triangles)
 {
     for (std::size_t k = 0; left_.size() > 3 && k < left_.size(); ++k)

@@ -66,6 +66,7 @@ void PinchMender::count_faces(const Executor& exec)
         [](Index) { return 1; });
 }
 
+/// Sets runs_.
 void PinchMender::find_runs(const Fan& fan)
 {
     runs_.clear();
@@ -176,6 +177,7 @@ void PinchMender::propose_giving(const Fan& fan)
         propose(fan, smallest, smallest + 1, runs_[(smallest + n - 1) % n].label);
 }
 
+/// Moves a face to another part, and updates n_faces_.
 void PinchMender::set_label(Index f, Index label)
 {
     --n_faces_[labels_[f]];
@@ -183,6 +185,7 @@ void PinchMender::set_label(Index f, Index label)
     labels_[f] = label;
 }
 
+/// The number of pinches at the vertices of the faces.
 Index PinchMender::pinches_around(const std::vector<Index>& faces)
 {
     nearby_.clear();

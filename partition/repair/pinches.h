@@ -61,7 +61,6 @@ class PinchMender {
         friend auto operator<=>(const Cost&, const Cost&) = default;
     };
 
-    /// Sets runs_.
     void find_runs(const Fan& fan);
     Index count_excess_runs();
     Fan find_pinch(Index v);
@@ -69,10 +68,8 @@ class PinchMender {
     void propose_filling(const Fan& fan);
     void propose_giving(const Fan& fan);
     Cost try_out(const Move& move);
-    /// The number of pinches at the vertices of the faces.
     Index pinches_around(const std::vector<Index>& faces);
     [[nodiscard]] double cut_length_around(const std::vector<Index>& faces) const;
-    /// Moves a face to another part, and updates n_faces_.
     void set_label(Index f, Index label);
 
     const PolygonMesh& mesh_;

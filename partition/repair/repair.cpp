@@ -30,6 +30,7 @@ class VertexQueue {
             queued_[v] = true;
     }
 
+    /// Adds the vertices of the faces that are not in the queue.
     void add_corners_of(const PolygonMesh& mesh, const std::vector<Index>& faces)
     {
         for (const Index f : faces)
