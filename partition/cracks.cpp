@@ -43,6 +43,7 @@ std::vector<double> distances_of_nearest(const std::vector<Point>& points, doubl
 {
     // Points in a cell of more points than this are too many to be corners of one point: they are not compared.
     constexpr Index most_in_cell = 64;
+    // The cell of a point and the cells around it.
     constexpr int n_around = 27;
     const auto cell_at = [&](const Point& p) {
         return PointNumbers::Place{std::floor(p[0] / reach), std::floor(p[1] / reach), std::floor(p[2] / reach)};

@@ -8,7 +8,7 @@
 
 namespace seamflow {
 
-/// An error whose message may name options. what() has the library's names of them.
+/// An error whose message may name options. what() names them as the library does.
 template <class Standard>
 class ErrorOnOptions : public Standard {
   public:

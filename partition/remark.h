@@ -10,8 +10,8 @@
 namespace seamflow {
 
 /// Sentences for users, in which options are marked, so that each caller reads them by its own names: `<radius>`, or
-/// `<boundary free>` for an option and a value. A mark has the library's name of the option: that of a field of the
-/// options, or of a parameter. << stands for a < that marks nothing.
+/// `<boundary free>` for an option and a value. A mark has the library's name of the option, which is the name of a
+/// field of the options or of a parameter. << stands for a < that marks nothing.
 struct Wording {
     std::string text;
 
@@ -31,8 +31,7 @@ std::string sentence(const Wording& wording, const OptionWriter& write = option_
 /// The wording that reads as `text` for every caller: nothing is marked, and each < is doubled.
 Wording unmarked(std::string_view text);
 
-/// What a user should know about a result or how it was made: a kind and its numbers, for programs, and what to tell
-/// the user about them.
+/// A message to the user about a result or how it was made: a kind and numbers, for programs, and sentences about them.
 struct Remark {
     using Numbers = std::vector<std::pair<std::string, double>>;
 

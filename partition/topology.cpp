@@ -64,7 +64,7 @@ void for_each_edge(std::span<const Spoke> spokes, Action&& action)
 }
 
 /// Pairs the half-edges between v and vertices of higher index.
-/// @returns whether those of every pair run in opposite directions.
+/// @returns whether the two half-edges of every pair run in opposite directions.
 bool pair_halfedges_at(const PolygonMesh& mesh, Index v, std::vector<Spoke>& spokes, Topology& topology)
 {
     bool opposite = true;

@@ -155,8 +155,8 @@ std::vector<std::array<Index, 2>> Rims::pairs() const
                 add(std::min(places_[i][0], places_[i][1]), static_cast<Index>(i));
     });
     std::vector<std::array<Index, 2>> found;
-    // The half-edges whose lower end has the number p, sorted by the number of the other end: of those with equal ends,
-    // only two are a pair.
+    // The half-edges whose lower end has the number p, sorted by the number of the other end. Half-edges with the same
+    // two ends may be a pair if there are two of them.
     std::vector<std::pair<Index, Index>> by_other_place;
     for (Index p = 0; p < n_places_; ++p) {
         by_other_place.clear();

@@ -99,7 +99,7 @@ std::vector<Index> metis_k_way(const FaceGraph& graph, std::span<const Index> sh
             (afterwards == Afterwards::Refined ? min_nodes_per_refined_part_k_way : min_nodes_per_part_k_way);
         // METIS refuses to make connected parts from a graph that is not connected.
         auto settings = options(k_way && graph_components(graph).count() == 1);
-        // A share of more than 1 is that of a group of parts.
+        // Groups of parts, whose shares exceed 1, have a smaller tolerance.
         if (k_way && *std::max_element(shares.begin(), shares.end()) > 1)
             settings[METIS_OPTION_UFACTOR] = tolerance_of_groups;
         auto offsets = copy(graph.offsets);

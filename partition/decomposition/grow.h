@@ -21,7 +21,7 @@ struct Overlap {
 };
 
 /// The faces of part s after growing, in ascending order.
-/// @param faces those of the ungrown part.
+/// @param faces the faces of the ungrown part, in ascending order.
 std::vector<Index> grow(const PolygonMesh& mesh, const Topology& topology, const Overlap& overlap, Index s,
                         std::vector<Index> faces);
 

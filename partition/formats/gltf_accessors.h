@@ -80,6 +80,7 @@ struct GltfSparse {
     std::optional<GltfSpan> base;
     /// The indices of the replaced elements, ascending.
     GltfSpan indices;
+    /// The replacements, in the order of `indices`.
     GltfSpan values;
     /// All elements after replacement, in a buffer that is not in the file.
     GltfSpan dense;

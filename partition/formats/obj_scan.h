@@ -35,7 +35,7 @@ struct ObjCorner {
     std::string_view attributes;
 };
 
-/// Reads the next corner of the line. @param what is expected, for the message.
+/// Reads the next corner of the line. @param what the corner that is expected, in words for the message.
 /// @throws InputError if it does not begin with a whole number.
 ObjCorner read_obj_corner(TextScanner& scanner, const char* what);
 

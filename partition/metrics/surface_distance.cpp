@@ -272,7 +272,7 @@ void SurfaceDistance::Tree::add_within_reach(BoxTree::Node node, Candidates& fou
         found.nodes.push_back({std::sqrt(squared), node});
 }
 
-/// The candidates of a group of points, found below those of a group that contains it.
+/// The candidates of a group of points, found among the nodes below the candidates of a larger group.
 /// @param closest in: the triangle to begin with; out: the triangle closest to the centre of the group.
 SurfaceDistance::Tree::Candidates SurfaceDistance::Tree::narrowed(std::span<const Point> points,
                                                                   std::span<const Index> group,

@@ -14,7 +14,8 @@ namespace seamflow {
 /// @param labels #F.
 bool may_be_pinched(const PolygonMesh& mesh, const Topology& topology, const std::vector<Index>& labels, Index v);
 
-/// Finds and mends pinched vertices: those at which the faces of one part form several runs within one fan of the mesh.
+/// Finds and mends pinched vertices: vertices at which the faces of one part form several runs within one fan of the
+/// mesh.
 class PinchMender {
   public:
     /// @param mesh, topology, labels must outlive the object. @param n_labels all labels are below it.
