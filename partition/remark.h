@@ -25,7 +25,7 @@ using OptionWriter = std::function<std::string(std::string_view option, std::str
 /// The library's own name, and the value after a blank.
 std::string option_of_library(std::string_view option, std::string_view value);
 
-/// The wording in the words of a caller.
+/// The text of a wording, with each mark replaced by the caller's name of the option.
 std::string sentence(const Wording& wording, const OptionWriter& write = option_of_library);
 
 /// The wording that reads as `text` for every caller: nothing is marked, and each < is doubled.
@@ -52,7 +52,7 @@ struct Remark {
     friend bool operator==(const Remark&, const Remark&) = default;
 };
 
-/// The remark in the words of a caller.
+/// The text of a remark, with each mark replaced by the caller's name of the option.
 inline std::string sentence(const Remark& remark, const OptionWriter& write = option_of_library)
 {
     return sentence(remark.wording, write);

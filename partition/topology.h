@@ -10,7 +10,7 @@
 
 namespace seamflow {
 
-/// The position of a vertex in its mesh.
+/// The kind of a vertex, by the faces around it.
 enum class VertexKind : std::uint8_t {
     /// The faces of the vertex form one closed fan.
     Interior,

@@ -106,7 +106,7 @@ class Rims {
                (distance_ > 0.0 && (mesh_.vertices.row(v) - mesh_.vertices.row(w)).norm() <= distance_);
     }
 
-    /// Sets places_ and n_places_.
+    /// Numbers the positions of the ends of half-edges: sets places_ and n_places_.
     void number_places()
     {
         PointNumbers numbers;

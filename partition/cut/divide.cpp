@@ -34,7 +34,8 @@ std::mutex& metis_mutex()
     return mutex;
 }
 
-/// METIS's own random numbers while this lives: the caller's rand() then continues as if none had been drawn.
+/// Gives METIS random numbers of its own while this object lives: the caller's rand() then continues as if none had
+/// been drawn.
 class OwnRandomNumbers {
   public:
     OwnRandomNumbers()

@@ -45,7 +45,9 @@ Index normal_of(std::string_view attributes, std::int64_t n)
 
 /// The number of normals that stay although the surface has moved, by reason.
 struct StayingNormals {
+    /// Normals of several vertices and several faces.
     Index n_shared = 0;
+    /// Normals that no corner names.
     Index n_unused = 0;
 };
 

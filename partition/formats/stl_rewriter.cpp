@@ -62,7 +62,7 @@ struct NameFinder {
     void solid(TextScanner& scanner) { has_name |= scanner.has_token(); }
 };
 
-/// The form of a file read by read_stl, as the template for one with other positions.
+/// A file read by read_stl, in pieces of whole facets, as the template for a file with other positions.
 struct StlForm {
     StlForm(const std::filesystem::path& path, std::string_view content, const Slicing& slicing)
         : whole(path, content, stl_syntax)

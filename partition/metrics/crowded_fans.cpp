@@ -66,7 +66,7 @@ Box directions_from(const Point& vertex, const std::array<Point, 2>& edge)
     const Point other = Point(edge[1] - vertex).stableNormalized();
     const double bulge = 1.0 - std::sqrt(std::max(0.0, 1.0 - 0.25 * (one - other).squaredNorm())) + direction_rounding;
     const bool have_length = one.squaredNorm() > 0.5 && other.squaredNorm() > 0.5;
-    // The condition is also true if the numbers are not numbers.
+    // The condition is also true if the bulge is NaN.
     if (!have_length || !(bulge < 1.0))
         return all_directions();
     return {one.cwiseMin(other) - Point::Constant(bulge), one.cwiseMax(other) + Point::Constant(bulge)};

@@ -131,7 +131,7 @@ bool meets(const Point& p, const Point& q, const TriangleCorners& t)
         return false;
     if (side_of_p == 0 && side_of_q == 0)
         return meets_in_plane(p, q, t);
-    // The line through p and q passes all three edges on the same side.
+    // They meet if the line through p and q passes all three edges on the same side.
     const auto [least, most] = std::minmax(
         {side_of_plane(p, q, t[0], t[1]), side_of_plane(p, q, t[1], t[2]), side_of_plane(p, q, t[2], t[0])});
     return least * most >= 0;

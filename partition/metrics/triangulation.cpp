@@ -22,9 +22,10 @@ enum class Quality {
     None,
 };
 
-/// A corner that could be cut off. Ears are compared by their priority.
+/// A corner that could be cut off. The smallest ear is cut off first: by quality, then by diagonal, then by number.
 struct Ear {
     Quality quality = Quality::None;
+    /// The squared length of the diagonal.
     double diagonal = std::numeric_limits<double>::infinity();
     Index vertex = 0;
 

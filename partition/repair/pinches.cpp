@@ -32,7 +32,8 @@ Index excess_runs_at_interior(const PolygonMesh& mesh, const Topology& topology,
     return static_cast<Index>(n_runs - around.size());
 }
 
-/// Follows a chain of merged labels to its end.
+/// The label into which a label has finally been merged. Halves the chain of labels between them.
+/// @param parent the label into which each label was merged; itself if it was not.
 Index merged_into(std::vector<Index>& parent, Index label)
 {
     while (parent[label] != label) {
