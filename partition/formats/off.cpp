@@ -100,6 +100,7 @@ void OffReader::face(TextScanner& scanner)
     builder_.add_face(corners_);
 }
 
+/// Reads the mesh from the slices of a file.
 /// @param slices after the header.
 /// @param lines_before see count_lines.
 /// @throws InputError if there is any fault; naming it if there is one slice.
@@ -121,6 +122,7 @@ PolygonMesh read_slices(const TextScanner& after_header, const OffHeader& header
     return mesh;
 }
 
+/// Reads the mesh as one slice.
 /// @param faults see read_off.
 PolygonMesh read_in_one_go(const TextScanner& after_header, const OffHeader& header, FaultLog* faults)
 {
@@ -172,6 +174,7 @@ struct OffExtrasVisitor {
     }
 };
 
+/// Reads a file with one line per vertex and face, in slices if it is large and has no fault.
 PolygonMesh read_by_lines(const std::filesystem::path& path, std::string_view text, const Slicing& slicing,
                           FaultLog* faults)
 {
