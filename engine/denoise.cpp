@@ -46,7 +46,8 @@ DenoiseOptions resolved(const DenoiseOptions& options, const PolygonMesh& mesh, 
     return own;
 }
 
-/// When vertices at junctions would move; empty if they do, or are to stay.
+/// The condition with which vertices at junctions would move, for a remark; empty if they move, or if the options hold
+/// them.
 std::string_view need_of_junctions(const DenoiseOptions& options)
 {
     if (options.motion.junctions == Junctions::Hold)
@@ -92,6 +93,9 @@ class Denoising {
     }
 
   private:
+    /// The identity of the run, for a state to resume from or for states that an observer captures; 0 if there is
+    /// neither.
+    /// @throws InputError if the state to resume from has another identity.
     [[nodiscard]] std::uint64_t identify_if_needed() const
     {
         const FlowState* const resume = control_.resume.get();
@@ -103,6 +107,7 @@ class Denoising {
         return identity;
     }
 
+    /// Fills in the report on the mesh, and the remarks on its surface. @param need see need_of_junctions.
     void begin_report(const Surface& surface, std::string_view need, DenoiseReport& report)
     {
         report.mesh = report_on(surface, mesh_, options_.motion.strength);

@@ -64,6 +64,8 @@ class Flow::Session {
     }
 
   private:
+    /// Decides everything before the first step, and makes the run. @param given the options as the caller has given
+    /// them.
     void set_up(PolygonMesh& mesh, FlowOptions given, const FlowControl& control, bool is_observed, FlowReport& report)
     {
         Stopwatch watch;
@@ -82,6 +84,7 @@ class Flow::Session {
         report.remarks.insert(report.remarks.begin(), remarks.begin(), remarks.end());
     }
 
+    /// FlowOptions::steps: progress is complete after as many steps.
     int n_expected_;
     Workers workers_;
     Progress progress_;

@@ -76,8 +76,8 @@ struct ResourceReport {
 
 /// The report on one of several ranks that shared the steps.
 struct RankRecord {
-    /// The number of vertices whose positions the rank computed; and of further vertices that it knew, of the faces
-    /// around its sub-meshes.
+    /// The number of vertices whose positions the rank sent; and of the other vertices that it knew, those of the faces
+    /// around its sub-meshes included.
     std::int64_t vertices = 0;
     std::int64_t foreign_vertices = 0;
     /// The number of messages that the rank sent in all steps, and their bytes.

@@ -4,8 +4,8 @@
 
 namespace seamflow {
 
-/// The kind of steps for other data that follow: Further steps; or Again, the same steps as since the last data with
-/// Further steps. Steps that are taken again are counted once.
+/// How the steps that follow new data are counted. Further: as additional steps. Again: as repetitions, for other
+/// columns of data, of the steps since the last data with Further; a repeated step is counted once.
 enum class DataSteps { Further, Again };
 
 /// A stepper that can take its steps with any data in place of positions, where it has one matrix for all steps:

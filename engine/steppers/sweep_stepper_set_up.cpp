@@ -17,7 +17,7 @@ namespace seamflow {
 
 namespace {
 
-/// The sub-meshes of a cut, grown into each other for a sweep in ascending order of `stage`.
+/// The sub-meshes of a cut, grown into each other by layers of faces, for a sweep in ascending order of `stage`.
 Decomposition overlap_sub_meshes(const PolygonMesh& mesh, const Topology& topology, const Cut& cut,
                                  std::span<const Index> stage, int layers)
 {
@@ -127,6 +127,7 @@ void SweepStepper::choose_factor_window(std::optional<std::size_t> memory_limit)
     resize(static_cast<Index>(std::min(usize(enough), slots)));
 }
 
+/// Makes the state of each sub-mesh, and analyses the equations of own sub-meshes.
 void SweepStepper::make_states(const PolygonMesh& mesh, const StepSettings& settings,
                                const InterfaceConditions& conditions, Progress& progress)
 {
