@@ -58,7 +58,7 @@ std::string_view need_of_junctions(const DenoiseOptions& options)
     return options.motion.direction.kind == MotionDirection::Kind::Normal ? "In any direction but normals" : "";
 }
 
-/// A call, on its own threads.
+/// A call of denoise(), on its own threads.
 class Denoising {
   public:
     Denoising(PolygonMesh& mesh, DenoiseOptions options, const StepObserver& on_step, const FlowControl& control)
@@ -70,6 +70,7 @@ class Denoising {
     {
     }
 
+    /// Takes all steps, and fills in the report.
     void run(DenoiseReport& report)
     {
         Stopwatch watch;

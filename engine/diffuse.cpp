@@ -30,8 +30,8 @@ namespace seamflow {
 
 namespace {
 
-/// The time of one step, in squared diagonals of the bounding box, after which X fulfils K X = 0 but for rounding, so
-/// that only the vertices with data determine it.
+/// The time of one step, in squared diagonals of the bounding box, after which K X = 0 up to rounding: only the
+/// vertices with data then determine X.
 constexpr double time_to_rest = 1e6;
 
 /// The fraction of the wanted width by which the width that was reached may differ without a remark.
@@ -69,7 +69,7 @@ class SeamsOfFields {
             weld_ = weld(mesh, make_topology(mesh), motion.weld->value);
     }
 
-    /// Sets these means in the columns of a group.
+    /// Sets these means in the columns of a group, and marks the vertices that have got one as vertices with data.
     void complete(FieldGroup& group, Eigen::MatrixXd& fields) const
     {
         if (!weld_)

@@ -39,7 +39,8 @@ class Flow::Session {
         workers_.execute([&] { run_.reset(); });
     }
 
-    /// Calls action(run), which refuses what it cannot do before it changes anything, on the threads of the flow.
+    /// Calls action(run) on the threads of the flow. If the action throws OptionError or InputError, it has changed
+    /// nothing.
     template <class Action>
     void change(Action&& action)
     {

@@ -15,8 +15,8 @@
 
 namespace seamflow {
 
-/// (M + dt K) X = M D on a whole mesh with Δ_B, in double precision: X is tiny far from the sources, and yet has
-/// correct digits. One factorisation for each dt, which is kept.
+/// (M + dt K) X = M D on a whole mesh with Δ_B (Laplacian::VirtualRefinement), in double precision: X is tiny far from
+/// the sources, and yet has correct digits. One factorisation for each dt, which is kept.
 class HeatSolver {
   public:
     /// @param topology whose moving vertices have equations.

@@ -18,9 +18,9 @@ namespace seamflow {
 
 namespace {
 
-/// The columns that steppers take at a time, as those of positions.
+/// The number of columns that steppers take at a time: as many as positions have.
 constexpr Eigen::Index columns_of_block = 3;
-/// The columns of a call for many columns: few, so that progress is reported between calls.
+/// The largest number of columns of a call for many columns: small, so that progress is reported between calls.
 constexpr Eigen::Index columns_at_once = 192;
 
 }  // namespace

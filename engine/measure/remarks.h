@@ -29,7 +29,7 @@ Remark remark_on_undefined_vertices(std::int64_t n, std::int64_t first, Laplacia
 /// A remark on a mesh none of whose vertices can move.
 Remark remark_on_unmoving_mesh(Boundary boundary);
 
-/// Adds a remark if the flow has shrunk the surface to almost nothing, which is hardly what was wanted.
+/// Adds a remark if the flow has shrunk the surface to less than a thousandth of its extent.
 /// @param extent_before, extent_after the diagonals of the boxes around the faces.
 void remark_on_collapse(double extent_before, double extent_after, RunReport& report);
 

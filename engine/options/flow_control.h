@@ -35,7 +35,7 @@ class StepSharing {
                                                       std::vector<double> curvature, Progress& progress) = 0;
 };
 
-/// What a flow is doing.
+/// The present activity of a flow.
 enum class FlowPhase {
     /// Checks the mesh, joins its faces, cuts it.
     Cut,
@@ -47,7 +47,7 @@ enum class FlowPhase {
     Reference,
 };
 
-/// How far a flow is.
+/// The progress of a flow.
 struct FlowProgress {
     FlowPhase phase = FlowPhase::Cut;
     /// The current step, from 1 (0 before the first), and the number of steps.
@@ -58,8 +58,8 @@ struct FlowProgress {
     double fraction = 0.0;
 };
 
-/// Receives how far a flow is, at the beginning of every phase and at every noticeable advance, also within a step:
-/// some hundred times, and a few times per second. Called in any thread of the flow, but never concurrently, nor
+/// Receives the progress of a flow, at the beginning of every phase and at every noticeable advance, also within a
+/// step: some hundred times, and a few times per second. Called in any thread of the flow, but never concurrently, nor
 /// together with a StepObserver. An exception from it ends the flow.
 using ProgressObserver = std::function<void(const FlowProgress&)>;
 

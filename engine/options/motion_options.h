@@ -76,7 +76,7 @@ struct MotionDirection {
         Normal,
     };
     Kind kind = Kind::Any;
-    /// Of any length above 0.
+    /// For Kind::Vector: a vector of any length above 0.
     Point vector = Point::Zero();
 
     friend bool operator==(const MotionDirection& a, const MotionDirection& b)
@@ -106,8 +106,8 @@ struct MotionOptions {
     /// them, at most to their midpoints; all other vertices on the edges stay.
     std::vector<Edge> feature_edges = {};
     /// Refuses meshes on which the flow is not defined everywhere: those that are not manifold, or on which edges
-    /// without length (Δ_F) or faces without area (the others) leave the Laplacian undefined at vertices that should
-    /// move. If false, such vertices stay fixed, except at junctions, and a remark gives their number.
+    /// without length (Fujiwara) or faces without area (other Laplacians) leave the Laplacian undefined at vertices
+    /// that should move. If false, such vertices stay fixed, except at junctions, and a remark gives their number.
     bool strict = false;
     /// w of a screening term that pulls towards the first positions, in 1/length², at least 0:
     /// ∂V/∂t = -ΔV - w (V - V⁰). Features larger than about 1/√w stay, because the flow ends at the solution of

@@ -8,7 +8,7 @@
 
 namespace seamflow {
 
-/// The options of a flow that differ from their defaults, as those that are asked for.
+/// The options of a flow that are asked for: all that differ from their defaults.
 AskedOptions changed_options(const FlowOptions& options);
 
 /// Completes the text of a rule on flows: {laplacian}, {approach}, {conditions} and {factorisation} are those of the

@@ -26,6 +26,7 @@ void require_limits(const FlowOptions& options)
     });
 }
 
+/// @throws OptionError if the filter does not have this order.
 void require_valid_filter(const FlowOptions& options)
 {
     const auto [least, most] = orders_of(options.filter);

@@ -41,7 +41,7 @@ void put_rows_of(std::span<const Value> all, std::span<const Index> rows, Packer
 constexpr std::int32_t of_several = -2;
 
 /// The indices of the entries that equal a value, ascending.
-std::vector<Index> all_of(const std::vector<std::int32_t>& values, int value)
+std::vector<Index> indices_of(const std::vector<std::int32_t>& values, int value)
 {
     std::vector<Index> indices;
     for (std::size_t i = 0; i < values.size(); ++i)
@@ -155,7 +155,7 @@ std::vector<Index> Dealer::known_faces(int rank)
         for (const std::size_t end = further.size(); begin < end; ++begin)
             for (const Index v : mesh_->face(further[begin]))
                 look_around(v);
-    return all_of(knows_face_, rank);
+    return indices_of(knows_face_, rank);
 }
 
 void Dealer::deal(int rank, Packer& message)
@@ -172,7 +172,7 @@ void Dealer::deal(int rank, Packer& message)
         }
     }
     sort_unique(sub_meshes);
-    std::vector<Index> vertices = all_of(knows_vertex_, rank);
+    std::vector<Index> vertices = indices_of(knows_vertex_, rank);
     std::vector<Index> own_vertices;
     std::vector<std::uint8_t> is_sent;
     for (const Index v : vertices) {

@@ -12,7 +12,8 @@ enum class DataSteps { Further, Again };
 /// (M + dt K) Xᵏ⁺¹ = M Xᵏ.
 class HeatStepper : public Stepper {
   public:
-    /// Continues from other data than positions: positions() are then the data. Estimates of errors are dropped.
+    /// Continues from other data than positions: positions() are then the data. Guesses from earlier steps are dropped;
+    /// the estimate of the error adds up over all data.
     /// @param data #V by 3.
     virtual void set_data(const Points& data, DataSteps steps) = 0;
 };

@@ -131,7 +131,8 @@ class SweepBuilder {
             if (predicted[s] >= 0)
                 graph_.add_dependency(predicted[s], used);
             for (const Transfer& prediction : plan_.predictions[s]) {
-                // The predicting sub-mesh follows here: its solve waits for that of s, and so for this task.
+                // The predicting sub-mesh follows here: its solve waits for that of s, and so for this task. The
+                // arrival of its solution from another rank is made to wait, too.
                 graph_.add_dependency(predicted[prediction.from], used);
                 if (is_remote(prediction.from))
                     graph_.add_dependency(used, solved_[prediction.from]);

@@ -31,8 +31,8 @@ Decomposition overlap_sub_meshes(const PolygonMesh& mesh, const Topology& topolo
 }
 
 /// All sub-meshes of a cut.
-SweepSubMeshes all_of(const PolygonMesh& mesh, const Topology& topology, const Cut& cut, const SweepSteps& sweeps,
-                      std::vector<double> curvature, Progress& progress)
+SweepSubMeshes all_sub_meshes(const PolygonMesh& mesh, const Topology& topology, const Cut& cut,
+                              const SweepSteps& sweeps, std::vector<double> curvature, Progress& progress)
 {
     SweepSubMeshes all{.own = alone(decompose(mesh, topology, cut.labels, cut.n_parts, progress.exec()))};
     Decomposition& decomposition = all.own.decomposition;
@@ -49,8 +49,8 @@ SweepSubMeshes all_of(const PolygonMesh& mesh, const Topology& topology, const C
 SweepStepper::SweepStepper(const PolygonMesh& mesh, const Topology& topology, const Cut& cut,
                            const StepSettings& settings, const SweepSteps& sweeps, std::vector<double> curvature,
                            Progress& progress)
-    : SweepStepper(mesh, topology, all_of(mesh, topology, cut, sweeps, std::move(curvature), progress), settings,
-                   sweeps, progress)
+    : SweepStepper(mesh, topology, all_sub_meshes(mesh, topology, cut, sweeps, std::move(curvature), progress),
+                   settings, sweeps, progress)
 {
 }
 
