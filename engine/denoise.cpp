@@ -70,7 +70,6 @@ class Denoising {
     {
     }
 
-    /// Takes all steps, and fills in the report.
     void run(DenoiseReport& report)
     {
         Stopwatch watch;
@@ -94,9 +93,6 @@ class Denoising {
     }
 
   private:
-    /// The identity of the run, for a state to resume from or for states that an observer captures; 0 if there is
-    /// neither.
-    /// @throws InputError if the state to resume from has another identity.
     [[nodiscard]] std::uint64_t identify_if_needed() const
     {
         const FlowState* const resume = control_.resume.get();

@@ -24,7 +24,7 @@ constexpr unsigned converged_steps = 32U;
 constexpr unsigned solution = 64U;
 /// All subjects above: the equations of a step. Steps that keep edges have no equations.
 constexpr unsigned equations = (solution << 1U) - 1U;
-/// No result: results of steps do not depend on such an option.
+/// Nothing in the results: they do not depend on such an option.
 constexpr unsigned no_result = 128U;
 /// The motion of the surface, or its shape after a step: not for fields on a surface that stays.
 constexpr unsigned motion = 256U;
