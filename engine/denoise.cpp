@@ -46,7 +46,8 @@ DenoiseOptions resolved(const DenoiseOptions& options, const PolygonMesh& mesh, 
     return own;
 }
 
-/// When vertices at junctions would move; empty if they do, or are to stay.
+/// The condition with which vertices at junctions would move, for a remark; empty if they move, or if the options hold
+/// them.
 std::string_view need_of_junctions(const DenoiseOptions& options)
 {
     if (options.motion.junctions == Junctions::Hold)
@@ -57,7 +58,7 @@ std::string_view need_of_junctions(const DenoiseOptions& options)
     return options.motion.direction.kind == MotionDirection::Kind::Normal ? "In any direction but normals" : "";
 }
 
-/// A call, on its own threads.
+/// A call of denoise(), on its own threads.
 class Denoising {
   public:
     Denoising(DenoiseOptions options, const StepObserver& on_step, const FlowControl& control)
@@ -104,6 +105,7 @@ class Denoising {
         return identity;
     }
 
+    /// Fills in the report on the mesh, and the remarks on its surface. @param need see need_of_junctions.
     void begin_report(const Surface& surface, std::string_view need, DenoiseReport& report)
     {
         report.mesh = report_on(surface, options_.motion.strength);

@@ -38,7 +38,8 @@ class Flow::Session {
         workers_.execute([&] { run_.reset(); });
     }
 
-    /// Calls action(run), which refuses what it cannot do before it changes anything, on the threads of the flow.
+    /// Calls action(run) on the threads of the flow. If the action throws OptionError or InputError, it has changed
+    /// nothing.
     template <class Action>
     void change(Action&& action)
     {
@@ -63,6 +64,8 @@ class Flow::Session {
     }
 
   private:
+    /// Decides everything before the first step, and makes the run. @param given the options as the caller has given
+    /// them.
     void set_up(PolygonMesh& mesh, FlowOptions given, const FlowControl& control, bool is_observed, FlowReport& report)
     {
         Stopwatch watch;
@@ -80,6 +83,7 @@ class Flow::Session {
         report.remarks.insert(report.remarks.begin(), remarks.begin(), remarks.end());
     }
 
+    /// FlowOptions::steps: progress is complete after as many steps.
     int n_expected_;
     Workers workers_;
     Progress progress_;

@@ -12,7 +12,7 @@ namespace seamflow {
 
 namespace {
 
-/// Makes the stepper of each method.
+/// Makes the stepper of a method.
 struct MakeStepper {
     const PolygonMesh& mesh;
     const Topology& topology;
@@ -35,7 +35,7 @@ struct MakeStepper {
     }
 };
 
-/// Of the mean curvatures in the report.
+/// The Laplacian of the mean curvatures in the report.
 constexpr Laplacian laplacian_of_report = Laplacian::Fujiwara;
 
 }  // namespace
@@ -54,6 +54,7 @@ DenoiseRun::DenoiseRun(Surface& surface, const DenoiseOptions& options, std::uin
     stepper_ = std::visit(MakeStepper{flowing, surface.topology, options, progress}, options.method);
     report.seconds.analyse = watch.seconds();
     report.seconds.total = report.seconds.cut + report.seconds.analyse;
+    // In diagonals of the bounding box.
     constexpr double largest_update = 1.0;
     begin(options.motion, false, largest_update, setup, options.steps);
 }

@@ -15,13 +15,15 @@ inline constexpr double default_field_tolerance = 1e-8;
 
 /// The weights of the edges of a surface, -K_vw.
 enum class Weights {
-    /// Those of the Laplacian. Cotangents of obtuse angles are below 0.
+    /// The weights of the Laplacian. Cotangents of obtuse angles are below 0.
     OfLaplacian,
     /// At least 0, so that no step of Filter::Diffusion of order 1 leaves the range of its data (the discrete maximum
     /// principle). Where the Laplacian has others, K and M are those of an intrinsic Delaunay triangulation of the
-    /// surface (see make_delaunay). For Δ_A and Δ_B; the others have no such weights.
+    /// surface (see make_delaunay). For Δ_A (AlexaWardetzky) and Δ_B (VirtualRefinement); other Laplacians have no such
+    /// weights.
     AtLeastZero,
-    /// Those of each face alone, too: where HeatEquation::keep_field_edges weighs faces differently.
+    /// At least 0 also in the K of each single face: for HeatEquation::keep_field_edges, which weighs faces
+    /// differently.
     AtLeastZeroInFaces,
 };
 

@@ -18,9 +18,9 @@ namespace seamflow {
 
 namespace {
 
-/// The columns that steppers take at a time, as those of positions.
+/// The number of columns that steppers take at a time: as many as positions have.
 constexpr Eigen::Index columns_of_block = 3;
-/// The columns of a call for many columns: few, so that progress is reported between calls.
+/// The largest number of columns of a call for many columns: small, so that progress is reported between calls.
 constexpr Eigen::Index columns_at_once = 192;
 
 }  // namespace
@@ -90,6 +90,7 @@ void HeatSteps::make_surface_and_plan(PolygonMesh& given)
                    [](Approach) {});
 }
 
+/// Makes the stepper; if its factors exceed the memory limit, one without factors, if the plan has such an alternative.
 void HeatSteps::make_stepper_within_limit()
 {
     try {
@@ -102,6 +103,7 @@ void HeatSteps::make_stepper_within_limit()
     }
 }
 
+/// Makes the stepper of the plan: shared by ranks, by conjugate gradients, or in sub-meshes.
 void HeatSteps::make_stepper()
 {
     const PolygonMesh& mesh = surface_->mesh.mesh();
@@ -145,6 +147,7 @@ void HeatSteps::take(Eigen::Ref<Eigen::MatrixXd> fields, int n)
     }
 }
 
+/// Takes n steps with three columns.
 /// @param block #V by 3, in the order of the given surface.
 void HeatSteps::take_block(Points& block, int n, DataSteps steps)
 {
@@ -172,13 +175,15 @@ void HeatSteps::take_at_once(Eigen::Ref<Eigen::MatrixXd> fields, int n)
     }
 }
 
+/// Reports the beginning of a step to the observer. @returns a stopwatch for it.
 Stopwatch HeatSteps::begin_step()
 {
     progress_.enter(FlowPhase::Step, fractions_->number(), fractions_->begin(), fractions_->end());
     return {};
 }
 
-/// @param n the number of steps of a block that have been taken.
+/// Adds the time of steps to the report and to the progress.
+/// @param watch begun before the steps. @param n the number of steps, each of a block of columns.
 void HeatSteps::end_steps(const Stopwatch& watch, Eigen::Index n)
 {
     report_.seconds.step += watch.seconds();

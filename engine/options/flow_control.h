@@ -15,7 +15,7 @@ struct PolygonMesh;
 struct StepSettings;
 struct Topology;
 
-/// Those who share the steps of a flow with the one that runs it, such as ranks (see RankGroup).
+/// Processes or threads that share the steps of a flow with the one that runs it (see RankGroup).
 class StepSharing {
   public:
     StepSharing() = default;
@@ -35,7 +35,7 @@ class StepSharing {
                                                       std::vector<double> curvature, Progress& progress) = 0;
 };
 
-/// What a flow is doing.
+/// The present activity of a flow.
 enum class FlowPhase {
     /// Checks the mesh, joins its faces, cuts it.
     Cut,
@@ -47,7 +47,7 @@ enum class FlowPhase {
     Reference,
 };
 
-/// How far a flow is.
+/// The progress of a flow.
 struct FlowProgress {
     FlowPhase phase = FlowPhase::Cut;
     /// The current step, from 1 (0 before the first), and the number of steps.
@@ -58,8 +58,8 @@ struct FlowProgress {
     double fraction = 0.0;
 };
 
-/// Receives how far a flow is, at the beginning of every phase and at every noticeable advance, also within a step:
-/// some hundred times, and a few times per second. Called in any thread of the flow, but never concurrently, nor
+/// Receives the progress of a flow, at the beginning of every phase and at every noticeable advance, also within a
+/// step: some hundred times, and a few times per second. Called in any thread of the flow, but never concurrently, nor
 /// together with a StepObserver. An exception from it ends the flow.
 using ProgressObserver = std::function<void(const FlowProgress&)>;
 
@@ -71,10 +71,10 @@ struct FlowControl {
     /// The state to resume from instead of the beginning, made by StepState::capture in an observer of the same flow:
     /// of the same mesh and options, except for the number of steps and for options that do not change results.
     std::shared_ptr<const FlowState> resume = nullptr;
-    /// Ranks that share the steps; must outlive the flow. Where the approach is left open, it is then one that they can
-    /// share: sweeps, or converged steps. Rank 0, which runs the flow, does everything else alone, and those steps,
-    /// too, that they cannot share. Nothing but the approach depends on them. A flow that they share changes nothing
-    /// between its steps but positions (see Flow).
+    /// Ranks that share the steps; must outlive the flow. An approach that is left open is then one that ranks can
+    /// share: sweeps, or converged steps. Rank 0, which runs the flow, does all other work alone, including steps that
+    /// ranks cannot share. Results depend on ranks only by the approach. Between the steps of a shared flow only
+    /// positions can be changed (see Flow).
     StepSharing* ranks = nullptr;
 };
 

@@ -28,7 +28,7 @@ StepFilter filter_of(const FlowOptions& options)
 
 StepFilter filter_of(const FlowOptions& options, Approach approach, std::optional<double> tolerance)
 {
-    // Tolerances that were not asked for are never smaller.
+    // A smaller tolerance was asked for: the filter must be as exact. Tolerances that are chosen are not smaller.
     constexpr double smallest_by_choice = 1e-4;
     StepFilter filter{.kind = options.filter, .order = options.order.value_or(orders_of(options.filter).first)};
     constexpr double of_undecomposed = 1e-6;

@@ -7,7 +7,7 @@
 
 #include "partition/polygon_mesh.h"
 
-/// What holds for the vertices of a surface that moves, whatever moves it.
+/// Constraints on the vertices of a surface that moves, by a flow or by denoise().
 namespace seamflow {
 
 /// The largest numbers of steps and of threads.
@@ -46,17 +46,18 @@ enum class Boundary {
     /// Boundary vertices stay where they are, bit for bit.
     Fixed,
     /// Natural boundary conditions: the equations at the boundary are assembled from the existing faces. The surface
-    /// shrinks there by about √dt a step, like a soap film without a frame. Not with Δ_P, whose one-sided rows at a
-    /// boundary are unstable. Sub-meshes can share such a boundary only in converged steps, which are then chosen.
+    /// shrinks there by about √dt a step, like a soap film without a frame. Not with Δ_P (Laplacian::PtackovaVelho),
+    /// whose one-sided rows at a boundary are unstable. Sub-meshes can share such a boundary only in converged steps,
+    /// which are then chosen.
     Free,
 };
 
 /// Vertices at junctions: on edges of three faces or more, where sheets of a surface meet.
 enum class Junctions {
     /// They move like others: K and M are sums over the faces of all sheets, so that the lines of three sheets tend to
-    /// angles of 120°. Sub-meshes can share such lines only in converged steps, which are then chosen. Held instead
-    /// with Δ_P, with SmoothBetweenEdges, and where an option asks for sweeps over sub-meshes; a remark says so.
-    /// Vertices where merely several fans of faces touch stay held: they are usually a defect.
+    /// angles of 120°. Sub-meshes can share such lines only in converged steps, which are then chosen. The vertices are
+    /// held instead with Δ_P, with SmoothBetweenEdges, and if an option asks for sweeps over sub-meshes; a remark says
+    /// so. Vertices where merely several fans of faces touch stay held: they are usually a defect.
     Flow,
     /// They stay where they are, and so do all other vertices where the mesh is not manifold.
     Hold,
@@ -88,7 +89,7 @@ struct ComponentLimits {
     [[nodiscard]] bool exist() const { return std::isfinite(volume) || std::isfinite(move) || std::isfinite(slide); }
 };
 
-/// The lines along which vertices move. What slides along the surface that a step makes is left out.
+/// The lines along which vertices move. Sliding along the surface that a step makes is left out.
 struct MotionDirection {
     enum class Kind {
         /// Vertices move freely.
@@ -100,7 +101,7 @@ struct MotionDirection {
         Normal,
     };
     Kind kind = Kind::Any;
-    /// Of any length above 0.
+    /// For Kind::Vector: a vector of any length above 0.
     Point vector = Point::Zero();
 
     friend bool operator==(const MotionDirection& a, const MotionDirection& b)
@@ -126,12 +127,12 @@ struct MotionOptions {
     /// Vertices that stay where they are, bit for bit; in any order, repetitions are allowed.
     std::vector<Index> fixed_vertices = {};
     /// Edges that denoise() keeps whatever their angle: pairs of vertices that share an edge of a face. Faces on the
-    /// two sides are smoothed independently. With SmoothBetweenEdges a vertex between two of these edges
-    /// moves along them, at most to their midpoints; all others on them stay.
+    /// two sides are smoothed independently. With SmoothBetweenEdges a vertex between two of these edges moves along
+    /// them, at most to their midpoints; all other vertices on the edges stay.
     std::vector<Edge> feature_edges = {};
     /// Refuses meshes on which the flow is not defined everywhere: those that are not manifold, or on which edges
-    /// without length (Δ_F) or faces without area (the others) leave the Laplacian undefined at vertices that should
-    /// move. If false, such vertices stay fixed, except at junctions, and a remark gives their number.
+    /// without length (Fujiwara) or faces without area (other Laplacians) leave the Laplacian undefined at vertices
+    /// that should move. If false, such vertices stay fixed, except at junctions, and a remark gives their number.
     bool strict = false;
     /// w of a screening term that pulls towards the first positions, in 1/length², at least 0:
     /// ∂V/∂t = -ΔV - w (V - V⁰). Features larger than about 1/√w stay, because the flow ends at the solution of

@@ -11,7 +11,7 @@ namespace seamflow {
 
 namespace {
 
-/// Calls visit(value) for all settings but those with one entry per vertex.
+/// Calls visit(value) for all settings except those with one entry per vertex.
 template <class Settings, class Visit>
 void for_each_setting(Settings& settings, Visit&& visit)
 {
@@ -26,6 +26,7 @@ void for_each_setting(Settings& settings, Visit&& visit)
     visit(settings.factors);
 }
 
+/// Puts some entries of a list into a message; an empty list stays empty.
 template <class Value>
 void put_rows_of(std::span<const Value> all, std::span<const Index> rows, Packer& message)
 {
@@ -36,11 +37,11 @@ void put_rows_of(std::span<const Value> all, std::span<const Index> rows, Packer
     message.put_all(std::span<const Value>(own));
 }
 
-/// Stands for the rank of a vertex whose faces belong to several ranks.
+/// In place of a rank, at a vertex whose faces belong to several ranks.
 constexpr std::int32_t of_several = -2;
 
 /// The indices of the entries that equal a value, ascending.
-std::vector<Index> all_of(const std::vector<std::int32_t>& values, int value)
+std::vector<Index> indices_of(const std::vector<std::int32_t>& values, int value)
 {
     std::vector<Index> indices;
     for (std::size_t i = 0; i < values.size(); ++i)
@@ -102,8 +103,8 @@ Dealer::Dealer(const PolygonMesh& mesh, const Topology& topology, const Cut& cut
     , holder_at_(usize(mesh.n_vertices()), -1)
     , sender_(holder_at_)
     , knows_face_(usize(mesh.n_faces()), -1)
+    , visits_vertex_(usize(mesh.n_vertices()), -1)
     , knows_vertex_(usize(mesh.n_vertices()), -1)
-    , meets_vertex_(usize(mesh.n_vertices()), -1)
     , local_index_(usize(mesh.n_vertices()), 0)
     , known_vertices_(static_cast<std::size_t>(n_ranks))
     , sent_vertices_(known_vertices_.size())
@@ -129,7 +130,7 @@ std::vector<Index> Dealer::known_faces(int rank)
     constexpr int layers = 2;
     std::vector<Index> further;
     const auto look_around = [&](Index v) {
-        if (std::exchange(knows_vertex_[v], rank) == rank)
+        if (std::exchange(visits_vertex_[v], rank) == rank)
             return;
         for (const Index corner : topology_->corners_at(v)) {
             const Index f = topology_->face_of[usize(corner)];
@@ -141,18 +142,20 @@ std::vector<Index> Dealer::known_faces(int rank)
         if (holders_[s] == rank)
             for (const Index f : faces_[s])
                 knows_face_[f] = rank;
+    // The first layer: faces at vertices that the rank shares with other ranks.
     for (std::size_t s = 0; s < faces_.size(); ++s)
         if (holders_[s] == rank)
             for (const Index f : faces_[s])
                 for (const Index v : mesh_->face(f))
                     if (holder_at_[v] == of_several)
                         look_around(v);
+    // The further layers: faces around the faces of the layer before.
     std::size_t begin = 0;
     for (int layer = 1; layer < layers; ++layer)
         for (const std::size_t end = further.size(); begin < end; ++begin)
             for (const Index v : mesh_->face(further[begin]))
                 look_around(v);
-    return all_of(knows_face_, rank);
+    return indices_of(knows_face_, rank);
 }
 
 void Dealer::deal(int rank, Packer& message)
@@ -163,13 +166,13 @@ void Dealer::deal(int rank, Packer& message)
         if (sub_meshes.empty() || sub_meshes.back() != labels_[f])
             sub_meshes.push_back(labels_[f]);
         for (const Index v : mesh_->face(f)) {
-            meets_vertex_[v] = rank;
+            knows_vertex_[v] = rank;
             if (holders_[labels_[f]] == rank && sender_[v] < 0)
                 sender_[v] = rank;
         }
     }
     sort_unique(sub_meshes);
-    std::vector<Index> vertices = all_of(meets_vertex_, rank);
+    std::vector<Index> vertices = indices_of(knows_vertex_, rank);
     std::vector<Index> own_vertices;
     std::vector<std::uint8_t> is_sent;
     for (const Index v : vertices) {

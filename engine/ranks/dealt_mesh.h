@@ -82,12 +82,13 @@ class Dealer {
     std::vector<std::int32_t> holder_at_;
     /// #V: the rank that sends the position of the vertex to rank 0; -1 if none has been chosen.
     std::vector<std::int32_t> sender_;
-    /// #F: the last rank that knows the face. #V: the last rank that has visited the faces around the vertex; the last
-    /// rank that has got the vertex.
+    /// #F: the last rank so far that knows the face.
     std::vector<std::int32_t> knows_face_;
+    /// #V: the last rank so far for which known_faces has visited the faces around the vertex.
+    std::vector<std::int32_t> visits_vertex_;
+    /// #V: the last rank so far that knows the vertex.
     std::vector<std::int32_t> knows_vertex_;
-    std::vector<std::int32_t> meets_vertex_;
-    /// #V: the index of the vertex among the vertices of the last rank that has got it.
+    /// #V: the index of the vertex among the vertices of that rank.
     std::vector<Index> local_index_;
     std::vector<std::vector<Index>> known_vertices_;
     std::vector<std::vector<Index>> sent_vertices_;

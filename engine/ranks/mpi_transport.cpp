@@ -121,7 +121,8 @@ class MpiTransport final : public Transport {
         MPI_Request request;
     };
 
-    /// Receives available pieces until a message is complete.
+    /// Receives available pieces until a message is complete, and frees the bytes that have been sent.
+    /// @returns the message; empty if no message is complete yet.
     std::optional<Message> look()
     {
         const std::scoped_lock lock(mutex_);
@@ -149,6 +150,7 @@ class MpiTransport final : public Transport {
     }
 
     std::size_t largest_piece_;
+    /// Whether this has started MPI, and ends it.
     bool owns_ = false;
     MPI_Comm world_ = MPI_COMM_NULL;
     int rank_ = 0;

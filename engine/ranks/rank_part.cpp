@@ -94,11 +94,12 @@ RankPart::RankPart(Communicator& comm, DealtMesh dealt, Progress& progress)
         names.push_back({dealt_.known[s], decomposition.sub_meshes[s].n_vertices, dealt_.first_faces[s]});
     RankSubMeshes own{std::move(decomposition), std::make_unique<CommunicatorRanks>(comm, dealt_.holders, dealt_.known),
                       std::move(names)};
+    // The sub-meshes around a vertex, ascending: the lowest comes first.
     std::vector<Index> around;
     const auto* const converged = std::get_if<ConvergedSteps>(&dealt_.way);
     for (const Index v : converged != nullptr
-                             ? take_converged_steps(converged->stop, std::move(own), progress)
-                             : take_sweeps(std::get<SweepSteps>(dealt_.way), std::move(own), progress)) {
+                             ? make_converged_stepper(converged->stop, std::move(own), progress)
+                             : make_sweep_stepper(std::get<SweepSteps>(dealt_.way), std::move(own), progress)) {
         labels_around(dealt_.topology, dealt_.labels, v, around);
         saved_.push_back({dealt_.known[around.front()], dealt_.vertex_numbers[v]});
     }
@@ -112,8 +113,8 @@ RankPart::RankPart(Communicator& comm, DealtMesh dealt, Progress& progress)
 
 /// Makes the stepper for converged steps.
 /// @returns the vertex of each row that it saves.
-std::vector<Index> RankPart::take_converged_steps(const IterationStop& stop, RankSubMeshes sub_meshes,
-                                                  Progress& progress)
+std::vector<Index> RankPart::make_converged_stepper(const IterationStop& stop, RankSubMeshes sub_meshes,
+                                                    Progress& progress)
 {
     auto stepper =
         std::make_unique<SchurStepper>(dealt_.mesh, std::move(sub_meshes), dealt_.settings(), stop, progress);
@@ -125,7 +126,7 @@ std::vector<Index> RankPart::take_converged_steps(const IterationStop& stop, Ran
 
 /// Makes the stepper for sweeps.
 /// @returns the vertex of each row that it saves.
-std::vector<Index> RankPart::take_sweeps(const SweepSteps& sweeps, RankSubMeshes sub_meshes, Progress& progress)
+std::vector<Index> RankPart::make_sweep_stepper(const SweepSteps& sweeps, RankSubMeshes sub_meshes, Progress& progress)
 {
     exchange_.emplace(comm_, dealt_);
     SweepSubMeshes own{.own = std::move(sub_meshes), .remote = &*exchange_};
@@ -217,6 +218,7 @@ Bytes RankPart::act(RankTask task, Unpacker& message)
     return answer.take();
 }
 
+/// Appends a RankShare, and the reports on the own sub-meshes, to the answer.
 void RankPart::report_to(Packer& answer) const
 {
     FlowReport report;

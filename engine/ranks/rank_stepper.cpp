@@ -39,6 +39,7 @@ RankStepper::RankStepper(RankGroup& ranks, const PolygonMesh& mesh, const Topolo
     deal(mesh, topology, plan, settings, std::move(curvature), progress);
 }
 
+/// Deals their parts to all ranks, rank 0 included, and numbers the rows that their steppers save.
 void RankStepper::deal(const PolygonMesh& mesh, const Topology& topology, const FlowPlan& plan,
                        const StepSettings& settings, std::vector<double> curvature, Progress& progress)
 {
@@ -71,7 +72,7 @@ void RankStepper::deal(const PolygonMesh& mesh, const Topology& topology, const 
     number_saved_rows(saved, dealer.holders());
 }
 
-/// Numbers the saved rows. Several ranks save the same row.
+/// Numbers the saved rows of all ranks. Several ranks save the same row: the rank of its lowest sub-mesh provides it.
 void RankStepper::number_saved_rows(const std::vector<std::vector<SavedRow>>& of_ranks,
                                     const std::vector<Index>& holders)
 {
@@ -82,10 +83,10 @@ void RankStepper::number_saved_rows(const std::vector<std::vector<SavedRow>>& of
     n_saved_ = static_cast<Index>(all.size());
     for (std::size_t rank = 0; rank < of_ranks.size(); ++rank) {
         std::vector<Index>& rows = saved_rows_.emplace_back();
-        std::vector<std::uint8_t>& counts = counts_.emplace_back();
+        std::vector<std::uint8_t>& is_used = is_used_.emplace_back();
         for (const SavedRow& row : of_ranks[rank]) {
             rows.push_back(static_cast<Index>(std::ranges::lower_bound(all, row) - all.begin()));
-            counts.push_back(holders[row.lowest] == static_cast<Index>(rank) ? 1 : 0);
+            is_used.push_back(holders[row.lowest] == static_cast<Index>(rank) ? 1 : 0);
         }
     }
 }
@@ -194,7 +195,7 @@ void RankStepper::save(StepMemory& memory) const
         for (Points& array : memory.arrays) {
             const Points rows = unpacker.get_points();
             for (std::size_t i = 0; i < saved_rows_[rank].size(); ++i)
-                if (counts_[rank][i] != 0)
+                if (is_used_[rank][i] != 0)
                     array.row(saved_rows_[rank][i]) = rows.row(static_cast<Index>(i));
         }
     }

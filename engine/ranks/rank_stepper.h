@@ -56,14 +56,14 @@ class RankStepper final : public HeatStepper {
     /// The threads of rank 0 in shared work; null: all threads of the flow.
     std::unique_ptr<Workers> threads_;
     std::unique_ptr<RankPart> own_;
-    /// Per rank: the vertices that it knows; and the vertices whose positions it sends.
+    /// Per rank: the vertices that it knows; the vertices whose positions it sends; and the numbers of its sub-meshes.
     std::vector<std::vector<Index>> known_vertices_;
     std::vector<std::vector<Index>> sent_vertices_;
     std::vector<std::vector<Index>> sub_meshes_;
-    /// Per rank: the index of each row that its stepper saves among the saved rows of all ranks; and whether the rank's
-    /// copy of the row is used.
+    /// Per rank: the index of each row that its stepper saves among the saved rows of all ranks.
     std::vector<std::vector<Index>> saved_rows_;
-    std::vector<std::vector<std::uint8_t>> counts_;
+    /// Per rank and saved row: 1 if the row is taken from this rank, as several ranks may save it.
+    std::vector<std::vector<std::uint8_t>> is_used_;
     Index n_saved_ = 0;
     /// #V by 3: the positions; and whether they are those that the ranks have.
     mutable Points positions_;

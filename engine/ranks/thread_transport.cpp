@@ -24,6 +24,7 @@ class Inbox {
         arrived_.notify_one();
     }
 
+    /// The first message; empty if none arrives in time.
     std::optional<Message> take(std::chrono::microseconds patience)
     {
         std::unique_lock lock(mutex_);

@@ -33,7 +33,7 @@ void ConvergedStepper::step(const Points& before)
     graph_.run(0, loops_.parts());
     if (!filter_.is_plain())
         take_filtered();
-    note();
+    count_missed();
 }
 
 /// Takes a step with a filter of several solutions: runs the same graph for each further solution, with the same
@@ -65,8 +65,8 @@ void ConvergedStepper::take_filtered()
     reached_.last = sum;
 }
 
-/// Records the residual and whether the step has met the tolerance.
-void ConvergedStepper::note()
+/// Counts the step if it has missed the tolerance, or has stagnated; a repeated step (DataSteps::Again) counts once.
+void ConvergedStepper::count_missed()
 {
     reached_.of_step.resize(std::max(reached_.of_step.size(), usize(reached_.n_taken) + 1));
     Missed& counted = reached_.of_step[usize(reached_.n_taken++)];
@@ -78,6 +78,7 @@ void ConvergedStepper::note()
     counted.has_stagnated |= now.has_stagnated;
 }
 
+/// Solves the equation, and adds its time and its estimated distance to those of earlier solutions.
 void ConvergedStepper::solve()
 {
     const Stopwatch watch;
@@ -96,8 +97,8 @@ void ConvergedStepper::set_data(const Points& data, DataSteps steps)
 {
     set_positions(data, {});
     if (steps == DataSteps::Further)
-        reached_.first = reached_.n_taken;
-    reached_.n_taken = reached_.first;
+        reached_.n_before_data = reached_.n_taken;
+    reached_.n_taken = reached_.n_before_data;
 }
 
 void ConvergedStepper::save(StepMemory& memory) const

@@ -35,13 +35,14 @@ class ErrorEstimate {
     /// as solved. Empty if no rank needs any.
     [[nodiscard]] const std::vector<std::vector<Index>>& remote_rows() const { return remote_rows_; }
 
-    /// Reads the rows at the vertices of Γ that sub-mesh s numbers, before it accepts Vᵏ⁺¹. Different sub-meshes may do
-    /// so at the same time.
+    /// Computes the residual of the undecomposed step at the vertices of Γ that sub-mesh s numbers (see ErrorEquation),
+    /// before s accepts Vᵏ⁺¹. May be called for different sub-meshes at the same time.
     /// @param states the position in the state of s is Vᵏ; all sub-meshes around it have solved.
     /// @param workspace its `other_side` and `positions` are overwritten.
     void measure(std::vector<SubMeshState>& states, Index s, SolverWorkspace& workspace);
 
-    /// Records the displacements of these vertices by the correction, after sub-mesh s has accepted Vᵏ⁺¹.
+    /// Records the displacements, by the correction, of the vertices that sub-mesh s numbers, after s has accepted
+    /// Vᵏ⁺¹.
     void note_correction(const std::vector<SubMeshState>& states, Index s);
 
     /// Estimates the error of the step and adds it to that of the steps before. All ranks call this together.
@@ -52,15 +53,17 @@ class ErrorEstimate {
     /// Empty if it is not finite.
     [[nodiscard]] std::optional<double> largest() const { return largest_; }
 
-    /// Saves and restores the data that the next step needs: arrays with a row for each of these vertices of the mesh.
-    /// @throws InputError if the arrays do not fit.
+    /// The vertices of Γ that this rank numbers, as vertices of the mesh: one for each row of the arrays that `save`
+    /// writes.
     [[nodiscard]] std::vector<Index> vertices() const;
+    /// Appends the arrays that the next step needs.
     void save(StepMemory& memory) const;
+    /// @throws InputError if the arrays do not fit.
     void restore(StepMemoryReader& memory);
 
   private:
-    [[nodiscard]] const Points& joined(const std::vector<SubMeshState>& states, Index s, Points& mean) const;
-    [[nodiscard]] const Points& stiffness_at(const SubMeshState& state, Points& first) const;
+    [[nodiscard]] const Points& joined(const std::vector<SubMeshState>& states, Index s, Points& storage) const;
+    [[nodiscard]] const Points& stiffness_positions(const SubMeshState& state, Points& storage) const;
     void note_attachment(const FlowTerms& terms);
     void list_remote_rows();
     [[nodiscard]] const Points& fill_remote_rows(const std::vector<SubMeshState>& states, const Points& before);
@@ -74,20 +77,21 @@ class ErrorEstimate {
     double time_step_;
     /// #V by 3: V⁰, if K is kept.
     Points initial_;
-    /// Only with an attachment: #Γ: dt w; and #Γ by 3: V⁰.
+    /// Only with an attachment (see FlowTerms): #Γ: dt w; and #Γ by 3: V⁰.
     std::vector<double> attached_;
     Points attached_to_;
     /// Whether every sub-mesh has its own copy of Γ.
     bool has_copies_;
     InterfaceRanks* ranks_;
     ErrorEquation equation_;
-    /// Each #Γ by 3: the correction of this step; and the differences left after all steps, of displacements by
-    /// corrections, and of errors of sweeps.
+    /// #Γ by 3: the displacements by the correction of this step.
     Points correction_;
+    /// #Γ by 3: the remainders, after the steps so far, of all displacements by corrections.
     Points corrected_;
+    /// #Γ by 3: the remainders, after the steps so far, of the errors of all sweeps.
     Points swept_;
     std::optional<double> largest_;
-    /// Only with Δ_P, #V by 3: Vᵏ⁺¹ as solved, and Vᵏ if other ranks know part of it.
+    /// Only with Δ_P (Laplacian::PtackovaVelho), #V by 3: Vᵏ⁺¹ as solved, and Vᵏ if other ranks know part of it.
     Points solved_;
     Points before_;
     std::vector<std::vector<Index>> remote_rows_;

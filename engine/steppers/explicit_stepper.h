@@ -11,7 +11,8 @@ namespace seamflow {
 
 /// The square of the shortest edge that has an end that may move, in length²: the largest step that the paper (after
 /// Desbrun et al. 1999) calls stable for explicit Euler. Edges of length zero are ignored; infinite if nothing moves.
-/// On regular grids of quads or triangles the largest eigenvalue of Δ_F requires a quarter of it. Runs in parallel.
+/// On regular grids of quads or triangles the largest eigenvalue of Δ_F (Fujiwara) requires a quarter of it. Runs in
+/// parallel.
 double largest_explicit_step(const PolygonMesh& mesh, const Topology& topology, const Points& positions);
 
 /// Takes explicit Euler steps V^{k+1} = (I - dt Δ(V^k)) V^k of the whole mesh, vertex by vertex in parallel. The bits

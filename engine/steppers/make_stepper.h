@@ -13,7 +13,7 @@
 namespace seamflow {
 
 /// Makes the stepper for a way of taking steps.
-/// @param mesh, topology, progress must outlive the stepper. @param cut for the way.
+/// @param mesh, topology, progress must outlive the stepper. @param cut the cut that was made for this way.
 /// @param curvature #V: ‖ΔV⁰‖, in 1/length; empty: as if it were 0.
 /// @throws ComputationError naming the sub-mesh if an analysis fails; MemoryLimitError if the memory limit is too
 ///         low; Cancelled.

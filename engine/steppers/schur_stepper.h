@@ -86,7 +86,7 @@ class SchurStepper final : public ConvergedStepper, public ChangeableEquations {
         /// factor may differ from step to step.
         SharedFactorPool pool;
         /// Memory of the recomputed factors; set once their size is known.
-        std::optional<SharedFactorPool> passing;
+        std::optional<SharedFactorPool> recomputed;
     };
     /// The data on Γ.
     struct Interface {
@@ -94,7 +94,8 @@ class SchurStepper final : public ConvergedStepper, public ChangeableEquations {
         std::vector<DenseFactor> complements;
         /// #copies by 3: each sub-mesh's share of the right-hand side, and later of the residual.
         Points condensed;
-        /// #Γ by 3: Vᵏ⁺¹ - Vᵏ of the last step, if a step has been taken; and of the step before it, if there was one.
+        /// #Γ by 3: Vᵏ⁺¹ - Vᵏ of the last step, if a step has been taken; and of the step before it, if there was one,
+        /// as the first guess of the iteration.
         Points update;
         Points guess;
         bool has_update = false;
@@ -144,11 +145,12 @@ class SchurStepper final : public ConvergedStepper, public ChangeableEquations {
     /// Per sub-mesh: 1 if its matrix has changed since the last step; and whether any has.
     std::vector<std::uint8_t> changed_;
     bool has_changed_ = false;
-    /// A vertex in a sub-mesh. Per vertex of the mesh, its local vertices, once they have been asked for.
+    /// A vertex in a sub-mesh.
     struct LocalVertex {
         Index sub_mesh;
         Index local;
     };
+    /// Per vertex of the mesh: its local vertices in own sub-meshes; empty until `change` needs them.
     Lists<LocalVertex> local_vertices_of_;
     /// Null for remote sub-meshes, for which this rank computes nothing.
     std::vector<std::unique_ptr<CondensedSubMesh>> sub_meshes_;

@@ -29,6 +29,8 @@ double area_of_all(const Decomposition& decomposition, const PolygonMesh& mesh, 
     return SumTree(ranks).add_up(areas, 1).front();
 }
 
+/// The preconditioner's kind of balancing: with a coarse space only if the sub-meshes of all ranks are narrow.
+/// @param time_step dt, in length².
 Balancing balancing_for(const Decomposition& decomposition, const PolygonMesh& mesh, InterfaceRanks& ranks,
                         double time_step)
 {
@@ -111,22 +113,24 @@ void SchurStepper::choose_factors(const FactorSettings& settings)
             bytes.push_back(factors_.precision == Precision::Single ? one->system().factor_bytes<float>()
                                                                     : one->system().factor_bytes<double>());
     factors_.plan = choose_kept_factors(bytes, settings.memory_limit, workspaces_.size());
-    factors_.passing.emplace(factors_.plan.bytes_per_slot);
+    factors_.recomputed.emplace(factors_.plan.bytes_per_slot);
     FactorMemory& kept = settings.memory_limit ? *std::pmr::new_delete_resource() : factors_.pool;
+    // The plan has entries for own sub-meshes only; `whole` gets one for each sub-mesh, 1 if it is remote.
     std::vector<std::uint8_t> whole(sub_meshes_.size(), 1);
     auto next = factors_.plan.whole.begin();
     for (std::size_t s = 0; s < sub_meshes_.size(); ++s)
         if (sub_meshes_[s]) {
             whole[s] = *next++;
-            sub_meshes_[s]->use_memory(whole[s] != 0 ? kept : *factors_.passing, whole[s] != 0);
+            sub_meshes_[s]->use_memory(whole[s] != 0 ? kept : *factors_.recomputed, whole[s] != 0);
         }
     factors_.plan.whole = std::move(whole);
 }
 
+/// Adds the tasks of all own sub-meshes to the graph: condense before, and back-substitute after the solution on Γ.
 void SchurStepper::make_graph()
 {
-    std::vector<TaskGraph::Node> passing_condensed;
-    std::vector<TaskGraph::Node> passing_substituted;
+    std::vector<TaskGraph::Node> recomputed_condensed;
+    std::vector<TaskGraph::Node> recomputed_substituted;
     for (Index s = 0; s < static_cast<Index>(sub_meshes_.size()); ++s) {
         if (!is_own(s))
             continue;
@@ -138,12 +142,12 @@ void SchurStepper::make_graph()
         graph_.add_dependency(condensed, equation_solved_);
         graph_.add_dependency(equation_solved_, substituted);
         if (!is_kept(s)) {
-            passing_condensed.push_back(condensed);
-            passing_substituted.push_back(substituted);
+            recomputed_condensed.push_back(condensed);
+            recomputed_substituted.push_back(substituted);
         }
     }
-    take_turns(passing_condensed);
-    take_turns(passing_substituted);
+    take_turns(recomputed_condensed);
+    take_turns(recomputed_substituted);
 }
 
 /// Makes each task wait until an earlier one has freed its slot.

@@ -11,7 +11,7 @@ namespace seamflow {
 
 namespace {
 
-/// Σ‖ΔV‖ over the vertices of a sub-mesh that are not on Γ, in 1/length.
+/// Σ‖ΔV‖ over the vertices of a sub-mesh that are neither fixed nor on Γ, in 1/length.
 double total_curvature(const SubMesh& sub_mesh, const std::vector<double>& curvature)
 {
     if (curvature.empty())

@@ -17,7 +17,7 @@ namespace seamflow {
 
 namespace {
 
-/// The sub-meshes of a cut, grown into each other for a sweep in ascending order of `stage`.
+/// The sub-meshes of a cut, grown into each other by layers of faces, for a sweep in ascending order of `stage`.
 Decomposition overlap_sub_meshes(const PolygonMesh& mesh, const Topology& topology, const Cut& cut,
                                  std::span<const Index> stage, int layers)
 {
@@ -31,8 +31,8 @@ Decomposition overlap_sub_meshes(const PolygonMesh& mesh, const Topology& topolo
 }
 
 /// All sub-meshes of a cut.
-SweepSubMeshes all_of(const PolygonMesh& mesh, const Topology& topology, const Cut& cut, const SweepSteps& sweeps,
-                      std::vector<double> curvature, Progress& progress)
+SweepSubMeshes all_sub_meshes(const PolygonMesh& mesh, const Topology& topology, const Cut& cut,
+                              const SweepSteps& sweeps, std::vector<double> curvature, Progress& progress)
 {
     SweepSubMeshes all{.own = alone(decompose(mesh, topology, cut.labels, cut.n_parts, progress.exec()))};
     Decomposition& decomposition = all.own.decomposition;
@@ -49,8 +49,8 @@ SweepSubMeshes all_of(const PolygonMesh& mesh, const Topology& topology, const C
 SweepStepper::SweepStepper(const PolygonMesh& mesh, const Topology& topology, const Cut& cut,
                            const StepSettings& settings, const SweepSteps& sweeps, std::vector<double> curvature,
                            Progress& progress)
-    : SweepStepper(mesh, topology, all_of(mesh, topology, cut, sweeps, std::move(curvature), progress), settings,
-                   sweeps, progress)
+    : SweepStepper(mesh, topology, all_sub_meshes(mesh, topology, cut, sweeps, std::move(curvature), progress),
+                   settings, sweeps, progress)
 {
 }
 
@@ -127,6 +127,7 @@ void SweepStepper::choose_factor_window(std::optional<std::size_t> memory_limit)
     resize(static_cast<Index>(std::min(usize(enough), slots)));
 }
 
+/// Makes the state of each sub-mesh, and analyses the equations of own sub-meshes.
 void SweepStepper::make_states(const PolygonMesh& mesh, const StepSettings& settings,
                                const InterfaceConditions& conditions, Progress& progress)
 {

@@ -36,6 +36,7 @@ void SwitchingStepper::make_factors()
     }
 }
 
+/// Frees the factors, and records that factorising failed in this step.
 void SwitchingStepper::leave_factors()
 {
     failed_ = n_taken_ + 1;
@@ -96,6 +97,7 @@ void SwitchingStepper::save(StepMemory& memory) const
 
 void SwitchingStepper::restore(const StepMemory& memory)
 {
+    // `save` has appended the numbers of this class to those of gradients_.
     constexpr std::size_t n_own = 5;
     StepMemory of_gradients = memory;
     StepMemory own;
