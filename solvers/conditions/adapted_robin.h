@@ -22,8 +22,8 @@ enum class RightSide {
 /// \f[ (I + dt\, (p\, \partial_{n_A} + q\, \partial_t))\, V_A^{k+1} = (I - dt\, p\, \partial_{n_B})\, V_B , \f]
 ///
 /// with A the sub-mesh and B the complement fan, each with its own outward conormal, α and ‖N‖ from Vᵏ. In the paper
-/// V_B is V_B^k. Where one of the two conormals does not exist, p counts as 0 and the vertex does not move. And the
-/// classical ones (see make_ventcell).
+/// V_B is V_B^k. Where one of the two conormals does not exist, p counts as 0 and the vertex does not move. With
+/// RightSide::OthersCopy, these are the classical conditions (see make_ventcell).
 class AdaptedRobin final : public TransmissionCondition {
   public:
     /// @param sub_mesh must outlive the condition. @param q at least 0, without dimension.

@@ -8,11 +8,12 @@
 
 namespace seamflow {
 
-/// The stencil of a derivative at each vertex of a sub-mesh's Γ: the vertices of its own faces there.
+/// The stencil of a derivative at each vertex of a sub-mesh's Γ: the vertices of the sub-mesh's own faces at this
+/// vertex.
 struct DerivativeStencils {
     /// Per vertex of Γ: the vertices of the stencil, ascending.
     IndexLists columns;
-    /// Per vertex of Γ: the indices in `columns` of the corners of its own faces, face after face.
+    /// Per vertex of Γ: the indices in `columns` of the corners of the own faces at the vertex, face after face.
     IndexLists corner_columns;
     /// Per vertex of Γ: the indices in `columns` of the vertex itself and of its two neighbours along the boundary.
     std::vector<Index> centre;

@@ -35,7 +35,8 @@ constexpr double least_share_of_noise = 0.25;
 constexpr double most_share_of_noise = 16.0;
 
 /// The covariances of the residuals of local fits on a regular mesh, at some distances along a line.
-/// @param covariance the covariance of the heights before the fits, as a function of the distance in edges.
+/// @param lags the distances, in edges. @param covariance the covariance of the heights before the fits, as a function
+/// of the distance in edges.
 template <class Covariance>
 std::vector<double> left_over(const LocalFits::Kernel& kernel, std::span<const double> lags, Covariance&& covariance)
 {
@@ -58,17 +59,20 @@ std::vector<double> left_over(const LocalFits::Kernel& kernel, std::span<const d
     return result;
 }
 
+/// The Gaussian correlation over a length at a distance, both in edges.
 double gaussian_at(double distance, double length)
 {
     return std::exp(-distance * distance / (4.0 * length * length));
 }
 
+/// The correlation of white noise at a distance in edges: 1 within the first lag, 0 beyond.
 double white_at(double distance)
 {
     return distance < 0.5 * width_of_lags ? 1.0 : 0.0;
 }
 
-/// White noise, and correlated noise with a Gaussian correlation over a length.
+/// White noise, and correlated noise with a Gaussian correlation over a length in edges. Both variances are in squared
+/// edges.
 struct TwoNoises {
     double white = 0.0;
     double correlated = 0.0;
@@ -81,7 +85,8 @@ struct TwoNoises {
 };
 
 /// The noise that explains covariances best, by least squares.
-/// @param seen the covariances of the residuals of the widest fits, at the lags.
+/// @param kernel of the widest fits. @param lags distances, in edges. @param seen the covariances of the residuals of
+/// these fits at the lags.
 TwoNoises noise_with(const LocalFits::Kernel& kernel, std::span<const double> lags, std::span<const double> seen)
 {
     using Column = Eigen::Map<const Eigen::ArrayXd>;
@@ -101,6 +106,7 @@ TwoNoises noise_with(const LocalFits::Kernel& kernel, std::span<const double> la
         const double determinant = ww * aa - wa * wa;
         TwoNoises noise{((w * y).sum() * aa - (a * y).sum() * wa) / determinant,
                         ((a * y).sum() * ww - (w * y).sum() * wa) / determinant, length};
+        // Variances are not negative: where least squares finds one that is, the other noise alone is fitted.
         if (noise.white < 0.0)
             noise = {0.0, (a * y).sum() / aa, length};
         if (noise.correlated < 0.0)
@@ -281,6 +287,7 @@ Points CorrelatedNoise::without(const Executor& exec) const
         const double share = std::clamp(squares[0] / calm_squares_[0], least_share_of_noise, most_share_of_noise);
         const OfRadii risks =
             (1.0 - part_of_calm) / share * squares + part_of_calm * calm_squares_ + 2.0 * shared_ - variance;
+        // Radii with nearly the least risk are mixed, so that the result does not jump from one radius to another.
         OfRadii weights = ((risks.minCoeff() - risks) / (risk_temperature * variance)).exp();
         weights /= weights.sum();
         of_vertices[v] = (weights * Eigen::Map<const OfRadii>(radii.data())).sum();

@@ -16,7 +16,7 @@ namespace seamflow {
 struct EstimateFeatures {
     using Rows = VertexAverages::Rows;
 
-    /// #F by 2 K - 1, for K estimates: logarithms of means over 6 rounds of VertexAverages::spread, and over 24 rounds.
+    /// #F by 2 K - 1, for K estimates: logarithms of means over 5 rounds of VertexAverages::spread, and over 23 rounds.
     Rows near;
     Rows around;
 

@@ -59,6 +59,7 @@ double mean_chord(const PolygonMesh& mesh, const Points& positions, const Points
     return total / std::max(mesh.n_faces(), Index{1});
 }
 
+/// The mean squared length of the edges at vertex v, one edge per face.
 double mean_squared_edge(const PolygonMesh& mesh, const Topology& topology, Index v, const Points& positions)
 {
     const auto corners = topology.corners_at(v);
@@ -162,7 +163,7 @@ Points MeshDenoiser::without_noise(const Points& before, std::span<const double>
     }
     const KeptStructure kept = n_thinned_ == 0 ? put_back_structure(before, begun, found, exec) : KeptStructure{};
     const Points& normals = found.normals.normals;
-    if (n_thinned_ == 0 && std::ranges::any_of(found.places.shares, [](double part) { return part > 0.0; }))
+    if (n_thinned_ == 0 && std::ranges::any_of(found.places.shares, [](double share) { return share > 0.0; }))
         improve_fit(begun, found, exec);
     std::vector<double>& shares = found.places.shares;
     Points& fitted = found.fitted;
@@ -213,6 +214,7 @@ std::optional<Points> MeshDenoiser::without_correlated_noise(const Points& befor
     if (std::ranges::all_of(wanted, [](Correlation one) { return one == Correlation::None; }))
         return {};
     Points result = before;
+    // Local fits are tried at vertices that have other noise as well.
     std::vector<std::uint8_t> is_fitted(wanted.size(), 0);
     for (std::size_t v = 0; v < wanted.size() && n_thinned_ == 0; ++v)
         is_fitted[v] =
@@ -227,6 +229,7 @@ std::optional<Points> MeshDenoiser::without_correlated_noise(const Points& befor
             const bool is_doubtful = wanted[v] == Correlation::Doubtful;
             if (is_doubtful ? is_clear : without.has_value())
                 result.row(v) = without->row(v);
+            // Where fits do not remove plausible noise, thinned meshes have to prove it.
             wanted[v] = is_doubtful || without ? Correlation::None : Correlation::Possible;
         });
     }
@@ -250,6 +253,7 @@ void MeshDenoiser::remove_on_thinned(const Points& before, std::span<const Noisy
             thin_out(*mesh_, *topology_, averages_.neighbours(), before, n_chosen, static_cast<std::uint64_t>(round));
         MeshDenoiser denoiser(thinned.mesh, thinned.topology, exec, {}, as_one_, n_thinned_ + 1, least_evidence);
         const Points moved = denoiser.denoise(thinned.mesh.vertices, {}, exec);
+        // If the first thinned mesh has no noise, the others are not tried.
         if (round == 0 && denoiser.noise().part == 0.0)
             return;
         for (Index i = 0; i < thinned.mesh.n_vertices(); ++i) {
@@ -353,9 +357,9 @@ void MeshDenoiser::measure_noise(const Points& motions, std::span<const double> 
 
 SurfaceNoise measure_noise(const PolygonMesh& mesh, const Topology& topology, const Executor& exec)
 {
-    const auto measured = [&](const PolygonMesh& part, const Topology& of_part, bool as_one) {
-        MeshDenoiser denoiser(part, of_part, exec, {}, as_one);
-        denoiser.denoise(part.vertices, {}, exec);
+    const auto measured = [&](const PolygonMesh& patches, const Topology& of_patches, bool as_one) {
+        MeshDenoiser denoiser(patches, of_patches, exec, {}, as_one);
+        denoiser.denoise(patches.vertices, {}, exec);
         return denoiser.noise();
     };
     const FilterSample sample = take_filter_sample(mesh, topology, exec);

@@ -22,6 +22,7 @@ struct MeshPiece {
     std::vector<Index> vertices;
 };
 
+/// Some faces of a mesh as a mesh of their own.
 /// @param topology twins are not used. @param positions #V by 3. @param faces ascending.
 MeshPiece cut_out(const PolygonMesh& mesh, const Topology& topology, const Points& positions, std::vector<Index> faces,
                   const Executor& exec = run_serially);

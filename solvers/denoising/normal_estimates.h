@@ -61,6 +61,7 @@ class NormalEstimator {
     VertexAverages of_vertices_;
     PositionFilters filters_;
     VertexNormals vertex_normals_;
+    /// The unit normals of the noisy surface.
     FaceVectors noisy_;
     /// The normals of filtered surfaces: for `first`, which moves them to its result; for `further`; and for both.
     std::vector<FaceVectors> of_positions_;

@@ -101,6 +101,7 @@ struct Block {
     [[nodiscard]] float own(Index row, Index column) const { return tiles[column * n_lanes + begin - top() + row]; }
 };
 
+/// The entries of v in the block's own rows.
 inline FourSums own_rows(const Block& block, const float* v)
 {
     FourSums rows;
@@ -171,6 +172,7 @@ struct Lower {
     const float* tiles;
     Index n;
 
+    /// The number of groups of n_lanes rows.
     [[nodiscard]] Index n_groups() const { return (n + n_lanes - 1) / n_lanes; }
 
     /// The number of tiles before a block.

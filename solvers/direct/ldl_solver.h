@@ -124,6 +124,7 @@ class LdlSolver {
         return {factor + panels_[supernode], pattern_.width(supernode), pattern_.rows[supernode]};
     }
 
+    /// The number of unknowns that are kept together at the end; and whether factors have rows().
     Index n_last_;
     bool has_rows_;
     /// Per entry of the matrix: its index in the factor.
@@ -179,6 +180,8 @@ class LdlFactor {
     {
     }
 
+    /// Substitution for the supernodes of the first n unknowns.
+    /// @param x all unknowns by Length, row by row.
     template <Index Length>
     void forward_substitute(Number* x, Index n) const;
     template <Index Length>

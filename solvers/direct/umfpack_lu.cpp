@@ -36,6 +36,8 @@ struct UmfpackLong {
 /// Above this number of unknowns a factor may outgrow 32-bit integers.
 constexpr Index most_unknowns_for_umfpack_int = 100'000;
 
+/// Throws a ComputationError if a call of UMFPACK failed or found a singular matrix.
+/// @param task in the text of the error.
 void require_ok(long status, const char* task)
 {
     if (status == UMFPACK_OK)
@@ -47,6 +49,8 @@ void require_ok(long status, const char* task)
     throw_failure("UMFPACK", task, status);
 }
 
+/// See make_umfpack_lu.
+/// @tparam Interface UmfpackInt or UmfpackLong.
 template <class Interface>
 class UmfpackLu final : public DirectSolver {
   public:
@@ -125,6 +129,7 @@ class UmfpackLu final : public DirectSolver {
 
     void free_factor() override { numeric_ = {}; }
 
+    /// Analyses the pattern for a way of choosing pivots.
     void analyse(Way& way)
     {
         void* symbolic = nullptr;
@@ -134,7 +139,7 @@ class UmfpackLu final : public DirectSolver {
         way.symbolic.reset(symbolic);
     }
 
-    /// Factorises.
+    /// Factorises with a way of choosing pivots.
     /// @returns UMFPACK_OK, or the warning that the matrix is singular.
     int do_pivots(std::span<const double> values, Way& way)
     {

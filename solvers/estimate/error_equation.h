@@ -105,6 +105,7 @@ class ErrorEquation {
         std::vector<double> couplings;
         /// Per vertex of Γ: see error_row. No lists if all faces are oriented alike.
         Lists<std::int8_t> senses;
+        /// Per vertex of Γ: M_v and T_vv (see ErrorRow), and the sum of the row of T.
         std::vector<double> mass;
         std::vector<double> diagonal;
         std::vector<double> row_sum;

@@ -68,7 +68,8 @@ InterfaceResult InterfaceEquation::solve(std::span<const DenseFactor> complement
     return result;
 }
 
-/// Each column is solved for in a unit of its own, so that squares of its rows do not overflow.
+/// Divides each column of the right-hand side by a unit of its own, so that squares of its rows do not overflow.
+/// @returns the units: powers of two.
 Point InterfaceEquation::measure_right_hand_side()
 {
     Point largest = Point::Zero();
@@ -144,6 +145,7 @@ void InterfaceEquation::start(const MapPoints& multiply, const Points* guess, co
     vectors_.alpha.setOnes();
 }
 
+/// product = S direction.
 void InterfaceEquation::multiply(std::span<const DenseFactor> complements, const Points& direction, Points& product,
                                  const Executor& exec)
 {
@@ -154,6 +156,7 @@ void InterfaceEquation::multiply(std::span<const DenseFactor> complements, const
             });
 }
 
+/// preconditioned = Σ W_i S_i⁻¹ W_i residual, balanced if there is a coarse space.
 void InterfaceEquation::precondition(std::span<const DenseFactor> complements, const Points& residual,
                                      Points& preconditioned, const Executor& exec)
 {

@@ -91,8 +91,8 @@ class InterfaceEquation {
     InterfaceCopies copies_;
     SharedRows shared_;
     std::optional<CoarseSpace> coarse_;
-    /// Per copy; 0 for a fixed vertex: without weights and functions of the coarse space nothing moves it, so that its
-    /// neighbours have the residuals of the equations that are solved.
+    /// Per copy: its weight W_i; 0 for a fixed vertex: without weights and functions of the coarse space nothing moves
+    /// it, so that its neighbours have the residuals of the equations that are solved.
     std::vector<double> weights_;
     /// Per vertex of Γ: 1 if it is fixed; empty if none has ever been fixed.
     std::vector<std::uint8_t> is_fixed_;
@@ -100,6 +100,7 @@ class InterfaceEquation {
     /// begin.
     AlignedFloats products_;
     std::vector<std::size_t> first_product_;
+    /// #copies by 3: the results of each sub-mesh, before they are summed.
     Points residual_copies_;
     Points right_hand_side_;
     InterfaceSums sums_;

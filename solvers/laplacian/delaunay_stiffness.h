@@ -31,7 +31,7 @@ struct DelaunaySurface {
 /// that of the bend across it; the bend is reduced until the weight is 0. On the boundary, across which nothing flows,
 /// a bend is small.
 /// @param topology with the vertices that move; entries between other vertices do not matter.
-/// @param laplacian Δ_A or Δ_B; for other Laplacians there is no result.
+/// @param laplacian AlexaWardetzky or VirtualRefinement; for other Laplacians there is no result.
 /// @param in_faces whether the weights in each single face must also be at least 0.
 /// @returns nothing if all weights are above -1e-8 already.
 std::optional<DelaunaySurface> make_delaunay(const PolygonMesh& mesh, const Topology& topology, Laplacian laplacian,

@@ -66,6 +66,7 @@ double IntrinsicTriangles::half_cotangent(Index h) const
     return size > 0.0 ? -0.5 * a.dot(b) / std::max(std::abs(cross(a, b)), thinnest * size) : 0.0;
 }
 
+/// Whether the weight of the edge of h is below 0 by more than rounding.
 bool IntrinsicTriangles::is_far_from_delaunay(Index h) const
 {
     const double here = half_cotangent(h);
@@ -93,7 +94,7 @@ bool IntrinsicTriangles::are_joined(Index h, Index v) const
     return false;
 }
 
-/// Reverses the order of its corners.
+/// Reverses the order of the corners of triangle t.
 void IntrinsicTriangles::turn_over(Index t)
 {
     std::swap(corners_[t][1], corners_[t][2]);
@@ -106,6 +107,8 @@ void IntrinsicTriangles::turn_over(Index t)
     }
 }
 
+/// Makes two half-edges twins of each other.
+/// @param twin -1 if h has none.
 void IntrinsicTriangles::join(Index h, Index twin)
 {
     twin_[h] = twin;
@@ -135,6 +138,7 @@ bool IntrinsicTriangles::flip(Index h, const Points& positions)
     const Vector bc = edge(next(h));
     const Vector ca = edge(previous(h));
     const Vector cd = 0.5 * ((ca + ad) - (bc + db));
+    // Both new triangles need an area, in their plane and at the positions.
     if (!(cross(ad, -cd) > 0.0 && cross(bc, cd) > 0.0) ||
         !std::isnormal(seamflow::area(std::array{a, d, c}, positions)) ||
         !std::isnormal(seamflow::area(std::array{b, c, d}, positions)))

@@ -8,6 +8,7 @@ namespace seamflow {
 
 namespace {
 
+/// Assembles Δ_P (Laplacian::PtackovaVelho) face by face, from the fluxes Φ_f (see PtackovaVelho).
 class TwoRingAssembler final : public LaplacianAssembler {
   public:
     explicit TwoRingAssembler(const FacesOnBothSides& faces)
@@ -109,11 +110,13 @@ class TwoRingAssembler final : public LaplacianAssembler {
     FacesOnBothSides faces_;
     std::vector<double> face_areas_;
     std::vector<double> vertex_areas_;
+    /// Per half-edge: its face.
     std::vector<Index> face_of_;
     /// Per face: the vertices on which Φ depends, ascending.
     IndexLists stencil_;
     /// Per half-edge of each face, and corner of the face across: the index of that corner in the stencil.
     std::vector<Index> stencil_index_;
+    /// The coefficients of Φ_f of one face at its stencil.
     std::vector<double> flux_;
 };
 

@@ -27,6 +27,7 @@ struct FaceNeighbours {
     }
 };
 
+/// The neighbours of all faces.
 /// @param topology with twins.
 FaceNeighbours make_face_neighbours(const PolygonMesh& mesh, const Topology& topology,
                                     const Executor& exec = run_serially);

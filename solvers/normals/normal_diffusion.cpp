@@ -122,6 +122,7 @@ Points NormalDiffusion::smoothed(const Points& positions, double time_step, doub
     return normals;
 }
 
+/// Computes areas_, centroids_, reach_ and scale_. @param time_step τ, in length².
 void NormalDiffusion::measure(const Points& positions, double time_step, const Executor& exec)
 {
     const Index n = mesh_->n_faces();
@@ -236,6 +237,7 @@ void NormalDiffusion::spread_over_planes(const Points& positions, const Points& 
     }
 }
 
+/// Finds the guides that are means of the similar normals around each face.
 void NormalDiffusion::find_guides(const Points& normals, const Executor& exec)
 {
     const double width = std::max(width_by_noise * noise_, least_sigma);
@@ -277,6 +279,7 @@ void NormalDiffusion::find_patches(const Points& normals, const Executor& exec)
     });
 }
 
+/// Computes weights_ and diagonal_. @param longest the chord of normals, 3σ or less, from which on nothing diffuses.
 void NormalDiffusion::find_weights(const Points& normals, double longest, const Executor& exec)
 {
     for_each(exec, mesh_->n_faces(), [&](Index f) {

@@ -39,6 +39,7 @@ class NormalDiffusion {
     NormalDiffusion(const PolygonMesh& mesh, const PolygonMesh& connected, const Topology& topology,
                     const Executor& exec);
 
+    /// Smooths the normals of the faces at some positions.
     /// @param positions #V by 3. @param time_step the sum of all τ, in length².
     /// @param angle between the normals of faces, in degrees, 0 to 180: sharper edges stay.
     /// @returns #F by 3, of length 1, or 0 for faces without area.
