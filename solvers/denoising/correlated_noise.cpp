@@ -106,7 +106,7 @@ TwoNoises noise_with(const LocalFits::Kernel& kernel, std::span<const double> la
         const double determinant = ww * aa - wa * wa;
         TwoNoises noise{((w * y).sum() * aa - (a * y).sum() * wa) / determinant,
                         ((a * y).sum() * ww - (w * y).sum() * wa) / determinant, length};
-        // Variances are not negative: where least squares finds one that is, the other noise alone is fitted.
+        // Variances are at least 0: if least squares makes one of them negative, the other noise alone is fitted.
         if (noise.white < 0.0)
             noise = {0.0, (a * y).sum() / aa, length};
         if (noise.correlated < 0.0)

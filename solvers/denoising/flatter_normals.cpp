@@ -38,7 +38,7 @@ constexpr Fading by_misfit{1.15F, 1.3F};
 /// The rounds of bilateral means, and their σ (see FaceAverages).
 constexpr int flattening_rounds = 12;
 constexpr float flattening_sigma = 0.1F;
-/// The rounds of averages that make a patch, and the rounds over which all that is comparison is averaged.
+/// The rounds of averages that make a patch, and the rounds over which the compared numbers are averaged.
 constexpr int patch_rounds = 4;
 constexpr int comparing_rounds = 16;
 
@@ -123,10 +123,11 @@ FaceRows areas_of_patches(const NoisySurface& surface, AreaOf&& area_of, const E
     return around;
 }
 
-/// #F by 3, averaged around each face: the fraction of bends; the squared chord between the directions of a patch of
-/// the noisy surface with and without the estimated normals; and the same for the flatter normals.
+/// #F by 3, averaged around each face: the fraction of bends; the squared chord between the direction of the noisy
+/// patch around a face (that of its vector area) and the direction of the same patch with the estimated normals; and
+/// the squared chord with the flatter normals.
 FaceRows comparison(const NoisySurface& surface, const Points& estimated, const FlatterNormals& flatter,
-                  const Executor& exec)
+                    const Executor& exec)
 {
     const Index n_faces = surface.mesh.n_faces();
     const auto noisy_area = [&](Index f) { return vector_area(surface.mesh.face(f), surface.positions); };

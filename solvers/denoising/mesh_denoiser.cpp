@@ -229,7 +229,7 @@ std::optional<Points> MeshDenoiser::without_correlated_noise(const Points& befor
             const bool is_doubtful = wanted[v] == Correlation::Doubtful;
             if (is_doubtful ? is_clear : without.has_value())
                 result.row(v) = without->row(v);
-            // Where fits do not remove plausible noise, thinned meshes have to prove it.
+            // If the noise is not plausible, thinned meshes have to prove it.
             wanted[v] = is_doubtful || without ? Correlation::None : Correlation::Possible;
         });
     }
@@ -357,9 +357,9 @@ void MeshDenoiser::measure_noise(const Points& motions, std::span<const double> 
 
 SurfaceNoise measure_noise(const PolygonMesh& mesh, const Topology& topology, const Executor& exec)
 {
-    const auto measured = [&](const PolygonMesh& patches, const Topology& of_patches, bool as_one) {
-        MeshDenoiser denoiser(patches, of_patches, exec, {}, as_one);
-        denoiser.denoise(patches.vertices, {}, exec);
+    const auto measured = [&](const PolygonMesh& surface, const Topology& of_surface, bool as_one) {
+        MeshDenoiser denoiser(surface, of_surface, exec, {}, as_one);
+        denoiser.denoise(surface.vertices, {}, exec);
         return denoiser.noise();
     };
     const FilterSample sample = take_filter_sample(mesh, topology, exec);

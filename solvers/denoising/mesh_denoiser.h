@@ -115,8 +115,8 @@ class MeshDenoiser {
     void remove_on_thinned(const Points& before, std::span<const NoisyPlaces::Correlation> correlated,
                            NoisyPlaces::Correlation which, Points& result, const Executor& exec) const;
     /// Moves vertices to fit normals.
-    /// @param normals #F by 3. @param chord the mean chord between these normals and the normals of the faces. @param
-    /// positions #V by 3.
+    /// @param normals #F by 3. @param chord the mean chord between these normals and the normals of the faces.
+    /// @param positions #V by 3.
     void fit(const Points& normals, double chord, Points& positions, const Executor& exec) const;
     /// Takes flatter normals where they are nearer to the truth (see take_flatter_normals), and fits vertices again:
     /// from `before` if there are such normals, and further where one fit is not enough.

@@ -137,6 +137,7 @@ class Place {
         locate();
     }
 
+    /// See measure_place.
     [[nodiscard]] PlaceStatistics statistics() const
     {
         PlaceStatistics found;
@@ -338,9 +339,10 @@ class Place {
     /// One per vertex of vertices_, as in the following members: its position in the plane of the frame, in edge
     /// lengths.
     std::vector<Eigen::Vector2f> plane_;
-    /// -1 if its normal points to the other side than that of the middle.
+    /// -1 if the normal points to the other side than the normal of the middle, otherwise 1.
     std::vector<float> signs_;
-    /// Whether it may move and is not left out; is within near_radius; has nearly the normal of the middle.
+    /// Whether the vertex counts: it moves and is not left out; whether it is within near_radius; and whether its
+    /// normal is near the normal of the middle or its opposite.
     std::vector<std::uint8_t> counts_;
     std::vector<std::uint8_t> is_near_;
     std::vector<std::uint8_t> is_facing_;

@@ -8,7 +8,7 @@ namespace seamflow {
 
 namespace {
 
-/// A vertex of Γ.
+/// A vertex of Γ, by its indices in two sub-meshes.
 struct FoundVertex {
     /// The index of the vertex in the Γ of the lowest sub-mesh that has it, whole or not.
     Index in_lowest;

@@ -73,6 +73,7 @@ class TwoRingAssembler final : public LaplacianAssembler {
                 stencil_index_.push_back(place_in(stencil_[f], v));
     }
 
+    /// Computes face_areas_ and vertex_areas_.
     void measure_areas(const Points& positions)
     {
         std::fill(vertex_areas_.begin(), vertex_areas_.end(), 0.0);

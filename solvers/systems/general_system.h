@@ -54,6 +54,7 @@ class GeneralSystem final : public SubMeshSystem {
     std::unique_ptr<DirectSolver> solver_;
     Index n_nearly_singular_ = 0;
     std::vector<InterfaceRole> roles_;
+    /// Scratch: the coefficients of one row of the condition.
     std::vector<double> row_;
     Screening screening_;
     /// dt of the present step, in length².

@@ -29,6 +29,7 @@ struct PairsOfUnknowns {
     [[nodiscard]] Index n() const { return of.size(); }
 };
 
+/// Lists the pairs of two unknowns at both of them.
 /// @param unknown_of per vertex, its unknown or -1; vertices beyond the end of the list are not unknown.
 /// @param n number of unknowns.
 /// @throws ComputationError if 2³¹ numbers or more must be kept, two for each pair and one for each unknown.
@@ -44,6 +45,7 @@ struct UpperPattern {
     std::vector<Index> slots;
 };
 
+/// The upper triangle of a matrix with an entry for each pair.
 /// @param order the unknowns in the order of the matrix.
 UpperPattern upper_pattern(const PairsOfUnknowns& pairs, const std::vector<Index>& order);
 
