@@ -38,7 +38,7 @@ struct Conormal {
 /// @param positions #local by 3, the halo included.
 std::optional<Conormal> own_conormal(const SubMesh& sub_mesh, Index i, const Points& positions);
 
-/// The conormal of the other side: that of the complement fan.
+/// The conormal of the other side, which is the conormal of the complement fan.
 std::optional<Conormal> complement_conormal(const SubMesh& sub_mesh, Index i, const Points& positions);
 
 /// The row of ∂n at the i-th vertex of Γ, linear in the positions because α and ‖N‖ are constants: (Σ_f (e_i - Σ_{k∈f}

@@ -20,7 +20,7 @@ struct EstimateFeatures {
     Rows near;
     Rows around;
 
-    /// Replaces all features by those of these estimates.
+    /// Replaces all features by the features of these estimates.
     void measure(const NormalEstimates& estimates, const VertexAverages& averages, const Executor& exec = run_serially);
 };
 

@@ -31,8 +31,8 @@ constexpr Fading by_noise{0.2F, 0.15F};
 constexpr Fading by_bends{0.06F, 0.1F};
 constexpr double least_bend = 0.04;
 constexpr double largest_bend = 0.3;
-/// The share by how far the directions of patches are missed: by the mean squared chord between them and those of the
-/// noisy surface with flatter normals, over that with the estimates.
+/// The share by the misfit of flatter normals: the mean squared chord between the directions of patches of the noisy
+/// surface and of the same patches with flatter normals, over the same chord with the estimates.
 constexpr Fading by_misfit{1.15F, 1.3F};
 
 /// The rounds of bilateral means, and their σ (see FaceAverages).

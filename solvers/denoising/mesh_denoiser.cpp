@@ -25,8 +25,8 @@ namespace {
 
 /// The most relaxation of vertices along the surface, as in fit_vertices.
 constexpr double most_relaxation = 0.1;
-/// The standard deviation of the noise over that of the motions. It is above 1 because some noise stays. Eight surfaces
-/// of the literature with noise of 0.2 to 0.47 mean edges had 1.03 to 1.065.
+/// The standard deviation of the noise over the standard deviation of the motions. It is above 1 because some noise
+/// stays. Eight surfaces of the literature with noise of 0.2 to 0.47 mean edges had 1.03 to 1.065.
 constexpr double noise_by_motion = 1.045;
 
 /// After much noise, one fit does not reach the wanted normals. Vertices are fitted again, at most so often, until the
@@ -44,8 +44,8 @@ constexpr int rounds_of_thinning = 6;
 /// The evidence on a mesh thinned once that proves noise where the whole mesh has Correlation::Possible. No clean
 /// surface with this had more than 2.5 (thinned twice: 0.9, see NoisyPlaces).
 constexpr float proof_by_thinned = 3.0F;
-/// Where places are doubtful, local fits are taken if their risk is below this, and the noise above this, in edges. Of
-/// reliefs under white noise, those with so little risk had 0.1 at most.
+/// Where places are doubtful, local fits are taken if their risk is below the first number and the deviation of the
+/// noise above the second, in edges. Reliefs under white noise with so little risk had a deviation of 0.1 at most.
 constexpr double clear_risk = 0.45;
 constexpr double clear_deviation = 0.15;
 

@@ -161,7 +161,7 @@ class MeshDenoiser {
     std::vector<Spike> spikes_;
 };
 
-/// The noise of a mesh; of a large mesh, that of patches spread all over it (see take_filter_sample).
+/// The noise of a mesh; for a large mesh, the noise of patches spread all over it (see take_filter_sample).
 /// @param topology with twins.
 SurfaceNoise measure_noise(const PolygonMesh& mesh, const Topology& topology, const Executor& exec = run_serially);
 

@@ -31,10 +31,10 @@ constexpr float evidence_against_of_quarter = -2.5F;
 constexpr float evidence_of_correlated_noise_alone = 1.0F;
 /// Beside other noise, places with more evidence than this are doubtful: fits must show that the noise is no shape.
 constexpr float evidence_of_doubtful_noise = -1.0F;
-/// The evidence at a place that outweighs that of its component. For noise: the median of the component plus this
-/// difference, but at least clear evidence and at most this limit, which is above the 5.1 that places of clean surfaces
-/// in the training data reached. Against noise: chosen by hand. Thinned surfaces, which bend more, are judged as a
-/// whole.
+/// The evidence at a place that outweighs the evidence of its component. For noise: the median of the component plus
+/// this difference, but at least clear evidence and at most this limit, which is above the 5.1 that places of clean
+/// surfaces in the training data reached. Against noise: chosen by hand. Thinned surfaces, which bend more, are judged
+/// as a whole.
 constexpr float outweighing_difference = 9.0F;
 constexpr float most_outweighing_evidence = 6.5F;
 constexpr float outweighing_evidence_against = -4.0F;

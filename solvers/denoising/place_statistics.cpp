@@ -23,8 +23,8 @@ constexpr double near_radius = 7.0;
 constexpr double far_radius = 13.0;
 constexpr std::size_t most_of_place = 800;
 /// The autocorrelation is bounded: displacements above this many medians are reduced to it, so that a sharp edge does
-/// not outweigh its surroundings; and vertices whose normal has a smaller cosine than this with that of the middle do
-/// not count.
+/// not outweigh its surroundings; and vertices do not count whose normal has a smaller cosine than this with the normal
+/// of the middle.
 constexpr float most_medians_of_height = 3.0F;
 constexpr double least_cosine_to_middle = 0.5;
 /// Directions in half a circle, because the autocorrelation is the same in opposite directions; and the distances of a

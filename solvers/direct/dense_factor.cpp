@@ -11,7 +11,8 @@ namespace seamflow {
 
 namespace {
 
-/// The columns of a block, the rows that are processed at once, and the entries of L in such a tile.
+/// The number of columns of a block, of rows that are processed at once, and of entries of L in a tile of these rows
+/// and columns.
 constexpr Index block_width = 4;
 constexpr Index n_lanes = DenseFactor::lanes;
 constexpr Index tile_size = block_width * n_lanes;

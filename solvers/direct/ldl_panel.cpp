@@ -85,7 +85,7 @@ template <class Vector, class Number, class Use>
     }
 }
 
-/// The number of leading columns, of some ascending columns, that lie within `width` consecutive ones.
+/// The number of the first columns, of some ascending columns, that lie within `width` consecutive columns.
 [[gnu::always_inline]] inline Index count_neighbours(const Index* columns, Index n, Index width)
 {
     Index count = 1;
@@ -94,7 +94,7 @@ template <class Vector, class Number, class Use>
     return count;
 }
 
-/// Updates columns that lie within as many consecutive ones as there are lanes. In the columns in between, 0 is
+/// Updates columns that lie within as many consecutive columns as there are lanes. From the columns in between, 0 is
 /// subtracted.
 template <class Vector, class Number>
 [[gnu::always_inline]] inline void update_columns(const LdlPanel<Number>& earlier, Index row_index, Index n,

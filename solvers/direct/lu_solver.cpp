@@ -16,7 +16,7 @@ constexpr Eigen::Index upper = 1;
 
 /// Subtracts the contributions of some columns of a supernode from the column of L and the row of U of the unknown
 /// rows[row_index].
-/// @param columns the first of them; each has as many entries as there are rows.
+/// @param columns the first of these columns; each has as many entries as there are rows.
 template <std::size_t Width>
 void subtract(const Pair* columns, std::span<const Index> rows, std::size_t row_index, Pair* elimination)
 {

@@ -141,7 +141,7 @@ void InterfaceEquation::start(const MapPoints& multiply, const Points* guess, co
             coarse_->correct(vectors_.r, vectors_.p, exec);
         advance(multiply, x, vectors_, exec);
     }
-    // Until now, α was that of the move along the guess. If no iteration follows, estimate_distance uses 1.
+    // Until now, α was the step size along the guess. If no iteration follows, estimate_distance uses 1.
     vectors_.alpha.setOnes();
 }
 

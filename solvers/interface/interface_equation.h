@@ -96,8 +96,8 @@ class InterfaceEquation {
     std::vector<double> weights_;
     /// Per vertex of Γ: 1 if it is fixed; empty if none has ever been fixed.
     std::vector<std::uint8_t> is_fixed_;
-    /// Per sub-mesh, three columns for its rows and three for the result; and the index at which those of each sub-mesh
-    /// begin.
+    /// Per sub-mesh, three columns for its rows and three for the result; and the index at which the columns of each
+    /// sub-mesh begin.
     AlignedFloats products_;
     std::vector<std::size_t> first_product_;
     /// #copies by 3: the results of each sub-mesh, before they are summed.

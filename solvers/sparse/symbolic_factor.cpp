@@ -50,8 +50,8 @@ bool belong_together(const EliminationTree& tree, Index column)
     return tree.parent[column] == column + 1 && tree.count[column] == tree.count[column + 1] + 1;
 }
 
-/// The last of the columns that have the same rows as the first one except for each other, at most most_columns; the
-/// last n_last columns are one supernode.
+/// The last column of the supernode that begins with the column `first`, without merging: its columns have the same
+/// rows, apart from their own. It has at most most_columns columns; the last n_last columns are one supernode.
 Index end_of_supernode(const EliminationTree& tree, Index first, Index n_last, Index most_columns)
 {
     const auto n = static_cast<Index>(tree.parent.size());

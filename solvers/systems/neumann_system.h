@@ -141,7 +141,7 @@ class NeumannSystem {
     void leave_out_fixed(std::span<double> matrix, const Points& increments, Points& residual) const;
 
     Index n_interface_;
-    /// Per own vertex: 1 if it is fixed; empty if none has ever been fixed. The number of fixed vertices.
+    /// Per own vertex: 1 if it is fixed; empty if none has ever been fixed. And the number of fixed vertices.
     std::vector<std::uint8_t> is_fixed_;
     Index n_fixed_ = 0;
     /// The faces, if the Laplacian needs them in each step.
