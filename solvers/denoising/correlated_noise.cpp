@@ -38,7 +38,8 @@ constexpr double most_share_of_noise = 16.0;
 /// @param lags the distances, in edges. @param covariance the covariance of the heights before the fits, as a function
 /// of the distance in edges.
 template <class Covariance>
-std::vector<double> left_over(const LocalFits::Kernel& kernel, std::span<const double> lags, Covariance&& covariance)
+std::vector<double> residual_covariances(const LocalFits::Kernel& kernel, std::span<const double> lags,
+                                         Covariance&& covariance)
 {
     const auto between = [&](const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
         return covariance((to - from).norm());
@@ -87,18 +88,18 @@ struct TwoNoises {
 /// The noise that explains covariances best, by least squares.
 /// @param kernel of the widest fits. @param lags distances, in edges. @param seen the covariances of the residuals of
 /// these fits at the lags.
-TwoNoises noise_with(const LocalFits::Kernel& kernel, std::span<const double> lags, std::span<const double> seen)
+TwoNoises fitted_noise(const LocalFits::Kernel& kernel, std::span<const double> lags, std::span<const double> seen)
 {
     using Column = Eigen::Map<const Eigen::ArrayXd>;
     const auto size = static_cast<Eigen::Index>(lags.size());
     const Column y(seen.data(), size);
-    const std::vector<double> of_white = left_over(kernel, lags, white_at);
+    const std::vector<double> of_white = residual_covariances(kernel, lags, white_at);
     const Column w(of_white.data(), size);
     TwoNoises best;
     double least = std::numeric_limits<double>::infinity();
     for (const double length : correlation_lengths) {
         const std::vector<double> of_correlated =
-            left_over(kernel, lags, [&](double d) { return gaussian_at(d, length); });
+            residual_covariances(kernel, lags, [&](double d) { return gaussian_at(d, length); });
         const Column a(of_correlated.data(), size);
         const double ww = (w * w).sum();
         const double aa = (a * a).sum();
@@ -141,7 +142,7 @@ CorrelatedNoise::CorrelatedNoise(const PolygonMesh& mesh, const Topology& topolo
     }
     heights_ = LocalFits(averages.neighbours(), before, normals_).heights(radii, exec);
     for_each(exec, mesh.n_vertices(), [&](Index v) { heights_.row(v) /= edge_at(v); });
-    find_places(exec);
+    find_calm_half(exec);
     find_covariances(exec);
 }
 
@@ -170,7 +171,7 @@ Points CorrelatedNoise::normals_of(const Points& positions, int rounds, const Ex
     return normals;
 }
 
-void CorrelatedNoise::find_places(const Executor& exec)
+void CorrelatedNoise::find_calm_half(const Executor& exec)
 {
     VertexAverages::Rows near(mesh_.n_faces(), n_radii);
     squares_.resize(mesh_.n_faces(), n_radii);
@@ -239,7 +240,7 @@ void CorrelatedNoise::find_covariances(const Executor& exec)
             lags.push_back(width_of_lags * static_cast<double>(k));
             seen.push_back(total[k] / number);
         }
-    const TwoNoises noise = lags.empty() ? TwoNoises{} : noise_with(LocalFits::kernel(radii.back()), lags, seen);
+    const TwoNoises noise = lags.empty() ? TwoNoises{} : fitted_noise(LocalFits::kernel(radii.back()), lags, seen);
     is_bounded_ = noise.length < correlation_lengths.back() && noise.correlated > least_correlated * noise.white &&
                   noise.correlated < most_correlated * noise.white;
     for (std::size_t k = 0; k < n_lags; ++k)

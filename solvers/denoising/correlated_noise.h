@@ -65,7 +65,7 @@ class CorrelatedNoise {
     [[nodiscard]] double edge_at(Index v) const { return edges_[v] > 0.0 ? edges_[v] : 1.0; }
     /// Averages the squared heights around each face (squares_), and finds the calmer half of the surface (is_calm_,
     /// calm_squares_).
-    void find_places(const Executor& exec);
+    void find_calm_half(const Executor& exec);
     /// Finds the noise that explains the residuals (covariances_, shared_, is_bounded_).
     void find_covariances(const Executor& exec);
 

@@ -109,7 +109,7 @@ class Risks {
     }
 
     /// The last position up to the given one where the mean displacement is at most the noise.
-    [[nodiscard]] double within(double noise, double place) const
+    [[nodiscard]] double last_place_within(double noise, double place) const
     {
         constexpr int n_halvings = 40;
         double allowed = 0.0;
@@ -230,12 +230,12 @@ class FilteredSample {
 };
 
 /// The amount of least regret, enlarged for the sake of normals, at which vertices move by no more than the noise.
-DenoisingAmount choose(const Risks& risks, double noise)
+DenoisingAmount best_amount(const Risks& risks, double noise)
 {
     const double nearest = risks.place_of_least_regret(least_noise * noise, most_noise * noise);
     const double ratio = largest_amount / smallest_amount;
     const double more = std::log(for_normals) / std::log(ratio) * (n_amounts - 1);
-    const double place = risks.within(noise, std::min<double>(nearest + more, n_amounts - 1));
+    const double place = risks.last_place_within(noise, std::min<double>(nearest + more, n_amounts - 1));
     return {amount_at(place), std::max(risks.risk(place, noise), 0.0), std::sqrt(risks.squared_move(place))};
 }
 
@@ -251,7 +251,7 @@ DenoisingAmount denoising_amount(const PolygonMesh& mesh, const Topology& topolo
         return none;
     DenoisingAmount found{first_amount, 0.0, 0.0};
     for (int round = 0; round < n_rounds; ++round)
-        found = choose(sample.risks(found.amount), noise);
+        found = best_amount(sample.risks(found.amount), noise);
     return found.risk < clear_gain * noise * noise && found.move <= noise ? found : none;
 }
 

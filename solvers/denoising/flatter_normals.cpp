@@ -80,7 +80,7 @@ float bends_at(const PolygonMesh& mesh, const Topology& topology, const FaceVect
 
 /// The flatter normals of the whole surface, computed piece by piece.
 /// @param normals #F by 3: the estimates.
-FlatterNormals flattened(const NoisySurface& surface, const Points& normals, const Executor& exec)
+FlatterNormals flatter_normals_of(const NoisySurface& surface, const Points& normals, const Executor& exec)
 {
     std::vector<Index> all(usize(surface.mesh.n_faces()));
     std::iota(all.begin(), all.end(), 0);
@@ -166,7 +166,7 @@ bool take_flatter_normals(const NoisySurface& surface, DenoisedNormals& estimate
     if (std::ranges::none_of(weights, is_some))
         return false;
     Points& normals = estimated.normals;
-    const FlatterNormals flatter = flattened(surface, normals, exec);
+    const FlatterNormals flatter = flatter_normals_of(surface, normals, exec);
     const FaceRows around = comparison(surface, normals, flatter, exec);
     for_each(exec, n_faces, [&](Index f) {
         const float misfit = around(f, 1) > 0.0F ? around(f, 2) / around(f, 1) : by_misfit.zero_at;

@@ -108,7 +108,7 @@ Points mean_normals(const Topology& topology, const Points& normals, const Execu
 }
 
 /// Per vertex: the index, in `places`, of the nearest place along edges; -1 if no place is connected with it.
-std::vector<Index> nearest_of(std::span<const Index> places, const IndexLists& neighbours)
+std::vector<Index> nearest_places(std::span<const Index> places, const IndexLists& neighbours)
 {
     std::vector<Index> nearest(usize(neighbours.size()), -1);
     std::vector<Index> reached(places.begin(), places.end());
@@ -291,7 +291,7 @@ NoisyPlaces::Found NoisyPlaces::find(const Denoised& denoised, const Executor& e
                 result[i] = Correlation::Possible;
         return result;
     }();
-    const std::vector<Index> nearest = nearest_of(places, neighbours);
+    const std::vector<Index> nearest = nearest_places(places, neighbours);
     const std::vector<double> edges = edge_lengths_at_vertices(mesh, topology, before, exec);
     const VertexAverages::Rows displaced = means_around(denoised, displacement_rounds, exec, [&](Index v) {
         return edges[v] > 0.0 ? static_cast<float>(motion_along_normal(topology, denoised.found.normals, v,

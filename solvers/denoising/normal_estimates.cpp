@@ -42,7 +42,7 @@ class Writer {
     }
 
     /// Swaps vectors with the next ones of the list instead of copying them; `list` is left with replaced vectors.
-    void take(std::vector<FaceVectors>& list)
+    void swap_in(std::vector<FaceVectors>& list)
     {
         for (FaceVectors& vectors : list)
             next().swap(vectors);
@@ -156,7 +156,7 @@ void NormalEstimator::first(NormalEstimates& found, const Executor& exec)
     const int bilateral_anchor = writer.count() - 1;
     normalise(once, exec);
     add_bilateral_means(averages_, once, 0.3F, {3, 10}, writer, scratch_[0], exec);
-    writer.take(of_positions_);
+    writer.swap_in(of_positions_);
     found.anchors = {0, writer.count() - 2, bilateral_anchor};
     averages_.average_best_patch(noisy_, writer.next(), exec);
     normalise(twice, exec);

@@ -155,7 +155,7 @@ double mean_edge_of(const DenoisedSurface& surface, std::span<const Index> faces
 }
 
 /// The fraction of a place that is replaced: falls smoothly from 1 to 0.
-float replaced_part(const Trial& trial, float squared_motion)
+float replaced_fraction(const Trial& trial, float squared_motion)
 {
     return std::clamp((replaced_below - squared_motion / trial.replaced_up_to) / (replaced_below - 1.0F), 0.0F, 1.0F);
 }
@@ -180,7 +180,7 @@ void replace_places(const DenoisedSurface& surface, const Components& components
     const auto moves = [&](Index f) {
         return std::ranges::any_of(surface.mesh.face(f), [&](Index v) { return surface.shares[v] > 0.0; });
     };
-    bool any = open([&](Index f) { return replaced_part(trial, of_first(f, 0)) > 0.0F && moves(f); });
+    bool any = open([&](Index f) { return replaced_fraction(trial, of_first(f, 0)) > 0.0F && moves(f); });
     FaceRows of_result = of_first;
     for (std::size_t i = 0; any && i < trial.amounts.size(); ++i) {
         Points smoothed = surface.before;
@@ -209,7 +209,7 @@ void replace_places(const DenoisedSurface& surface, const Components& components
             const bool is_better = is_open[components.component_of[f]] != 0 &&
                                    of_smoothed(f, 0) <= most_squared_motion(of_first(f, 0)) &&
                                    of_smoothed(f, 1) < of_result(f, 1);
-            better(f, 0) = is_better ? replaced_part(trial, of_first(f, 0)) : 0.0F;
+            better(f, 0) = is_better ? replaced_fraction(trial, of_first(f, 0)) : 0.0F;
         });
         any = open([&](Index f) { return better(f, 0) > 0.0F; });
         const std::vector<double> weights = places.blended(std::move(better));

@@ -13,8 +13,8 @@ namespace {
 
 /// A maximal set of vertices with faces, of which no two are neighbours.
 /// @returns #V: 1 for vertices of the set.
-std::vector<std::uint8_t> choose(const Topology& topology, const IndexLists& neighbours, const Points& positions,
-                                 std::span<const int> n_chosen, std::uint64_t round)
+std::vector<std::uint8_t> independent_set(const Topology& topology, const IndexLists& neighbours,
+                                          const Points& positions, std::span<const int> n_chosen, std::uint64_t round)
 {
     struct Candidate {
         int n_chosen;
@@ -39,7 +39,7 @@ std::vector<std::uint8_t> choose(const Topology& topology, const IndexLists& nei
 ThinnedMesh thin_out(const PolygonMesh& mesh, const Topology& topology, const IndexLists& neighbours,
                      const Points& positions, std::span<const int> n_chosen, std::uint64_t round)
 {
-    const std::vector<std::uint8_t> is_chosen = choose(topology, neighbours, positions, n_chosen, round);
+    const std::vector<std::uint8_t> is_chosen = independent_set(topology, neighbours, positions, n_chosen, round);
     ThinnedMesh thinned;
     // Per vertex: the number in the thinned mesh of the kept vertex to which it belongs; -1 if there is none.
     std::vector<Index> number_of(is_chosen.size(), -1);

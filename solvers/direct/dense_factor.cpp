@@ -98,7 +98,8 @@ struct Block {
 
     /// The number of the first row of the first tile.
     [[nodiscard]] Index top() const { return begin / n_lanes * n_lanes; }
-    /// An entry in the block's own rows, those of its diagonal, row > column.
+    /// An entry of L in the rows of the block's diagonal. Row and column are counted from the block's first; row >
+    /// column.
     [[nodiscard]] float own(Index row, Index column) const { return tiles[column * n_lanes + begin - top() + row]; }
 };
 

@@ -48,7 +48,7 @@ struct Targets {
 };
 
 /// The n rows from `first` on, in lanes 0, 1, 2 and so on.
-Targets in_order(Index first, Index n)
+Targets consecutive_targets(Index first, Index n)
 {
     Targets targets{first, n, {}};
     std::iota(targets.lane.begin(), targets.lane.end(), 0);
@@ -124,7 +124,7 @@ template <class Vector, class Number>
         return;
     const std::size_t width = usize(panel.width);
     Number* target = panel.values + usize(last) * (width + 1);
-    const Targets targets = in_order(last, n);
+    const Targets targets = consecutive_targets(last, n);
     if (n == Vector::lanes)
         multiply_all<Vector>(panel, first, last, targets,
                              [&](Index i, const Vector& sums) { sums.subtract_from(target + usize(i) * width); });

@@ -104,13 +104,13 @@ class UmfpackLu final : public DirectSolver {
 
     bool make_factor(std::span<const double> values, FactorMemory&, SolverWorkspace&) override
     {
-        if (do_pivots(values, fast_) == UMFPACK_OK && !numeric_.is_nearly_singular)
+        if (factorise_with(values, fast_) == UMFPACK_OK && !numeric_.is_nearly_singular)
             return true;
         // Iterative refinement needs more memory.
         work_.numbers.resize(5 * work_.integers.size());
         if (!careful_.symbolic)
             analyse(careful_);
-        require_ok(do_pivots(values, careful_), "factorisation");
+        require_ok(factorise_with(values, careful_), "factorisation");
         return true;
     }
 
@@ -141,7 +141,7 @@ class UmfpackLu final : public DirectSolver {
 
     /// Factorises with a way of choosing pivots.
     /// @returns UMFPACK_OK, or the warning that the matrix is singular.
-    int do_pivots(std::span<const double> values, Way& way)
+    int factorise_with(std::span<const double> values, Way& way)
     {
         numeric_ = {nullptr, values, &way};
         void* numbers = nullptr;

@@ -98,7 +98,7 @@ void for_each_face(std::span<const Index> fan, const IndexLists& faces, Index v,
 
 /// The squared distance over which a disturbance spreads in a step: dt D, D = ΣK d² / 4M. D is 1 for a Laplacian that
 /// is exact on quadratic functions. It is clamped, because obtuse triangles can make it meaningless.
-double spread(const Draft& draft, double time_step)
+double squared_spread(const Draft& draft, double time_step)
 {
     double squares = draft.far_squares;
     for (std::size_t j = 0; j < draft.neighbours.size(); ++j)
@@ -107,7 +107,7 @@ double spread(const Draft& draft, double time_step)
 }
 
 /// Computes the diagonal and the response, and drops the couplings to vertices that are not on Γ.
-/// @param kinds see error_row. @param spread_squared see `spread`.
+/// @param kinds see error_row. @param spread_squared see `squared_spread`.
 void close_row(std::span<const Index> kinds, double spread_squared, Draft& draft)
 {
     double held = 0.0;
@@ -170,7 +170,7 @@ ErrorRow error_row(const SubMesh& sub_mesh, const ScaledLaplacian& laplacian, In
     });
     draft.row.normal = unit_or_zero(draft.row.normal);
     draft.row.residual += draft.row.mass * (after.row(v) - before.row(v));
-    close_row(kinds, spread(draft, step.time_step), draft);
+    close_row(kinds, squared_spread(draft, step.time_step), draft);
     return draft.row;
 }
 

@@ -18,7 +18,7 @@ WholeRows::WholeRows(const Decomposition& decomposition, const PolygonMesh& mesh
     of_copies_.setZero(copies_.n_copies(), 3);
 }
 
-/// Lists the rows sub-mesh by sub-mesh. All faces around a vertex beside Γ are in one sub-mesh.
+/// Lists the rows at Γ and beside Γ, sub-mesh by sub-mesh. All faces around a vertex beside Γ are in one sub-mesh.
 void WholeRows::list_rows(const Decomposition& decomposition, const PolygonMesh& mesh, const Topology& topology,
                           const InterfaceRanks& ranks)
 {

@@ -76,7 +76,8 @@ class InterfaceEquation {
     [[nodiscard]] bool is_fixed(Index vertex) const { return !is_fixed_.empty() && is_fixed_[vertex] != 0; }
     void weigh_copies(std::span<const DenseFactor> complements, const Executor& exec);
     void sum_copies(Points& copies, Points& sums, const Executor& exec);
-    void start(const MapPoints& multiply, const Points* guess, const Point& unit, Points& x, const Executor& exec);
+    void set_initial_solution(const MapPoints& multiply, const Points* guess, const Point& unit, Points& x,
+                              const Executor& exec);
     Point measure_right_hand_side();
     [[nodiscard]] double estimate_distance(const Point& unit);
     void multiply(std::span<const DenseFactor> complements, const Points& direction, Points& product,
@@ -84,8 +85,8 @@ class InterfaceEquation {
     void precondition(std::span<const DenseFactor> complements, const Points& residual, Points& preconditioned,
                       const Executor& exec);
     template <class Apply>
-    void on_each(std::span<const DenseFactor> complements, const Points& source, bool weighted, Points& target,
-                 const Executor& exec, Apply&& apply);
+    void sum_over_sub_meshes(std::span<const DenseFactor> complements, const Points& source, bool weighted,
+                             Points& target, const Executor& exec, Apply&& apply);
 
     InterfaceRanks* ranks_;
     InterfaceCopies copies_;

@@ -17,7 +17,7 @@ namespace seamflow {
 /// Computes points, n by 3, from others.
 using MapPoints = std::function<void(const Points& from, Points& to)>;
 
-/// Two vectors for each of three columns.
+/// Two arrays A and B, n by 3, whose columns are multiplied pair by pair.
 struct VectorPair {
     const Points& a;
     const Points& b;

@@ -103,13 +103,13 @@ void IntrinsicTriangles::turn_over(Index t)
     for (Index k = 0; k < 3; ++k) {
         const auto old = static_cast<std::size_t>(2 - k);
         edges_[3 * t + k] = {-old_edges[old].x(), old_edges[old].y()};
-        join(3 * t + k, old_twins[old]);
+        make_twins(3 * t + k, old_twins[old]);
     }
 }
 
 /// Makes two half-edges twins of each other.
 /// @param twin -1 if h has none.
-void IntrinsicTriangles::join(Index h, Index twin)
+void IntrinsicTriangles::make_twins(Index h, Index twin)
 {
     twin_[h] = twin;
     if (twin >= 0)
@@ -152,11 +152,11 @@ bool IntrinsicTriangles::flip(Index h, const Points& positions)
     edges_[3 * s] = bc;
     edges_[3 * s + 1] = cd;
     edges_[3 * s + 2] = db;
-    join(3 * t, around[0]);
-    join(3 * t + 1, 3 * s + 1);
-    join(3 * t + 2, around[1]);
-    join(3 * s, around[2]);
-    join(3 * s + 2, around[3]);
+    make_twins(3 * t, around[0]);
+    make_twins(3 * t + 1, 3 * s + 1);
+    make_twins(3 * t + 2, around[1]);
+    make_twins(3 * s, around[2]);
+    make_twins(3 * s + 2, around[3]);
     return true;
 }
 

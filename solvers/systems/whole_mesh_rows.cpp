@@ -42,7 +42,7 @@ IndexLists consecutive_blocks(Index n_rows, Index n_blocks)
 
 /// The fraction of the edges of faces whose ends are in different blocks.
 /// @param blocks of consecutive vertices.
-double part_between(const PolygonMesh& mesh, const IndexLists& blocks, const Executor& exec)
+double fraction_between_blocks(const PolygonMesh& mesh, const IndexLists& blocks, const Executor& exec)
 {
     auto block_of = large_vector<Index>(usize(mesh.n_vertices()));
     for_each(exec, blocks.size(),
@@ -86,7 +86,7 @@ IndexLists make_blocks(const PolygonMesh& mesh, const Topology& topology, bool h
         return divide_vertices_of_faces(mesh, topology, exec);
     const Index n = number_of_blocks(mesh.n_vertices());
     IndexLists blocks = consecutive_blocks(mesh.n_vertices(), n);
-    if (part_between(mesh, blocks, exec) <= most_between_blocks)
+    if (fraction_between_blocks(mesh, blocks, exec) <= most_between_blocks)
         return blocks;
     return divide_into_boxes(mesh.vertices, n, exec);
 }
