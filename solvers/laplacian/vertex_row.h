@@ -37,6 +37,7 @@ double visit_row(Kernel kernel, const PolygonMesh& mesh, const Topology& topolog
     return Kernel::averages_mass ? mass / degree : mass;
 }
 
+/// The same for a Laplacian that is a sum over faces.
 template <FaceKernel Kernel, class Entry>
 double visit_row(Kernel, const PolygonMesh& mesh, const Topology& topology, const Points& positions, Index v,
                  Entry&& entry)

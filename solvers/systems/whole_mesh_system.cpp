@@ -132,6 +132,7 @@ WholeMeshSystem::Sizes WholeMeshSystem::assemble(const Points& of_rows, const Ex
             });
             const Point here = of_rows.row(i);
             double diagonal = 0.0;
+            // The sums of the sizes of all terms of the residual, which bound its rounding error.
             Eigen::Array4d size = Eigen::Array4d::Zero();
             Point residual = Point::Zero();
             const double whole_mass = visit(row, [&](auto&& find, Index j, double k) {
@@ -212,6 +213,7 @@ void WholeMeshSystem::keep_exact()
     masses_.resize(moves_.size());
 }
 
+/// Begins a pass from the residual that the matrix has.
 /// @param squared the sum of the squared residuals, each divided by the diagonal entry.
 WholeMeshSystem::PassStart WholeMeshSystem::start_pass(double squared, const Executor& exec)
 {
@@ -261,6 +263,7 @@ void WholeMeshSystem::write_without_row(const Points* before, Points& after, con
     });
 }
 
+/// Sets the time step and its units. A kept matrix of another time step does not count any more.
 void WholeMeshSystem::take_units(double time_step)
 {
     has_matrix_ &= time_step == time_step_;
@@ -312,6 +315,7 @@ WholeMeshSystem::Result WholeMeshSystem::step(const Points& before, double time_
     return solve({sizes.residual.sum(), after, after, &before, false, guess}, stop, after, exec);
 }
 
+/// Lists numbers of vertices by rows.
 /// @param by_rows at least #rows by 3. A result is written only later, so that its memory can be used for V until then.
 void WholeMeshSystem::list_by_rows(const Points& by_vertices, Points& by_rows, const Executor& exec) const
 {
@@ -359,6 +363,7 @@ WholeMeshSystem::Result WholeMeshSystem::solve(const Beginning& beginning, const
     double distance = 0.0;
     bool is_in_rows = beginning.is_in_rows;
     bool is_written = false;
+    // Recomputes the residual of the solution in after_, and begins a pass from it.
     const auto renew = [&] {
         const double renewed = measure(beginning.of_rows, beginning.data, beginning.before != nullptr, exec);
         if (renewed > 0.0)

@@ -66,9 +66,9 @@ class WholeMeshSystem {
         double mass = 0.0;
         double length = 0.0;
     };
-    /// Per column, the sum of squares, each divided by the diagonal entry.
+    /// Two sums of squares per column, each square divided by the diagonal entry: of the rounding errors of the
+    /// residual, and of the residual.
     struct Sizes {
-        /// Per column, the same sum for the rounding errors of the residual.
         Eigen::Array4d rounding;
         Eigen::Array4d residual;
     };
