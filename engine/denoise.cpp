@@ -94,6 +94,9 @@ class Denoising {
     }
 
   private:
+    /// The identity of the run, for a state to resume from or for states that an observer captures; 0 if there is
+    /// neither.
+    /// @throws InputError if the state to resume from has another identity.
     [[nodiscard]] std::uint64_t identify_if_needed(const PolygonMesh& mesh) const
     {
         const FlowState* const resume = control_.resume.get();

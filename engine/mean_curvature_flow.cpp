@@ -75,7 +75,7 @@ class Flow::Session {
         progress_.set_steps(options.steps);
         const double setup = fraction_of_setup(options, control.resume != nullptr ? control.resume->n_steps() : 0);
         progress_.enter(FlowPhase::Cut, 0, 0.0, 0.6 * setup);
-        progress_.expect(8.0);
+        progress_.expect(4.0);
         auto prepared = prepare(mesh, std::move(options), is_observed, control, progress_);
         report.resources.threads = workers_.threads();
         report.seconds.cut = watch.lap();

@@ -46,17 +46,17 @@ DenoisingStepper::DenoisingStepper(const PolygonMesh& mesh, const Topology& topo
                                    double edge_angle, Progress& progress)
     : mesh_(&mesh)
     , open_(cut_open(mesh, topology, motion.feature_edges, progress.exec()))
-    , step_scales_(motion.strength)
+    , strengths_(motion.strength)
     , denoiser_(open_ ? open_->mesh : mesh, open_ ? open_->topology : topology, progress.exec(), edge_angle)
     , positions_(mesh.vertices)
     , loops_(1.0, progress)
 {
     if (motion.direction.kind != MotionDirection::Kind::Any)
         denoiser_.keep_rims();
-    if (open_ && !step_scales_.empty()) {
-        step_scales_.resize(usize(open_->mesh.n_vertices()));
+    if (open_ && !strengths_.empty()) {
+        strengths_.resize(usize(open_->mesh.n_vertices()));
         for (Index h = 0; h < mesh.n_corners(); ++h)
-            step_scales_[open_->mesh.face_vertices[h]] = motion.strength[mesh.face_vertices[h]];
+            strengths_[open_->mesh.face_vertices[h]] = motion.strength[mesh.face_vertices[h]];
     }
 }
 
@@ -71,9 +71,9 @@ void DenoisingStepper::step(const Points& before)
         of_copies.topRows(before.rows()) = before;
         for (Index h = 0; h < mesh_->n_corners(); ++h)
             of_copies.row(open_->mesh.face_vertices[h]) = before.row(mesh_->face_vertices[h]);
-        positions_ = denoiser_.denoise(of_copies, step_scales_, exec).topRows(before.rows());
+        positions_ = denoiser_.denoise(of_copies, strengths_, exec).topRows(before.rows());
     } else {
-        positions_ = denoiser_.denoise(before, step_scales_, exec);
+        positions_ = denoiser_.denoise(before, strengths_, exec);
     }
     if (!noise_)
         noise_ = denoiser_.noise();

@@ -44,7 +44,7 @@ class DenoisingStepper final : public WholeMeshStepper {
     const PolygonMesh* mesh_;
     std::unique_ptr<const CutOpen> open_;
     /// #V of the mesh that is cut open: the fraction of its displacement that each vertex moves by; empty: 1.
-    std::vector<double> step_scales_;
+    std::vector<double> strengths_;
     MeshDenoiser denoiser_;
     Points positions_;
     LoopCount loops_;

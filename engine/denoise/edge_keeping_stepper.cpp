@@ -37,7 +37,7 @@ EdgeKeepingStepper::EdgeKeepingStepper(const PolygonMesh& mesh, const Topology& 
     , topology_(&topology)
     , time_step_(time_step)
     , angle_(edge_angle)
-    , step_scales_(motion.strength)
+    , strengths_(motion.strength)
     , lines_(mesh, topology, motion.feature_edges)
     , diffusion_(diffusion_between(mesh, topology, lines_, progress.exec()))
     , positions_(mesh.vertices)
@@ -57,8 +57,8 @@ void EdgeKeepingStepper::step(const Points& before)
         double mean_area = 0.0;
         for (const Index corner : corners)
             mean_area += area(mesh_->face(topology_->face_of[corner]), before) / static_cast<double>(corners.size());
-        const double step_scale = step_scales_.empty() ? 1.0 : step_scales_[v];
-        const double fraction = step_scale * time_step_ / (time_step_ + short_step * mean_area);
+        const double strength = strengths_.empty() ? 1.0 : strengths_[v];
+        const double fraction = strength * time_step_ / (time_step_ + short_step * mean_area);
         positions_.row(v) = fraction < 1.0
                                 ? lines_.on_line(v, before.row(v) + fraction * (smoothed.row(v) - before.row(v)))
                                 : Point(smoothed.row(v));

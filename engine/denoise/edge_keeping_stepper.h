@@ -34,7 +34,7 @@ class EdgeKeepingStepper final : public WholeMeshStepper {
     double time_step_;
     double angle_;
     /// #V: the fraction of its displacement that each vertex moves by; empty: 1.
-    std::vector<double> step_scales_;
+    std::vector<double> strengths_;
     FeatureLines lines_;
     NormalDiffusion diffusion_;
     Points positions_;

@@ -30,7 +30,7 @@ RimStepper::RimStepper(const PolygonMesh& mesh, const Topology& topology, const 
     , curves_(find_rim_curves(mesh, topology))
     , vertex_normals_(mesh, topology)
     , radius_(radius_of_step(time_step, steps))
-    , step_scales_(motion.strength)
+    , strengths_(motion.strength)
     , positions_(mesh.vertices)
     , loops_(1.0, progress)
 {
@@ -62,7 +62,7 @@ void RimStepper::step(const Points& before)
     positions_ = before;
     for_each(exec, mesh_->n_vertices(), [&](Index v) {
         if (!motions.row(v).isZero(0.0))
-            positions_.row(v) += (step_scales_.empty() ? 1.0 : step_scales_[v]) * motions.row(v);
+            positions_.row(v) += (strengths_.empty() ? 1.0 : strengths_[v]) * motions.row(v);
     });
     loops_.end();
     if (!positions_.allFinite())

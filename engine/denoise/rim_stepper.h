@@ -38,7 +38,7 @@ class RimStepper final : public WholeMeshStepper {
     /// The radius of bumps that a step halves, in units of length.
     double radius_;
     /// #V: the fraction of its displacement that each vertex moves by; empty: 1.
-    std::vector<double> step_scales_;
+    std::vector<double> strengths_;
     Points positions_;
     LoopCount loops_;
 };

@@ -37,7 +37,7 @@ HeatSteps::HeatSteps(PolygonMesh& surface, const FlowOptions& options, Weights w
     const double setup = fraction_of_setup(options);
     progress.set_steps(options.steps);
     progress.enter(FlowPhase::Cut, 0, 0.0, 0.6 * setup);
-    progress.expect(8.0);
+    progress.expect(3.0);
     make_surface_and_plan(surface);
     report.seconds.cut = watch.lap();
     progress.enter(FlowPhase::Analyse, 0, 0.6 * setup, setup);

@@ -14,7 +14,7 @@
 #include "engine/state/transfer.h"
 #include "engine/steppers/heat_stepper.h"
 #include "engine/steppers/make_stepper.h"
-#include "engine/steppers/switching_stepper.h"
+#include "engine/steppers/undecomposed_stepper.h"
 #include "engine/tasks/named.h"
 #include "engine/tasks/parallel_executor.h"
 #include "engine/tasks/stopwatch.h"
@@ -66,7 +66,8 @@ FlowRun::FlowRun(std::unique_ptr<PreparedFlow> prepared, Progress& progress, dou
 {
     const MotionOptions& motion = options().motion;
     make_steppers();
-    vanishing_.emplace(mesh_.mesh(), topology_, options());
+    vanishing_.emplace(mesh_.mesh(), topology_, settings_of(options(), plan().way, mesh_.mesh().vertices).equation,
+                       !std::holds_alternative<ExplicitSteps>(plan().way));
     begin(motion, options().flow == FlowEquation::Conformalized, options().accuracy.largest_update, setup,
           options().steps, reference_ != nullptr);
     free_topology();
@@ -82,7 +83,7 @@ void FlowRun::free_topology()
     topology.twin = std::vector<Index>();
     topology.junctions = std::vector<JunctionLink>();
     // Steps in sub-meshes do not use the topology of the whole mesh.
-    const bool is_whole = takes_whole_mesh(prepared_->plan.way);
+    const bool is_whole = takes_whole_mesh(plan().way);
     const bool needs_normals = options().motion.direction.kind != MotionDirection::Kind::Any;
     if (is_whole || options().report.measures || constraints_->limited.has_value() || needs_normals)
         return;
@@ -124,12 +125,11 @@ void FlowRun::make_steppers()
 void FlowRun::make_stepper_of_flow()
 {
     const PolygonMesh& mesh = mesh_.mesh();
-    const FlowPlan& plan = prepared_->plan;
-    const StepSettings settings = settings_of(options(), plan.way, mesh.vertices);
+    const StepSettings settings = settings_of(options(), plan().way, mesh.vertices);
     std::vector<double>& curvature = prepared_->curvature;
-    stepper_ = ranks_ != nullptr && ranks_->can_share(plan, settings)
-                   ? ranks_->make_stepper(mesh, topology_, plan, settings, std::move(curvature), progress_)
-                   : make_stepper(mesh, topology_, plan.cut, plan.way, settings, std::move(curvature), progress_);
+    stepper_ = ranks_ != nullptr && ranks_->can_share(plan(), settings)
+                   ? ranks_->make_stepper(mesh, topology_, plan(), settings, std::move(curvature), progress_)
+                   : make_stepper(mesh, topology_, plan().cut, plan().way, settings, std::move(curvature), progress_);
 }
 
 void FlowRun::restore(const FlowState& state)
@@ -153,7 +153,7 @@ FlowState FlowRun::capture() const
         throw ComputationError("a flow that was changed between its steps has no state to resume from");
     FlowState state = SurfaceRun::capture();
     state.identity = prepared_->identity;
-    state.approach = approach_of(prepared_->plan.way);
+    state.approach = approach_of(plan().way);
     state.cut = checksum_of(flow_report_.cut.labels);
     if (resume_ != nullptr)
         state.seconds.add_tasks(resume_->seconds);

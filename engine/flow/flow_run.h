@@ -47,6 +47,7 @@ class FlowRun final : public SurfaceRun {
 
   private:
     [[nodiscard]] const FlowOptions& options() const { return prepared_->options; }
+    [[nodiscard]] const FlowPlan& plan() const { return prepared_->plan; }
     void make_steppers();
     void make_stepper_of_flow();
     void require_rows(std::span<const Index> vertices, const Points& to) const;

@@ -76,7 +76,7 @@ DealtMesh dealt_mesh(Unpacker& message)
     dealt.topology.fixed = message.get_all<std::uint8_t>();
     dealt.is_sent = message.get_all<std::uint8_t>();
     dealt.curvature = message.get_all<double>();
-    dealt.step_scales = message.get_all<double>();
+    dealt.strengths = message.get_all<double>();
     dealt.weights = message.get_all<double>();
     return dealt;
 }
@@ -87,7 +87,7 @@ StepSettings DealtMesh::settings() const
     FlowTerms& terms = settings.equation.terms;
     terms.initial = &mesh.vertices;
     terms.weights = weights;
-    terms.step_scales = step_scales;
+    terms.strengths = strengths;
     return settings;
 }
 
@@ -209,7 +209,7 @@ void Dealer::deal(int rank, Packer& message)
     put_rows_of(std::span<const std::uint8_t>(topology_->fixed), vertices, message);
     message.put_all(std::span<const std::uint8_t>(is_sent));
     put_rows_of(std::span<const double>(curvature_), vertices, message);
-    put_rows_of(settings_->equation.terms.step_scales, vertices, message);
+    put_rows_of(settings_->equation.terms.strengths, vertices, message);
     put_rows_of(settings_->equation.terms.weights, vertices, message);
     known_vertices_[rank] = std::move(vertices);
     sent_vertices_[rank] = std::move(own_vertices);

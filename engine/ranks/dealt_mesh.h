@@ -37,9 +37,9 @@ struct DealtMesh {
     WayOfSteps way;
     /// The terms of the equation refer to nothing.
     StepSettings settings_without_arrays;
-    /// Each #V or empty: see FlowTerms::weights and step_scales.
+    /// Each #V or empty: see FlowTerms::weights and strengths.
     std::vector<double> weights;
-    std::vector<double> step_scales;
+    std::vector<double> strengths;
 
     /// The settings, which refer to data of this.
     [[nodiscard]] StepSettings settings() const;

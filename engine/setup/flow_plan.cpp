@@ -157,7 +157,7 @@ StepSettings settings_of(const FlowOptions& options, const WayOfSteps& way, cons
                           .keeps_mass = options.flow == FlowEquation::Linear,
                           .weights = options.motion.attachment_weights,
                           .uniform_weight = options.motion.attachment,
-                          .step_scales = options.motion.strength};
+                          .strengths = options.motion.strength};
     return {.equation = {.laplacian = laplacian_of(options),
                          .filter = filter_of(options, approach_of(way), tolerance_of(way)),
                          .time_step = options.time_step,

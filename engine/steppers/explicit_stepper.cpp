@@ -54,7 +54,7 @@ ExplicitStepper::ExplicitStepper(const PolygonMesh& mesh, const Topology& topolo
     , progress_(&progress)
     , laplacian_(equation.laplacian)
     , time_step_(equation.time_step)
-    , step_scales_(equation.terms.step_scales.begin(), equation.terms.step_scales.end())
+    , strengths_(equation.terms.strengths.begin(), equation.terms.strengths.end())
     , positions_(mesh.vertices)
     , first_limit_(infinity)
     , smallest_limit_(infinity)
@@ -86,7 +86,7 @@ void ExplicitStepper::step(const Points& before)
     // Vᵏ⁺¹ = Vᵏ - s dt Δ(Vᵏ) Vᵏ
     for_each(progress_->counted_loop(), mesh_->n_vertices(), [&](Index v) {
         if (topology_->moves(v))
-            positions_.row(v) = before.row(v) - (step_scales_.empty() ? 1.0 : step_scales_[v]) * time_step_ *
+            positions_.row(v) = before.row(v) - (strengths_.empty() ? 1.0 : strengths_[v]) * time_step_ *
                                                     mean_curvature_vector(*mesh_, *topology_, before, laplacian_, v);
     });
     if (!positions_.allFinite())

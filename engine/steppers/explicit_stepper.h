@@ -49,7 +49,7 @@ class ExplicitStepper final : public Stepper {
     ScaledLaplacian laplacian_;
     double time_step_;
     /// #V: s, which scales dt; empty: 1.
-    std::vector<double> step_scales_;
+    std::vector<double> strengths_;
     Points positions_;
     /// largest_explicit_step before the first step, and its smallest value so far.
     double first_limit_;

@@ -7,7 +7,7 @@
 #include "engine/steppers/schur_stepper.h"
 #include "engine/steppers/sweep_stepper.h"
 #include "engine/steppers/switching_stepper.h"
-#include "partition/cut/cut_into.h"
+#include "engine/steppers/undecomposed_stepper.h"
 
 namespace seamflow {
 
@@ -39,14 +39,9 @@ struct StepperMaker {
         return std::make_unique<ConjugateGradientStepper>(mesh, topology, settings, gradients.stop, progress);
     }
 
-    /// A single sub-mesh has no Γ, on which a sweep and converged steps could differ. Only the latter keep the factor
-    /// of a linear flow, and have symmetric equations alone.
     std::unique_ptr<Stepper> operator()(const UndecomposedSteps& undecomposed)
     {
-        if (settings.equation.is_linear() || undecomposed.tolerance)
-            return std::make_unique<SchurStepper>(mesh, topology, cut, settings, stop_without_interface, progress);
-        return std::make_unique<SweepStepper>(mesh, topology, cut, settings, SweepSteps(), std::vector<double>(),
-                                              progress);
+        return make_undecomposed_stepper(mesh, topology, settings, progress, undecomposed.tolerance.has_value());
     }
 
     std::unique_ptr<Stepper> operator()(const ExplicitSteps&)
@@ -62,12 +57,6 @@ std::unique_ptr<Stepper> make_stepper(const PolygonMesh& mesh, const Topology& t
                                       std::vector<double> curvature, Progress& progress)
 {
     return std::visit(StepperMaker{mesh, topology, cut, settings, std::move(curvature), progress}, way);
-}
-
-std::unique_ptr<Stepper> make_undecomposed_stepper(const PolygonMesh& mesh, const Topology& topology,
-                                                   const StepSettings& settings, Progress& progress)
-{
-    return make_stepper(mesh, topology, cut_into(mesh, topology, 1), UndecomposedSteps(), settings, {}, progress);
 }
 
 }  // namespace seamflow

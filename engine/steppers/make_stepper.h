@@ -21,9 +21,4 @@ std::unique_ptr<Stepper> make_stepper(const PolygonMesh& mesh, const Topology& t
                                       const WayOfSteps& way, const StepSettings& settings,
                                       std::vector<double> curvature, Progress& progress);
 
-/// Makes a stepper for backward Euler steps of the whole mesh by one factorisation.
-/// @throws as make_stepper.
-std::unique_ptr<Stepper> make_undecomposed_stepper(const PolygonMesh& mesh, const Topology& topology,
-                                                   const StepSettings& settings, Progress& progress);
-
 }  // namespace seamflow

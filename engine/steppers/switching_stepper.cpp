@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "engine/steppers/make_stepper.h"
+#include "engine/steppers/undecomposed_stepper.h"
 #include "partition/errors.h"
 
 namespace seamflow {

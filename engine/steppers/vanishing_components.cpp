@@ -93,31 +93,30 @@ bool is_smaller(const Points& positions, std::span<const Index> vertices, double
 
 }  // namespace
 
-VanishingComponents::VanishingComponents(const PolygonMesh& mesh, const Topology& topology, const FlowOptions& options)
+VanishingComponents::VanishingComponents(const PolygonMesh& mesh, const Topology& topology,
+                                         const StepEquation& equation, bool is_implicit)
     : mesh_(mesh)
     , topology_(topology)
-    , options_(options)
+    , equation_(equation)
 {
     // The Laplacian with uniform weights does not depend on sizes.
-    if (options.scheme == Scheme::BackwardEuler && options.laplacian != Laplacian::Uniform)
-        extent_ = std::sqrt(options.time_step / small_by_steps);
+    if (is_implicit && equation.laplacian.kind != Laplacian::Uniform)
+        extent_ = std::sqrt(equation.time_step / small_by_steps);
     // The matrix of a linear flow is that of the initial sizes in all steps, and keeps enough digits of its masses.
-    if (options.flow == FlowEquation::Linear && extent_ > 0.0)
+    if (equation.is_linear() && extent_ > 0.0)
         most_ = find_small(mesh.vertices, std::exchange(extent_, 0.0)).size();
-    is_attached_ = attaches(options.motion);
-    has_kept_lengths_ =
-        options.flow == FlowEquation::Conformalized && traits_of(options.laplacian).divisor == Divisor::EdgeLengths;
-    if (extent_ > 0.0 && (is_attached_ || has_kept_lengths_)) {
+    has_kept_lengths_ = equation.terms.keeps_stiffness && !equation.is_linear() &&
+                        traits_of(equation.laplacian).divisor == Divisor::EdgeLengths;
+    if (extent_ > 0.0 && (equation.terms.attaches() || has_kept_lengths_)) {
         initial_ = mesh.vertices;
-        weights_ = options.motion.attachment_weights;
+        weights_.assign(equation.terms.weights.begin(), equation.terms.weights.end());
     }
 }
 
 /// The vertices of the components in which no vertex is fixed or has a strength below `weak`.
 IndexLists VanishingComponents::free_components() const
 {
-    const std::vector<double>& strength = options_.motion.strength;
-    const auto is_fixed = [&](Index v) { return !topology_.moves(v) || (!strength.empty() && strength[v] < weak); };
+    const auto is_fixed = [&](Index v) { return !topology_.moves(v) || equation_.terms.strength(v) < weak; };
     IndexLists free;
     const IndexLists all = surface_components(mesh_, run_in_parallel).vertices();
     for (Index c = 0; c < all.size(); ++c)
@@ -145,7 +144,7 @@ void VanishingComponents::attach(std::span<const Index> vertices, std::span<cons
     if (initial_.rows() == 0)
         return;
     if (weights_.empty())
-        weights_.assign(usize(mesh_.n_vertices()), options_.motion.attachment);
+        weights_.assign(usize(mesh_.n_vertices()), equation_.terms.uniform_weight);
     for (std::size_t i = 0; i < vertices.size(); ++i)
         weights_[vertices[i]] = weights[i];
 }
@@ -153,7 +152,7 @@ void VanishingComponents::attach(std::span<const Index> vertices, std::span<cons
 void VanishingComponents::set_reference_vertices(std::span<const Index> vertices, const Points& to)
 {
     // In a mean curvature flow, an attachment keeps its initial positions.
-    if (initial_.rows() > 0 && options_.flow != FlowEquation::MeanCurvature)
+    if (initial_.rows() > 0 && equation_.terms.keeps_stiffness)
         move_rows(vertices, to, initial_);
 }
 
@@ -201,8 +200,8 @@ VanishingComponents::Pose VanishingComponents::pose(std::span<const Index> verti
 /// The weight w of the attachment, multiplied by the strength.
 double VanishingComponents::weight(Index v) const
 {
-    const std::vector<double>& strength = options_.motion.strength;
-    return (weights_.empty() ? options_.motion.attachment : weights_[v]) * (strength.empty() ? 1.0 : strength[v]);
+    const FlowTerms& terms = equation_.terms;
+    return (weights_.empty() ? terms.uniform_weight : weights_[v]) * terms.strength(v);
 }
 
 /// Brings a component back from its pose after the step.
@@ -214,14 +213,14 @@ void VanishingComponents::bring_back(std::span<const Index> vertices, const Pose
     // The attachment: dt times the mean weight, and the weighted mean of the initial positions.
     double pull = 0.0;
     Point target = pose.centre;
-    if (is_attached_) {
+    if (equation_.terms.attaches()) {
         double total = 0.0;
         Point towards = Point::Zero();
         for (const Index v : vertices) {
             total += weight(v);
             towards += weight(v) * (initial_.row(v) - pose.centre);
         }
-        pull = options_.time_step * total / static_cast<double>(vertices.size());
+        pull = equation_.time_step * total / static_cast<double>(vertices.size());
         if (total > 0.0)
             target += towards / total;
     }

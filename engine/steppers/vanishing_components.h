@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "engine/options/flow_options.h"
+#include "engine/setup/step_settings.h"
 #include "engine/steppers/stepper.h"
 #include "partition/index_lists.h"
 #include "partition/polygon_mesh.h"
@@ -21,9 +21,11 @@ namespace seamflow {
 /// point, and does not move.
 class VanishingComponents {
   public:
-    /// @param mesh in its state before the first step, to which an attachment pulls. The mesh, the topology and the
-    /// options must outlive this.
-    VanishingComponents(const PolygonMesh& mesh, const Topology& topology, const FlowOptions& options);
+    /// @param mesh in its state before the first step, to which an attachment pulls. The mesh, the topology, and the
+    /// data to which the equation refers must outlive this.
+    /// @param is_implicit whether steps are backward Euler steps: others do not shrink components to points.
+    VanishingComponents(const PolygonMesh& mesh, const Topology& topology, const StepEquation& equation,
+                        bool is_implicit);
 
     /// Takes one step. @throws as Stepper::step.
     void step(Stepper& stepper, const Points& before);
@@ -56,8 +58,7 @@ class VanishingComponents {
 
     const PolygonMesh& mesh_;
     const Topology& topology_;
-    const FlowOptions& options_;
-    bool is_attached_ = false;
+    StepEquation equation_;
     /// Whether the K of steps depends on initial lengths, not on present ones.
     bool has_kept_lengths_ = false;
     /// #V by 3: the initial positions; empty if neither K is kept nor an attachment exists.

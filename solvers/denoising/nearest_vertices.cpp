@@ -9,7 +9,7 @@ std::span<const std::pair<double, Index>> NearestVertices::find(const IndexLists
 {
     // Whole rings are searched until 1.5 times `count` vertices are found: the nearest vertices need not be in the
     // first rings.
-    clear(8 * count);
+    clear(4 * count);
     insert(centre);
     std::size_t first = 0;
     while (first < found_.size() && 2 * found_.size() < 3 * count)
@@ -25,21 +25,23 @@ std::span<const std::pair<double, Index>> NearestVertices::find(const IndexLists
     return nearest_;
 }
 
-void NearestVertices::clear(std::size_t n_slots)
+void NearestVertices::clear(std::size_t n)
 {
     for (const std::size_t slot : used_)
         slots_[slot] = -1;
     used_.clear();
     found_.clear();
-    if (slots_.size() < n_slots)
-        slots_.assign(n_slots, -1);
+    most_ = n;
+    // Half of the slots stay empty.
+    if (slots_.size() < 2 * n)
+        slots_.assign(2 * n, -1);
 }
 
 void NearestVertices::insert(Index v)
 {
     constexpr std::size_t multiplier = 2654435761U;
-    // Half of the slots stay empty. Further vertices of rings around hubs, vertices of very many edges, are left out.
-    if (2 * found_.size() >= slots_.size())
+    // Further vertices of rings around hubs, vertices of very many edges, are left out.
+    if (found_.size() >= most_)
         return;
     std::size_t slot = static_cast<std::size_t>(v) * multiplier % slots_.size();
     while (slots_[slot] >= 0 && slots_[slot] != v)

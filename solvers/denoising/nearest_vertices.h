@@ -21,9 +21,9 @@ class NearestVertices {
                                                    std::size_t count);
 
   private:
-    /// Empties the table, and enlarges it to at least n_slots.
-    void clear(std::size_t n_slots);
-    /// Adds a vertex that was not found before; none once half of the slots are used.
+    /// Empties the table, and makes room for n vertices.
+    void clear(std::size_t n);
+    /// Adds a vertex that was not found before, unless most_ vertices are found.
     void insert(Index v);
 
     /// The vertices found, ring by ring.
@@ -32,6 +32,8 @@ class NearestVertices {
     std::vector<Index> slots_;
     /// The slots of found_.
     std::vector<std::size_t> used_;
+    /// The most vertices that a search finds: it does not depend on searches before.
+    std::size_t most_ = 0;
     std::vector<std::pair<double, Index>> nearest_;
 };
 

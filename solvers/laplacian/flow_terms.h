@@ -21,10 +21,10 @@ struct FlowTerms {
     double uniform_weight = 0.0;
     /// The step scale s of each vertex (#V), from 0 to 1: M / s replaces M, and w s replaces w, so that the time step
     /// is s dt there. A vertex with s = 0 is fixed. Empty: 1 everywhere.
-    std::span<const double> step_scales = {};
+    std::span<const double> strengths = {};
 
     [[nodiscard]] bool attaches() const { return !weights.empty() || uniform_weight > 0.0; }
-    [[nodiscard]] double step_scale(Index v) const { return step_scales.empty() ? 1.0 : step_scales[v]; }
+    [[nodiscard]] double strength(Index v) const { return strengths.empty() ? 1.0 : strengths[v]; }
     [[nodiscard]] double weight(Index v) const { return weights.empty() ? uniform_weight : weights[v]; }
 };
 

@@ -69,8 +69,8 @@ SubMeshSystem::Assembled GeneralSystem::assemble(const Points& positions, const 
     // (I + dt Δ + dt w) Vᵏ⁺¹ = Vᵏ + dt w V⁰, except on Γ and where vertices are fixed
     std::fill(values_.begin(), values_.end(), 0.0);
     laplacian_->add(positions, time_step, slots_, values_);
-    for (std::size_t slot = 0; !screening_.step_scales.empty() && slot < pattern_.rows.size(); ++slot)
-        values_[slot] *= screening_.step_scales[usize(pattern_.rows[slot])];
+    for (std::size_t slot = 0; !screening_.strengths.empty() && slot < pattern_.rows.size(); ++slot)
+        values_[slot] *= screening_.strengths[usize(pattern_.rows[slot])];
     for (Index v = 0; v < sub_mesh_->n_vertices; ++v) {
         if (row_of_[v] != Row::Interface)
             diagonal(v) += 1.0;

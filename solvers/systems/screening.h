@@ -15,11 +15,11 @@ struct Screening {
     /// #own by 3: V⁰.
     Points initial = Points(0, 3);
     /// Per own vertex: s. Empty: 1 everywhere.
-    std::vector<double> step_scales = {};
+    std::vector<double> strengths = {};
 
     [[nodiscard]] bool exists() const { return !weights.empty(); }
-    [[nodiscard]] double step_scale(Index v) const { return step_scales.empty() ? 1.0 : step_scales[v]; }
-    [[nodiscard]] double weight(Index v) const { return exists() ? weights[v] * step_scale(v) : 0.0; }
+    [[nodiscard]] double strength(Index v) const { return strengths.empty() ? 1.0 : strengths[v]; }
+    [[nodiscard]] double weight(Index v) const { return exists() ? weights[v] * strength(v) : 0.0; }
 };
 
 /// The attachment and the step scales of a sub-mesh.
@@ -27,8 +27,8 @@ struct Screening {
 inline Screening make_screening(const FlowTerms& terms, std::span<const Index> own)
 {
     Screening screening;
-    for (const Index v : terms.step_scales.empty() ? std::span<const Index>() : own)
-        screening.step_scales.push_back(terms.step_scale(v));
+    for (const Index v : terms.strengths.empty() ? std::span<const Index>() : own)
+        screening.strengths.push_back(terms.strength(v));
     if (!terms.attaches())
         return screening;
     screening.initial = rows_of(*terms.initial, own);

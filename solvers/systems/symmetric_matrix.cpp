@@ -154,7 +154,7 @@ std::span<double> SymmetricMatrix::fill(const Points& positions, double time_ste
             workspace.values[diagonal_slot(u)] = workspace.diagonal[v];
             continue;
         }
-        workspace.mass[v] /= screening.step_scale(v);
+        workspace.mass[v] /= screening.strength(v);
         workspace.values[diagonal_slot(u)] =
             workspace.mass[v] * (1.0 + time_step * screening.weight(v)) + workspace.diagonal[v];
     }

@@ -150,7 +150,7 @@ WholeMeshSystem::Sizes WholeMeshSystem::assemble(const Points& of_rows, const Ex
                 residual -= share;
                 size.head<3>() += share.array().abs().transpose();
             });
-            const double mass = whole_mass / screening_.step_scale(i);
+            const double mass = whole_mass / screening_.strength(i);
             if (!masses_.empty())
                 masses_[i] = units_.mass * mass;
             diagonal += units_.mass * mass * (1.0 + screening(i));
