@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include "partition/errors.h"
-#include "partition/formats/index_files.h"
 #include "partition/io/input_position.h"
 #include "samples/files/output_files.h"
 
@@ -103,20 +102,6 @@ void require_faces(const std::filesystem::path& path, std::int64_t n_faces, cons
             : fmt::format("{} cannot be used (the first: {})", counted(left_out.faces_left_out.size(), "face", "faces"),
                           left_out.messages.front());
     throw InputError(fmt::format("{}: has no faces: {}", path.string(), reason));
-}
-
-std::vector<Index> labels_of_faces(const std::filesystem::path& path, Index n_faces, const std::vector<Index>& left_out)
-{
-    std::vector<Index> labels = read_labels(path, n_faces + static_cast<Index>(left_out.size()));
-    auto next = left_out.begin();
-    Index f = 0;
-    std::erase_if(labels, [&](Index) {
-        const bool is_left_out = next != left_out.end() && *next == f;
-        next += is_left_out ? 1 : 0;
-        ++f;
-        return is_left_out;
-    });
-    return labels;
 }
 
 }  // namespace seamflow

@@ -62,10 +62,4 @@ class MeshOutput {
 /// @throws InputError
 void require_faces(const std::filesystem::path& path, std::int64_t n_faces, const FaultLog& left_out = {});
 
-/// The labels of the faces that flow.
-/// @param left_out ascending: the numbers in the file of the other faces, which have labels, too.
-/// @throws InputError (see read_labels).
-std::vector<Index> labels_of_faces(const std::filesystem::path& path, Index n_faces,
-                                   const std::vector<Index>& left_out);
-
 }  // namespace seamflow
