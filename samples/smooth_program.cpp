@@ -150,31 +150,6 @@ MeshFile read_input(SmoothCommand& command, FaultLog& left_out, const Stopwatch&
     return file;
 }
 
-/// Remarks on what of the input file is not in the result, or no longer there.
-std::vector<std::string> remarks_on_input(const SmoothCommand& command, const MeshOutput& output,
-                                          const FaultLog& left_out, const Executor& exec)
-{
-    const bool joined = !command.options.report.keep_gaps;
-    std::vector<std::string> remarks = output.remarks_on_losses(joined, exec);
-    if (left_out.count > 0)
-        remarks.push_back(output.remark_on_faces(left_out, joined));
-    std::error_code ignored;
-    if (std::filesystem::equivalent(command.input, command.output, ignored))
-        remarks.push_back("The result has replaced the input, in one go when it was complete.");
-    return remarks;
-}
-
-/// What --every-step writes; empty without it.
-/// @throws OutputError for a mesh that its format cannot hold.
-std::optional<MeshOutput> output_of_steps(const SmoothCommand& command, const MeshFile& input)
-{
-    if (!command.every_step)
-        return {};
-    MeshOutput steps(command.every_step->path(1), input);
-    steps.require_storable();
-    return steps;
-}
-
 /// Reads, flows and writes.
 /// @param run holds the command line.
 ExitStatus run(SmoothCommand& command, RunRecord& run, RankGroup* ranks)
@@ -188,8 +163,11 @@ ExitStatus run(SmoothCommand& command, RunRecord& run, RankGroup* ranks)
     MeshFile file = read_input(command, left_out, whole, run, exec, out);
     const MeshOutput output(command.output, file);
     output.require_storable();
-    const std::optional<MeshOutput> steps = output_of_steps(command, file);
-    const std::vector<std::string> losses = remarks_on_input(command, output, left_out, exec);
+    std::optional<MeshOutput> steps;
+    if (command.every_step)
+        steps.emplace(command.every_step->path(1), file).require_storable();
+    const std::vector<std::string> losses =
+        output.remarks_on_input(command.input, left_out, !command.options.report.keep_gaps, exec);
     std::optional<PageFlow> page = make_page(command, file, left_out.faces_left_out);
     std::optional<SurfaceChangeMeter> change;
     if (!command.quiet || !command.report.empty() || !command.html.empty())

@@ -1,6 +1,7 @@
 #include "samples/files/mesh_results.h"
 
 #include <algorithm>
+#include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
@@ -90,6 +91,18 @@ std::string MeshOutput::remark_on_faces(const FaultLog& faults, bool joined) con
                             n_rows == 1 ? "1 row has" : fmt::format("{} rows have", n_rows));
     return fmt::format("{}; the result {} (the first: {}; --strict refuses such files).", text,
                        stays ? "keeps all this unchanged" : "leaves all this out", faults.messages.front());
+}
+
+std::vector<std::string> MeshOutput::remarks_on_input(const std::filesystem::path& input, const FaultLog& left_out,
+                                                      bool joined, const Executor& exec) const
+{
+    std::vector<std::string> remarks = remarks_on_losses(joined, exec);
+    if (left_out.count > 0)
+        remarks.push_back(remark_on_faces(left_out, joined));
+    std::error_code ignored;
+    if (std::filesystem::equivalent(input, path_, ignored))
+        remarks.push_back("The result has replaced the input, in one go when it was complete.");
+    return remarks;
 }
 
 void require_faces(const std::filesystem::path& path, std::int64_t n_faces, const FaultLog& left_out)

@@ -49,6 +49,12 @@ class MeshOutput {
     /// @param joined see remarks_on_losses.
     [[nodiscard]] std::string remark_on_faces(const FaultLog& faults, bool joined) const;
 
+    /// Remarks on what of the input is not in the file, or is replaced by it.
+    /// @param input the path of the input. @param left_out see remark_on_faces. @param joined see remarks_on_losses.
+    [[nodiscard]] std::vector<std::string> remarks_on_input(const std::filesystem::path& input,
+                                                            const FaultLog& left_out, bool joined,
+                                                            const Executor& exec = run_serially) const;
+
   private:
     [[nodiscard]] FileFields colours(const Executor& exec) const;
 

@@ -218,7 +218,7 @@ FileColours read_ply_colours(const std::filesystem::path& path, std::string_view
     TextureImages images(path);
     if (const std::string image = images.data_url(name); !image.empty()) {
         colours.materials.push_back({.image = image});
-        colours.material_of_face.assign(usize(mesh.n_faces()), 0);
+        colours.material_of_face.assign(mesh.n_faces(), 0);
     } else {
         colours.places.clear();
         colours.place_of_corner.clear();
