@@ -16,13 +16,10 @@ set(SEAMFLOW_HEADERS
     engine/options/approach.h
     engine/options/flow_control.h
     engine/options/flow_options.h
-    engine/options/amount.h
     engine/options/motion_options.h
     engine/measure/flow_report.h
     engine/measure/run_report.h
-    engine/ranks/mpi_transport.h
     engine/ranks/rank_group.h
-    engine/ranks/thread_transport.h
     engine/ranks/transport.h
     engine/tasks/schedule.h
     engine/setup/presets.h
@@ -44,7 +41,6 @@ set(SEAMFLOW_HEADERS
     partition/openmesh.h
     partition/polygon_mesh.h
     partition/remark.h
-    partition/vector_area.h
     partition/version.h
     solvers/conditions/robin_edge.h
     solvers/direct/factorisation.h

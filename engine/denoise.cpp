@@ -46,7 +46,8 @@ DenoiseOptions resolved(const DenoiseOptions& options, const PolygonMesh& mesh, 
     return own;
 }
 
-/// When vertices at junctions would move; empty if they do, or are to stay.
+/// The condition with which vertices at junctions would move, for a remark; empty if they move, or if the options hold
+/// them.
 std::string_view need_of_junctions(const DenoiseOptions& options)
 {
     if (options.motion.junctions == Junctions::Hold)
@@ -57,34 +58,35 @@ std::string_view need_of_junctions(const DenoiseOptions& options)
     return options.motion.direction.kind == MotionDirection::Kind::Normal ? "In any direction but normals" : "";
 }
 
-/// A call, on its own threads.
+/// A call of denoise(), on its own threads.
 class Denoising {
   public:
-    Denoising(PolygonMesh& mesh, DenoiseOptions options, const StepObserver& on_step, const FlowControl& control)
+    Denoising(DenoiseOptions options, const StepObserver& on_step, const FlowControl& control)
         : options_(std::move(options))
         , on_step_(on_step)
         , control_(control)
         , progress_(control)
-        , mesh_(mesh)
     {
     }
 
-    void run(DenoiseReport& report)
+    void run(PolygonMesh& mesh, DenoiseReport& report)
     {
         Stopwatch watch;
         const int n_taken = control_.resume != nullptr ? control_.resume->n_steps() : 0;
         const double setup = fraction_of_setup(options_.steps - n_taken);
         progress_.set_steps(options_.steps);
         progress_.enter(FlowPhase::Cut, 0, 0.0, 0.6 * setup);
-        require_valid(mesh_.mesh(), progress_.exec());
-        const std::uint64_t identity = identify_if_needed();
+        FlowingMesh flowing(mesh);
+        require_valid(flowing.mesh(), progress_.exec());
+        const std::uint64_t identity = identify_if_needed(flowing.mesh());
         const std::string_view need = need_of_junctions(options_);
         if (!need.empty())
             options_.motion.junctions = Junctions::Hold;
-        const Surface surface = make_surface(mesh_, options_.motion, {}, progress_);
+        auto [surface, motion] = make_surface(std::move(flowing), std::move(options_.motion), {}, progress_);
+        options_.motion = std::move(motion);
         begin_report(surface, need, report);
         report.seconds.cut = watch.lap();
-        DenoiseRun run(mesh_, surface, options_, identity, setup, progress_, report, control_);
+        DenoiseRun run(surface, options_, identity, setup, progress_, report, control_);
         for (auto step = static_cast<int>(report.steps.size()); step < options_.steps; ++step)
             run.take_step(on_step_);
         progress_.finish();
@@ -92,20 +94,21 @@ class Denoising {
     }
 
   private:
-    [[nodiscard]] std::uint64_t identify_if_needed() const
+    [[nodiscard]] std::uint64_t identify_if_needed(const PolygonMesh& mesh) const
     {
         const FlowState* const resume = control_.resume.get();
         if (resume == nullptr && !on_step_)
             return 0;
-        const std::uint64_t identity = identify(mesh_.mesh(), options_);
+        const std::uint64_t identity = identify(mesh, options_);
         if (resume != nullptr)
             require_identity(*resume, identity);
         return identity;
     }
 
+    /// Fills in the report on the mesh, and the remarks on its surface. @param need see need_of_junctions.
     void begin_report(const Surface& surface, std::string_view need, DenoiseReport& report)
     {
-        report.mesh = report_on(surface, mesh_, options_.motion.strength);
+        report.mesh = report_on(surface, options_.motion.strength);
         if (const SmoothingAmount* const amount = amount_of(options_.method))
             report.time_step = amount->time_step;
         report.choices = surface.choices;
@@ -120,7 +123,6 @@ class Denoising {
     const StepObserver& on_step_;
     const FlowControl& control_;
     Progress progress_;
-    FlowingMesh mesh_;
 };
 
 }  // namespace
@@ -137,7 +139,7 @@ DenoiseReport denoise(PolygonMesh& mesh, const DenoiseOptions& options, const St
     workers.execute([&] {
         std::vector<Remark> remarks;
         DenoiseOptions own = resolved(options, mesh, remarks);
-        Denoising(mesh, std::move(own), on_step, control).run(report);
+        Denoising(std::move(own), on_step, control).run(mesh, report);
         report.remarks.insert(report.remarks.begin(), remarks.begin(), remarks.end());
     });
     return report;

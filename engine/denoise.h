@@ -14,8 +14,7 @@ namespace seamflow {
 /// @param mesh its positions are moved; after an exception they are those of the last complete step.
 /// @param on_step called after each step.
 /// @param control reports progress, stops the steps, or resumes them from an earlier one: `mesh` is then as it was
-/// before
-///        the first step, and the report covers all steps. Ranks do not share these steps.
+///        before the first step, and the report covers all steps. Ranks do not share these steps.
 /// @throws InputError for a mesh that cannot be used, OptionError for options outside their limits, InputError for a
 ///         state to resume from that belongs to another mesh or other options; ComputationError, naming the step, for a
 ///         result that is not finite; Cancelled if control.stop was requested and work was left; std::bad_alloc.

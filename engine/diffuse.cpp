@@ -30,8 +30,8 @@ namespace seamflow {
 
 namespace {
 
-/// The time of one step, in squared diagonals of the bounding box, after which X fulfils K X = 0 but for rounding, so
-/// that only the vertices with data determine it.
+/// The time of one step, in squared diagonals of the bounding box, after which K X = 0 up to rounding: only the
+/// vertices with data then determine X.
 constexpr double time_to_rest = 1e6;
 
 /// The fraction of the wanted width by which the width that was reached may differ without a remark.
@@ -41,8 +41,8 @@ constexpr double most_missed_width = 0.25;
 constexpr double narrowest_width = 4.0;
 constexpr int enough_steps = 10;
 
-/// A mesh with the same vertices, and the faces whose vertices all have data, without faces that have no area; and the
-/// labels of these faces, if there are labels.
+/// A mesh with the same vertices, and the faces whose vertices all have data, without unusable faces (see is_unusable).
+/// @param labels one per face, or empty: those of the remaining faces are kept.
 PolygonMesh surface_of(const PolygonMesh& mesh, const FieldGroup& group, Laplacian laplacian,
                        std::vector<Index>& labels)
 {
@@ -69,11 +69,13 @@ class SeamsOfFields {
             weld_ = weld(mesh, make_topology(mesh), motion.weld->value);
     }
 
+    /// Sets these means in the columns of a group, and marks the vertices that have got one as vertices with data.
     void complete(FieldGroup& group, Eigen::MatrixXd& fields) const
     {
         if (!weld_)
             return;
         const std::vector<std::uint8_t> lacked = group.lacks;
+        // At representatives: the number of joined vertices that have data.
         std::vector<Index> n(lacked.size(), 0);
         for (std::size_t v = 0; v < lacked.size(); ++v)
             n[usize(weld_->representative[v])] += lacked[v] == 0 ? 1 : 0;
@@ -91,7 +93,7 @@ class SeamsOfFields {
         }
     }
 
-    /// Whether a vertex is connected by faces with a vertex that has data.
+    /// #V: 1 if the vertex has data, or is connected by faces with a vertex that has data.
     [[nodiscard]] std::vector<std::uint8_t> reached_from_data(const FieldGroup& group, const Executor& exec) const
     {
         const SurfaceComponents components = surface_components(weld_ ? weld_->mesh : mesh_, exec);
@@ -139,11 +141,12 @@ PolygonMesh surface_for_extension(const PolygonMesh& mesh, const FieldGroup& gro
 constexpr Eigen::Index enough_solutions = 64;
 constexpr Index most_vertices_of_factor = 1'500'000;
 
-/// Chooses how many columns are solved for at a time, if the options leave it open.
-/// @param n_solutions the number of solutions with one factorisation.
+/// Chooses one factorisation of the whole surface, with which many columns are solved for at a time, if the options
+/// leave the approach open and it pays.
+/// @param n_solutions the number of solutions with one factorisation. @param options receive the choice.
 /// @returns whether the whole surface is factorised.
-bool choose_for_columns(const PolygonMesh& surface, Eigen::Index n_solutions, const FlowControl& control,
-                        FlowOptions& options)
+bool choose_whole_factorisation(const PolygonMesh& surface, Eigen::Index n_solutions, const FlowControl& control,
+                                FlowOptions& options)
 {
     if (options.accuracy.approach != Approach::Automatic || control.ranks != nullptr ||
         options.resources.memory_limit || !first_set(options, concern::sub_meshes | concern::factors).empty() ||
@@ -178,7 +181,9 @@ Eigen::RowVectorXd means_of(const Eigen::MatrixXd& fields, const FieldGroup& gro
     return means;
 }
 
-/// Computes the harmonic extension by one long step.
+/// Computes the harmonic extension of the data by one long step.
+/// @param group its `lacks` becomes 0 at vertices that got data.
+/// @param fields #V by n: the columns of the group receive the extension.
 /// @param filled #V: receives 1 at vertices that got data. @returns the report of that step.
 FlowReport extend(const PolygonMesh& mesh, FieldGroup& group, const FlowOptions& options, Weights weights,
                   const FlowControl& control, const Executor& exec, Eigen::MatrixXd& fields,
@@ -206,7 +211,7 @@ FlowReport extend(const PolygonMesh& mesh, FieldGroup& group, const FlowOptions&
             own.motion.fixed_vertices.push_back(v);
     // The means are subtracted first, because M pulls towards 0.
     const Eigen::RowVectorXd means = means_of(fields, group);
-    choose_for_columns(surface, std::ssize(group.columns), control, own);
+    choose_whole_factorisation(surface, std::ssize(group.columns), control, own);
     HeatEquation heat(std::move(surface), own, weights, control);
     const std::vector<ValueRange> ranges = ranges_of(fields, group, exec);
     std::vector<ValueRange> about_means = ranges;
@@ -276,7 +281,7 @@ void remark_on_unfilled(const Eigen::VectorXd& filled, std::vector<Remark>& rema
                                         n == 1 ? "stays" : "stay", n == 1 ? "it" : "them")}});
 }
 
-/// Takes steps with the columns of a group.
+/// Takes steps with the columns of a group. With keep_edges, K is weighed anew before each step.
 void take_steps(HeatEquation& heat, const FieldOptions& field_options, int steps, ScaledFields& scaled)
 {
     if (!field_options.keep_edges)
@@ -330,7 +335,7 @@ FieldReport diffuse(const PolygonMesh& mesh, Eigen::MatrixXd& fields, const Flow
         std::ranges::transform(lacking, group.lacks, lacking.begin(), std::bit_or<>());
         const bool measures = field_options.fwhm && !report.fwhm && options.steps > 0;
         own.steps = options.steps * (n_blocks(std::ssize(group.columns)) + (measures ? 1 : 0));
-        const bool is_whole = choose_for_columns(
+        const bool is_whole = choose_whole_factorisation(
             surface, std::ssize(group.columns) * (field_options.keep_edges ? 1 : options.steps), own_control, own);
         HeatEquation heat(std::move(surface), own, weights, own_control);
         const std::vector<ValueRange> ranges = ranges_of(fields, group, exec);

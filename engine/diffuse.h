@@ -28,21 +28,21 @@ struct FieldReport {
     /// given data.
     Index without_data = 0;
     Index filled = 0;
-    /// For the user: those of the flow.
+    /// Remarks for the user: the same as in `flow`.
     std::vector<Remark> remarks;
 };
 
 /// Lets fields on a surface diffuse by its heat equation, (M + dt K) Xᵏ⁺¹ = M Xᵏ in each step; the surface does not
 /// move. The matrix is factorised once for all steps and columns, except with FieldOptions::keep_edges. The integral Σ
 /// M X of each column is constant, with a free boundary and without fixed vertices. With a plain filter no value leaves
-/// the range that its column has before the first step: weights of K are at least 0 (see FieldOptions::weights; those
-/// of Δ_F and Δ_U always are).
+/// the range that its column has before the first step: weights of K are at least 0 (see FieldOptions::weights; the
+/// weights of Δ_F and Δ_U, Fujiwara and Uniform, always are).
 /// @param fields #V by n: values at the vertices; NaN is no data. Vertices without data take no part: the surface of a
 ///        column consists of the faces whose vertices all have data, without faces that have no area. Vertices that are
 ///        fixed, have no such face, or no row in the Laplacian, keep their values; vertices joined along seams get one
 ///        value.
 /// @param options of the flow: amount, steps, sub-meshes, threads. AccuracyOptions::tolerance is 1e-8 if it is not set.
-///        MotionOptions::boundary is ignored; a Laplacian that is set here replaces that of field_options.
+///        MotionOptions::boundary is ignored; a Laplacian that is set here must be that of field_options.
 /// @throws InputError for a mesh or fields that cannot be used: another number of rows, infinite values; OptionError
 ///         for options that fields do not have: sweeps, explicit steps, an attachment, limits, rescaling; as
 ///         mean_curvature_flow. The fields are then unchanged.

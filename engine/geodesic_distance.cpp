@@ -26,6 +26,7 @@ namespace seamflow {
 
 namespace {
 
+/// @throws InputError for no sources, or sources that do not exist.
 void require_sources(Index n_vertices, std::span<const Index> from)
 {
     if (from.empty())
@@ -66,8 +67,8 @@ double median_unit(const PolygonMesh& mesh)
     return 4.0 * power_of_two_near(*median);
 }
 
-/// A copy in these units. Vertices without faces are at 0, because they can be so far away that their coordinates
-/// overflow.
+/// A copy with coordinates in this unit. Vertices without faces are at 0, because they can be so far away that their
+/// coordinates overflow.
 PolygonMesh in_units(const PolygonMesh& mesh, double unit)
 {
     PolygonMesh scaled = mesh;
@@ -103,7 +104,7 @@ PolygonMesh in_units(const PolygonMesh& mesh, double unit)
                                  worst->distance > unit ? "remove it, or move it to the others" : "merge them"));
 }
 
-/// Converts a distance to units of length.
+/// Converts a distance in multiples of `unit` to length.
 /// @throws InputError if it overflows.
 double in_unit(double distance, double unit)
 {
@@ -129,11 +130,13 @@ class Geodesics::Surface {
             topology_ = make_topology(flowing_.mesh(), run_in_parallel);
         sound_ = with_faces(surface(), [&](Index f) { return !is_thin(surface().face(f), surface().vertices); });
         components_ = surface_components(sound_, run_in_parallel);
-        parts_.resize(usize(components_.count()));
+        heat_methods_.resize(usize(components_.count()));
     }
 
     [[nodiscard]] Index n_vertices() const { return given_.n_vertices(); }
 
+    /// #V: the distances from the nearest of the sources `from`, in length. Those of the heat method are kept between
+    /// straight distances and paths along edges; within faces that have a source, distances are straight.
     Eigen::VectorXd distance(std::span<const Index> from, const Progress& progress)
     {
         std::vector<Index> sources;
@@ -167,13 +170,13 @@ class Geodesics::Surface {
                 with_sources.push_back(c);
         sort_unique(with_sources);
         for (const Index c : with_sources) {
-            std::unique_ptr<HeatMethod>& part = parts_[c];
-            if (!part)
-                part = std::make_unique<HeatMethod>(sound_, components_.faces[c], progress.exec());
+            std::unique_ptr<HeatMethod>& method = heat_methods_[c];
+            if (!method)
+                method = std::make_unique<HeatMethod>(sound_, components_.faces[c], progress.exec());
             try {
-                const Eigen::VectorXd of_part = part->distance(sources, progress);
-                for (std::size_t i = 0; i < part->vertices().size(); ++i)
-                    distance[part->vertices()[i]] = of_part[static_cast<Eigen::Index>(i)];
+                const Eigen::VectorXd of_component = method->distance(sources, progress);
+                for (std::size_t i = 0; i < method->vertices().size(); ++i)
+                    distance[method->vertices()[i]] = of_component[static_cast<Eigen::Index>(i)];
             } catch (const ComputationError&) {
                 refuse_uneven(surface());
             }
@@ -188,7 +191,7 @@ class Geodesics::Surface {
     PolygonMesh sound_;
     SurfaceComponents components_;
     /// Per component: its heat method, once it has been asked for; null before.
-    std::vector<std::unique_ptr<HeatMethod>> parts_;
+    std::vector<std::unique_ptr<HeatMethod>> heat_methods_;
 };
 
 Geodesics::Geodesics(const PolygonMesh& mesh, const ResourceOptions& resources)

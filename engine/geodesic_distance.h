@@ -14,9 +14,9 @@ namespace seamflow {
 /// Distances along a surface from any of its vertices, by the heat method (Crane, Weischedel and Wardetzky, Geodesics
 /// in Heat, 2013), for any polygons: heat diffuses from the sources for a short time, and the distance is the function
 /// whose gradient is nearest to the unit vectors along which the heat decreases. The Laplacian is that of virtual
-/// vertices (Δ_B). On good meshes the error is a fraction of an edge length; it is larger where an edge is long or a
-/// triangle has a very obtuse angle. The two factorisations of the whole mesh, or three if it has a boundary, are kept
-/// for further distances; sources on the boundary need a further one each time.
+/// vertices (Δ_B, VirtualRefinement). On good meshes the error is a fraction of an edge length; it is larger where an
+/// edge is long or a triangle has a very obtuse angle. The two factorisations of the whole mesh, or three if it has a
+/// boundary, are kept for further distances; sources on the boundary need a further one each time.
 class Geodesics {
   public:
     /// @param mesh is copied. Vertices along seams (see weld) are joined; faces that repeat others are left out.

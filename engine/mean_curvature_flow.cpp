@@ -12,7 +12,6 @@
 #include "engine/setup/prepared_flow.h"
 #include "engine/setup/resolved_options.h"
 #include "engine/state/flow_state.h"
-#include "engine/surface/flowing_mesh.h"
 #include "engine/tasks/failure_guard.h"
 #include "engine/tasks/progress.h"
 #include "engine/tasks/stopwatch.h"
@@ -39,7 +38,8 @@ class Flow::Session {
         workers_.execute([&] { run_.reset(); });
     }
 
-    /// Calls action(run), which refuses what it cannot do before it changes anything, on the threads of the flow.
+    /// Calls action(run) on the threads of the flow. If the action throws OptionError or InputError, it has changed
+    /// nothing.
     template <class Action>
     void change(Action&& action)
     {
@@ -64,6 +64,8 @@ class Flow::Session {
     }
 
   private:
+    /// Decides everything before the first step, and makes the run. @param given the options as the caller has given
+    /// them.
     void set_up(PolygonMesh& mesh, FlowOptions given, const FlowControl& control, bool is_observed, FlowReport& report)
     {
         Stopwatch watch;
@@ -74,18 +76,17 @@ class Flow::Session {
         const double setup = fraction_of_setup(options, control.resume != nullptr ? control.resume->n_steps() : 0);
         progress_.enter(FlowPhase::Cut, 0, 0.0, 0.6 * setup);
         progress_.expect(8.0);
-        flowing_.emplace(mesh);
-        auto prepared = prepare(*flowing_, std::move(options), is_observed, control, progress_);
+        auto prepared = prepare(mesh, std::move(options), is_observed, control, progress_);
         report.resources.threads = workers_.threads();
         report.seconds.cut = watch.lap();
-        run_.emplace(*flowing_, std::move(prepared), progress_, setup, report, control);
+        run_.emplace(std::move(prepared), progress_, setup, report, control);
         report.remarks.insert(report.remarks.begin(), remarks.begin(), remarks.end());
     }
 
+    /// FlowOptions::steps: progress is complete after as many steps.
     int n_expected_;
     Workers workers_;
     Progress progress_;
-    std::optional<FlowingMesh> flowing_;
     std::optional<FlowRun> run_;
     FailureGuard guard_;
 };

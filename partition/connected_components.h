@@ -10,7 +10,7 @@ namespace seamflow {
 
 /// Appends `start` and all nodes of a graph that can be reached from it to `nodes`, breadth first.
 /// @param expand called with each node in this order, and with a function to call for each neighbour of the node not
-///        reached before; it must itself track those reached; `start` counts as reached.
+///        reached before; it must itself mark the nodes that are reached; `start` counts as reached.
 template <class Expand>
 void append_reachable(Index start, std::vector<Index>& nodes, Expand&& expand)
 {
@@ -60,9 +60,9 @@ Components connected_components(Index n_nodes, ForEachNeighbour&& for_each_neigh
 /// neighbours: the number of all pairs is quadratic.
 inline constexpr Index most_mutual_neighbours = 16;
 
-/// Calls visit with those half-edges of other faces at half-edge h of a junction (see free_junctions) whose faces are
-/// neighbours of h's face: with all half-edges there, or, at more than most_mutual_neighbours faces, with the next and
-/// the previous one.
+/// Calls visit with half-edges at the edge of h, if it is a junction (see free_junctions): with all whose faces are
+/// neighbours of h's face. These are all others there, or, at more than most_mutual_neighbours faces, the next and the
+/// previous one.
 template <class Visit>
 void for_each_at_junction(const Topology& topology, Index h, Visit&& visit)
 {
@@ -78,8 +78,8 @@ void for_each_at_junction(const Topology& topology, Index h, Visit&& visit)
             visit(other);
 }
 
-/// Calls visit(half-edge, neighbouring face) for the half-edges of face f that have a twin, and for those at a junction
-/// with each neighbour there.
+/// Calls visit(half-edge of f, neighbouring face) for each half-edge of face f that has a twin; for a half-edge at a
+/// junction, once for each neighbour there.
 template <class Visit>
 void for_each_neighbour(const PolygonMesh& mesh, const Topology& topology, Index f, Visit&& visit)
 {

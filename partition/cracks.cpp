@@ -18,9 +18,12 @@ namespace {
 
 /// Two boundary vertices are near each other if their distance is within this fraction of the median boundary edge.
 constexpr double near_in_edges = 0.01;
-/// The corners of several faces that were one point are further apart than the two nearest of them, by this factor.
+/// The distance for weld, in crack widths: if the corners of several faces should be one point, the outer ones are
+/// further apart than nearest neighbours, by about this factor.
 constexpr double apart_in_widths = 2.0;
 
+/// The median of the finite lengths of all edges without a twin (those of one face, or of three or more); 0 if there
+/// are none.
 double median_boundary_edge(const PolygonMesh& mesh, const Topology& topology, const Executor& exec)
 {
     const auto halfedges = select(exec, mesh.n_corners(), [&](Index h) { return topology.twin[h] < 0; });
@@ -38,8 +41,9 @@ double median_boundary_edge(const PolygonMesh& mesh, const Topology& topology, c
 /// For each point the distance to the nearest point at another position; infinite if that is beyond `reach`.
 std::vector<double> distances_of_nearest(const std::vector<Point>& points, double reach, const Executor& exec)
 {
-    // If a cell has more points than this, they are not corners of one point.
+    // Points in a cell of more points than this are too many to be corners of one point: they are not compared.
     constexpr Index most_in_cell = 64;
+    // The cell of a point and the cells around it.
     constexpr int n_around = 27;
     const auto cell_at = [&](const Point& p) {
         return PointNumbers::Place{std::floor(p[0] / reach), std::floor(p[1] / reach), std::floor(p[2] / reach)};

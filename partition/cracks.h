@@ -12,8 +12,8 @@ namespace seamflow {
 /// Gaps of a small fraction of an edge in a surface, as between facets that were each transformed and rounded
 /// separately.
 struct Cracks {
-    /// The number of vertices on the boundary that are near another one at a different position, and the largest
-    /// distance of such a vertex from the nearest other.
+    /// The number of boundary vertices that are near another boundary vertex at a different position, and the largest
+    /// distance of such a vertex from its nearest neighbour of this kind.
     Index n_vertices = 0;
     double width = 0.0;
     /// A distance for weld that closes the gaps, and the number of pairs of boundary edges that it joins.
@@ -26,7 +26,7 @@ struct Cracks {
 std::optional<Cracks> find_cracks(const PolygonMesh& mesh, const Topology& topology,
                                   const Executor& exec = run_serially);
 
-/// What joins them.
+/// A remark on the gaps for the user, with the distance for weld that closes them.
 Remark remark_on_cracks(const Cracks& cracks);
 
 }  // namespace seamflow

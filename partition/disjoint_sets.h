@@ -45,6 +45,7 @@ class DisjointSets {
         }
     }
 
+    /// Joins the sets of a and b, by a link from the higher of their lowest numbers to the lower one.
     void join(Index a, Index b)
     {
         // Most pairs are in one set already.

@@ -8,7 +8,7 @@
 
 namespace seamflow {
 
-/// An error whose message may name options. what() has the library's names of them.
+/// An error whose message may name options. what() names them as the library does.
 template <class Standard>
 class ErrorOnOptions : public Standard {
   public:
@@ -23,7 +23,7 @@ class ErrorOnOptions : public Standard {
     {
     }
 
-    /// For callers that have other names.
+    /// The message with marked options, for callers that have other names for the options.
     [[nodiscard]] const Wording& wording() const { return wording_; }
 
   private:

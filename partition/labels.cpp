@@ -8,7 +8,7 @@ namespace seamflow {
 
 namespace {
 
-/// For labels so large that a table indexed by them would waste memory.
+/// compact_labels for labels so large that a table indexed by them would waste memory.
 Index compact_sparse(std::vector<Index>& labels)
 {
     std::vector<Index> distinct = labels;

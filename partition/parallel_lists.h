@@ -10,7 +10,7 @@
 namespace seamflow {
 
 /// Makes n lists in two flat arrays, several at a time.
-/// @param fill called twice for each list: fill(i, list) replaces the content of `list`.
+/// @param fill called twice for each list: fill(i, list) replaces the content of `list` by list i.
 /// @param offsets receives n + 1 numbers: list i is values[offsets[i]] to values[offsets[i + 1] - 1].
 template <class Offset, class Fill>
 void make_lists_in_parallel(const Executor& exec, Index n, Fill&& fill, std::vector<Offset>& offsets,

@@ -19,6 +19,7 @@ namespace seamflow {
 template <class Real>
 class BasicPointNumbers {
   public:
+    /// The coordinates of a point.
     using Place = std::array<Real, 3>;
 
     BasicPointNumbers()
@@ -44,7 +45,7 @@ class BasicPointNumbers {
     /// Moves out the points; no more points can be numbered.
     [[nodiscard]] std::vector<Place> take_points() { return std::move(points_); }
 
-    /// For each of some points, the index of the first that equals it.
+    /// For each of the given points, the index of the first of them that equals it.
     [[nodiscard]] static std::vector<Index> first_equal(std::span<const Place> points);
 
   private:
@@ -60,8 +61,8 @@ class BasicPointNumbers {
 
 using PointNumbers = BasicPointNumbers<double>;
 
-/// Mixes the bits of the coordinates, with positive zeros: multiplication carries bits up, shifts carry them down
-/// again.
+/// Mixes the bits of the coordinates: multiplication carries bits up, shifts carry them down again. Adding 0 turns -0
+/// into 0. The constants are from SplitMix64, xxHash and MurmurHash3.
 template <class Real>
 std::uint64_t BasicPointNumbers<Real>::hash_of(const Place& point)
 {
@@ -84,6 +85,7 @@ std::size_t BasicPointNumbers<Real>::slot_of(std::span<const Index> slots, std::
     return slot;
 }
 
+/// Replaces the hash table by one of n_slots slots and enters all points.
 template <class Real>
 void BasicPointNumbers<Real>::resize(std::size_t n_slots)
 {

@@ -28,6 +28,7 @@ void require_valid_offsets(const PolygonMesh& mesh)
 /// Whether no vertex occurs twice in a face.
 bool are_different(std::span<const Index> corners)
 {
+    // For more corners than this, sorting is faster than comparing all pairs.
     constexpr std::size_t many = 16;
     if (corners.size() > many) {
         std::vector<Index> sorted(corners.begin(), corners.end());
@@ -49,6 +50,7 @@ bool is_valid_face(const PolygonMesh& mesh, Index f)
            are_different(corners);
 }
 
+/// Throws the InputError that says why face f is not valid.
 [[noreturn]] void refuse_face(const PolygonMesh& mesh, Index f)
 {
     const auto corners = mesh.face(f);

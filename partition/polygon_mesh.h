@@ -14,6 +14,9 @@ namespace seamflow {
 /// Positions, #V by 3, one vertex a row, in the unit of length of the input.
 using Points = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
+/// One position or vector, a row of Points.
+using Point = Eigen::RowVector3d;
+
 /// A polygonal surface mesh as flat arrays: faces of any number of sides, planar or not, convex or not. Vertices
 /// without faces, several components, closed and open surfaces are all allowed, and faces need not be oriented alike.
 struct PolygonMesh {

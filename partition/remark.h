@@ -10,8 +10,8 @@
 namespace seamflow {
 
 /// Sentences for users, in which options are marked, so that each caller reads them by its own names: `<radius>`, or
-/// `<boundary free>` for an option and a value. A mark has the library's name of the option: that of a field of the
-/// options, or of a parameter. << stands for a < that marks nothing.
+/// `<boundary free>` for an option and a value. A mark has the library's name of the option, which is the name of a
+/// field of the options or of a parameter. << stands for a < that marks nothing.
 struct Wording {
     std::string text;
 
@@ -25,14 +25,13 @@ using OptionWriter = std::function<std::string(std::string_view option, std::str
 /// The library's own name, and the value after a blank.
 std::string option_of_library(std::string_view option, std::string_view value);
 
-/// The wording in the words of a caller.
+/// The text of a wording, with each mark replaced by the caller's name of the option.
 std::string sentence(const Wording& wording, const OptionWriter& write = option_of_library);
 
-/// A message without marks.
+/// The wording that reads as `text` for every caller: nothing is marked, and each < is doubled.
 Wording unmarked(std::string_view text);
 
-/// What a user should know about a result or how it was made: a kind and its numbers, for programs, and what to tell
-/// the user about them.
+/// A message to the user about a result or how it was made: a kind and numbers, for programs, and sentences about them.
 struct Remark {
     using Numbers = std::vector<std::pair<std::string, double>>;
 
@@ -47,13 +46,13 @@ struct Remark {
     Numbers numbers;
     Wording wording;
 
-    /// @returns nothing where the kind has no such number.
+    /// The number of this name; nothing if the kind has no such number.
     [[nodiscard]] std::optional<double> number(std::string_view name) const;
 
     friend bool operator==(const Remark&, const Remark&) = default;
 };
 
-/// The remark in the words of a caller.
+/// The text of a remark, with each mark replaced by the caller's name of the option.
 inline std::string sentence(const Remark& remark, const OptionWriter& write = option_of_library)
 {
     return sentence(remark.wording, write);

@@ -32,6 +32,7 @@ void join_faces(const PolygonMesh& mesh, const Executor& exec, DisjointSets& set
     });
 }
 
+/// The components of the surface. A set of vertices is one of them if it has faces.
 /// @param sets after join_faces.
 SurfaceComponents list_components(const PolygonMesh& mesh, const Executor& exec, DisjointSets& sets)
 {
@@ -46,7 +47,7 @@ SurfaceComponents list_components(const PolygonMesh& mesh, const Executor& exec,
         one.faces.close();
         return one;
     }
-    // A vertex without faces is a set without faces.
+    // For each set, the number of its component; -1 for a vertex without faces.
     std::vector<Index> number(usize(n_sets), -1);
     for (Index f = 0; f < mesh.n_faces(); ++f)
         number[set_of[mesh.face(f).front()]] = 0;

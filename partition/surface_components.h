@@ -25,7 +25,7 @@ struct SurfaceComponents {
 /// @pre every vertex named by a face exists.
 SurfaceComponents surface_components(const PolygonMesh& mesh, const Executor& exec = run_serially);
 
-/// Finds the components; returns nothing if all vertices are in one, which is faster than listing its vertices.
+/// Finds the components; returns none if all vertices are in one, which is faster than listing its vertices.
 SurfaceComponents surface_components_if_several(const PolygonMesh& mesh, const Executor& exec = run_serially);
 
 /// The largest diagonal of the bounding boxes of the components, in length: the size of the bodies, however far apart

@@ -21,6 +21,7 @@ namespace {
 /// In `twin`, until the vertices are classified: marks an edge of three or more faces.
 constexpr Index non_manifold_edge = -2;
 
+/// Lists the corners at each vertex: Topology::vertex_offsets and vertex_corners.
 void list_corners(const PolygonMesh& mesh, Topology& topology)
 {
     IndexLists corners = make_lists(mesh.n_vertices(), [&](auto&& add) {
@@ -63,7 +64,7 @@ void for_each_edge(std::span<const Spoke> spokes, Action&& action)
 }
 
 /// Pairs the half-edges between v and vertices of higher index.
-/// @returns whether those of every pair run in opposite directions.
+/// @returns whether the two half-edges of every pair run in opposite directions.
 bool pair_halfedges_at(const PolygonMesh& mesh, Index v, std::vector<Spoke>& spokes, Topology& topology)
 {
     bool opposite = true;
@@ -129,6 +130,7 @@ bool is_closed_fan(const PolygonMesh& mesh, const Topology& topology, Index v)
     return met == corners.size() && topology.twin[last] >= 0;
 }
 
+/// The kind of vertex v. Edges of three or more faces must still be marked in `twin` (see non_manifold_edge).
 VertexKind classify(const PolygonMesh& mesh, const Topology& topology, Index v)
 {
     const auto corners = topology.corners_at(v);
@@ -177,6 +179,7 @@ Topology make_topology(const PolygonMesh& mesh, const Executor& exec)
 {
     Topology topology;
     topology.face_of = FaceOfHalfedge(mesh, exec);
+    // Two independent tasks, at the same time if the executor has several threads.
     for_each(exec, 2, [&](Index one_of_both) {
         if (one_of_both == 0)
             list_corners(mesh, topology);
@@ -234,6 +237,7 @@ void free_junctions(const PolygonMesh& mesh, Topology& topology, const Executor&
             is_at_junction |= edge.size() > 2;
             is_on_boundary |= edge.size() == 1;
             const std::size_t n = edge.size();
+            // Every edge has two ends: the links are added at the lower one.
             for (std::size_t i = 0; n > 2 && edge[0].neighbour > v && i < n; ++i)
                 topology.junctions.push_back({edge[i].halfedge, edge[(i + 1) % n].halfedge,
                                               edge[(i + n - 1) % n].halfedge, static_cast<Index>(n)});

@@ -10,11 +10,11 @@
 
 namespace seamflow {
 
-/// The position of a vertex in its mesh.
+/// The kind of a vertex, by the faces around it.
 enum class VertexKind : std::uint8_t {
     /// The faces of the vertex form one closed fan.
     Interior,
-    /// The vertex is on an edge of one face.
+    /// The vertex is on an edge of one face and, before free_junctions, on none of three or more.
     Boundary,
     /// The vertex is on an edge of three or more faces, or its faces form several fans, none of them open.
     NonManifold,

@@ -13,9 +13,6 @@
 
 namespace seamflow {
 
-/// One position or vector, a row of Points.
-using Point = Eigen::RowVector3d;
-
 /// The corners of a triangle, in units of length.
 using TriangleCorners = std::array<Point, 3>;
 
@@ -36,10 +33,10 @@ inline Point vector_area(std::span<const Index> corners, const Points& positions
 ///
 /// A face has an area if it exceeds 16 ε n Σ|e|² over its n edges e, with ε = 2⁻⁵²: 1.6 to 2.2e-14 of the squared
 /// longest edge of a triangle. Differences and products in the vector area round to less than ε (Σ|e|)² ≤ ε n Σ|e|²,
-/// and coordinates of up to some ten edges round to as much. Moreover, K of a face without area would be rounding: its
-/// entries grow with Σ|e|² / area, and their rounding errors move vertices by up to ε times that, in edges, which is a
-/// hundredth here. The distance from the origin does not matter: far away, corners in a row rarely stay in a row when
-/// they are rounded, and the resulting triangles are exact and thick enough for K.
+/// and coordinates of up to some ten edges round to as much. Moreover, the stiffness matrix K of a face without area
+/// would be rounding: its entries grow with Σ|e|² / area, and their rounding errors move vertices by up to ε times
+/// that, in edges, which is a hundredth here. The distance from the origin does not matter: far away, corners in a row
+/// rarely stay in a row when they are rounded, and the resulting triangles are exact and thick enough for K.
 inline double area_above_rounding(std::span<const Index> corners, const Points& positions)
 {
     constexpr double rounding = 16.0 * std::numeric_limits<double>::epsilon();
@@ -53,7 +50,7 @@ inline double area_above_rounding(std::span<const Index> corners, const Points& 
     return std::isnormal(area) && area > rounding * static_cast<double>(corners.size()) * squares ? area : 0.0;
 }
 
-/// Whether a face has an area (see area_above_rounding): a normal, and a K.
+/// Whether a face has an area (see area_above_rounding): a normal, and a stiffness matrix.
 inline bool has_area(std::span<const Index> corners, const Points& positions)
 {
     return area_above_rounding(corners, positions) > 0.0;

@@ -2,8 +2,8 @@
 
 #include <string_view>
 
-/// The version by its parts, for #if. Versions follow semver.org: before 1.0.0 a new minor version may break what
-/// worked, a new patch may not.
+/// The version by its parts, for #if. Versions follow semver.org: before 1.0.0 a new minor version may break programs
+/// that worked, a new patch may not.
 #define SEAMFLOW_VERSION_MAJOR 0
 #define SEAMFLOW_VERSION_MINOR 1
 #define SEAMFLOW_VERSION_PATCH 0

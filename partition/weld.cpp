@@ -30,7 +30,7 @@ void for_half_of_neighbours(const PointNumbers::Place& cell, Visit&& visit)
 /// @returns for each point the lowest point with which it is joined.
 std::vector<Index> join_near(const std::vector<PointNumbers::Place>& points, double distance)
 {
-    // If a cell has more points than this, they are not duplicates of each other.
+    // Points in a cell of more points than this are too many to be duplicates of each other: they are not joined.
     constexpr Index most_copies = 64;
     PointNumbers cells;
     const IndexLists in_cell = [&] {
@@ -69,7 +69,8 @@ std::vector<Index> join_near(const std::vector<PointNumbers::Place>& points, dou
     return sets.all_lowest(run_serially);
 }
 
-/// The edges that have one face.
+/// The boundary edges of a mesh, with the numbers of the positions of their ends: equal, or near each other (see
+/// join_near), positions have the same number.
 class Rims {
   public:
     Rims(const PolygonMesh& mesh, const Topology& topology, double distance, const Executor& exec)
@@ -85,24 +86,27 @@ class Rims {
         number_places();
     }
 
-    /// Pairs of half-edges, ascending.
+    /// The pairs of boundary half-edges that can be joined (see weld), ascending.
     [[nodiscard]] std::vector<std::array<Index, 2>> pairs() const;
 
     [[nodiscard]] Index start(Index h) const { return mesh_.face_vertices[h]; }
     [[nodiscard]] Index end(Index h) const { return mesh_.face_vertices[topology_.next(mesh_, h)]; }
 
   private:
+    /// The position of vertex v.
     [[nodiscard]] PointNumbers::Place place(Index v) const
     {
         return {mesh_.vertices(v, 0), mesh_.vertices(v, 1), mesh_.vertices(v, 2)};
     }
 
+    /// Whether two vertices have equal positions, or lie within the distance.
     [[nodiscard]] bool is_near(Index v, Index w) const
     {
         return v == w || place(v) == place(w) ||
                (distance_ > 0.0 && (mesh_.vertices.row(v) - mesh_.vertices.row(w)).norm() <= distance_);
     }
 
+    /// Numbers the positions of the ends of half-edges: sets places_ and n_places_.
     void number_places()
     {
         PointNumbers numbers;
@@ -127,6 +131,8 @@ class Rims {
         return is_near(after(h), before(other)) && is_near(before(h), after(other));
     }
 
+    /// Whether two half-edges run in opposite directions between near vertices, and their faces do not lie on each
+    /// other.
     [[nodiscard]] bool fit(Index h, Index other) const
     {
         return is_near(start(h), end(other)) && is_near(end(h), start(other)) && !lie_on_each_other(h, other);
@@ -149,6 +155,8 @@ std::vector<std::array<Index, 2>> Rims::pairs() const
                 add(std::min(places_[i][0], places_[i][1]), static_cast<Index>(i));
     });
     std::vector<std::array<Index, 2>> found;
+    // The half-edges whose lower end has the number p, sorted by the number of the other end. Half-edges with the same
+    // two ends may be a pair if there are two of them.
     std::vector<std::pair<Index, Index>> by_other_place;
     for (Index p = 0; p < n_places_; ++p) {
         by_other_place.clear();
@@ -171,7 +179,7 @@ std::vector<std::array<Index, 2>> Rims::pairs() const
     return found;
 }
 
-/// A mesh in which edges are joined.
+/// A mesh in which pairs of boundary edges are joined.
 class Welding {
   public:
     Welding(const PolygonMesh& mesh, const Rims& rims, std::vector<std::array<Index, 2>> pairs, const Executor& exec)
@@ -183,8 +191,8 @@ class Welding {
         join();
     }
 
-    /// Gives up pairs that would make the mesh worse. Giving up a pair makes nothing else worse, because it opens fans
-    /// of faces, and brings no edges together.
+    /// Gives up pairs that would make the mesh worse, and sets topology_ if pairs are left. Giving up a pair makes
+    /// nothing else worse, because it opens fans of faces, and brings no edges together.
     void mend()
     {
         give_up(twice_in_faces());
@@ -198,9 +206,11 @@ class Welding {
             topology_ = make_topology(welded_, exec_);
     }
 
+    /// Moves out the result; nothing if no pair is left.
     std::optional<Weld> take();
 
   private:
+    /// Sets representative_ and the faces of welded_ for the present pairs.
     void join()
     {
         DisjointSets sets(mesh_.n_vertices(), exec_);
@@ -236,7 +246,7 @@ class Welding {
     }
 
     /// Gives up the pairs that end at bad vertices.
-    /// @param is_bad #V, by representatives. @returns whether there were any.
+    /// @param is_bad #V, by representatives. @returns whether there were such pairs.
     bool give_up(const std::vector<std::uint8_t>& is_bad)
     {
         const auto ends_badly = [&](const std::array<Index, 2>& pair) {
@@ -263,25 +273,25 @@ class Welding {
 Index move_to_means(const std::vector<Index>& representative, Points& positions)
 {
     const auto n = static_cast<Index>(representative.size());
-    std::vector<Index> copies;
-    std::vector<Index> has_copies;
+    std::vector<Index> merged;
+    std::vector<Index> kept;
     for (Index v = 0; v < n; ++v)
         if (representative[v] != v) {
-            copies.push_back(v);
-            has_copies.push_back(representative[v]);
+            merged.push_back(v);
+            kept.push_back(representative[v]);
         }
-    sort_unique(has_copies);
+    sort_unique(kept);
     // The mean of equal positions is exactly the same position.
-    Points offsets = Points::Zero(std::ssize(has_copies), 3);
-    std::vector<int> counts(has_copies.size(), 1);
-    for (const Index v : copies) {
-        const auto i = place_in(has_copies, representative[v]);
+    Points offsets = Points::Zero(std::ssize(kept), 3);
+    std::vector<int> counts(kept.size(), 1);
+    for (const Index v : merged) {
+        const auto i = place_in(kept, representative[v]);
         offsets.row(i) += positions.row(v) - positions.row(representative[v]);
         ++counts[static_cast<std::size_t>(i)];
     }
-    for (std::size_t i = 0; i < has_copies.size(); ++i)
-        positions.row(has_copies[i]) += offsets.row(static_cast<Eigen::Index>(i)) / counts[i];
-    return static_cast<Index>(copies.size() + has_copies.size());
+    for (std::size_t i = 0; i < kept.size(); ++i)
+        positions.row(kept[i]) += offsets.row(static_cast<Eigen::Index>(i)) / counts[i];
+    return static_cast<Index>(merged.size() + kept.size());
 }
 
 std::optional<Weld> Welding::take()
@@ -322,8 +332,8 @@ std::optional<Remark> remark_on_seams(Index n_vertices, Index n_edges, std::int6
             {fmt::format("<weld> has joined no vertices: no seam has pairs of boundary edges within {:.3g} of "
                          "each other, or they are nearer to further ones, too.",
                          distance)});
-    // The largest distance of duplicates, in edges, that is rounding: such vertices are meant to be one, even if all
-    // vertices of a mesh are duplicates.
+    // Vertices at most this far apart, in mean edge lengths, differ by rounding: they are meant to be one, even if all
+    // vertices of a mesh are such duplicates.
     constexpr double copies_apart = 0.01;
     const bool are_many = apart > copies_apart && std::int64_t{10} * n_vertices >= n_of_mesh;
     const std::string warning =

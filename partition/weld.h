@@ -38,9 +38,9 @@ struct Weld {
 std::optional<Weld> weld(const PolygonMesh& mesh, const Topology& topology, double distance,
                          const Executor& exec = run_serially);
 
-/// A sentence for the user about joined seams; empty if none are joined, or if positions had to be equal. If the joined
-/// vertices were further apart than cracks are, and are a tenth of all vertices or more, it is a warning: the distance
-/// may be too large.
+/// A sentence for the user about seams, joined or not; nothing if none are joined and positions had to be equal. If the
+/// joined vertices were further apart than cracks are, and are a tenth of all vertices or more, it is a warning: the
+/// distance may be too large.
 /// @param n_vertices, n_edges see Weld. @param n_of_mesh all vertices. @param distance see weld. @param apart the
 /// largest distance by which vertices moved to be joined, in mean edge lengths.
 std::optional<Remark> remark_on_seams(Index n_vertices, Index n_edges, std::int64_t n_of_mesh, double distance,

@@ -7,8 +7,8 @@
 #include <memory>
 #include <optional>
 
-#include "engine/ranks/mpi_transport.h"
 #include "engine/ranks/rank_group.h"
+#include "engine/ranks/transport.h"
 #include "samples/process/cpu_quota.h"
 #include "samples/smooth_program.h"
 

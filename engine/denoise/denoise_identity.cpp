@@ -10,7 +10,7 @@ namespace seamflow {
 
 namespace {
 
-/// The numbers of each method.
+/// The checksum of the numbers of a method, appended to a checksum `before`.
 struct ChecksumOfMethod {
     std::uint64_t before;
 

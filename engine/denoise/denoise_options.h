@@ -3,7 +3,6 @@
 #include <optional>
 #include <variant>
 
-#include "engine/options/amount.h"
 #include "engine/options/motion_options.h"
 
 namespace seamflow {
@@ -38,7 +37,7 @@ struct SmoothRims {
     SmoothingAmount amount = {};
 };
 
-/// What is done to a surface as a whole, without sub-meshes and without the equations of a flow.
+/// A method that takes a surface as a whole, without sub-meshes and without the equations of a flow.
 using DenoiseMethod = std::variant<RemoveNoise, SmoothBetweenEdges, SmoothRims>;
 
 /// All options of denoise(): `{.method = SmoothBetweenEdges{.edge_angle = 40.0, .amount = {.time_step = 0.05}}}`.
@@ -49,8 +48,8 @@ struct DenoiseOptions {
     /// Without attachment. Edges in feature_edges are kept whatever their angle: faces on the two sides are smoothed
     /// independently.
     MotionOptions motion = default_motion();
-    /// At most most_threads. 0: those of the calling TBB arena (by default all cores). The result is
-    /// the same, bit for bit, for any number.
+    /// At most most_threads. 0: those of the calling TBB arena (by default all cores). The result is the same, bit for
+    /// bit, for any number.
     int threads = 0;
     /// Measures mean curvature and displacements after each step. If false, they are 0 in the report.
     bool measures = true;

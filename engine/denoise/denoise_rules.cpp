@@ -17,12 +17,14 @@ namespace {
 
 using Asked = AskedOptions;
 
+/// Whether the options have this method.
 template <class Method>
 bool is(const DenoiseOptions& options)
 {
     return std::holds_alternative<Method>(options.method);
 }
 
+/// The rules on options that a method excludes.
 constexpr OptionRule<DenoiseOptions> of_methods[]{
     {[](const DenoiseOptions& o, const Asked& asked) { return is<SmoothRims>(o) && asked.has("feature_edges"); }, 0,
      "<feature_edges> names edges to keep, but the boundary alone moves: leave them out"},
@@ -32,7 +34,7 @@ constexpr OptionRule<DenoiseOptions> of_methods[]{
      0, "<attachment> is for flows, whose equations it is a term of: leave it out"},
 };
 
-/// The options of motion that are not as by default.
+/// The options of motion that differ from the defaults of denoise().
 AskedOptions changed_options(const MotionOptions& motion)
 {
     const auto first = [&motion](const std::function<bool(const OptionTraits&)>& matches) {
@@ -67,7 +69,7 @@ void require_valid(const SmoothingAmount& amount)
         require_within(row_of_time_step, amount.time_step);
 }
 
-/// Checks each method.
+/// Checks the numbers of a method.
 struct RequireValid {
     void operator()(const RemoveNoise& method) const { require_within(row_of_angle, method.edge_angle); }
     void operator()(const SmoothBetweenEdges& method) const

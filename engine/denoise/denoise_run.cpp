@@ -12,7 +12,7 @@ namespace seamflow {
 
 namespace {
 
-/// Makes the stepper of each method.
+/// Makes the stepper of a method.
 struct MakeStepper {
     const PolygonMesh& mesh;
     const Topology& topology;
@@ -35,18 +35,18 @@ struct MakeStepper {
     }
 };
 
-/// Of the mean curvatures in the report.
+/// The Laplacian of the mean curvatures in the report.
 constexpr Laplacian laplacian_of_report = Laplacian::Fujiwara;
 
 }  // namespace
 
-DenoiseRun::DenoiseRun(FlowingMesh& mesh, const Surface& surface, const DenoiseOptions& options, std::uint64_t identity,
-                       double setup, Progress& progress, DenoiseReport& report, const FlowControl& control)
-    : SurfaceRun(mesh, surface.topology, progress, report, control.resume.get())
+DenoiseRun::DenoiseRun(Surface& surface, const DenoiseOptions& options, std::uint64_t identity, double setup,
+                       Progress& progress, DenoiseReport& report, const FlowControl& control)
+    : SurfaceRun(surface, progress, report, control.resume.get())
     , identity_(identity)
 {
     const Stopwatch watch;
-    const PolygonMesh& flowing = mesh.mesh();
+    const PolygonMesh& flowing = mesh_.mesh();
     if (options.measures)
         measure_by(DisplacementMeter(flowing, surface.topology), laplacian_of_report,
                    measure_largest_curvature(flowing, surface.topology, flowing.vertices, laplacian_of_report));
@@ -54,6 +54,7 @@ DenoiseRun::DenoiseRun(FlowingMesh& mesh, const Surface& surface, const DenoiseO
     stepper_ = std::visit(MakeStepper{flowing, surface.topology, options, progress}, options.method);
     report.seconds.analyse = watch.seconds();
     report.seconds.total = report.seconds.cut + report.seconds.analyse;
+    // In diagonals of the bounding box.
     constexpr double largest_update = 1.0;
     begin(options.motion, false, largest_update, setup, options.steps);
 }

@@ -18,11 +18,11 @@ namespace seamflow {
 /// Takes the steps of denoise().
 class DenoiseRun final : public SurfaceRun {
   public:
-    /// @param mesh, surface, progress, report must outlive the run. @param options valid; their motion is that of the
+    /// @param surface, progress, report must outlive the run. @param options valid; their motion is that of the
     /// surface. @param identity see identify. @param setup the fraction of the whole call that setup takes.
     /// @throws InputError for a state that does not fit.
-    DenoiseRun(FlowingMesh& mesh, const Surface& surface, const DenoiseOptions& options, std::uint64_t identity,
-               double setup, Progress& progress, DenoiseReport& report, const FlowControl& control);
+    DenoiseRun(Surface& surface, const DenoiseOptions& options, std::uint64_t identity, double setup,
+               Progress& progress, DenoiseReport& report, const FlowControl& control);
 
     /// Completes the report on the run as a whole.
     void complete(DenoiseReport& report) const;

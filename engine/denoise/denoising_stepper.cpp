@@ -65,8 +65,8 @@ void DenoisingStepper::step(const Points& before)
     assert(&before != &positions_);
     const Executor exec = loops_.begin();
     if (open_) {
-        // The additional copies of a vertex, on the other sides of a feature edge, do not move. The first copy has the
-        // number of the vertex.
+        // The mesh that is cut open has additional copies of a vertex on the other sides of feature edges. They do not
+        // move. The first copy has the number of the vertex.
         Points of_copies(open_->mesh.n_vertices(), 3);
         of_copies.topRows(before.rows()) = before;
         for (Index h = 0; h < mesh_->n_corners(); ++h)

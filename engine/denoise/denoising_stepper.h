@@ -37,7 +37,7 @@ class DenoisingStepper final : public WholeMeshStepper {
         Topology topology;
     };
 
-    /// Null without feature edges.
+    /// Cuts a mesh open along feature edges. @returns null without feature edges.
     static std::unique_ptr<const CutOpen> cut_open(const PolygonMesh& mesh, const Topology& topology,
                                                    const std::vector<Edge>& feature_edges, const Executor& exec);
 

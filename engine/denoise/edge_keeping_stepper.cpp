@@ -14,7 +14,7 @@ namespace seamflow {
 
 namespace {
 
-/// The time step, in face areas, with which vertices move half of the way.
+/// The time step, in mean areas of the faces at a vertex, with which the vertex moves half of the way.
 constexpr double short_step = 0.01;
 /// In mean edge lengths: if all vertices move by less, the surface counts as unchanged.
 constexpr double next_to_nothing = 0.01;
@@ -54,13 +54,14 @@ void EdgeKeepingStepper::step(const Points& before)
     // Vertices are fitted completely, however short the step. For a short step they move by a fraction of that.
     for_each(exec, mesh_->n_vertices(), [&](Index v) {
         const auto corners = topology_->corners_at(v);
-        double size = 0.0;
+        double mean_area = 0.0;
         for (const Index corner : corners)
-            size += area(mesh_->face(topology_->face_of[corner]), before) / static_cast<double>(corners.size());
+            mean_area += area(mesh_->face(topology_->face_of[corner]), before) / static_cast<double>(corners.size());
         const double step_scale = step_scales_.empty() ? 1.0 : step_scales_[v];
-        const double part = step_scale * time_step_ / (time_step_ + short_step * size);
-        positions_.row(v) = part < 1.0 ? lines_.on_line(v, before.row(v) + part * (smoothed.row(v) - before.row(v)))
-                                       : Point(smoothed.row(v));
+        const double fraction = step_scale * time_step_ / (time_step_ + short_step * mean_area);
+        positions_.row(v) = fraction < 1.0
+                                ? lines_.on_line(v, before.row(v) + fraction * (smoothed.row(v) - before.row(v)))
+                                : Point(smoothed.row(v));
     });
     const double mean_edge = mean_edge_length(*mesh_, before, exec);
     if (mean_edge > 0.0)

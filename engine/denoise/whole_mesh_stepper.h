@@ -5,8 +5,8 @@
 
 namespace seamflow {
 
-/// Takes steps of a whole mesh, without sub-meshes and without the equations of a flow. Its faces and vertices are
-/// shared among the threads; the bits do not depend on their number.
+/// The base of the denoiser's steppers. Each step moves the vertices of the whole mesh, without sub-meshes and without
+/// the equations of a flow. Threads share the faces and vertices; the bits do not depend on the number of threads.
 class WholeMeshStepper : public SurfaceStepper {
   public:
     /// Fills in the data on all steps.

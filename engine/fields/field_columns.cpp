@@ -76,7 +76,7 @@ std::vector<ValueRange> ranges_of(const Eigen::MatrixXd& fields, const FieldGrou
 
 namespace {
 
-/// The least exponent of a unit, so that units and their inverses are normal numbers.
+/// The limits of the exponent of a unit, within which units and their inverses are normal numbers.
 constexpr int least_exponent = -1021;
 constexpr int largest_exponent = 1022;
 

@@ -36,7 +36,7 @@ void require_fields_of(Index n_vertices, const Eigen::MatrixXd& fields);
 /// outweigh M in the long steps of distances and of extensions. Faces without area (see has_area) are thin.
 bool is_thin(std::span<const Index> face, const Points& positions);
 
-/// Whether a face has no area, so that its K cannot be used.
+/// Whether the K of a face cannot be used: the face is thin (see is_thin), and the Laplacian divides by areas of faces.
 bool is_unusable(const PolygonMesh& mesh, Index f, Laplacian laplacian);
 
 /// The range of the values of a column; if there are no values, the least exceeds the most.
@@ -45,14 +45,14 @@ struct ValueRange {
     double most = -std::numeric_limits<double>::infinity();
 };
 
-/// One for each column of the group, over the vertices with data.
+/// The range of each column of the group, over the vertices with data.
 std::vector<ValueRange> ranges_of(const Eigen::MatrixXd& fields, const FieldGroup& group, const Executor& exec);
 
-/// Columns scaled to units in which the spread of their values is about that of positions in steps, so that the
-/// differences that steps add fit in single precision. Units are powers of two, so that scaling is exact.
+/// Columns, each divided by a power of two, which is exact, so that its values spread over about √dt. Steps move
+/// positions about as far, and steppers are made for these: the updates of columns then fit in single precision, too.
 class ScaledFields {
   public:
-    /// @param values #V by the columns of the group. @param ranges of the whole mesh (see ranges_of).
+    /// @param values #V by the columns of the group. @param ranges of these columns (see ranges_of).
     /// @param time_step in length².
     ScaledFields(Eigen::MatrixXd values, const FieldGroup& group, std::span<const ValueRange> ranges, double time_step,
                  const Executor& exec);
@@ -60,14 +60,16 @@ class ScaledFields {
     /// The scaled values; 0 at vertices without data.
     Eigen::MatrixXd& values() { return values_; }
 
+    /// A copy of the values, in the units of the given columns.
     [[nodiscard]] Eigen::MatrixXd in_units() const;
 
-    /// Moves out the values, in their own units, NaN at vertices that have no data now.
+    /// Moves out the values, in the units of the given columns, NaN at vertices that have no data now.
     /// @throws ComputationError naming a column with values that are not finite.
     [[nodiscard]] Eigen::MatrixXd take(const FieldGroup& group, const Executor& exec);
 
   private:
     Eigen::MatrixXd values_;
+    /// Per column: the power of two by which it is divided.
     Eigen::VectorXd units_;
 };
 

@@ -28,6 +28,7 @@ double fwhm_for_time(double time)
 
 namespace {
 
+/// The options that the rules below are about.
 struct FlowOfFields {
     const FlowOptions& flow;
     const FieldOptions& fields;
@@ -35,12 +36,12 @@ struct FlowOfFields {
 
 using FieldRule = OptionRule<FlowOfFields>;
 
-bool moves(const MotionOptions& motion)
+bool moves_surface(const MotionOptions& motion)
 {
     return attaches(motion) || motion.rescale != Rescale::None || motion.within || motion.limits.exist();
 }
 
-bool has_place_or_line(const MotionOptions& motion)
+bool has_strength_or_direction(const MotionOptions& motion)
 {
     return !motion.strength.empty() || motion.direction.kind != MotionDirection::Kind::Any;
 }
@@ -56,9 +57,9 @@ constexpr FieldRule field_rules[]{
     {[](const FlowOfFields& o, const AskedOptions&) { return o.flow.accuracy.approach == Approach::Sweep; }, 0,
      by_sweeps},
     {[](const FlowOfFields&, const AskedOptions&) { return true; }, concern::sweeps, by_sweeps},
-    {[](const FlowOfFields& o, const AskedOptions&) { return moves(o.flow.motion); }, 0,
+    {[](const FlowOfFields& o, const AskedOptions&) { return moves_surface(o.flow.motion); }, 0,
      "fields diffuse on a surface that stays: leave attachments, rescale, within and limits out"},
-    {[](const FlowOfFields& o, const AskedOptions&) { return has_place_or_line(o.flow.motion); }, 0,
+    {[](const FlowOfFields& o, const AskedOptions&) { return has_strength_or_direction(o.flow.motion); }, 0,
      "fields diffuse on a surface that stays: leave strength and direction out"},
     {[](const FlowOfFields& o, const AskedOptions&) { return o.flow.report.reference; }, 0,
      "the steps of fields are solved exactly, so that there is nothing to compare with: leave <reference> out"},

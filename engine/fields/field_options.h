@@ -15,13 +15,15 @@ inline constexpr double default_field_tolerance = 1e-8;
 
 /// The weights of the edges of a surface, -K_vw.
 enum class Weights {
-    /// Those of the Laplacian. Cotangents of obtuse angles are below 0.
+    /// The weights of the Laplacian. Cotangents of obtuse angles are below 0.
     OfLaplacian,
     /// At least 0, so that no step of Filter::Diffusion of order 1 leaves the range of its data (the discrete maximum
     /// principle). Where the Laplacian has others, K and M are those of an intrinsic Delaunay triangulation of the
-    /// surface (see make_delaunay). For Δ_A and Δ_B; the others have no such weights.
+    /// surface (see make_delaunay). For Δ_A (AlexaWardetzky) and Δ_B (VirtualRefinement); other Laplacians have no such
+    /// weights.
     AtLeastZero,
-    /// Those of each face alone, too: where HeatEquation::keep_field_edges weighs faces differently.
+    /// At least 0 also in the K of each single face: for HeatEquation::keep_field_edges, which weighs faces
+    /// differently.
     AtLeastZeroInFaces,
 };
 
@@ -31,15 +33,14 @@ struct FieldOptions {
     /// of the Gaussian kernel of the heat equation at the time t = FWHM² / (16 ln 2) of all steps. Backward Euler steps
     /// come near to it if there are several (see FieldReport::fwhm).
     std::optional<LengthOnMesh> fwhm = {};
-    /// Keeps edges of the fields: differences well above this diffuse little (see
-    /// HeatEquation::keep_field_edges). All columns count together, as one vector per vertex. K is factorised in each
-    /// step. Not with conjugate gradients.
+    /// Keeps edges of the fields: differences well above this diffuse little (see HeatEquation::keep_field_edges). All
+    /// columns count together, as one vector per vertex. K is factorised in each step. Not with conjugate gradients.
     std::optional<double> keep_edges = {};
     /// Gives vertices without data, after all steps, the harmonic extension of the data: K X = 0 there.
     bool fill = false;
-    /// Used in place of FlowOptions::laplacian; must be symmetric. M⁻¹ K of Δ_A and Δ_B is the Laplace-Beltrami
-    /// operator on any faces, so that times and widths of kernels are exact. M⁻¹ K of Δ_F and Δ_U depends on the faces:
-    /// on regular triangles Δ_F smooths √1.5 times as wide.
+    /// Used in place of FlowOptions::laplacian; must be symmetric. M⁻¹ K of AlexaWardetzky and VirtualRefinement is the
+    /// Laplace-Beltrami operator on any faces, so that times and widths of kernels are exact. M⁻¹ K of Fujiwara and
+    /// Uniform depends on the faces: on regular triangles Fujiwara's smooths √1.5 times as wide.
     Laplacian laplacian = Laplacian::VirtualRefinement;
     /// AtLeastZero, which is AtLeastZeroInFaces with keep_edges, or the weights of the Laplacian, with which values can
     /// leave their range beside obtuse angles. Ranks do not share steps with weights other than the Laplacian's.

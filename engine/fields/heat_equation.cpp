@@ -37,7 +37,7 @@ class HeatEquation::Session {
         workers_.execute([&] { steps_.reset(); });
     }
 
-    /// Calls action(steps), which refuses what it cannot do before it changes anything.
+    /// Calls action(steps). If the action throws OptionError or InputError, it has changed nothing.
     template <class Action>
     void change(Action&& action)
     {

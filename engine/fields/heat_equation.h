@@ -43,9 +43,9 @@ class HeatEquation {
     ///         sub-mesh, and in all calls after a failure; Cancelled.
     void take_steps(Eigen::Ref<Eigen::MatrixXd> fields, int n = 1);
 
-    /// Makes further steps keep edges of fields: K of each face (of each edge for Δ_F and Δ_U) is multiplied by
-    /// 1 / (1 + (d / difference)²), where d is the largest distance between the rows of two of its vertices (Perona and
-    /// Malik, Scale-Space and Edge Detection Using Anisotropic Diffusion, 1990). K is factorised anew.
+    /// Makes further steps keep edges of fields: K of each face (of each edge for Fujiwara and Uniform) is multiplied
+    /// by 1 / (1 + (d / difference)²), where d is the largest distance between the rows of two of its vertices (Perona
+    /// and Malik, Scale-Space and Edge Detection Using Anisotropic Diffusion, 1990). K is factorised anew.
     /// @param fields #V by any number of columns, finite. @param difference positive, in the unit of the fields.
     /// @throws OptionError for conjugate gradients and for ranks that share the steps; InputError as take_steps.
     void keep_field_edges(const Eigen::Ref<const Eigen::MatrixXd>& fields, double difference);

@@ -23,7 +23,7 @@ namespace seamflow {
 
 namespace {
 
-/// The largest distance r √dt to which heat diffuses: e^-r would vanish beyond it.
+/// The largest distance to which heat diffuses, in √dt: beyond it the heat, e^-r at the distance r √dt, would vanish.
 constexpr double most_diffusion_lengths = 400.0;
 
 /// √dt in mean edge lengths. With less, the directions depend on those of edges; with more, heat smooths over ridges
@@ -78,7 +78,7 @@ std::array<double, 3> flux(const std::array<Point, 3>& corners, const Point& dir
 
 /// Adds ∫ X · ∇φ for the hat functions φ of the corners of a face, X being the direction in which heat decreases. It is
 /// computed from the logarithm of the heat, which is nearly linear: on regular meshes this has a fifth of the error.
-/// @param heat #V: its logarithm.
+/// @param heat #V: its logarithm. @param of_corners receives the integral of each corner.
 void add_fluxes(std::span<const Index> face, const Points& positions, const Eigen::VectorXd& heat,
                 std::span<double> of_corners)
 {
@@ -90,6 +90,8 @@ void add_fluxes(std::span<const Index> face, const Points& positions, const Eige
                           of_corners.begin());
         return;
     }
+    // A polygon is a fan of triangles around its virtual vertex, whose value and hat function are means of the
+    // corners'.
     double at_virtual = 0.0;
     for (std::size_t k = 0; k < p; ++k)
         at_virtual += x.weight(k) * heat[face[k]];
@@ -107,7 +109,7 @@ void add_fluxes(std::span<const Index> face, const Points& positions, const Eige
         of_corners[k] += x.weight(k) * to_virtual;
 }
 
-/// #V: M⁻¹ ∫ X · ∇φ.
+/// #V: M⁻¹ ∫ X · ∇φ for the hat function φ of each vertex, X being the direction in which heat decreases.
 /// @param heat #V: its logarithm.
 Eigen::VectorXd divergence(const PolygonMesh& mesh, const Topology& topology, const Eigen::VectorXd& heat)
 {
@@ -134,7 +136,8 @@ Eigen::VectorXd divergence(const PolygonMesh& mesh, const Topology& topology, co
 /// Adds a constant to the distances so that, at vertices a few edges from the sources, they agree on average with the
 /// straight distances, which are nearly exact there. At the sources themselves the direction of the gradient is
 /// undefined.
-void measure_from(const PolygonMesh& mesh, const EdgePaths& paths, double edge, Eigen::VectorXd& distance)
+void shift_to_straight_distances(const PolygonMesh& mesh, const EdgePaths& paths, double edge,
+                                 Eigen::VectorXd& distance)
 {
     constexpr double most_edges = 3.5;
     double sum = 0.0;
@@ -184,6 +187,7 @@ HeatSolver::HeatSolver(const PolygonMesh& mesh, const Topology& topology, const 
 Eigen::VectorXd HeatSolver::solve(const Eigen::VectorXd& data, double time_step, const Progress& progress)
 {
     progress.require_going_on();
+    // The system has three columns: only the first is used.
     Points local = Points::Zero(positions_.rows(), 3);
     for (std::size_t v = 0; v < vertices_.size(); ++v)
         local(static_cast<Eigen::Index>(v), 0) = data[vertices_[v]];
@@ -243,8 +247,9 @@ Eigen::VectorXd HeatMethod::distance(std::span<const Index> from, const Progress
     sort_unique(own);
     const Eigen::VectorXd heat = logarithm_of_heat(own, progress);
     const double time_step = squared_diagonals_to_rest_of_distance * diagonal_ * diagonal_;
+    // M is negligible beside dt K: dt X, the solution of K (dt X) = M D, is the distance up to a constant.
     Eigen::VectorXd distance = time_step * insulated_->solve(divergence(mesh_, topology_, heat), time_step, progress);
-    measure_from(mesh_, paths_along_edges(mesh_, topology_, own), edge_, distance);
+    shift_to_straight_distances(mesh_, paths_along_edges(mesh_, topology_, own), edge_, distance);
     return distance;
 }
 

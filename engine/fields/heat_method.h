@@ -15,8 +15,8 @@
 
 namespace seamflow {
 
-/// (M + dt K) X = M D on a whole mesh with Δ_B, in double precision: X is tiny far from the sources, and yet has
-/// correct digits. One factorisation for each dt, which is kept.
+/// (M + dt K) X = M D on a whole mesh with Δ_B (Laplacian::VirtualRefinement), in double precision: X is tiny far from
+/// the sources, and yet has correct digits. One factorisation for each dt, which is kept.
 class HeatSolver {
   public:
     /// @param topology whose moving vertices have equations.
@@ -34,6 +34,7 @@ class HeatSolver {
 
     Index n_vertices_;
     std::optional<NeumannSystem> system_;
+    /// Per local vertex of the system: its number in the mesh, and its position.
     std::vector<Index> vertices_;
     Points positions_ = Points(0, 3);
     SolverWorkspace workspace_;
@@ -66,8 +67,10 @@ class HeatMethod {
     std::vector<Index> vertices_;
     PolygonMesh mesh_;
     Topology topology_;
+    /// The mean edge length, and the diagonal of the bounding box.
     double edge_;
     double diagonal_;
+    /// The equation with an insulating boundary.
     std::optional<HeatSolver> insulated_;
     /// The equation with the boundary at temperature 0, made for the first sources of which none is on the boundary.
     std::optional<HeatSolver> cooled_;

@@ -18,17 +18,16 @@ namespace seamflow {
 
 namespace {
 
-/// The columns that steppers take at a time, as those of positions.
+/// The number of columns that steppers take at a time: as many as positions have.
 constexpr Eigen::Index columns_of_block = 3;
-/// The columns of a call for many columns: few, so that progress is reported between calls.
+/// The largest number of columns of a call for many columns: small, so that progress is reported between calls.
 constexpr Eigen::Index columns_at_once = 192;
 
 }  // namespace
 
 HeatSteps::HeatSteps(PolygonMesh& surface, const FlowOptions& options, Weights weights, const FlowControl& control,
                      Progress& progress, FlowReport& report)
-    : mesh_(surface)
-    , options_(options)
+    : options_(options)
     , weights_(weights)
     , ranks_(control.ranks)
     , progress_(progress)
@@ -39,30 +38,32 @@ HeatSteps::HeatSteps(PolygonMesh& surface, const FlowOptions& options, Weights w
     progress.set_steps(options.steps);
     progress.enter(FlowPhase::Cut, 0, 0.0, 0.6 * setup);
     progress.expect(8.0);
-    decide();
+    make_surface_and_plan(surface);
     report.seconds.cut = watch.lap();
     progress.enter(FlowPhase::Analyse, 0, 0.6 * setup, setup);
     make_stepper_within_limit();
-    report_to(steps_, surface_, options_, mesh_, {}, report);
-    report.cut.labels = std::move(steps_.cut.labels);
+    report_to(plan_, *surface_, options_, {}, report);
+    report.cut.labels = std::move(plan_.cut.labels);
     free_topology();
     report.seconds.analyse = watch.lap();
     report.seconds.total = report.seconds.cut + report.seconds.analyse;
     fractions_.emplace(setup, std::max(options.steps, 1), false);
 }
 
-/// Replaces faces by those of an intrinsic Delaunay triangulation, if weights are to be at least 0 and are not.
-bool HeatSteps::flip_edges(FlowingMesh& mesh, Surface& surface)
+/// Replaces the faces by those of an intrinsic Delaunay triangulation of the same surface, if the options ask for
+/// weights of at least 0 and the Laplacian has others. Keeps K and M of the triangulation in stiffness_.
+/// @returns whether the faces were replaced.
+bool HeatSteps::flip_edges(Surface& surface)
 {
     if (weights_ == Weights::OfLaplacian)
         return false;
-    std::optional<DelaunaySurface> flipped = make_delaunay(mesh.mesh(), surface.topology, options_.laplacian,
+    std::optional<DelaunaySurface> flipped = make_delaunay(surface.mesh.mesh(), surface.topology, options_.laplacian,
                                                            weights_ == Weights::AtLeastZeroInFaces, progress_.exec());
     if (!flipped)
         return false;
-    mesh.replace_faces(std::move(flipped->mesh), flipped->face_of);
+    surface.mesh.replace_faces(std::move(flipped->mesh), flipped->face_of);
     stiffness_ = std::move(flipped->stiffness);
-    // Filters with factors outside 0 to 1 for some modes are excluded.
+    // Only plain steps keep values in their range: other filters can leave it with any weights.
     surface.choices.push_back(
         {"flipped edges",
          {},
@@ -72,43 +73,52 @@ bool HeatSteps::flip_edges(FlowingMesh& mesh, Surface& surface)
 }
 
 /// Decides which vertices have equations, and how these are solved.
-void HeatSteps::decide()
+void HeatSteps::make_surface_and_plan(PolygonMesh& given)
 {
-    require_valid(mesh_.mesh(), progress_.exec());
+    FlowingMesh mesh(given);
+    require_valid(mesh.mesh(), progress_.exec());
     progress_.count();
-    surface_ = make_surface(
-        mesh_, options_.motion,
-        {.laplacian = options_.laplacian,
-         .replace_faces = [this](FlowingMesh& mesh, Surface& surface) { return flip_edges(mesh, surface); }},
+    auto [surface, motion] = make_surface(
+        std::move(mesh), std::move(options_.motion),
+        {.laplacian = options_.laplacian, .replace_faces = [this](Surface& made) { return flip_edges(made); }},
         progress_);
-    options_.cut.labels = mesh_.of_faces_left(options_.cut.labels);
+    options_.motion = std::move(motion);
+    options_.cut.labels = surface.mesh.of_faces_left(options_.cut.labels);
+    surface_.emplace(std::move(surface));
     progress_.count();
-    steps_ = decide_steps(mesh_.mesh(), surface_, options_, std::nullopt,
-                          ranks_ != nullptr ? Sharing::Ranks : Sharing::None, progress_, [] {});
+    plan_ = decide(*surface_, options_, std::nullopt, ranks_ != nullptr ? Sharing::Ranks : Sharing::None, progress_,
+                   [](Approach) {});
 }
 
+/// Makes the stepper; if its factors exceed the memory limit, one without factors, if the plan has such an alternative.
 void HeatSteps::make_stepper_within_limit()
 {
     try {
         make_stepper();
     } catch (const MemoryLimitError&) {
-        if (!steps_.without_factors)
+        if (!plan_.without_factors)
             throw;
-        leave_factors(steps_, options_, mesh_.mesh(), surface_.topology, progress_.exec());
+        leave_factors(plan_, surface_->mesh.mesh(), surface_->topology, progress_.exec());
         make_stepper();
     }
 }
 
+/// Makes the stepper of the plan: shared by ranks, by conjugate gradients, or in sub-meshes.
 void HeatSteps::make_stepper()
 {
-    const PolygonMesh& mesh = mesh_.mesh();
+    const PolygonMesh& mesh = surface_->mesh.mesh();
     const GivenStiffness* const given = stiffness_ ? &*stiffness_ : nullptr;
-    if (ranks_ != nullptr && given == nullptr && ranks_->can_share(steps_.cut, options_)) {
-        stepper_ = ranks_->make_stepper(mesh, surface_.topology, steps_.cut, options_, {}, progress_);
-    } else if (options_.accuracy.approach == Approach::ConjugateGradients) {
-        stepper_ = std::make_unique<ConjugateGradientStepper>(mesh, surface_.topology, options_, progress_, given);
+    const StepSettings settings = settings_of(options_, plan_.way, mesh.vertices);
+    if (ranks_ != nullptr && given == nullptr && ranks_->can_share(plan_, settings)) {
+        stepper_ = ranks_->make_stepper(mesh, surface_->topology, plan_, settings, {}, progress_);
+    } else if (const auto* const gradients = std::get_if<GradientSteps>(&plan_.way)) {
+        stepper_ = std::make_unique<ConjugateGradientStepper>(mesh, surface_->topology, settings, gradients->stop,
+                                                              progress_, given);
     } else {
-        auto stepper = std::make_unique<SchurStepper>(mesh, surface_.topology, steps_.cut, options_, progress_, given);
+        const auto* const converged = std::get_if<ConvergedSteps>(&plan_.way);
+        auto stepper = std::make_unique<SchurStepper>(mesh, surface_->topology, plan_.cut, settings,
+                                                      converged != nullptr ? converged->stop : stop_without_interface,
+                                                      progress_, given);
         in_sub_meshes_ = stepper.get();
         stepper_ = std::move(stepper);
     }
@@ -117,10 +127,10 @@ void HeatSteps::make_stepper()
 /// Frees the topology, except those members that conjugate gradients need.
 void HeatSteps::free_topology()
 {
-    if (options_.accuracy.approach != Approach::ConjugateGradients)
-        surface_.topology = {};
-    surface_.topology.twin = std::vector<Index>();
-    surface_.topology.junctions = std::vector<JunctionLink>();
+    if (!std::holds_alternative<GradientSteps>(plan_.way))
+        surface_->topology = {};
+    surface_->topology.twin = std::vector<Index>();
+    surface_->topology.junctions = std::vector<JunctionLink>();
 }
 
 void HeatSteps::take(Eigen::Ref<Eigen::MatrixXd> fields, int n)
@@ -137,10 +147,11 @@ void HeatSteps::take(Eigen::Ref<Eigen::MatrixXd> fields, int n)
     }
 }
 
+/// Takes n steps with three columns.
 /// @param block #V by 3, in the order of the given surface.
 void HeatSteps::take_block(Points& block, int n, DataSteps steps)
 {
-    mesh_.join(block);
+    surface_->mesh.join(block);
     stepper_->set_data(block, steps);
     for (int step = 1; step <= n; ++step) {
         const Stopwatch watch = begin_step();
@@ -148,7 +159,7 @@ void HeatSteps::take_block(Points& block, int n, DataSteps steps)
         copy(progress_.exec(), stepper_->positions(), block);
         end_steps(watch, 1);
     }
-    mesh_.take_along(block);
+    surface_->mesh.take_along(block);
 }
 
 /// Takes the steps of further columns, many at a time.
@@ -157,20 +168,22 @@ void HeatSteps::take_at_once(Eigen::Ref<Eigen::MatrixXd> fields, int n)
     for (Eigen::Index first = 0; first < fields.cols(); first += columns_at_once) {
         auto portion = fields.middleCols(first, std::min(columns_at_once, fields.cols() - first));
         const Stopwatch watch = begin_step();
-        mesh_.join(portion);
+        surface_->mesh.join(portion);
         in_sub_meshes_->take_columns(portion, n, progress_.exec());
-        mesh_.take_along(portion);
+        surface_->mesh.take_along(portion);
         end_steps(watch, n * ((portion.cols() + columns_of_block - 1) / columns_of_block));
     }
 }
 
+/// Reports the beginning of a step to the observer. @returns a stopwatch for it.
 Stopwatch HeatSteps::begin_step()
 {
     progress_.enter(FlowPhase::Step, fractions_->number(), fractions_->begin(), fractions_->end());
     return {};
 }
 
-/// @param n the number of steps of a block that have been taken.
+/// Adds the time of steps to the report and to the progress.
+/// @param watch begun before the steps. @param n the number of steps, each of a block of columns.
 void HeatSteps::end_steps(const Stopwatch& watch, Eigen::Index n)
 {
     report_.seconds.step += watch.seconds();
@@ -191,8 +204,8 @@ void HeatSteps::complete(FlowReport& report) const
 {
     stepper_->report_to(report);
     remark_on_factorisation(options_.resources.factorisation, report);
-    mesh_.complete(report);
-    report.cut.labels = mesh_.labels_of_given(std::move(report.cut.labels), report.cut.n_sub_meshes());
+    surface_->mesh.complete(report);
+    report.cut.labels = surface_->mesh.labels_of_given(std::move(report.cut.labels), report.cut.n_sub_meshes());
 }
 
 }  // namespace seamflow

@@ -11,9 +11,8 @@
 #include "engine/motion/step_fractions.h"
 #include "engine/options/flow_control.h"
 #include "engine/options/flow_options.h"
-#include "engine/setup/decided_steps.h"
+#include "engine/setup/flow_plan.h"
 #include "engine/steppers/heat_stepper.h"
-#include "engine/surface/flowing_mesh.h"
 #include "engine/surface/surface.h"
 #include "engine/tasks/progress.h"
 #include "engine/tasks/stopwatch.h"
@@ -46,8 +45,8 @@ class HeatSteps {
     void complete(FlowReport& report) const;
 
   private:
-    bool flip_edges(FlowingMesh& mesh, Surface& surface);
-    void decide();
+    bool flip_edges(Surface& surface);
+    void make_surface_and_plan(PolygonMesh& given);
     void make_stepper();
     void make_stepper_within_limit();
     void free_topology();
@@ -56,18 +55,18 @@ class HeatSteps {
     Stopwatch begin_step();
     void end_steps(const Stopwatch& watch, Eigen::Index n);
 
-    FlowingMesh mesh_;
-    /// The given options, with choices where they left something open. Labels are those of the faces of mesh_.
+    /// The given options. Labels are those of the faces of surface_.
     FlowOptions options_;
     Weights weights_;
     /// Null if one process takes all steps.
     StepSharing* ranks_;
     Progress& progress_;
     FlowReport& report_;
-    Surface surface_;
+    /// Made in the constructor.
+    std::optional<Surface> surface_;
     /// K and M, if the weights of the Laplacian are not those that were asked for; otherwise empty.
     std::optional<GivenStiffness> stiffness_;
-    DecidedSteps steps_;
+    FlowPlan plan_;
     std::optional<StepFractions> fractions_;
     std::unique_ptr<HeatStepper> stepper_;
     /// The same stepper, if it is a SchurStepper; otherwise null.

@@ -11,14 +11,14 @@ namespace seamflow {
 
 namespace {
 
-/// A number between -√3 and √3, all equally likely.
+/// A pseudo-random number between -√3 and √3, uniformly distributed, of variance 1: a hash of `number`.
 double uniform(std::uint64_t number)
 {
     const double in_unit = static_cast<double>(mixed((number + 1) * 0x9e3779b97f4a7c15U) >> 11U) * 0x1p-53;
     return std::numbers::sqrt3 * (2.0 * in_unit - 1.0);
 }
 
-/// Sums of squares over vertices and edges of a mesh.
+/// The count, the sum and the sum of squares of some numbers.
 struct NoiseSums {
     double n = 0.0;
     double value = 0.0;
@@ -67,6 +67,8 @@ std::optional<double> fwhm_of_noise(const PolygonMesh& mesh, const Eigen::Matrix
                 v = w;
             }
         }
+        // Forman and others: FWHM = l √(-2 ln 2 / ln ρ), with the mean length l of edges and the correlation ρ along
+        // them.
         const double correlation = 1.0 - differences.squared / differences.n / (2.0 * values.variance());
         if (!(correlation > 0.0 && correlation < 1.0))
             return std::nullopt;

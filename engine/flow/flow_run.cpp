@@ -56,9 +56,9 @@ void in_mean_edges(std::optional<double>& estimate, const PolygonMesh& mesh, con
 
 }  // namespace
 
-FlowRun::FlowRun(FlowingMesh& mesh, std::unique_ptr<PreparedFlow> prepared, Progress& progress, double setup,
-                 FlowReport& report, const FlowControl& control)
-    : SurfaceRun(mesh, prepared->surface.topology, progress, report, control.resume.get())
+FlowRun::FlowRun(std::unique_ptr<PreparedFlow> prepared, Progress& progress, double setup, FlowReport& report,
+                 const FlowControl& control)
+    : SurfaceRun(prepared->surface, progress, report, control.resume.get())
     , prepared_(std::move(prepared))
     , flow_report_(report)
     , setup_(setup)
@@ -66,7 +66,7 @@ FlowRun::FlowRun(FlowingMesh& mesh, std::unique_ptr<PreparedFlow> prepared, Prog
 {
     const MotionOptions& motion = options().motion;
     make_steppers();
-    vanishing_.emplace(mesh.mesh(), topology_, options());
+    vanishing_.emplace(mesh_.mesh(), topology_, options());
     begin(motion, options().flow == FlowEquation::Conformalized, options().accuracy.largest_update, setup,
           options().steps, reference_ != nullptr);
     free_topology();
@@ -82,7 +82,7 @@ void FlowRun::free_topology()
     topology.twin = std::vector<Index>();
     topology.junctions = std::vector<JunctionLink>();
     // Steps in sub-meshes do not use the topology of the whole mesh.
-    const bool is_whole = options().scheme == Scheme::ExplicitEuler || takes_whole_mesh(options().accuracy.approach);
+    const bool is_whole = takes_whole_mesh(prepared_->plan.way);
     const bool needs_normals = options().motion.direction.kind != MotionDirection::Kind::Any;
     if (is_whole || options().report.measures || constraints_->limited.has_value() || needs_normals)
         return;
@@ -103,35 +103,33 @@ void FlowRun::make_steppers()
     try {
         make_stepper_of_flow();
     } catch (const MemoryLimitError&) {
-        if (!prepared_->steps.without_factors)
+        if (!prepared_->plan.without_factors)
             throw;
-        leave_factors(prepared_->steps, prepared_->options, mesh, topology_, progress_.exec());
+        leave_factors(prepared_->plan, mesh, topology_, progress_.exec());
         make_stepper_of_flow();
     }
-    report_to(*prepared_, mesh_, flow_report_);
-    flow_report_.cut.labels = std::move(prepared_->steps.cut.labels);
+    report_to(*prepared_, flow_report_);
+    flow_report_.cut.labels = std::move(prepared_->plan.cut.labels);
     flow_report_.seconds.analyse = watch.lap();
     flow_report_.seconds.total = flow_report_.seconds.cut + flow_report_.seconds.analyse;
     if (options().report.reference) {
         progress_.enter(FlowPhase::Analyse, 0, 0.8 * setup_, setup_);
-        reference_ = make_undecomposed_stepper(mesh, prepared_->surface.topology, options(), std::nullopt, progress_);
+        StepSettings settings = settings_of(options(), UndecomposedSteps(), mesh.vertices);
+        settings.factors.memory_limit.reset();
+        reference_ = make_undecomposed_stepper(mesh, prepared_->surface.topology, settings, progress_);
     }
 }
 
-/// Makes the stepper that the options ask for, or one that shares the steps among ranks.
+/// Makes the stepper of the plan, or one that shares the steps among ranks.
 void FlowRun::make_stepper_of_flow()
 {
     const PolygonMesh& mesh = mesh_.mesh();
-    if (prepared_->steps.costs && options().accuracy.approach == Approach::ConjugateGradients &&
-        filter_of(options()).is_plain())
-        stepper_ = std::make_unique<SwitchingStepper>(mesh, prepared_->surface.topology, options(),
-                                                      *prepared_->steps.costs, progress_);
-    else if (ranks_ != nullptr && ranks_->can_share(prepared_->steps.cut, options()))
-        stepper_ = ranks_->make_stepper(mesh, topology_, prepared_->steps.cut, options(),
-                                        std::move(prepared_->curvature), progress_);
-    else
-        stepper_ = make_stepper(mesh, prepared_->surface.topology, prepared_->steps.cut, options(),
-                                std::move(prepared_->curvature), progress_);
+    const FlowPlan& plan = prepared_->plan;
+    const StepSettings settings = settings_of(options(), plan.way, mesh.vertices);
+    std::vector<double>& curvature = prepared_->curvature;
+    stepper_ = ranks_ != nullptr && ranks_->can_share(plan, settings)
+                   ? ranks_->make_stepper(mesh, topology_, plan, settings, std::move(curvature), progress_)
+                   : make_stepper(mesh, topology_, plan.cut, plan.way, settings, std::move(curvature), progress_);
 }
 
 void FlowRun::restore(const FlowState& state)
@@ -155,7 +153,7 @@ FlowState FlowRun::capture() const
         throw ComputationError("a flow that was changed between its steps has no state to resume from");
     FlowState state = SurfaceRun::capture();
     state.identity = prepared_->identity;
-    state.approach = options().accuracy.approach;
+    state.approach = approach_of(prepared_->plan.way);
     state.cut = checksum_of(flow_report_.cut.labels);
     if (resume_ != nullptr)
         state.seconds.add_tasks(resume_->seconds);
@@ -216,7 +214,7 @@ void FlowRun::show(const StepState& state, const StepObserver& on_step) const
 void FlowRun::complete(FlowReport& report) const
 {
     remark_on_constraints(report, vanishing_->remark());
-    remark_on_drift(options(), report);
+    remark_on_drift(report);
     report_measures(report);
     if (stepper_->separated() != nullptr)
         report.separated = *stepper_->separated();

@@ -19,12 +19,12 @@ namespace seamflow {
 class FlowRun final : public SurfaceRun {
   public:
     /// Makes the stepper, and that of the undecomposed flow if it is asked for.
-    /// @param mesh, progress, report must outlive the run; the mesh moves with each step.
+    /// @param progress, report must outlive the run; the mesh moves with each step.
     /// @param setup the fraction of the whole flow that setup takes.
     /// @param control with the state to resume from, and ranks that share the steps; must outlive the run.
     /// @throws as make_stepper; InputError for a state that does not fit.
-    FlowRun(FlowingMesh& mesh, std::unique_ptr<PreparedFlow> prepared, Progress& progress, double setup,
-            FlowReport& report, const FlowControl& control);
+    FlowRun(std::unique_ptr<PreparedFlow> prepared, Progress& progress, double setup, FlowReport& report,
+            const FlowControl& control);
 
     /// The functions of Flow between steps, for vertices of the given mesh. The mesh moves at once.
     /// @throws OptionError if the flow does not allow the change; InputError for vertices that do not exist.

@@ -31,12 +31,12 @@ DisplacementMeter::DisplacementMeter(const PolygonMesh& mesh, const Topology& to
 void DisplacementMeter::begin(const Points& positions)
 {
     const auto n = static_cast<std::size_t>(positions.rows());
-    const std::function<void()> parts[] = {
+    const std::function<void()> fills[] = {
         [&] { drift_ = Points::Zero(positions.rows(), 3); },
         [&] { path_.tangential.assign(n, undefined); },
         [&] { path_.normal.assign(n, undefined); },
     };
-    for_each(run_in_parallel, 3, [&](Index part) { parts[part](); });
+    for_each(run_in_parallel, 3, [&](Index i) { fills[i](); });
     measure_normals(positions);
 }
 

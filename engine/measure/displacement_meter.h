@@ -22,17 +22,18 @@ class DisplacementMeter {
     /// @param mesh, topology must outlive the meter.
     DisplacementMeter(const PolygonMesh& mesh, const Topology& topology);
 
-    /// Adds one step.
+    /// Adds one step, and returns its displacements.
     /// @param before, after #V by 3; `before` is `after` of the last step, if there was one.
     DisplacementStatistics add_step(const Points& before, const Points& after);
 
     /// The total over all steps so far.
     [[nodiscard]] TotalDisplacement total() const;
 
-    /// Returns the sums to which the next step adds, empty before the first step; `restore` continues from them.
+    /// The sums to which the next step adds; empty before the first step.
+    [[nodiscard]] DisplacementSums sums() const;
+    /// Continues from sums of an earlier meter.
     /// @param now #V by 3, the positions at that time.
     /// @throws InputError if the sums do not fit the mesh.
-    [[nodiscard]] DisplacementSums sums() const;
     void restore(const DisplacementSums& sums, const Points& now);
 
   private:

@@ -8,7 +8,7 @@
 
 namespace seamflow {
 
-void remark_on_drift(const FlowOptions& options, FlowReport& report)
+void remark_on_drift(FlowReport& report)
 {
     if (report.steps.empty() || report.steps.back().estimated_v_max.value_or(0.0) <= 1.0)
         return;
@@ -18,7 +18,7 @@ void remark_on_drift(const FlowOptions& options, FlowReport& report)
          {{"mean edge lengths", distance}},
          {fmt::format("The result is, by estimate, up to {:.2g} mean edge lengths away from the undecomposed flow: {}",
                       distance,
-                      options.accuracy.tolerance
+                      report.convergence.tolerance
                           ? "a smaller tolerance brings it closer."
                           : "fewer sub-meshes bring it closer; <tolerance> gives the undecomposed step itself.")}});
 }

@@ -5,17 +5,17 @@
 
 namespace seamflow {
 
-/// Adds what the estimate after the last step means for the user, if it means anything.
-void remark_on_drift(const FlowOptions& options, FlowReport& report);
+/// Adds a remark if the estimated distance to the undecomposed flow after the last step is above a mean edge length.
+void remark_on_drift(FlowReport& report);
 
-/// Adds a remark where equations were nearly singular.
+/// Adds a remark if equations of sub-meshes were nearly singular.
 void remark_on_near_singularity(FlowReport& report);
 
 /// Adds a remark if sub-meshes could not use the factorisation that was asked for.
 void remark_on_factorisation(Factorisation asked, FlowReport& report);
 
-/// Adds a remark where steps have missed the tolerance, as the report says.
-/// @param iterations the most that a step may have.
+/// Adds a remark if steps have missed the tolerance, by their number in the report.
+/// @param iterations the largest number that a step may take.
 void remark_on_missed_tolerance(int iterations, FlowReport& report);
 
 }  // namespace seamflow

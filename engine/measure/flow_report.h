@@ -76,8 +76,8 @@ struct ResourceReport {
 
 /// The report on one of several ranks that shared the steps.
 struct RankRecord {
-    /// The number of vertices whose positions the rank computed; and of further vertices that it knew, of the faces
-    /// around its sub-meshes.
+    /// The number of vertices whose positions the rank sent to rank 0; and of the further vertices that it knew, in its
+    /// sub-meshes and around them.
     std::int64_t vertices = 0;
     std::int64_t foreign_vertices = 0;
     /// The number of messages that the rank sent in all steps, and their bytes.

@@ -23,6 +23,8 @@ LengthScale::LengthScale(double mean_edge, double diagonal)
 {
 }
 
+/// The mesh, after a check.
+/// @throws InputError if it is not valid.
 const PolygonMesh& LengthScale::mesh() const
 {
     require_valid(*mesh_, exec_);

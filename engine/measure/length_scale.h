@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "engine/options/amount.h"
+#include "engine/options/motion_options.h"
 #include "partition/executor.h"
 #include "partition/polygon_mesh.h"
 #include "solvers/filters/step_filter.h"
@@ -15,7 +15,7 @@ class LengthScale {
   public:
     /// @param mesh must outlive this.
     explicit LengthScale(const PolygonMesh& mesh, Executor exec = run_serially);
-    /// Sizes that are known.
+    /// A scale of known sizes, in length.
     LengthScale(double mean_edge, double diagonal);
 
     /// See mean_edge_length. @throws InputError for a mesh that is not valid.
@@ -24,7 +24,7 @@ class LengthScale {
     /// The diagonal of the box around the faces. @throws InputError for a mesh that is not valid.
     double diagonal();
 
-    /// @returns the length in units of length. @throws as diagonal().
+    /// The length in units of length. @throws as diagonal().
     double length_of(const LengthOnMesh& length);
 
   private:

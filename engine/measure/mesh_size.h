@@ -18,6 +18,7 @@ struct MeshSize {
 /// The area of all faces, in length², whichever way they are oriented.
 double total_area(const PolygonMesh& mesh);
 
+/// The sizes of a mesh.
 /// @pre the mesh is valid (see require_valid).
 MeshSize size_of(const PolygonMesh& mesh);
 

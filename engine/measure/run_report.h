@@ -11,7 +11,7 @@
 #include "partition/polygon_mesh.h"
 #include "partition/remark.h"
 
-/// What is reported on a surface that moves in steps, whatever moves it.
+/// The report on a surface that moves in steps, by a flow or by denoise().
 namespace seamflow {
 
 /// Times in seconds. `assemble` to `correct` are summed over all tasks and threads; the others are wall-clock time.
@@ -43,11 +43,11 @@ struct PhaseSeconds {
 /// The displacement of the vertices by a whole flow, tangential to the surface and normal to it, in units of length.
 /// Only tangential displacements deform a texture on the mesh.
 struct TotalDisplacement {
-    /// Per vertex, the sums over all steps of the lengths of its tangential and normal displacements: the path of the
-    /// vertex, there and back.
+    /// Statistics over the vertices of the lengths of their paths, there and back: of the sums over all steps of the
+    /// lengths of the tangential and of the normal displacements.
     DisplacementStatistics path;
-    /// Per vertex, the length of the vector sum of its tangential displacements: how far the vertex, and the texture
-    /// with it, has slid along the surface in the end.
+    /// Statistics over the vertices of the length of the vector sum of the tangential displacements: how far the
+    /// vertex, and the texture with it, has slid along the surface in the end.
     LengthStatistics drift;
 };
 
@@ -68,8 +68,8 @@ struct StepReport {
     std::optional<int> iterations;
     std::optional<double> residual;
     /// An estimate of the largest distance to the undecomposed flow after this step, VertexDistance::max. For sweeps it
-    /// follows from the residual of the whole mesh's rows, for converged steps from their residual.
-    /// Only for backward Euler steps, and not with Conditions::Schwarz, whose sub-meshes overlap.
+    /// follows from the residual of the whole mesh's rows, for converged steps from their residual. Only for backward
+    /// Euler steps, and not with Conditions::Schwarz, whose sub-meshes overlap.
     std::optional<double> estimated_v_max;  ///< in mean edge lengths
     /// Distance to the undecomposed flow after this step, with ReportOptions::reference.
     std::optional<VertexDistance> distance;
@@ -99,14 +99,14 @@ struct MeshReport {
     std::vector<Index> moved_with;
 };
 
-/// What every run of steps reports.
+/// The report that every run of steps gives.
 struct RunReport {
     MeshReport mesh;
     PhaseSeconds seconds;
     std::vector<StepReport> steps;
     /// Only if displacements are measured.
     std::optional<TotalDisplacement> displacement;
-    /// What was chosen, and the reason, where the options left it open; a sentence each.
+    /// Choices that the options left open, each a sentence with the reason.
     std::vector<Remark> choices;
     /// Remarks for the user, a sentence each: a number of sub-meshes that was changed, vertices that were fixed, and so
     /// on.

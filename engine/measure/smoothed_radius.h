@@ -9,8 +9,8 @@ namespace seamflow {
 /// step multiplies by the filter's transfer(dt π²/(2R²)), to first order in a. With Laplacian::Uniform that holds where
 /// edges are as long as its h.
 /// @param time_step in length². @param steps at least 1.
-/// @returns R, in units of length.
 /// @param filter of each step.
+/// @returns R, in units of length.
 double smoothed_radius(double time_step, int steps, const StepFilter& filter = {});
 
 /// The time step, in length², with which that many steps smooth bumps of radius R: the inverse of smoothed_radius.

@@ -10,6 +10,7 @@ namespace seamflow {
 
 namespace {
 
+/// ‖ΔV‖ at an interior vertex that may move, in 1/length; 0 at other vertices.
 double curvature_at(const PolygonMesh& mesh, const Topology& topology, const Points& positions,
                     const ScaledLaplacian& laplacian, Index v)
 {

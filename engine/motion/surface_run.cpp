@@ -13,15 +13,14 @@
 
 namespace seamflow {
 
-SurfaceRun::SurfaceRun(FlowingMesh& mesh, const Topology& topology, Progress& progress, RunReport& report,
-                       const FlowState* resume)
-    : mesh_(mesh)
-    , topology_(topology)
+SurfaceRun::SurfaceRun(Surface& surface, Progress& progress, RunReport& report, const FlowState* resume)
+    : mesh_(surface.mesh)
+    , topology_(surface.topology)
     , progress_(progress)
     , report_(report)
     , resume_(resume)
     , laplacian_(Laplacian::Fujiwara)
-    , extent_before_(box_of_faces(mesh.mesh(), run_in_parallel).diagonal())
+    , extent_before_(box_of_faces(surface.mesh.mesh(), run_in_parallel).diagonal())
 {
 }
 

@@ -9,7 +9,7 @@
 #include "engine/motion/step_fractions.h"
 #include "engine/motion/surface_stepper.h"
 #include "engine/state/flow_state.h"
-#include "engine/surface/flowing_mesh.h"
+#include "engine/surface/surface.h"
 #include "engine/tasks/progress.h"
 #include "solvers/laplacian/laplacian.h"
 
@@ -28,10 +28,9 @@ class SurfaceRun {
     void take_step(const StepObserver& on_step);
 
   protected:
-    /// @param mesh, topology, progress, report must outlive the run; the mesh moves with each step.
+    /// @param surface, progress, report must outlive the run; the mesh moves with each step.
     /// @param resume the state to resume from, or null.
-    SurfaceRun(FlowingMesh& mesh, const Topology& topology, Progress& progress, RunReport& report,
-               const FlowState* resume);
+    SurfaceRun(Surface& surface, Progress& progress, RunReport& report, const FlowState* resume);
 
     /// Measures mean curvature and displacements after each step, from now on.
     /// @param meter refers to the topology. @param curvature the largest one now, in 1/length.

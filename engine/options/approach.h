@@ -7,9 +7,10 @@ enum class Approach {
     /// The fastest of Decomposed, ConjugateGradients and Undecomposed, by a cost model. It is Decomposed if another
     /// option concerns sub-meshes or sweeps, or if the Laplacian is not symmetric.
     Automatic,
-    /// Sub-meshes: Converged with a tolerance, or to a loose one where that pays, otherwise Sweep.
+    /// Steps in sub-meshes: Converged if there is a tolerance, or if a loose one pays; otherwise Sweep.
     Decomposed,
-    /// One sweep over the colours. Not with a tolerance.
+    /// One pass over the sub-meshes, colour by colour (adjacent sub-meshes have different colours), in which each
+    /// sub-mesh solves once: near the undecomposed step, not equal to it. Not with a tolerance.
     Sweep,
     /// Sub-meshes that converge to the undecomposed step, to AccuracyOptions::tolerance or a loose one.
     Converged,

@@ -9,13 +9,13 @@ namespace seamflow {
 
 class HeatStepper;
 class Progress;
-struct Cut;
-struct FlowOptions;
+struct FlowPlan;
 struct FlowState;
 struct PolygonMesh;
+struct StepSettings;
 struct Topology;
 
-/// Those who share the steps of a flow with the one that runs it, such as ranks (see RankGroup).
+/// Processes or threads that share the steps of a flow with the one that runs it (see RankGroup).
 class StepSharing {
   public:
     StepSharing() = default;
@@ -24,19 +24,18 @@ class StepSharing {
     virtual ~StepSharing() = default;
 
     /// Whether they can share these steps.
-    /// @param options with all choices made.
-    [[nodiscard]] virtual bool can_share(const Cut& cut, const FlowOptions& options) const = 0;
+    [[nodiscard]] virtual bool can_share(const FlowPlan& plan, const StepSettings& settings) const = 0;
 
     /// Makes a stepper that shares its steps.
-    /// @param mesh, topology, cut are not needed later; progress must outlive the stepper. @param curvature #V: ‖ΔV⁰‖,
-    /// in 1/length; empty: as if it were 0.
-    /// @pre can_share(cut, options). @throws as make_stepper.
-    virtual std::unique_ptr<HeatStepper> make_stepper(const PolygonMesh& mesh, const Topology& topology, const Cut& cut,
-                                                      const FlowOptions& options, std::vector<double> curvature,
-                                                      Progress& progress) = 0;
+    /// @param mesh, topology, plan, settings are not needed later; progress must outlive the stepper. @param curvature
+    /// #V: ‖ΔV⁰‖, in 1/length; empty: as if it were 0.
+    /// @pre can_share(plan, settings). @throws as make_stepper.
+    virtual std::unique_ptr<HeatStepper> make_stepper(const PolygonMesh& mesh, const Topology& topology,
+                                                      const FlowPlan& plan, const StepSettings& settings,
+                                                      std::vector<double> curvature, Progress& progress) = 0;
 };
 
-/// What a flow is doing.
+/// The present activity of a flow.
 enum class FlowPhase {
     /// Checks the mesh, joins its faces, cuts it.
     Cut,
@@ -48,7 +47,7 @@ enum class FlowPhase {
     Reference,
 };
 
-/// How far a flow is.
+/// The progress of a flow.
 struct FlowProgress {
     FlowPhase phase = FlowPhase::Cut;
     /// The current step, from 1 (0 before the first), and the number of steps.
@@ -59,8 +58,8 @@ struct FlowProgress {
     double fraction = 0.0;
 };
 
-/// Receives how far a flow is, at the beginning of every phase and at every noticeable advance, also within a step:
-/// some hundred times, and a few times per second. Called in any thread of the flow, but never concurrently, nor
+/// Receives the progress of a flow, at the beginning of every phase and at every noticeable advance, also within a
+/// step: some hundred times, and a few times per second. Called in any thread of the flow, but never concurrently, nor
 /// together with a StepObserver. An exception from it ends the flow.
 using ProgressObserver = std::function<void(const FlowProgress&)>;
 
@@ -72,10 +71,10 @@ struct FlowControl {
     /// The state to resume from instead of the beginning, made by StepState::capture in an observer of the same flow:
     /// of the same mesh and options, except for the number of steps and for options that do not change results.
     std::shared_ptr<const FlowState> resume = nullptr;
-    /// Ranks that share the steps; must outlive the flow. Where the approach is left open, it is then one that they can
-    /// share: sweeps, or converged steps. Rank 0, which runs the flow, does everything else alone, and those steps,
-    /// too, that they cannot share. Nothing but the approach depends on them. A flow that they share changes nothing
-    /// between its steps but positions (see Flow).
+    /// Ranks that share the steps; must outlive the flow. An approach that is left open is then one that ranks can
+    /// share: sweeps, or converged steps. Rank 0, which runs the flow, does all other work alone, including steps that
+    /// ranks cannot share. Results depend on ranks only by the approach. Between the steps of a shared flow only
+    /// positions can be changed (see Flow).
     StepSharing* ranks = nullptr;
 };
 

@@ -23,13 +23,18 @@ ScaledLaplacian laplacian_of(const FlowOptions& options)
 
 StepFilter filter_of(const FlowOptions& options)
 {
-    // Tolerances that were not asked for are never smaller.
+    return filter_of(options, options.accuracy.approach, options.accuracy.tolerance);
+}
+
+StepFilter filter_of(const FlowOptions& options, Approach approach, std::optional<double> tolerance)
+{
+    // A smaller tolerance was asked for: the filter must be as exact. Tolerances that are chosen are not smaller.
     constexpr double smallest_by_choice = 1e-4;
     StepFilter filter{.kind = options.filter, .order = options.order.value_or(orders_of(options.filter).first)};
     constexpr double of_undecomposed = 1e-6;
-    if (options.accuracy.tolerance && *options.accuracy.tolerance < smallest_by_choice)
-        filter.tolerance = std::max(*options.accuracy.tolerance, 1e-12);
-    else if (options.accuracy.approach == Approach::Undecomposed)
+    if (tolerance && *tolerance < smallest_by_choice)
+        filter.tolerance = std::max(*tolerance, 1e-12);
+    else if (approach == Approach::Undecomposed)
         filter.tolerance = of_undecomposed;
     return filter;
 }

@@ -4,7 +4,6 @@
 #include <optional>
 #include <vector>
 
-#include "engine/options/amount.h"
 #include "engine/options/approach.h"
 #include "engine/options/motion_options.h"
 #include "partition/polygon_mesh.h"
@@ -45,8 +44,8 @@ enum class Scheme {
     /// (I + dt Δ(Vⁿ)) Vⁿ⁺¹ = Vⁿ (paper, eq. 3).
     BackwardEuler,
     /// Vⁿ⁺¹ = (I - dt Δ(Vⁿ)) Vⁿ, undecomposed: options about sub-meshes are ignored. dt must not exceed the square of
-    /// the shortest edge; a quarter of it is safe on regular grids. Above that the surface
-    /// can become rough instead of smooth; the report then has a remark.
+    /// the shortest edge; a quarter of it is safe on regular grids. Above that the surface can become rough instead of
+    /// smooth; the report then has a remark.
     ExplicitEuler,
 };
 
@@ -247,8 +246,9 @@ bool is_plain_flow(const FlowOptions& options);
 /// The Laplacian with its scale.
 ScaledLaplacian laplacian_of(const FlowOptions& options);
 
-/// The filter of each step, with the tolerance of the steps.
+/// The filter of each step, with the tolerance of the steps: as asked, or as decided.
 StepFilter filter_of(const FlowOptions& options);
+StepFilter filter_of(const FlowOptions& options, Approach approach, std::optional<double> tolerance);
 
 /// Whether a sweep uses predictions of the other side of Γ.
 bool predicts(const FlowOptions& options);

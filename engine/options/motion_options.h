@@ -5,34 +5,59 @@
 #include <optional>
 #include <vector>
 
-#include "engine/options/amount.h"
 #include "partition/polygon_mesh.h"
-#include "partition/vector_area.h"
 
-/// What holds for the vertices of a surface that moves, whatever moves it.
+/// Constraints on the vertices of a surface that moves, by a flow or by denoise().
 namespace seamflow {
 
 /// The largest numbers of steps and of threads.
 inline constexpr int most_steps = 1'000'000'000;
 inline constexpr int most_threads = 1024;
 
+/// A length in units of the mesh, `0.5`; or a fraction of the diagonal of the box around its faces: `{0.01, true}` is
+/// 1 % of it.
+struct LengthOnMesh {
+    constexpr LengthOnMesh(double in_units_or_diagonals = 0.0, bool is_of_diagonal = false)
+        : value(in_units_or_diagonals)
+        , of_diagonal(is_of_diagonal)
+    {
+    }
+
+    double value;
+    bool of_diagonal;
+
+    friend bool operator==(const LengthOnMesh&, const LengthOnMesh&) = default;
+};
+
+/// How much is smoothed, in one of three ways.
+struct SmoothingAmount {
+    /// dt of one step, in length²; one step smooths over a distance of about √dt. Must be positive and finite, or 0 if
+    /// another field gives the amount.
+    double time_step = 0.0;
+    /// dt of one step, in squared mean edge lengths. Must be positive and finite.
+    std::optional<double> time_step_edges = {};
+    /// The amount of all steps together: bumps of this radius lose half their height, smaller ones more (see
+    /// smoothed_radius). Must be positive and finite.
+    std::optional<LengthOnMesh> radius = {};
+};
+
 /// Boundary conditions on the boundary of the whole mesh.
 enum class Boundary {
     /// Boundary vertices stay where they are, bit for bit.
     Fixed,
     /// Natural boundary conditions: the equations at the boundary are assembled from the existing faces. The surface
-    /// shrinks there by about √dt a step, like a soap film without a frame. Not with Δ_P, whose one-sided rows at a
-    /// boundary are unstable. Sub-meshes can share such a boundary only in converged steps, which are then chosen.
+    /// shrinks there by about √dt a step, like a soap film without a frame. Not with Δ_P (Laplacian::PtackovaVelho),
+    /// whose one-sided rows at a boundary are unstable. Sub-meshes can share such a boundary only in converged steps,
+    /// which are then chosen.
     Free,
 };
 
 /// Vertices at junctions: on edges of three faces or more, where sheets of a surface meet.
 enum class Junctions {
     /// They move like others: K and M are sums over the faces of all sheets, so that the lines of three sheets tend to
-    /// angles of 120°. Sub-meshes can share such lines only in converged steps, which are then chosen. Held instead
-    /// with Δ_P, with SmoothBetweenEdges, and where an option asks for sweeps over sub-meshes; a remark says so.
-    /// Vertices where
-    /// merely several fans of faces touch stay held: they are usually a defect.
+    /// angles of 120°. Sub-meshes can share such lines only in converged steps, which are then chosen. The vertices are
+    /// held instead with Δ_P, with SmoothBetweenEdges, and if an option asks for sweeps over sub-meshes; a remark says
+    /// so. Vertices where merely several fans of faces touch stay held: they are usually a defect.
     Flow,
     /// They stay where they are, and so do all other vertices where the mesh is not manifold.
     Hold,
@@ -64,7 +89,7 @@ struct ComponentLimits {
     [[nodiscard]] bool exist() const { return std::isfinite(volume) || std::isfinite(move) || std::isfinite(slide); }
 };
 
-/// The lines along which vertices move. What slides along the surface that a step makes is left out.
+/// The lines along which vertices move. Sliding along the surface that a step makes is left out.
 struct MotionDirection {
     enum class Kind {
         /// Vertices move freely.
@@ -76,7 +101,7 @@ struct MotionDirection {
         Normal,
     };
     Kind kind = Kind::Any;
-    /// Of any length above 0.
+    /// For Kind::Vector: a vector of any length above 0.
     Point vector = Point::Zero();
 
     friend bool operator==(const MotionDirection& a, const MotionDirection& b)
@@ -90,10 +115,10 @@ struct MotionOptions {
     /// Strengths below this hold a vertex, as 0 does.
     static constexpr double least_strength = 1e-9;
 
-    /// Distance within which boundary vertices count as coincident where two boundary edges can
-    /// become one (see weld). Such vertices move as one, but stay separate in the mesh, so that the surface continues
-    /// across seams of its texture. Moving copies come to one place; fixed ones stay where they are. 0: coordinates
-    /// have to be equal. nullopt disables welding.
+    /// Distance within which boundary vertices count as coincident where two boundary edges can become one (see weld).
+    /// Such vertices move as one, but stay separate in the mesh, so that the surface continues across seams of its
+    /// texture. Moving copies come to one place; fixed ones stay where they are. 0: coordinates have to be equal.
+    /// nullopt disables welding.
     std::optional<LengthOnMesh> weld = 0.0;
     /// Boundary conditions.
     Boundary boundary = Boundary::Fixed;
@@ -102,12 +127,12 @@ struct MotionOptions {
     /// Vertices that stay where they are, bit for bit; in any order, repetitions are allowed.
     std::vector<Index> fixed_vertices = {};
     /// Edges that denoise() keeps whatever their angle: pairs of vertices that share an edge of a face. Faces on the
-    /// two sides are smoothed independently. With SmoothBetweenEdges a vertex between two of these edges
-    /// moves along them, at most to their midpoints; all others on them stay.
+    /// two sides are smoothed independently. With SmoothBetweenEdges a vertex between two of these edges moves along
+    /// them, at most to their midpoints; all other vertices on the edges stay.
     std::vector<Edge> feature_edges = {};
     /// Refuses meshes on which the flow is not defined everywhere: those that are not manifold, or on which edges
-    /// without length (Δ_F) or faces without area (the others) leave the Laplacian undefined at vertices that should
-    /// move. If false, such vertices stay fixed, except at junctions, and a remark gives their number.
+    /// without length (Fujiwara) or faces without area (other Laplacians) leave the Laplacian undefined at vertices
+    /// that should move. If false, such vertices stay fixed, except at junctions, and a remark gives their number.
     bool strict = false;
     /// w of a screening term that pulls towards the first positions, in 1/length², at least 0:
     /// ∂V/∂t = -ΔV - w (V - V⁰). Features larger than about 1/√w stay, because the flow ends at the solution of
@@ -132,9 +157,9 @@ struct MotionOptions {
     /// unscaled; the conformalized flow continues from the scaled result, so that it does not vanish on its way to a
     /// sphere. Every vertex with faces moves: none of them may be fixed.
     Rescale rescale = Rescale::None;
-    /// Largest distance of any vertex from its first position, above 0. It bounds each result; the
-    /// flow itself is not changed. Vertices beyond it are put back to that distance, and their neighbours follow
-    /// smoothly. nullopt: no bound.
+    /// Largest distance of any vertex from its first position, above 0. It bounds each result; the flow itself is not
+    /// changed. Vertices beyond it are put back to that distance, and their neighbours follow smoothly. nullopt: no
+    /// bound.
     std::optional<LengthOnMesh> within = {};
     /// Limits of each result, like `within`.
     ComponentLimits limits = {};

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "engine/options/amount.h"
+#include "engine/options/motion_options.h"
 #include "engine/options/option_traits.h"
 #include "partition/errors.h"
 

@@ -116,6 +116,7 @@ struct OptionNames<Precision> {
         {"auto", Precision::Automatic}, {"single", Precision::Single}, {"double", Precision::Double}};
 };
 
+/// The name of a value.
 /// @throws OptionError for an invalid value.
 template <class Option>
 std::string_view option_name(Option value)

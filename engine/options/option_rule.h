@@ -9,26 +9,28 @@
 /// options by other means and have other names for them (see Wording).
 namespace seamflow {
 
-/// Which options a caller asks for. A command line may name the default, or a file with what a field is to hold.
+/// The options that a caller asks for. A command line may ask for a default value, or name a file with the values of a
+/// field.
 struct AskedOptions {
+    /// Whether an option is asked for.
     /// @param option a field of FlowOptions (see option_table.h), or an option that only the caller has.
     std::function<bool(std::string_view option)> has;
-    /// The first that has one of these concerns; empty: none.
+    /// The first option asked for that has one of these concerns (see concern); empty: none has.
     std::function<std::string(unsigned concerns)> first;
 };
 
-/// Something that options rule out.
+/// A combination of options that is refused.
 template <class Options>
 struct OptionRule {
-    /// Whether the rule is about these options.
+    /// Whether the options have the first half of the combination.
     bool (*applies)(const Options& options, const AskedOptions& asked);
-    /// Then options with one of these concerns are refused; 0: then they are refused anyway.
+    /// The second half: an option that is asked for and has one of these concerns; 0: the first half alone is refused.
     unsigned against;
-    /// Why, and what to do. {other} is the option that is refused.
+    /// The reason, and a remedy. {other} is the option of the second half.
     std::string_view text;
 };
 
-/// Completes the text of a rule. @param other the option that is refused, or empty.
+/// Completes the text of a rule. @param other the option of its second half, or empty.
 using FillText = std::function<std::string(std::string_view text, std::string_view other)>;
 
 /// Replaces {other} alone.

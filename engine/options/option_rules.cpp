@@ -41,7 +41,8 @@ bool has_schwarz(const O& o)
     return o.interface.conditions == Conditions::Schwarz;
 }
 
-bool needs_one_copy(const O& o)
+/// Whether the conditions or the scheme rule out converged steps.
+bool excludes_converged_steps(const O& o)
 {
     return o.interface.conditions != Conditions::AdaptedRobin || o.scheme == Scheme::ExplicitEuler;
 }
@@ -61,17 +62,20 @@ bool is_plain(const O& o, const Asked& asked)
     return is_plain_flow(o) && !is_attached(asked);
 }
 
+/// Whether the filter is another than diffusion of order 1.
 bool has_further_filter(const O& o)
 {
     return !filter_of(o).is_plain();
 }
 
-/// Whether the library's own factorisation is needed and was not asked for.
+/// Whether a symmetric Laplacian is to be factorised by another library: only this library's own factorisation gives
+/// Schur complements, and keeps factors.
 bool lacks_own(const O& o)
 {
     return is_foreign(o.resources.factorisation) && is_symmetric(o.laplacian);
 }
 
+/// The rules on options of Γ.
 constexpr Rule of_interface[]{
     {[](const O& o, const Asked&) { return o.interface.q && !has_tangential_derivative(o.interface.conditions); }, 0,
      "<q> is given, but belongs only to the Ventcell conditions"},
@@ -94,6 +98,7 @@ constexpr Rule of_interface[]{
      "<keep_gaps> is for backward Euler steps; explicit ones are taken undecomposed, without gaps"},
 };
 
+/// The rules on the amount, and on constraints on motion that not all flows can have.
 constexpr Rule of_motion_of_flows[]{
     {[](const O&, const Asked& asked) {
          return asked.has("time_step") + asked.has("time_step_edges") + asked.has("radius") > 1;
@@ -126,6 +131,7 @@ constexpr Rule of_motion_of_flows[]{
      "sub-mesh has its own: use other conditions"},
 };
 
+/// The rules on flows that are not plain mean curvature flow.
 constexpr Rule of_flow[]{
     {[](const O& o, const Asked& asked) { return !is_plain(o, asked) && !is_symmetric(o.laplacian); }, 0,
      "{further}, but the Laplacian {laplacian} is not symmetric: use {symmetric}"},
@@ -143,11 +149,12 @@ constexpr Rule of_flow[]{
      "transmission: leave out other conditions, the derivatives, and <p>"},
 };
 
+/// The rules on the approach and the tolerance.
 constexpr Rule of_steps[]{
-    {[](const O& o, const Asked&) { return o.accuracy.tolerance && needs_one_copy(o); }, 0,
+    {[](const O& o, const Asked&) { return o.accuracy.tolerance && excludes_converged_steps(o); }, 0,
      "<tolerance> is given, which rules out other conditions and an explicit scheme"},
-    {[](const O& o, const Asked&) { return o.accuracy.approach == Approach::Converged && needs_one_copy(o); }, 0,
-     "<approach> is converged, which rules out other conditions and an explicit scheme"},
+    {[](const O& o, const Asked&) { return o.accuracy.approach == Approach::Converged && excludes_converged_steps(o); },
+     0, "<approach> is converged, which rules out other conditions and an explicit scheme"},
     {[](const O& o, const Asked&) { return takes_whole_mesh(o.accuracy.approach); }, concern::sweeps | concern::method,
      "<approach> is {approach}, which rules out <{other}>: leave one of them out"},
     {[](const O& o, const Asked& asked) { return takes_whole_mesh(o.accuracy.approach) && is_cut(o, asked); }, 0,
@@ -159,6 +166,7 @@ constexpr Rule of_steps[]{
      "<approach> is {approach}, but conjugate gradients factorise nothing: leave <{other}> out"},
 };
 
+/// The rules on the direct solver.
 constexpr Rule of_factorisation[]{
     {[](const O& o, const Asked&) { return lacks_own(o) && o.flow == FlowEquation::Linear; }, 0,
      "<factorisation> is by another library, but only this library's own keeps the factors that the linear flow needs: "
@@ -174,7 +182,7 @@ constexpr Rule of_factorisation[]{
      "factorisation automatic"},
 };
 
-/// What asks for more than plain mean curvature flow.
+/// The option that asks for more than plain mean curvature flow, as the beginning of a sentence.
 std::string further_flow(const O& o)
 {
     if (o.flow != FlowEquation::MeanCurvature)

@@ -8,11 +8,11 @@
 
 namespace seamflow {
 
-/// The options that are not as by default.
+/// The options of a flow that are asked for: all that differ from their defaults.
 AskedOptions changed_options(const FlowOptions& options);
 
 /// Completes the text of a rule on flows: {laplacian}, {approach}, {conditions} and {factorisation} are those of the
-/// options, {symmetric} the Laplacians that are, {further} what is not plain mean curvature flow.
+/// options, {symmetric} the symmetric Laplacians, {further} the option that plain mean curvature flow does not have.
 std::string fill_in(const FlowOptions& options, std::string_view text, std::string_view other);
 
 /// Checks which options of a flow go together.

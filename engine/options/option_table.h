@@ -8,9 +8,9 @@
 #include "engine/options/flow_options.h"
 #include "engine/options/motion_option_table.h"
 
-/// The table of all options of a flow. What is said of options elsewhere comes from here: the limits of numbers, which
-/// options exclude others, what determines the result of a flow, and the options of command lines with their texts. A
-/// further field of FlowOptions has one row here; the compiler asks for it.
+/// The table of all options of a flow. Other statements on options come from here: the limits of numbers, which options
+/// exclude others, which determine the result of a flow, and the options of command lines with their texts. A further
+/// field of FlowOptions has one row here; the compiler asks for it.
 namespace seamflow {
 
 /// @returns a tuple of rows.
@@ -151,7 +151,7 @@ void for_each_option(Options& options, Action&& action)
     for_each_row(option_table(options), action);
 }
 
-/// Calls action with the rows of both, in pairs.
+/// Calls action with the rows of two tables, in pairs of the same option.
 template <class Action>
 void for_each_option(const FlowOptions& one, const FlowOptions& other, Action&& action)
 {
@@ -161,7 +161,7 @@ void for_each_option(const FlowOptions& one, const FlowOptions& other, Action&& 
 /// All rows without values, in the order of the table.
 std::span<const OptionTraits> all_options();
 
-/// The first option that has one of these concerns and is not as by default: its field; empty: there is none.
+/// The field of the first option that has one of these concerns and differs from its default; empty: there is none.
 std::string_view first_set(const FlowOptions& options, unsigned concerns);
 
 }  // namespace seamflow

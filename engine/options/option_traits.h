@@ -7,36 +7,38 @@
 
 namespace seamflow {
 
-/// What an option concerns, so that others exclude or imply it.
+/// The subjects that an option concerns, as bits: rules name them to exclude or imply options.
 namespace concern {
+/// The cut into sub-meshes.
 constexpr unsigned sub_meshes = 1U;
+/// Sweeps over sub-meshes.
 constexpr unsigned sweeps = 2U;
-/// An option that makes sweeps the way of taking steps, where nothing else is asked for.
+/// An option with which steps are sweeps unless another option decides how they are taken.
 constexpr unsigned implies_sweeps = 4U;
-/// An option of the paper's method, which no preset can be combined with.
+/// The paper's method: no preset can be combined with such an option.
 constexpr unsigned method = 8U;
 /// Factorisations of sub-meshes.
 constexpr unsigned factors = 16U;
 constexpr unsigned converged_steps = 32U;
-/// How the equations are solved, in any other way.
+/// Any other choice of how the equations are solved.
 constexpr unsigned solution = 64U;
-/// All these: the equations of a step, which steps that keep edges do not have.
+/// All subjects above: the equations of a step. Steps that keep edges have no equations.
 constexpr unsigned equations = (solution << 1U) - 1U;
-/// The result of a step does not depend on it.
+/// Nothing in the results: they do not depend on such an option.
 constexpr unsigned no_result = 128U;
-/// Where the surface goes, or what it looked like after a step: not for fields on a surface that stays.
+/// The motion of the surface, or its shape after a step: not for fields on a surface that stays.
 constexpr unsigned motion = 256U;
-/// The equation of a flow: it rules out what needs none, like removing noise.
+/// The equation of a flow: excludes methods that have no equation, such as removing noise.
 constexpr unsigned equation = 512U;
 /// How much is smoothed.
 constexpr unsigned amount = 1024U;
 /// Files and printed text: only programs have such an option.
 constexpr unsigned files = 2048U;
-/// Vertices, edges or faces of one mesh by their numbers, from a file.
+/// Vertices, edges or faces of one mesh, by their numbers in a file.
 constexpr unsigned numbers = 4096U;
-/// All of the surface at once, so that tiles of one cannot have it.
+/// The whole surface at once: not for a surface in tiles.
 constexpr unsigned whole_surface = 8192U;
-/// What a run shows of the steps of one mesh.
+/// Output of a program on the steps of one mesh.
 constexpr unsigned one_mesh = 16384U;
 }  // namespace concern
 
@@ -76,15 +78,17 @@ inline constexpr Limits limits_of_edge_angle{0.0, 180.0, true, true, "above 0 an
 inline constexpr Limits limits_of_threads{0.0, most_threads, false, false,
                                           "at least 0 and at most 1024 (0: as many as the calling TBB arena has)"};
 
+/// The properties of an option, without its value.
 struct OptionTraits {
-    /// Its name in FlowOptions.
+    /// The name of its field in FlowOptions.
     std::string_view field;
-    /// That of programs; empty: they do not have it.
+    /// Its name in command lines; empty: command lines do not have it.
     std::string_view option = {};
-    /// In which --help lists it.
+    /// The group in which --help lists it (see option_group).
     std::string_view group = {};
+    /// Bits of `concern`.
     unsigned concerns = 0;
-    /// For users: a line for --help, and on further lines what the manual page says in addition.
+    /// For users: a line for --help, and further lines for the manual page alone.
     std::string_view text = {};
     Limits limits = {};
 };

@@ -15,7 +15,7 @@ namespace seamflow {
 
 namespace {
 
-/// Checks all numbers.
+/// Checks all numbers against their limits, except time_step if another field gives the amount.
 void require_limits(const FlowOptions& options)
 {
     for_each_option(options, [&](const auto& row) {
@@ -26,6 +26,7 @@ void require_limits(const FlowOptions& options)
     });
 }
 
+/// @throws OptionError if the filter does not have this order.
 void require_valid_filter(const FlowOptions& options)
 {
     const auto [least, most] = orders_of(options.filter);

@@ -26,6 +26,8 @@ constexpr std::chrono::milliseconds patience_of_wait{100};
 
 using Kind = WorkOutcome::Kind;
 
+/// Calls work().
+/// @returns how it ended: Done, or the kind and the message of its exception.
 template <class Work>
 WorkOutcome outcome_of(Work&& work)
 {
@@ -53,6 +55,7 @@ WorkOutcome outcome_of(Work&& work)
     }
 }
 
+/// Throws the exception of a failed outcome.
 [[noreturn]] void throw_as(Kind kind, const std::string& message)
 {
     switch (kind) {
@@ -152,6 +155,7 @@ bool Communicator::take_in(std::chrono::microseconds patience)
     return true;
 }
 
+/// Puts a message into the list of its tag; the message of an end becomes an outcome.
 void Communicator::sort_in(Message message)
 {
     switch (message.tag) {
@@ -166,6 +170,7 @@ void Communicator::sort_in(Message message)
     }
 }
 
+/// @throws Interruption if the work of another rank has ended without success.
 void Communicator::require_all_well() const
 {
     for (const auto& outcome : ended_)
@@ -236,9 +241,9 @@ std::optional<Message> Communicator::next_arrival(std::chrono::microseconds pati
     return message;
 }
 
-/// Waits until all ranks have ended the work. Messages still in transit from a rank arrive before its end, and are
-/// discarded. Messages after its end belong to the next work, which other ranks may have begun.
-std::vector<WorkOutcome> Communicator::part(const WorkOutcome& own)
+/// Waits until all ranks have ended the work, and returns their outcomes. Messages still in transit from a rank arrive
+/// before its end, and are discarded. Messages after its end belong to the next work, which other ranks may have begun.
+std::vector<WorkOutcome> Communicator::exchange_outcomes(const WorkOutcome& own)
 {
     for (int r = 0; r < size(); ++r)
         if (r != rank())
@@ -273,7 +278,7 @@ void Communicator::run_work(const std::function<void()>& work)
     std::ranges::fill(ended_, std::nullopt);
     WorkOutcome own = outcome_of(work);
     retry([&] { own.host = transport_->host(); });
-    require_success(part(own));
+    require_success(exchange_outcomes(own));
 }
 
 }  // namespace seamflow

@@ -81,7 +81,7 @@ class Communicator {
         run_work(std::ref(work));
     }
 
-    /// Sends bytes to another rank, which receives them by `take`, in the same order.
+    /// Sends bytes to another rank, which receives them by `take`, in the same order. `take` waits for them.
     void give(int to, Bytes bytes);
     Bytes take(int from);
 
@@ -118,7 +118,7 @@ class Communicator {
   private:
     void run_work(const std::function<void()>& work);
     /// Sends all ranks the outcome of the work on this rank, and waits for the outcomes of all ranks.
-    std::vector<WorkOutcome> part(const WorkOutcome& own);
+    std::vector<WorkOutcome> exchange_outcomes(const WorkOutcome& own);
     bool take_in(std::chrono::microseconds patience);
     void sort_in(Message message);
     void require_all_well() const;

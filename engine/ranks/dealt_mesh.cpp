@@ -11,26 +11,24 @@ namespace seamflow {
 
 namespace {
 
-/// Calls visit(option) for all options that steps in sub-meshes read, except lists with one entry per vertex.
-template <class Options, class Visit>
-void for_each_dealt(Options& options, Visit&& visit)
+/// Calls visit(value) for all settings except those with one entry per vertex.
+template <class Settings, class Visit>
+void for_each_setting(Settings& settings, Visit&& visit)
 {
-    visit(options.laplacian);
-    visit(options.flow);
-    visit(options.filter);
-    visit(options.order);
-    visit(options.time_step);
-    visit(options.uniform_edge);
-    visit(options.steps);
-    visit(options.interface);
-    visit(options.accuracy);
-    visit(options.motion.boundary);
-    visit(options.motion.attachment);
-    visit(options.resources);
+    auto& equation = settings.equation;
+    visit(equation.laplacian.kind);
+    visit(equation.laplacian.edge_length);
+    visit(equation.filter);
+    visit(equation.time_step);
+    visit(equation.terms.keeps_stiffness);
+    visit(equation.terms.keeps_mass);
+    visit(equation.terms.uniform_weight);
+    visit(settings.factors);
 }
 
+/// Puts some entries of a list into a message; an empty list stays empty.
 template <class Value>
-void put_rows_of(const std::vector<Value>& all, std::span<const Index> rows, Packer& message)
+void put_rows_of(std::span<const Value> all, std::span<const Index> rows, Packer& message)
 {
     std::vector<Value> own;
     if (!all.empty())
@@ -39,11 +37,11 @@ void put_rows_of(const std::vector<Value>& all, std::span<const Index> rows, Pac
     message.put_all(std::span<const Value>(own));
 }
 
-/// Stands for the rank of a vertex whose faces belong to several ranks.
+/// In place of a rank, at a vertex whose faces belong to several ranks.
 constexpr std::int32_t of_several = -2;
 
 /// The indices of the entries that equal a value, ascending.
-std::vector<Index> all_of(const std::vector<std::int32_t>& values, int value)
+std::vector<Index> indices_of(const std::vector<std::int32_t>& values, int value)
 {
     std::vector<Index> indices;
     for (std::size_t i = 0; i < values.size(); ++i)
@@ -57,7 +55,9 @@ std::vector<Index> all_of(const std::vector<std::int32_t>& values, int value)
 DealtMesh dealt_mesh(Unpacker& message)
 {
     DealtMesh dealt;
-    for_each_dealt(dealt.options, [&](auto& option) { option = message.get<std::decay_t<decltype(option)>>(); });
+    dealt.way = message.get<WayOfSteps>();
+    for_each_setting(dealt.settings_without_arrays,
+                     [&](auto& setting) { setting = message.get<std::decay_t<decltype(setting)>>(); });
     dealt.holders = message.get_all<Index>();
     dealt.known = message.get_all<Index>();
     dealt.first_faces = message.get_all<Index>();
@@ -76,24 +76,35 @@ DealtMesh dealt_mesh(Unpacker& message)
     dealt.topology.fixed = message.get_all<std::uint8_t>();
     dealt.is_sent = message.get_all<std::uint8_t>();
     dealt.curvature = message.get_all<double>();
-    dealt.options.motion.strength = message.get_all<double>();
-    dealt.options.motion.attachment_weights = message.get_all<double>();
+    dealt.step_scales = message.get_all<double>();
+    dealt.weights = message.get_all<double>();
     return dealt;
 }
 
-Dealer::Dealer(const PolygonMesh& mesh, const Topology& topology, std::span<const Index> labels, Index n_parts,
-               const FlowOptions& options, std::vector<double> curvature, int n_ranks)
+StepSettings DealtMesh::settings() const
+{
+    StepSettings settings = settings_without_arrays;
+    FlowTerms& terms = settings.equation.terms;
+    terms.initial = &mesh.vertices;
+    terms.weights = weights;
+    terms.step_scales = step_scales;
+    return settings;
+}
+
+Dealer::Dealer(const PolygonMesh& mesh, const Topology& topology, const Cut& cut, const WayOfSteps& way,
+               const StepSettings& settings, std::vector<double> curvature, int n_ranks)
     : mesh_(&mesh)
     , topology_(&topology)
-    , labels_(labels)
-    , options_(&options)
+    , labels_(cut.labels)
+    , way_(&way)
+    , settings_(&settings)
     , curvature_(std::move(curvature))
-    , faces_(faces_by_label(labels, n_parts, run_in_parallel))
+    , faces_(faces_by_label(cut.labels, cut.n_parts, run_in_parallel))
     , holder_at_(usize(mesh.n_vertices()), -1)
     , sender_(holder_at_)
     , knows_face_(usize(mesh.n_faces()), -1)
+    , visits_vertex_(usize(mesh.n_vertices()), -1)
     , knows_vertex_(usize(mesh.n_vertices()), -1)
-    , meets_vertex_(usize(mesh.n_vertices()), -1)
     , local_index_(usize(mesh.n_vertices()), 0)
     , known_vertices_(static_cast<std::size_t>(n_ranks))
     , sent_vertices_(known_vertices_.size())
@@ -107,7 +118,7 @@ Dealer::Dealer(const PolygonMesh& mesh, const Topology& topology, std::span<cons
     }
     for (Index f = 0; f < mesh.n_faces(); ++f)
         for (const Index v : mesh.face(f)) {
-            const Index holder = holders_[labels[f]];
+            const Index holder = holders_[labels_[f]];
             holder_at_[v] = holder_at_[v] == -1 || holder_at_[v] == holder ? holder : of_several;
         }
 }
@@ -119,7 +130,7 @@ std::vector<Index> Dealer::known_faces(int rank)
     constexpr int layers = 2;
     std::vector<Index> further;
     const auto look_around = [&](Index v) {
-        if (std::exchange(knows_vertex_[v], rank) == rank)
+        if (std::exchange(visits_vertex_[v], rank) == rank)
             return;
         for (const Index corner : topology_->corners_at(v)) {
             const Index f = topology_->face_of[usize(corner)];
@@ -131,18 +142,20 @@ std::vector<Index> Dealer::known_faces(int rank)
         if (holders_[s] == rank)
             for (const Index f : faces_[s])
                 knows_face_[f] = rank;
+    // The first layer: faces at vertices that the rank shares with other ranks.
     for (std::size_t s = 0; s < faces_.size(); ++s)
         if (holders_[s] == rank)
             for (const Index f : faces_[s])
                 for (const Index v : mesh_->face(f))
                     if (holder_at_[v] == of_several)
                         look_around(v);
+    // The further layers: faces around the faces of the layer before.
     std::size_t begin = 0;
     for (int layer = 1; layer < layers; ++layer)
         for (const std::size_t end = further.size(); begin < end; ++begin)
             for (const Index v : mesh_->face(further[begin]))
                 look_around(v);
-    return all_of(knows_face_, rank);
+    return indices_of(knows_face_, rank);
 }
 
 void Dealer::deal(int rank, Packer& message)
@@ -153,13 +166,13 @@ void Dealer::deal(int rank, Packer& message)
         if (sub_meshes.empty() || sub_meshes.back() != labels_[f])
             sub_meshes.push_back(labels_[f]);
         for (const Index v : mesh_->face(f)) {
-            meets_vertex_[v] = rank;
+            knows_vertex_[v] = rank;
             if (holders_[labels_[f]] == rank && sender_[v] < 0)
                 sender_[v] = rank;
         }
     }
     sort_unique(sub_meshes);
-    std::vector<Index> vertices = all_of(meets_vertex_, rank);
+    std::vector<Index> vertices = indices_of(knows_vertex_, rank);
     std::vector<Index> own_vertices;
     std::vector<std::uint8_t> is_sent;
     for (const Index v : vertices) {
@@ -169,7 +182,8 @@ void Dealer::deal(int rank, Packer& message)
             own_vertices.push_back(v);
     }
 
-    for_each_dealt(*options_, [&](const auto& option) { message.put(option); });
+    message.put(*way_);
+    for_each_setting(*settings_, [&](const auto& setting) { message.put(setting); });
     message.put_all(std::span<const Index>(holders_));
     message.put_all(std::span<const Index>(sub_meshes));
     std::vector<Index> first_faces;
@@ -191,12 +205,12 @@ void Dealer::deal(int rank, Packer& message)
     message.put_all(std::span<const Index>(labels));
     message.put(!topology_->junctions.empty());
     message.put(topology_->oriented);
-    put_rows_of(topology_->kind, vertices, message);
-    put_rows_of(topology_->fixed, vertices, message);
+    put_rows_of(std::span<const VertexKind>(topology_->kind), vertices, message);
+    put_rows_of(std::span<const std::uint8_t>(topology_->fixed), vertices, message);
     message.put_all(std::span<const std::uint8_t>(is_sent));
-    put_rows_of(curvature_, vertices, message);
-    put_rows_of(options_->motion.strength, vertices, message);
-    put_rows_of(options_->motion.attachment_weights, vertices, message);
+    put_rows_of(std::span<const double>(curvature_), vertices, message);
+    put_rows_of(settings_->equation.terms.step_scales, vertices, message);
+    put_rows_of(settings_->equation.terms.weights, vertices, message);
     known_vertices_[rank] = std::move(vertices);
     sent_vertices_[rank] = std::move(own_vertices);
 }

@@ -4,8 +4,10 @@
 #include <span>
 #include <vector>
 
-#include "engine/options/flow_options.h"
 #include "engine/ranks/packing.h"
+#include "engine/setup/step_settings.h"
+#include "engine/setup/way_of_steps.h"
+#include "partition/cut/cut.h"
 #include "partition/polygon_mesh.h"
 #include "partition/topology.h"
 
@@ -31,8 +33,16 @@ struct DealtMesh {
     std::vector<Index> first_faces;
     /// The rank of each sub-mesh of the whole mesh.
     std::vector<Index> holders;
-    /// The options that steps read are copied; the others have their default values.
-    FlowOptions options;
+    /// Sweeps or converged steps.
+    WayOfSteps way;
+    /// The terms of the equation refer to nothing.
+    StepSettings settings_without_arrays;
+    /// Each #V or empty: see FlowTerms::weights and step_scales.
+    std::vector<double> weights;
+    std::vector<double> step_scales;
+
+    /// The settings, which refer to data of this.
+    [[nodiscard]] StepSettings settings() const;
 };
 
 /// Reads a DealtMesh from a message that a Dealer has made.
@@ -41,10 +51,9 @@ DealtMesh dealt_mesh(Unpacker& message);
 /// Deals the sub-meshes of a mesh to ranks: each rank gets consecutive sub-meshes, with about equally many faces.
 class Dealer {
   public:
-    /// @param mesh, topology, options must outlive this. @param labels #F, each in 0 to n_parts - 1; must outlive this,
-    /// too. @param curvature #V: ‖ΔV⁰‖, in 1/length; or empty.
-    Dealer(const PolygonMesh& mesh, const Topology& topology, std::span<const Index> labels, Index n_parts,
-           const FlowOptions& options, std::vector<double> curvature, int n_ranks);
+    /// @param mesh, topology, cut, way, settings must outlive this. @param curvature #V: ‖ΔV⁰‖, in 1/length; or empty.
+    Dealer(const PolygonMesh& mesh, const Topology& topology, const Cut& cut, const WayOfSteps& way,
+           const StepSettings& settings, std::vector<double> curvature, int n_ranks);
 
     /// Puts the part of a rank into the message for it; to be called once for each rank, in any order.
     void deal(int rank, Packer& message);
@@ -63,7 +72,8 @@ class Dealer {
     const PolygonMesh* mesh_;
     const Topology* topology_;
     std::span<const Index> labels_;
-    const FlowOptions* options_;
+    const WayOfSteps* way_;
+    const StepSettings* settings_;
     std::vector<double> curvature_;
     /// The faces of each sub-mesh.
     std::vector<std::vector<Index>> faces_;
@@ -72,12 +82,13 @@ class Dealer {
     std::vector<std::int32_t> holder_at_;
     /// #V: the rank that sends the position of the vertex to rank 0; -1 if none has been chosen.
     std::vector<std::int32_t> sender_;
-    /// #F: the last rank that knows the face. #V: the last rank that has visited the faces around the vertex; the last
-    /// rank that has got the vertex.
+    /// #F: the last rank so far that knows the face.
     std::vector<std::int32_t> knows_face_;
+    /// #V: the last rank so far for which known_faces has visited the faces around the vertex.
+    std::vector<std::int32_t> visits_vertex_;
+    /// #V: the last rank so far that knows the vertex.
     std::vector<std::int32_t> knows_vertex_;
-    std::vector<std::int32_t> meets_vertex_;
-    /// #V: the index of the vertex among the vertices of the last rank that has got it.
+    /// #V: the index of the vertex among the vertices of that rank.
     std::vector<Index> local_index_;
     std::vector<std::vector<Index>> known_vertices_;
     std::vector<std::vector<Index>> sent_vertices_;

@@ -1,5 +1,3 @@
-#include "engine/ranks/mpi_transport.h"
-
 #include <algorithm>
 #include <array>
 #include <mutex>
@@ -9,6 +7,7 @@
 #include <mpi.h>
 #include <sched.h>
 
+#include "engine/ranks/transport.h"
 #include "partition/errors.h"
 
 namespace seamflow {
@@ -122,7 +121,8 @@ class MpiTransport final : public Transport {
         MPI_Request request;
     };
 
-    /// Receives available pieces until a message is complete.
+    /// Receives available pieces until a message is complete, and frees the bytes that have been sent.
+    /// @returns the message; empty if no message is complete yet.
     std::optional<Message> look()
     {
         const std::scoped_lock lock(mutex_);
@@ -150,6 +150,7 @@ class MpiTransport final : public Transport {
     }
 
     std::size_t largest_piece_;
+    /// Whether this has started MPI, and ends it.
     bool owns_ = false;
     MPI_Comm world_ = MPI_COMM_NULL;
     int rank_ = 0;

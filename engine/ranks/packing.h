@@ -33,7 +33,7 @@ class Packer {
     /// Appends three coordinates.
     void put_row(const double* coordinates) { put_bytes(coordinates, 3 * sizeof(double)); }
 
-    /// Appends the number of rows, then some of the rows, or all.
+    /// Appends the number of coordinates, three per row, then the coordinates of some rows.
     void put_rows(const Points& points, std::span<const Index> rows)
     {
         put(3 * rows.size());
@@ -41,6 +41,7 @@ class Packer {
         for (const Index row : rows)
             put_row(points.row(row).data());
     }
+    /// The same for all rows.
     void put_points(const Points& points)
     {
         put_all(std::span<const double>(points.data(), static_cast<std::size_t>(points.size())));
@@ -86,6 +87,7 @@ class Unpacker {
         return values;
     }
 
+    /// Reads a list of values, and appends them.
     template <class Value>
     void append_all(std::vector<Value>& values)
     {
@@ -102,7 +104,7 @@ class Unpacker {
         return points;
     }
 
-    /// Reads rows into these rows of `points`. Their numbers must be equal.
+    /// Reads rows into these rows of `points`; the message must have as many.
     void get_rows(Points& points, std::span<const Index> rows)
     {
         if (next_size(sizeof(double)) != 3 * rows.size())
@@ -114,7 +116,8 @@ class Unpacker {
     [[nodiscard]] bool is_at_end() const { return left_.empty(); }
 
   private:
-    /// Reads the number of values of this many bytes each that follow.
+    /// Reads the number of the values that follow, and checks that the message is long enough.
+    /// @param bytes_each the size of a value.
     std::size_t next_size(std::size_t bytes_each)
     {
         const auto n = get<std::size_t>();

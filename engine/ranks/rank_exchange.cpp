@@ -37,6 +37,7 @@ RankExchange::RankExchange(Communicator& comm, const DealtMesh& dealt)
         mail.resize(dealt.known.size());
 }
 
+/// The index in DealtMesh::known of a sub-mesh, from its number in the whole mesh.
 Index RankExchange::known_index(Index number) const
 {
     return static_cast<Index>(std::ranges::lower_bound(dealt_->known, number) - dealt_->known.begin());
@@ -85,6 +86,7 @@ void RankExchange::connect(const Decomposition& decomposition, std::span<const S
         Packer& packer = per_rank[holder(static_cast<Index>(s))];
         packer.put(dealt_->known[s]);
         for (const auto& rows : own_interest_[s].rows) {
+            // As numbers in the whole mesh, because local indices differ between ranks.
             std::vector<Index> numbers;
             for (const Index row : rows)
                 numbers.push_back(dealt_->vertex_numbers[decomposition.sub_meshes[s].local_to_global[row]]);

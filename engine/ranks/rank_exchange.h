@@ -38,13 +38,14 @@ class RankExchange final : public RemoteSubMeshes {
     /// The rank of a known sub-mesh.
     [[nodiscard]] int holder(Index s) const { return dealt_->holders[dealt_->known[s]]; }
 
-    /// The rows of a sub-mesh that a rank needs: local rows for each kind of message; and whether the sub-mesh predicts
-    /// for that rank in each sweep.
+    /// The rows of a sub-mesh that a rank needs, as local indices for each kind of message; and whether the rank uses
+    /// its prediction in each sweep.
     struct Interest {
         int rank = -1;
         std::array<std::vector<Index>, n_kinds> rows;
         std::vector<std::uint8_t> predicts;
 
+        /// Whether the rank needs a message of this kind in a sweep.
         [[nodiscard]] bool includes(MessageKind kind, std::size_t sweep) const
         {
             return !rows[index_of(kind)].empty() && (kind != MessageKind::Prediction || predicts[sweep] != 0);
@@ -66,8 +67,9 @@ class RankExchange final : public RemoteSubMeshes {
 
     Communicator* comm_;
     const DealtMesh* dealt_;
-    /// Per remote sub-mesh: the rows that this rank needs. Per own sub-mesh: the rows that other ranks need.
+    /// Per remote sub-mesh: the rows that this rank needs.
     std::vector<Interest> own_interest_;
+    /// Per own sub-mesh: the rows that other ranks need, one entry for each of these ranks.
     std::vector<std::vector<Interest>> listeners_;
     /// Per sweep: the messages that will arrive.
     std::vector<std::vector<PendingMessage>> pending_;

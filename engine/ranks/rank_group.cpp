@@ -53,7 +53,7 @@ class ServedFlow {
         workers_.execute([&] { part_.reset(); });
     }
 
-    /// Makes the part of this rank from a message.
+    /// Makes the RankPart of the flow from a message.
     /// @returns the answer to rank 0.
     Bytes make_part(Communicator& comm, Bytes message)
     {
@@ -67,6 +67,7 @@ class ServedFlow {
         return packed(part_->saved_rows());
     }
 
+    /// Serves a request on the threads of the flow. @returns the answer to rank 0.
     Bytes act(RankTask task, Unpacker& message)
     {
         Bytes answer;
@@ -118,7 +119,8 @@ class RankServer {
     }
 
   private:
-    /// Makes the part of this rank. Confirms the message to rank 0 at once, so that rank 0 deals one part at a time.
+    /// Begins a flow with its RankPart. Confirms the message to rank 0 at once, so that rank 0 deals one part at a
+    /// time.
     void begin(const RankHeader& header, Bytes message)
     {
         comm_.give(0, {});
@@ -129,12 +131,13 @@ class RankServer {
 
     Communicator& comm_;
     int threads_;
+    /// By the numbers of the flows.
     std::map<int, std::unique_ptr<ServedFlow>> flows_;
 };
 
 }  // namespace
 
-/// Other ranks wait for this one.
+/// Making the communicator is retried if memory is lacking, because other ranks wait for this one.
 RankGroup::RankGroup(Transport& transport)
     : comm_(retry([&] { return std::make_unique<Communicator>(transport); }))
     , size_(transport.size())

@@ -34,12 +34,13 @@ class RankGroup final : public StepSharing {
     void set_threads_of_each(int threads) { threads_of_each_ = threads; }
     [[nodiscard]] int threads_of_each() const { return threads_of_each_; }
 
-    /// Several ranks can share sweeps with the adapted conditions, and converged steps of symmetric Laplacians. All
-    /// other steps are taken by rank 0 alone.
-    [[nodiscard]] bool can_share(const Cut& cut, const FlowOptions& options) const override;
+    /// Whether the ranks can share the steps: sweeps with one copy of Γ and without overlap, or converged steps of
+    /// symmetric Laplacians; with several sub-meshes, and without a recorded schedule. Rank 0 takes all other steps
+    /// alone.
+    [[nodiscard]] bool can_share(const FlowPlan& plan, const StepSettings& settings) const override;
     /// See RankStepper.
-    std::unique_ptr<HeatStepper> make_stepper(const PolygonMesh& mesh, const Topology& topology, const Cut& cut,
-                                              const FlowOptions& options, std::vector<double> curvature,
+    std::unique_ptr<HeatStepper> make_stepper(const PolygonMesh& mesh, const Topology& topology, const FlowPlan& plan,
+                                              const StepSettings& settings, std::vector<double> curvature,
                                               Progress& progress) override;
 
     /// Returns a number for a further flow.

@@ -94,13 +94,16 @@ RankPart::RankPart(Communicator& comm, DealtMesh dealt, Progress& progress)
         names.push_back({dealt_.known[s], decomposition.sub_meshes[s].n_vertices, dealt_.first_faces[s]});
     RankSubMeshes own{std::move(decomposition), std::make_unique<CommunicatorRanks>(comm, dealt_.holders, dealt_.known),
                       std::move(names)};
+    // The sub-meshes around a vertex, ascending: the lowest comes first.
     std::vector<Index> around;
-    for (const Index v : dealt_.options.accuracy.tolerance ? take_converged_steps(std::move(own), progress)
-                                                           : take_sweeps(std::move(own), progress)) {
+    const auto* const converged = std::get_if<ConvergedSteps>(&dealt_.way);
+    for (const Index v : converged != nullptr
+                             ? make_converged_stepper(converged->stop, std::move(own), progress)
+                             : make_sweep_stepper(std::get<SweepSteps>(dealt_.way), std::move(own), progress)) {
         labels_around(dealt_.topology, dealt_.labels, v, around);
         saved_.push_back({dealt_.known[around.front()], dealt_.vertex_numbers[v]});
     }
-    if (!dealt_.options.accuracy.tolerance)
+    if (converged == nullptr)
         return;
     // The mesh is freed: converged steps have copies of the data that they need.
     dealt_.mesh = {};
@@ -110,9 +113,11 @@ RankPart::RankPart(Communicator& comm, DealtMesh dealt, Progress& progress)
 
 /// Makes the stepper for converged steps.
 /// @returns the vertex of each row that it saves.
-std::vector<Index> RankPart::take_converged_steps(RankSubMeshes sub_meshes, Progress& progress)
+std::vector<Index> RankPart::make_converged_stepper(const IterationStop& stop, RankSubMeshes sub_meshes,
+                                                    Progress& progress)
 {
-    auto stepper = std::make_unique<SchurStepper>(dealt_.mesh, std::move(sub_meshes), dealt_.options, progress);
+    auto stepper =
+        std::make_unique<SchurStepper>(dealt_.mesh, std::move(sub_meshes), dealt_.settings(), stop, progress);
     std::vector<Index> saved = stepper->saved_vertices();
     heat_ = stepper.get();
     stepper_ = std::move(stepper);
@@ -121,13 +126,13 @@ std::vector<Index> RankPart::take_converged_steps(RankSubMeshes sub_meshes, Prog
 
 /// Makes the stepper for sweeps.
 /// @returns the vertex of each row that it saves.
-std::vector<Index> RankPart::take_sweeps(RankSubMeshes sub_meshes, Progress& progress)
+std::vector<Index> RankPart::make_sweep_stepper(const SweepSteps& sweeps, RankSubMeshes sub_meshes, Progress& progress)
 {
     exchange_.emplace(comm_, dealt_);
     SweepSubMeshes own{.own = std::move(sub_meshes), .remote = &*exchange_};
     const auto adjacency = gather_adjacency(comm_, dealt_, own.own.decomposition);
     const auto curvatures = gather_curvatures(comm_, dealt_, own.own.decomposition);
-    const std::vector<Index> stage_of_all = assign_stages(adjacency, dealt_.options.interface.colouring, curvatures);
+    const std::vector<Index> stage_of_all = assign_stages(adjacency, sweeps.colours_are_labels, curvatures);
     for (const Index number : dealt_.known)
         own.stage.push_back(stage_of_all[number]);
     // The own sub-meshes among those of all ranks, by their local numbers.
@@ -140,8 +145,8 @@ std::vector<Index> RankPart::take_sweeps(RankSubMeshes sub_meshes, Progress& pro
     };
     for (const FactorWindow& window : sufficient_windows(adjacency, stage_of_all))
         own.windows.push_back({own_of(window.order), own_of(window.freed), window.size});
-    auto stepper =
-        std::make_unique<SweepStepper>(dealt_.mesh, dealt_.topology, std::move(own), dealt_.options, progress);
+    auto stepper = std::make_unique<SweepStepper>(dealt_.mesh, dealt_.topology, std::move(own), dealt_.settings(),
+                                                  sweeps, progress);
     std::vector<Index> saved = stepper->saved_vertices();
     stepper_ = std::move(stepper);
     return saved;
@@ -213,6 +218,7 @@ Bytes RankPart::act(RankTask task, Unpacker& message)
     return answer.take();
 }
 
+/// Appends a RankShare, and the reports on the own sub-meshes, to the answer.
 void RankPart::report_to(Packer& answer) const
 {
     FlowReport report;

@@ -32,8 +32,8 @@ class RankPart {
 
   private:
     void step();
-    std::vector<Index> take_converged_steps(RankSubMeshes sub_meshes, Progress& progress);
-    std::vector<Index> take_sweeps(RankSubMeshes sub_meshes, Progress& progress);
+    std::vector<Index> make_converged_stepper(const IterationStop& stop, RankSubMeshes sub_meshes, Progress& progress);
+    std::vector<Index> make_sweep_stepper(const SweepSteps& sweeps, RankSubMeshes sub_meshes, Progress& progress);
     void report_to(Packer& answer) const;
 
     Communicator& comm_;

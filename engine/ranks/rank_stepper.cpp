@@ -10,42 +10,42 @@
 
 namespace seamflow {
 
-bool RankGroup::can_share(const Cut& cut, const FlowOptions& options) const
+bool RankGroup::can_share(const FlowPlan& plan, const StepSettings& settings) const
 {
-    const Conditions conditions = options.interface.conditions;
-    const bool is_adapted = conditions == Conditions::AdaptedRobin || conditions == Conditions::AdaptedVentcell;
-    const bool is_in_sub_meshes =
-        options.scheme == Scheme::BackwardEuler && !takes_whole_mesh(options.accuracy.approach);
-    const bool is_known = options.accuracy.tolerance || (options.flow != FlowEquation::Linear && is_adapted);
-    return size() > 1 && cut.n_parts > 1 && is_in_sub_meshes && is_known && !options.report.record_schedule;
+    const auto* const sweeps = std::get_if<SweepSteps>(&plan.way);
+    const bool has_one_copy = sweeps != nullptr && !have_copies(sweeps->conditions) &&
+                              !std::holds_alternative<SchwarzConditions>(sweeps->conditions);
+    return size() > 1 && plan.cut.n_parts > 1 && (has_one_copy || std::holds_alternative<ConvergedSteps>(plan.way)) &&
+           !settings.records_schedule;
 }
 
-std::unique_ptr<HeatStepper> RankGroup::make_stepper(const PolygonMesh& mesh, const Topology& topology, const Cut& cut,
-                                                     const FlowOptions& options, std::vector<double> curvature,
-                                                     Progress& progress)
+std::unique_ptr<HeatStepper> RankGroup::make_stepper(const PolygonMesh& mesh, const Topology& topology,
+                                                     const FlowPlan& plan, const StepSettings& settings,
+                                                     std::vector<double> curvature, Progress& progress)
 {
-    return std::make_unique<RankStepper>(*this, mesh, topology, cut, options, std::move(curvature), progress);
+    return std::make_unique<RankStepper>(*this, mesh, topology, plan, settings, std::move(curvature), progress);
 }
 
-RankStepper::RankStepper(RankGroup& ranks, const PolygonMesh& mesh, const Topology& topology, const Cut& cut,
-                         const FlowOptions& options, std::vector<double> curvature, Progress& progress)
+RankStepper::RankStepper(RankGroup& ranks, const PolygonMesh& mesh, const Topology& topology, const FlowPlan& plan,
+                         const StepSettings& settings, std::vector<double> curvature, Progress& progress)
     : ranks_(&ranks)
     , flow_(ranks.add_flow())
-    , n_sub_meshes_(cut.n_parts)
+    , n_sub_meshes_(plan.cut.n_parts)
     , sub_meshes_(static_cast<std::size_t>(ranks.size()))
     , positions_(mesh.vertices)
 {
     if (const int threads = ranks.threads_of_each(); threads > 0 && threads < n_threads_of_arena())
         threads_ = std::make_unique<Workers>(threads);
-    deal(mesh, topology, cut, options, std::move(curvature), progress);
+    deal(mesh, topology, plan, settings, std::move(curvature), progress);
 }
 
-void RankStepper::deal(const PolygonMesh& mesh, const Topology& topology, const Cut& cut, const FlowOptions& options,
-                       std::vector<double> curvature, Progress& progress)
+/// Deals their parts to all ranks, rank 0 included, and numbers the rows that their steppers save.
+void RankStepper::deal(const PolygonMesh& mesh, const Topology& topology, const FlowPlan& plan,
+                       const StepSettings& settings, std::vector<double> curvature, Progress& progress)
 {
     Communicator& comm = ranks_->comm();
     std::vector<std::vector<SavedRow>> saved(static_cast<std::size_t>(comm.size()));
-    Dealer dealer(mesh, topology, cut.labels, cut.n_parts, options, std::move(curvature), comm.size());
+    Dealer dealer(mesh, topology, plan.cut, plan.way, settings, std::move(curvature), comm.size());
     comm.run([&] {
         // The other ranks begin while rank 0 makes its own part.
         for (int rank = comm.size() - 1; rank > 0; --rank) {
@@ -72,7 +72,7 @@ void RankStepper::deal(const PolygonMesh& mesh, const Topology& topology, const 
     number_saved_rows(saved, dealer.holders());
 }
 
-/// Numbers the saved rows. Several ranks save the same row.
+/// Numbers the saved rows of all ranks. Several ranks save the same row: the rank of its lowest sub-mesh provides it.
 void RankStepper::number_saved_rows(const std::vector<std::vector<SavedRow>>& of_ranks,
                                     const std::vector<Index>& holders)
 {
@@ -83,10 +83,10 @@ void RankStepper::number_saved_rows(const std::vector<std::vector<SavedRow>>& of
     n_saved_ = static_cast<Index>(all.size());
     for (std::size_t rank = 0; rank < of_ranks.size(); ++rank) {
         std::vector<Index>& rows = saved_rows_.emplace_back();
-        std::vector<std::uint8_t>& counts = counts_.emplace_back();
+        std::vector<std::uint8_t>& is_used = is_used_.emplace_back();
         for (const SavedRow& row : of_ranks[rank]) {
             rows.push_back(static_cast<Index>(std::ranges::lower_bound(all, row) - all.begin()));
-            counts.push_back(holders[row.lowest] == static_cast<Index>(rank) ? 1 : 0);
+            is_used.push_back(holders[row.lowest] == static_cast<Index>(rank) ? 1 : 0);
         }
     }
 }
@@ -195,7 +195,7 @@ void RankStepper::save(StepMemory& memory) const
         for (Points& array : memory.arrays) {
             const Points rows = unpacker.get_points();
             for (std::size_t i = 0; i < saved_rows_[rank].size(); ++i)
-                if (counts_[rank][i] != 0)
+                if (is_used_[rank][i] != 0)
                     array.row(saved_rows_[rank][i]) = rows.row(static_cast<Index>(i));
         }
     }

@@ -5,13 +5,12 @@
 #include <memory>
 #include <vector>
 
-#include "engine/options/flow_options.h"
 #include "engine/ranks/rank_group.h"
 #include "engine/ranks/rank_part.h"
+#include "engine/setup/flow_plan.h"
 #include "engine/steppers/heat_stepper.h"
 #include "engine/tasks/progress.h"
 #include "engine/tasks/workers.h"
-#include "partition/cut/cut.h"
 #include "partition/topology.h"
 
 namespace seamflow {
@@ -22,11 +21,11 @@ namespace seamflow {
 class RankStepper final : public HeatStepper {
   public:
     /// Deals the sub-meshes.
-    /// @param ranks, progress must outlive the stepper; ranks.can_share(cut, options) is true.
+    /// @param ranks, progress must outlive the stepper; ranks.can_share(plan, settings) is true.
     /// @param curvature #V: ‖ΔV⁰‖, in 1/length; empty: as if it were 0.
     /// @throws as make_stepper, on the lowest rank that fails.
-    RankStepper(RankGroup& ranks, const PolygonMesh& mesh, const Topology& topology, const Cut& cut,
-                const FlowOptions& options, std::vector<double> curvature, Progress& progress);
+    RankStepper(RankGroup& ranks, const PolygonMesh& mesh, const Topology& topology, const FlowPlan& plan,
+                const StepSettings& settings, std::vector<double> curvature, Progress& progress);
     ~RankStepper() override;
 
     /// @param before equal to positions().
@@ -45,7 +44,7 @@ class RankStepper final : public HeatStepper {
     /// Appends data to the message for a rank.
     using Put = std::function<void(int rank, Packer& message)>;
 
-    void deal(const PolygonMesh& mesh, const Topology& topology, const Cut& cut, const FlowOptions& options,
+    void deal(const PolygonMesh& mesh, const Topology& topology, const FlowPlan& plan, const StepSettings& settings,
               std::vector<double> curvature, Progress& progress);
     void number_saved_rows(const std::vector<std::vector<SavedRow>>& of_ranks, const std::vector<Index>& holders);
     void in_own_threads(const std::function<void()>& work) const;
@@ -57,14 +56,14 @@ class RankStepper final : public HeatStepper {
     /// The threads of rank 0 in shared work; null: all threads of the flow.
     std::unique_ptr<Workers> threads_;
     std::unique_ptr<RankPart> own_;
-    /// Per rank: the vertices that it knows; and the vertices whose positions it sends.
+    /// Per rank: the vertices that it knows; the vertices whose positions it sends; and the numbers of its sub-meshes.
     std::vector<std::vector<Index>> known_vertices_;
     std::vector<std::vector<Index>> sent_vertices_;
     std::vector<std::vector<Index>> sub_meshes_;
-    /// Per rank: the index of each row that its stepper saves among the saved rows of all ranks; and whether the rank's
-    /// copy of the row is used.
+    /// Per rank: the index of each row that its stepper saves among the saved rows of all ranks.
     std::vector<std::vector<Index>> saved_rows_;
-    std::vector<std::vector<std::uint8_t>> counts_;
+    /// Per rank and saved row: 1 if the row is taken from this rank, as several ranks may save it.
+    std::vector<std::vector<std::uint8_t>> is_used_;
     Index n_saved_ = 0;
     /// #V by 3: the positions; and whether they are those that the ranks have.
     mutable Points positions_;

@@ -1,5 +1,3 @@
-#include "engine/ranks/thread_transport.h"
-
 #include <condition_variable>
 #include <deque>
 #include <exception>
@@ -7,6 +5,8 @@
 #include <mutex>
 #include <thread>
 #include <utility>
+
+#include "engine/ranks/transport.h"
 
 namespace seamflow {
 
@@ -24,6 +24,7 @@ class Inbox {
         arrived_.notify_one();
     }
 
+    /// The first message; empty if none arrives in time.
     std::optional<Message> take(std::chrono::microseconds patience)
     {
         std::unique_lock lock(mutex_);

@@ -3,6 +3,8 @@
 #include <chrono>
 #include <cstddef>
 #include <deque>
+#include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -66,5 +68,18 @@ class Transport {
 
     std::deque<Message> put_back_;
 };
+
+/// The ranks of MPI_COMM_WORLD. Starts MPI if that has not been done; MPI then ends with the transport. Work with the
+/// transport belongs to a RankGroup and serve_flows, so that no rank ends alone. If a process dies, MPI ends the
+/// others.
+/// @param largest_piece longer messages are sent in pieces of this size, as MPI counts bytes in 31 bits.
+/// @throws ComputationError if MPI does not let several threads take turns (MPI_THREAD_SERIALIZED).
+std::unique_ptr<Transport> make_mpi_transport(std::size_t largest_piece = std::size_t{1} << 30);
+
+/// Runs `body` once for each of n ranks, which are threads of this process, and waits for all of them. A body that
+/// throws does not end the others: use a RankGroup and serve_flows within it.
+/// @param n at least 1.
+/// @throws the exception of the lowest rank whose body has thrown.
+void run_on_threads(int n, const std::function<void(Transport&)>& body);
 
 }  // namespace seamflow

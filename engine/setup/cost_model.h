@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/options/flow_options.h"
+#include "engine/options/approach.h"
 #include "solvers/laplacian/row_averages.h"
 
 /// The cost of a flow by each way of taking its steps. The model was fitted once to measurements on two cores and on

@@ -11,9 +11,9 @@ namespace seamflow {
 /// The vertices on the boundary or at junctions that move, ascending.
 std::vector<Index> moving_rim(const PolygonMesh& mesh, const Topology& topology);
 
-/// Checks that Γ does not meet a moving boundary, where conditions on Γ are not defined.
-/// @param labels #F. @param vertices all vertices, or those to check.
-/// @throws OptionError if Γ meets such a boundary at any of them.
+/// Checks that no moving vertex of the boundary or of a junction is on Γ, where conditions on Γ are not defined.
+/// @param labels #F. @param vertices the vertices to check (see moving_rim).
+/// @throws OptionError if any of them is on Γ.
 void require_boundary_unshared(const Topology& topology, std::span<const Index> labels,
                                std::span<const Index> vertices);
 

@@ -38,25 +38,14 @@ bool flows_alone(const FlowOptions& options)
            !options.report.reference && !options.report.keep_gaps && options.motion.boundary == Boundary::Fixed;
 }
 
-/// Joins the faces and determines which vertices move.
-void examine(PreparedFlow& prepared, FlowingMesh& mesh, Progress& progress)
-{
-    FlowOptions& options = prepared.options;
-    prepared.surface = make_surface(mesh, options.motion,
-                                    {.laplacian = options.laplacian,
-                                     .keeps_all_faces = options.report.keep_gaps,
-                                     .leaves_out_still_faces = flows_alone(options)},
-                                    progress);
-    options.cut.labels = mesh.of_faces_left(options.cut.labels);
-}
-
 /// Measures what steps and reports need of the mesh before the first step.
-void measure(PreparedFlow& prepared, const PolygonMesh& mesh)
+void measure(PreparedFlow& prepared, Approach approach)
 {
+    const PolygonMesh& mesh = prepared.surface.mesh.mesh();
     const FlowOptions& options = prepared.options;
     // Sweeps order the colours by curvature.
-    const bool is_ordering = options.accuracy.approach == Approach::Sweep;
-    const bool is_beside_cut = options.report.measures && !takes_whole_mesh(options.accuracy.approach);
+    const bool is_ordering = approach == Approach::Sweep;
+    const bool is_beside_cut = options.report.measures && !takes_whole_mesh(approach);
     if (is_ordering || is_beside_cut)
         prepared.curvature = measure_curvature(mesh, prepared.surface.topology, mesh.vertices, laplacian_of(options));
     if (options.report.measures)
@@ -65,36 +54,42 @@ void measure(PreparedFlow& prepared, const PolygonMesh& mesh)
 
 }  // namespace
 
-std::unique_ptr<PreparedFlow> prepare(FlowingMesh& mesh, FlowOptions given, bool is_observed,
+std::unique_ptr<PreparedFlow> prepare(PolygonMesh& mesh, FlowOptions options, bool is_observed,
                                       const FlowControl& control, Progress& progress)
 {
     const FlowState* const resume = control.resume.get();
-    auto prepared = std::make_unique<PreparedFlow>();
-    prepared->options = std::move(given);
-    const FlowOptions& options = prepared->options;
-    prepared->identity = require_sound(mesh.mesh(), options, is_observed, resume, progress);
-    prepared->need_of_junctions = need_of_junctions(options);
-    if (!prepared->need_of_junctions.empty())
-        prepared->options.motion.junctions = Junctions::Hold;
-    examine(*prepared, mesh, progress);
+    FlowingMesh flowing(mesh);
+    const std::uint64_t identity = require_sound(flowing.mesh(), options, is_observed, resume, progress);
+    const std::string_view need = need_of_junctions(options);
+    if (!need.empty())
+        options.motion.junctions = Junctions::Hold;
+    const SurfaceRequest request{.laplacian = options.laplacian,
+                                 .keeps_all_faces = options.report.keep_gaps,
+                                 .leaves_out_still_faces = flows_alone(options)};
+    auto [surface, motion] = make_surface(std::move(flowing), std::move(options.motion), request, progress);
+    options.motion = std::move(motion);
+    options.cut.labels = surface.mesh.of_faces_left(options.cut.labels);
+    auto prepared = std::make_unique<PreparedFlow>(PreparedFlow{
+        .surface = std::move(surface), .options = std::move(options), .identity = identity, .need_of_junctions = need});
     progress.count();
-    prepared->steps = decide_steps(mesh.mesh(), prepared->surface, prepared->options,
-                                   resume != nullptr ? std::optional(resume->approach) : std::nullopt,
-                                   control.ranks != nullptr ? Sharing::Ranks : Sharing::None, progress,
-                                   [&] { measure(*prepared, mesh.mesh()); });
-    if (!options.accuracy.tolerance && options.scheme == Scheme::BackwardEuler)
-        require_boundary_unshared(prepared->surface.topology, prepared->steps.cut.labels,
-                                  moving_rim(mesh.mesh(), prepared->surface.topology));
+    prepared->plan =
+        decide(prepared->surface, prepared->options, resume != nullptr ? std::optional(resume->approach) : std::nullopt,
+               control.ranks != nullptr ? Sharing::Ranks : Sharing::None, progress,
+               [&](Approach approach) { measure(*prepared, approach); });
+    const Topology& topology = prepared->surface.topology;
+    if (std::holds_alternative<SweepSteps>(prepared->plan.way))
+        require_boundary_unshared(topology, prepared->plan.cut.labels,
+                                  moving_rim(prepared->surface.mesh.mesh(), topology));
     return prepared;
 }
 
-void report_to(const PreparedFlow& prepared, const FlowingMesh& mesh, FlowReport& report)
+void report_to(const PreparedFlow& prepared, FlowReport& report)
 {
     const FlowOptions& options = prepared.options;
-    report_to(prepared.steps, prepared.surface, options, mesh, prepared.need_of_junctions, report);
-    if (prepared.steps.cut.n_parts > 1 && options.steps > 0 && !options.accuracy.tolerance) {
-        const double width =
-            width_in_diffusion_lengths(prepared.surface.size.area, prepared.steps.cut.n_parts, options.time_step);
+    report_to(prepared.plan, prepared.surface, options, prepared.need_of_junctions, report);
+    const Index n_sub_meshes = prepared.plan.cut.n_parts;
+    if (n_sub_meshes > 1 && options.steps > 0 && std::holds_alternative<SweepSteps>(prepared.plan.way)) {
+        const double width = width_in_diffusion_lengths(prepared.surface.size.area, n_sub_meshes, options.time_step);
         if (width < needs_of_sweeps.width)
             report.remarks.push_back(
                 {"narrow sub-meshes",

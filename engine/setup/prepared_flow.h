@@ -9,7 +9,7 @@
 #include "engine/measure/displacement_meter.h"
 #include "engine/options/flow_control.h"
 #include "engine/options/flow_options.h"
-#include "engine/setup/decided_steps.h"
+#include "engine/setup/flow_plan.h"
 #include "engine/state/flow_state.h"
 #include "engine/surface/surface.h"
 #include "engine/tasks/progress.h"
@@ -18,20 +18,19 @@ namespace seamflow {
 
 /// A flow before its first step: all decisions about it, and the measurements that they are based on.
 struct PreparedFlow {
-    /// The given options, with choices where they left something open: the approach, the tolerance. Labels are those of
-    /// the flowing faces.
+    Surface surface;
+    /// The given options, resolved. Labels are those of the flowing faces.
     FlowOptions options;
     /// Checksum of the mesh and the given options, by which a checkpoint is recognised. 0 if it is not needed.
     std::uint64_t identity = 0;
-    Surface surface;
     /// The condition under which vertices at junctions would move: the result of need_of_junctions in
     /// automatic_choices.h.
     std::string_view need_of_junctions;
-    DecidedSteps steps;
+    FlowPlan plan = {};
     /// #V: ‖ΔV⁰‖, in 1/length; empty if it is not needed per vertex.
-    std::vector<double> curvature;
+    std::vector<double> curvature = {};
     /// Refers to the topology; empty without ReportOptions::measures.
-    std::optional<DisplacementMeter> meter;
+    std::optional<DisplacementMeter> meter = {};
 };
 
 /// Checks a mesh and decides how it flows: which faces and vertices take part, whether steps are converged, which
@@ -41,10 +40,10 @@ struct PreparedFlow {
 /// @param control with the state that the flow is to resume from, and whether ranks share its steps.
 /// @throws InputError for a mesh, labels or a state that cannot be used; OptionError; ComputationError for a failure of
 ///         METIS; Cancelled.
-std::unique_ptr<PreparedFlow> prepare(FlowingMesh& mesh, FlowOptions options, bool is_observed,
+std::unique_ptr<PreparedFlow> prepare(PolygonMesh& mesh, FlowOptions options, bool is_observed,
                                       const FlowControl& control, Progress& progress);
 
 /// Adds the decisions and measurements to the report.
-void report_to(const PreparedFlow& prepared, const FlowingMesh& mesh, FlowReport& report);
+void report_to(const PreparedFlow& prepared, FlowReport& report);
 
 }  // namespace seamflow

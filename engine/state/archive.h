@@ -22,12 +22,13 @@ namespace seamflow {
 /// @throws InputError naming the file, the reason and a remedy.
 [[noreturn]] void refuse_archive(const std::filesystem::path& file, const std::string& reason);
 
-/// Writes values to a file.
+/// Writes values to a file (see transfer).
 class ArchiveWriter {
   public:
-    /// @param line the kind of the file.
+    /// @param line the first line, which names the kind of the file.
     ArchiveWriter(const std::filesystem::path& path, std::string_view line);
 
+    /// Writes numbers byte for byte.
     template <class Number>
     void numbers(std::span<const Number> numbers)
     {
@@ -42,13 +43,14 @@ class ArchiveWriter {
         numbers(std::span<const Number>(&number, 1));
     }
 
+    /// Writes the size of an array.
     template <class Array>
     void size(const Array& array)
     {
         number(size_of_array(array));
     }
 
-    /// Completes the file.
+    /// Writes the checksum and completes the file.
     void commit()
     {
         number(checksum_.checksum());
@@ -67,6 +69,7 @@ class ArchiveReader {
     /// Opens the file and checks all of it.
     ArchiveReader(const std::filesystem::path& path, std::string_view line);
 
+    /// Reads numbers byte for byte.
     template <class Number>
     void numbers(std::span<Number> numbers)
     {
@@ -84,6 +87,7 @@ class ArchiveReader {
         numbers(std::span(&number, 1));
     }
 
+    /// Reads the size of an array, and gives the array this size.
     template <class Array>
     void size(Array& array)
     {
@@ -105,8 +109,11 @@ class ArchiveReader {
     }
 
   private:
+    /// A lower bound of the bytes that an element takes that is no number.
     static constexpr std::size_t least_bytes_of_struct = 16;
 
+    /// Reads the number of elements of an array.
+    /// @param bytes_each the least number of bytes that an element takes.
     std::size_t read_size(std::size_t bytes_each)
     {
         std::uint64_t n = 0;

@@ -6,7 +6,7 @@
 
 namespace seamflow {
 
-/// The checksum of a mesh, with positions near the origin, as it moves (see origin_offset).
+/// The checksum of a mesh after it is moved near the origin, as flows move it (see origin_offset).
 std::uint64_t checksum_of_mesh(const PolygonMesh& mesh);
 
 }  // namespace seamflow

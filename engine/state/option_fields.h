@@ -2,7 +2,6 @@
 
 #include <tuple>
 
-#include "engine/options/amount.h"
 #include "engine/options/motion_options.h"
 #include "engine/state/transfer.h"
 

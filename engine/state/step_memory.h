@@ -34,7 +34,8 @@ class StepMemoryReader {
     /// @throws InputError if there is no further number.
     double number();
 
-    /// Returns the next number, which must be a count.
+    /// Returns the next number as an integer.
+    /// @throws InputError if it is not from 0 to most_steps.
     int count();
 
     /// @throws InputError if any data are left.

@@ -15,6 +15,7 @@
 /// Structs, field by field: for checksums and files (see archive.h).
 namespace seamflow {
 
+/// Whether Value is Struct, const or not.
 template <class Value, class Struct>
 concept Is = std::is_same_v<std::remove_const_t<Value>, Struct>;
 
@@ -32,6 +33,7 @@ concept IsOptional = requires(Value& value)
     value.has_value();
 };
 
+/// Arrays of numbers, which are written and read in one piece.
 template <class Value>
 concept HasNumbers =
     Is<Value, Points> || Is<Value, std::string> || Is<Value, std::vector<double>> || Is<Value, std::vector<Index>>;
@@ -57,7 +59,8 @@ void transfer(Archive& archive, Value& value)
     }
 }
 
-/// What stands for the size of an array in an archive.
+/// The size of an array as it stands in an archive: the rows of Points, 0 or 1 for an optional value, otherwise the
+/// number of elements.
 template <class Array>
 std::uint64_t size_of_array(const Array& array)
 {

@@ -23,7 +23,7 @@ void CondensedSubMesh::use_memory(FactorMemory& memory, bool is_kept)
     is_kept_ = is_kept;
 }
 
-/// Sets the increments to 0.
+/// Sets the increments Vᵏ⁺¹ - Vᵏ, of the step and in the workspace, to 0.
 void CondensedSubMesh::begin_increments(const CondensedStep& step, SolverWorkspace& workspace) const
 {
     for (const Index v : interior())
@@ -32,7 +32,7 @@ void CondensedSubMesh::begin_increments(const CondensedStep& step, SolverWorkspa
     workspace.increments.setZero();
 }
 
-/// Fetches Vᵏ⁺¹ - Vᵏ as reached so far in the step.
+/// Copies the increments Vᵏ⁺¹ - Vᵏ that the step has reached so far to the workspace.
 void CondensedSubMesh::fetch_increments(const CondensedStep& step, SolverWorkspace& workspace) const
 {
     Points& increments = workspace.increments;
@@ -54,6 +54,7 @@ NeumannSystem::Assembled CondensedSubMesh::assemble(const CondensedStep& step, S
 }
 
 /// Factorises the equations, and condenses them with this factor.
+/// @returns the factor, which back_substitute needs.
 NeumannSystem::Factor CondensedSubMesh::factorise(const CondensedStep& step, SolverWorkspace& workspace)
 {
     Stopwatch watch;
@@ -61,6 +62,7 @@ NeumannSystem::Factor CondensedSubMesh::factorise(const CondensedStep& step, Sol
     seconds_->assemble += watch.lap();
     std::optional<NeumannSystem::Factor> factor = system_->factorise(equations, precision_, *memory_, workspace.ldl);
     precision_ = factor && factor->is_single() ? Precision::Single : Precision::Double;
+    // There is no factor if single precision would lose too many digits.
     if (!factor)
         factor = system_->factorise(equations, precision_, *memory_, workspace.ldl);
     seconds_->factorise += watch.lap();
@@ -69,6 +71,7 @@ NeumannSystem::Factor CondensedSubMesh::factorise(const CondensedStep& step, Sol
     return *std::move(factor);
 }
 
+/// Condenses the residual to the sub-mesh's copies of Γ, and records the largest residual of the interior.
 void CondensedSubMesh::eliminate(const CondensedStep& step, const NeumannSystem::Assembled& equations,
                                  NeumannSystem::Factor& factor)
 {

@@ -1,16 +1,14 @@
 #include "engine/steppers/conjugate_gradient_stepper.h"
 
-#include "engine/setup/equation_terms.h"
-
 namespace seamflow {
 
 ConjugateGradientStepper::ConjugateGradientStepper(const PolygonMesh& mesh, const Topology& topology,
-                                                   const FlowOptions& options, Progress& progress,
-                                                   const GivenStiffness* given)
-    : ConvergedStepper(mesh, 0, options, 1.0, progress)
+                                                   const StepSettings& settings, const IterationStop& stop,
+                                                   Progress& progress, const GivenStiffness* given)
+    : ConvergedStepper(mesh, 0, settings, stop, 1.0, progress)
     , mesh_(&mesh)
-    , system_(mesh, topology, laplacian_of(options), terms_of(options, mesh.vertices), progress.exec(),
-              !filter_of(options).is_plain())
+    , system_(mesh, topology, settings.equation.laplacian, settings.equation.terms, progress.exec(),
+              !settings.equation.filter.is_plain())
 {
     if (given != nullptr)
         system_.give(*given);

@@ -14,8 +14,8 @@ class ConjugateGradientStepper final : public ConvergedStepper {
     /// @param mesh, topology, progress must outlive the stepper.
     /// @param given K and M of a linear flow in place of those of the Laplacian, which must outlive the stepper; null:
     ///        none.
-    ConjugateGradientStepper(const PolygonMesh& mesh, const Topology& topology, const FlowOptions& options,
-                             Progress& progress, const GivenStiffness* given = nullptr);
+    ConjugateGradientStepper(const PolygonMesh& mesh, const Topology& topology, const StepSettings& settings,
+                             const IterationStop& stop, Progress& progress, const GivenStiffness* given = nullptr);
 
     /// Sets the solution with which iterations of the next step begin, #V by 3, unless Vᵏ is nearer to the solution;
     /// null: Vᵏ. It must exist until the step has been taken.

@@ -11,22 +11,15 @@
 
 namespace seamflow {
 
-namespace {
-
-/// The tolerance for a mesh that is not cut: a step is exact, whatever its tolerance.
-constexpr double tolerance_without_interface = 1e-10;
-
-}  // namespace
-
-ConvergedStepper::ConvergedStepper(const PolygonMesh& mesh, Index n_sub_meshes, const FlowOptions& options,
-                                   double parts_of_equation, Progress& progress)
-    : time_step_(options.time_step)
-    , filter_(filter_of(options))
+ConvergedStepper::ConvergedStepper(const PolygonMesh& mesh, Index n_sub_meshes, const StepSettings& settings,
+                                   const IterationStop& stop, double parts_of_equation, Progress& progress)
+    : time_step_(settings.equation.time_step)
+    , filter_(settings.equation.filter)
     , seconds_(usize(n_sub_meshes) + 1)
-    , graph_(&progress, options.report.record_schedule)
+    , graph_(&progress, settings.records_schedule)
     , root_(graph_.add_root())
     , equation_solved_(graph_.add_task([this] { solve(); }, {TaskKind::SolveInterface, -1}))
-    , stop_{options.accuracy.tolerance.value_or(tolerance_without_interface), options.accuracy.converge_iterations}
+    , stop_(stop)
     , loops_(parts_of_equation, progress)
 {
     copy(run_in_parallel, mesh.vertices, positions_);
@@ -40,7 +33,7 @@ void ConvergedStepper::step(const Points& before)
     graph_.run(0, loops_.parts());
     if (!filter_.is_plain())
         take_filtered();
-    note();
+    count_missed();
 }
 
 /// Takes a step with a filter of several solutions: runs the same graph for each further solution, with the same
@@ -72,8 +65,8 @@ void ConvergedStepper::take_filtered()
     reached_.last = sum;
 }
 
-/// Records the residual and whether the step has met the tolerance.
-void ConvergedStepper::note()
+/// Counts the step if it has missed the tolerance, or has stagnated; a repeated step (DataSteps::Again) counts once.
+void ConvergedStepper::count_missed()
 {
     reached_.of_step.resize(std::max(reached_.of_step.size(), usize(reached_.n_taken) + 1));
     Missed& counted = reached_.of_step[usize(reached_.n_taken++)];
@@ -85,6 +78,7 @@ void ConvergedStepper::note()
     counted.has_stagnated |= now.has_stagnated;
 }
 
+/// Solves the equation, and adds its time and its estimated distance to those of earlier solutions.
 void ConvergedStepper::solve()
 {
     const Stopwatch watch;
@@ -103,8 +97,8 @@ void ConvergedStepper::set_data(const Points& data, DataSteps steps)
 {
     set_positions(data, {});
     if (steps == DataSteps::Further)
-        reached_.first = reached_.n_taken;
-    reached_.n_taken = reached_.first;
+        reached_.n_before_data = reached_.n_taken;
+    reached_.n_taken = reached_.n_before_data;
 }
 
 void ConvergedStepper::save(StepMemory& memory) const

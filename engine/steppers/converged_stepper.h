@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "engine/options/flow_options.h"
+#include "engine/setup/step_settings.h"
 #include "engine/steppers/heat_stepper.h"
 #include "engine/tasks/progress.h"
 #include "engine/tasks/task_graph.h"
@@ -30,10 +30,11 @@ class ConvergedStepper : public HeatStepper {
 
   protected:
     /// Adds the solution of the equation to the graph as a task.
-    /// @param parts_of_equation the number of parts that this task counts for in the progress of a step.
+    /// @param stop ends the iterations of each solution.
+    /// @param parts_of_equation the share of this task in the progress of a step; that of a sub-mesh's task is 1.
     /// @param progress must outlive the stepper.
-    ConvergedStepper(const PolygonMesh& mesh, Index n_sub_meshes, const FlowOptions& options, double parts_of_equation,
-                     Progress& progress);
+    ConvergedStepper(const PolygonMesh& mesh, Index n_sub_meshes, const StepSettings& settings,
+                     const IterationStop& stop, double parts_of_equation, Progress& progress);
 
     /// Solves the equation.
     virtual InterfaceResult solve_equation(const IterationStop& stop, const Executor& exec) = 0;
@@ -71,21 +72,22 @@ class ConvergedStepper : public HeatStepper {
     struct Reached {
         /// The last step; its residual is relative to that of the positions before it.
         InterfaceResult last;
-        /// The estimated distance of the positions to those of the undecomposed flow. The residuals of the steps are
-        /// added up like independent errors.
+        /// The estimated distance of the positions to those of the undecomposed flow. The estimates of the steps are
+        /// added up like independent errors: as squares.
         double distance = 0.0;
         int n_short_of_tolerance = 0;
         int n_stagnated = 0;
-        /// The number of steps taken; the number of these before the last data with Further steps (see DataSteps), from
-        /// which the number continues for data whose steps are taken Again; and per step, how it was counted.
+        /// The number of steps taken, without repetitions (DataSteps::Again).
         int n_taken = 0;
-        int first = 0;
+        /// The value of n_taken when steps were last declared DataSteps::Further: repetitions start from it.
+        int n_before_data = 0;
+        /// Per step: how it, or a repetition of it, has missed the tolerance.
         std::vector<Missed> of_step = {};
     };
 
     void solve();
     void take_filtered();
-    void note();
+    void count_missed();
 
     IterationStop stop_;
     /// Counts the loops of the iteration.

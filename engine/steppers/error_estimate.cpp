@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/setup/equation_terms.h"
 #include "engine/tasks/parallel_executor.h"
 #include "partition/index_lists.h"
 #include "solvers/direct/columns.h"
@@ -14,22 +13,24 @@ namespace {
 
 /// The fractions of a difference between two flows on Γ that are left after the next step.
 struct Carried {
-    /// The fraction left of tangential displacements of single vertices by a correction. Δ_A and Δ_P do not depend on
-    /// the tangential position of vertices; with Δ_F, half to all of it is left, the less the rougher it is. In the
-    /// normal direction nothing is left except what spreads.
+    /// The fraction left of tangential displacements of single vertices by a correction: all with Δ_A and Δ_P, which do
+    /// not depend on the tangential position of vertices; with Δ_F (Laplacian::Fujiwara) half to all, less of a rough
+    /// displacement. Normal displacements spread, and leave nothing at their vertex.
     double tangential_correction;
-    /// The fraction left of the tangential error of a sweep; and of its normal error where this is smooth along Γ.
-    /// Across Γ the error is smooth over √dt: of the largest, the first step leaves a half, the next one three
-    /// quarters, then five sixths, and so on.
+    /// The fractions left of the tangential error of a sweep, and of its normal error if this is smooth along Γ. Across
+    /// Γ the error is smooth over √dt: the first step leaves a half of its largest value, the next one three quarters,
+    /// then five sixths, and so on.
     double tangential_error;
     double normal_error;
 };
 
+/// The fractions that steps with a Laplacian leave.
 Carried carried_by(Laplacian laplacian)
 {
     return laplacian == Laplacian::Fujiwara ? Carried{0.65, 0.8, 0.8} : Carried{1.0, 1.0, 0.8};
 }
 
+/// A vector with its tangential and its normal component multiplied by one factor each.
 Point scaled(const Point& vector, const Point& normal, double tangentially, double normally)
 {
     const Point along_normal = vector.dot(normal) * normal;
@@ -39,21 +40,21 @@ Point scaled(const Point& vector, const Point& normal, double tangentially, doub
 }  // namespace
 
 ErrorEstimate::ErrorEstimate(const Decomposition& decomposition, const PolygonMesh& mesh, const Topology& topology,
-                             const FlowOptions& options, InterfaceRanks& ranks)
+                             const StepEquation& equation, bool has_copies, InterfaceRanks& ranks)
     : decomposition_(&decomposition)
     , mesh_(&mesh)
     , topology_(&topology)
-    , laplacian_(options.laplacian)
-    , time_step_(options.time_step)
-    , has_copies_(is_classical(options.interface.conditions))
+    , laplacian_(equation.laplacian.kind)
+    , time_step_(equation.time_step)
+    , has_copies_(has_copies)
     , ranks_(&ranks)
-    , equation_(decomposition, mesh, topology, laplacian_of(options), ranks, run_in_parallel)
+    , equation_(decomposition, mesh, topology, equation.laplacian, ranks, run_in_parallel)
 {
     for (Points* array : {&correction_, &corrected_, &swept_})
         array->setZero(equation_.size(), 3);
-    if (options.flow == FlowEquation::Conformalized)
+    if (equation.terms.keeps_stiffness)
         initial_ = mesh.vertices;
-    attach(terms_of(options, mesh.vertices));
+    note_attachment(equation.terms);
     if (laplacian_ == Laplacian::PtackovaVelho) {
         solved_ = mesh.vertices;
         list_remote_rows();
@@ -80,7 +81,8 @@ void ErrorEstimate::list_remote_rows()
         sort_unique(rows);
 }
 
-void ErrorEstimate::attach(const FlowTerms& terms)
+/// Notes V⁰ and dt w at each vertex of Γ, if the flow pulls vertices back to V⁰ with weights w (see FlowTerms).
+void ErrorEstimate::note_attachment(const FlowTerms& terms)
 {
     if (!terms.attaches())
         return;
@@ -99,26 +101,28 @@ std::vector<Index> ErrorEstimate::vertices() const
     return global;
 }
 
-/// Vᵏ⁺¹ as solved by the sub-mesh; on Γ, the mean over all copies.
-const Points& ErrorEstimate::joined(const std::vector<SubMeshState>& states, Index s, Points& mean) const
+/// #local by 3: Vᵏ⁺¹ as solved by sub-mesh s; on Γ, the mean over all copies.
+/// @param storage is overwritten with the result if sub-meshes have copies of Γ.
+const Points& ErrorEstimate::joined(const std::vector<SubMeshState>& states, Index s, Points& storage) const
 {
     const SubMeshState& state = states[s];
     if (!has_copies_)
         return state.solved;
-    set_rows(mean, state.solved.rows());
-    mean = state.solved;
+    set_rows(storage, state.solved.rows());
+    storage = state.solved;
     const auto& interface = state.sub_mesh->interface;
     for (Index i = 0; i < interface.size(); ++i)
-        mean.row(interface.vertices[i]) = mean_of_copies(states, interface, i, &SubMeshState::solved);
-    return mean;
+        storage.row(interface.vertices[i]) = mean_of_copies(states, interface, i, &SubMeshState::solved);
+    return storage;
 }
 
-/// The positions from which the step has K, #local by 3: Vᵏ, or V⁰ if K is kept.
-const Points& ErrorEstimate::stiffness_at(const SubMeshState& state, Points& first) const
+/// #local by 3: the positions at which the K of the step is assembled: Vᵏ, or V⁰ if K is kept.
+/// @param storage is overwritten with V⁰.
+const Points& ErrorEstimate::stiffness_positions(const SubMeshState& state, Points& storage) const
 {
     if (initial_.rows() == 0)
         return state.position;
-    return gather_rows(state.sub_mesh->local_to_global, initial_, first);
+    return gather_rows(state.sub_mesh->local_to_global, initial_, storage);
 }
 
 void ErrorEstimate::measure(std::vector<SubMeshState>& states, Index s, SolverWorkspace& workspace)
@@ -126,7 +130,7 @@ void ErrorEstimate::measure(std::vector<SubMeshState>& states, Index s, SolverWo
     receive_solution(states, s, decomposition_->halo[s]);
     const SubMeshState& state = states[s];
     const Points& after = joined(states, s, workspace.other_side);
-    equation_.assemble(s, state.position, after, stiffness_at(state, workspace.positions), time_step_);
+    equation_.assemble(s, state.position, after, stiffness_positions(state, workspace.positions), time_step_);
     for (Index i = equation_.first(s); !attached_.empty() && i < equation_.first(s + 1); ++i)
         equation_.attach(i, attached_[i], after.row(equation_.local_vertex(i)) - attached_to_.row(i));
     if (solved_.rows() > 0)
@@ -144,8 +148,8 @@ void ErrorEstimate::note_correction(const std::vector<SubMeshState>& states, Ind
     }
 }
 
-/// Adds the errors of earlier steps at the beginning of this one: displacements of single vertices, which the step
-/// smooths away, spread.
+/// Carries the errors of earlier steps over to this one: keeps the tangential remainders (see Carried), and adds the
+/// normal ones, with the displacements of single vertices that this step spreads, to the right-hand side.
 void ErrorEstimate::carry_over()
 {
     const Carried carried = carried_by(laplacian_);

@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "engine/options/flow_options.h"
+#include "engine/setup/step_settings.h"
 #include "engine/state/flow_state.h"
 #include "engine/steppers/sub_mesh_state.h"
 #include "partition/decomposition/decomposition.h"
@@ -27,20 +27,22 @@ namespace seamflow {
 class ErrorEstimate {
   public:
     /// @param decomposition, mesh, topology, ranks must outlive this; see ErrorEquation.
+    /// @param has_copies whether every sub-mesh has its own copy of Γ.
     ErrorEstimate(const Decomposition& decomposition, const PolygonMesh& mesh, const Topology& topology,
-                  const FlowOptions& options, InterfaceRanks& ranks);
+                  const StepEquation& equation, bool has_copies, InterfaceRanks& ranks);
 
     /// Per sub-mesh of another rank: the local indices of further vertices that its state must hold, with Vᵏ and Vᵏ⁺¹
     /// as solved. Empty if no rank needs any.
     [[nodiscard]] const std::vector<std::vector<Index>>& remote_rows() const { return remote_rows_; }
 
-    /// Reads the rows at the vertices of Γ that sub-mesh s numbers, before it accepts Vᵏ⁺¹. Different sub-meshes may do
-    /// so at the same time.
+    /// Computes the residual of the undecomposed step at the vertices of Γ that sub-mesh s numbers (see ErrorEquation),
+    /// before s accepts Vᵏ⁺¹. May be called for different sub-meshes at the same time.
     /// @param states the position in the state of s is Vᵏ; all sub-meshes around it have solved.
     /// @param workspace its `other_side` and `positions` are overwritten.
     void measure(std::vector<SubMeshState>& states, Index s, SolverWorkspace& workspace);
 
-    /// Records the displacements of these vertices by the correction, after sub-mesh s has accepted Vᵏ⁺¹.
+    /// Records the displacements, by the correction, of the vertices that sub-mesh s numbers, after s has accepted
+    /// Vᵏ⁺¹.
     void note_correction(const std::vector<SubMeshState>& states, Index s);
 
     /// Estimates the error of the step and adds it to that of the steps before. All ranks call this together.
@@ -51,16 +53,18 @@ class ErrorEstimate {
     /// Empty if it is not finite.
     [[nodiscard]] std::optional<double> largest() const { return largest_; }
 
-    /// Saves and restores the data that the next step needs: arrays with a row for each of these vertices of the mesh.
-    /// @throws InputError if the arrays do not fit.
+    /// The vertices of Γ that this rank numbers, as vertices of the mesh: one for each row of the arrays that `save`
+    /// writes.
     [[nodiscard]] std::vector<Index> vertices() const;
+    /// Appends the arrays that the next step needs.
     void save(StepMemory& memory) const;
+    /// @throws InputError if the arrays do not fit.
     void restore(StepMemoryReader& memory);
 
   private:
-    [[nodiscard]] const Points& joined(const std::vector<SubMeshState>& states, Index s, Points& mean) const;
-    [[nodiscard]] const Points& stiffness_at(const SubMeshState& state, Points& first) const;
-    void attach(const FlowTerms& terms);
+    [[nodiscard]] const Points& joined(const std::vector<SubMeshState>& states, Index s, Points& storage) const;
+    [[nodiscard]] const Points& stiffness_positions(const SubMeshState& state, Points& storage) const;
+    void note_attachment(const FlowTerms& terms);
     void list_remote_rows();
     [[nodiscard]] const Points& fill_remote_rows(const std::vector<SubMeshState>& states, const Points& before);
     void carry_over();
@@ -73,20 +77,21 @@ class ErrorEstimate {
     double time_step_;
     /// #V by 3: V⁰, if K is kept.
     Points initial_;
-    /// Only with an attachment: #Γ: dt w; and #Γ by 3: V⁰.
+    /// Only with an attachment (see FlowTerms): #Γ: dt w; and #Γ by 3: V⁰.
     std::vector<double> attached_;
     Points attached_to_;
     /// Whether every sub-mesh has its own copy of Γ.
     bool has_copies_;
     InterfaceRanks* ranks_;
     ErrorEquation equation_;
-    /// Each #Γ by 3: the correction of this step; and the differences left after all steps, of displacements by
-    /// corrections, and of errors of sweeps.
+    /// #Γ by 3: the displacements by the correction of this step.
     Points correction_;
+    /// #Γ by 3: the remainders, after the steps so far, of all displacements by corrections.
     Points corrected_;
+    /// #Γ by 3: the remainders, after the steps so far, of the errors of all sweeps.
     Points swept_;
     std::optional<double> largest_;
-    /// Only with Δ_P, #V by 3: Vᵏ⁺¹ as solved, and Vᵏ if other ranks know part of it.
+    /// Only with Δ_P (Laplacian::PtackovaVelho), #V by 3: Vᵏ⁺¹ as solved, and Vᵏ if other ranks know part of it.
     Points solved_;
     Points before_;
     std::vector<std::vector<Index>> remote_rows_;

@@ -47,26 +47,28 @@ double largest_explicit_step(const PolygonMesh& mesh, const Topology& topology, 
         keep_shorter);
 }
 
-ExplicitStepper::ExplicitStepper(const PolygonMesh& mesh, const Topology& topology, const FlowOptions& options,
+ExplicitStepper::ExplicitStepper(const PolygonMesh& mesh, const Topology& topology, const StepEquation& equation,
                                  Progress& progress)
     : mesh_(&mesh)
     , topology_(&topology)
     , progress_(&progress)
-    , laplacian_(laplacian_of(options))
-    , time_step_(options.time_step)
-    , step_scales_(options.motion.strength)
+    , laplacian_(equation.laplacian)
+    , time_step_(equation.time_step)
+    , step_scales_(equation.terms.step_scales.begin(), equation.terms.step_scales.end())
     , positions_(mesh.vertices)
     , first_limit_(infinity)
     , smallest_limit_(infinity)
 {
 }
 
+/// Records largest_explicit_step at these positions.
+/// @throws OptionError before the first step, if dt is above it.
 void ExplicitStepper::require_stable(const Points& positions)
 {
     const double limit = largest_explicit_step(*mesh_, *topology_, positions);
-    const bool first = smallest_limit_ == infinity;
+    const bool is_first = smallest_limit_ == infinity;
     smallest_limit_ = std::min(smallest_limit_, limit);
-    if (!first)
+    if (!is_first)
         return;
     first_limit_ = limit;
     if (time_step_ > limit)
@@ -81,7 +83,7 @@ void ExplicitStepper::step(const Points& before)
 {
     assert(&before != &positions_);
     require_stable(before);
-    // Vⁿ⁺¹ = Vⁿ - s dt Δ(Vⁿ) Vⁿ
+    // Vᵏ⁺¹ = Vᵏ - s dt Δ(Vᵏ) Vᵏ
     for_each(progress_->counted_loop(), mesh_->n_vertices(), [&](Index v) {
         if (topology_->moves(v))
             positions_.row(v) = before.row(v) - (step_scales_.empty() ? 1.0 : step_scales_[v]) * time_step_ *

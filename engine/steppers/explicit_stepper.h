@@ -1,7 +1,7 @@
 #pragma once
 
 #include "engine/measure/flow_report.h"
-#include "engine/options/flow_options.h"
+#include "engine/setup/step_settings.h"
 #include "engine/steppers/stepper.h"
 #include "engine/tasks/progress.h"
 #include "partition/polygon_mesh.h"
@@ -11,7 +11,8 @@ namespace seamflow {
 
 /// The square of the shortest edge that has an end that may move, in length²: the largest step that the paper (after
 /// Desbrun et al. 1999) calls stable for explicit Euler. Edges of length zero are ignored; infinite if nothing moves.
-/// On regular grids of quads or triangles the largest eigenvalue of Δ_F requires a quarter of it. Runs in parallel.
+/// On regular grids of quads or triangles the largest eigenvalue of Δ_F (Fujiwara) requires a quarter of it. Runs in
+/// parallel.
 double largest_explicit_step(const PolygonMesh& mesh, const Topology& topology, const Points& positions);
 
 /// Takes explicit Euler steps V^{k+1} = (I - dt Δ(V^k)) V^k of the whole mesh, vertex by vertex in parallel. The bits
@@ -19,7 +20,8 @@ double largest_explicit_step(const PolygonMesh& mesh, const Topology& topology, 
 class ExplicitStepper final : public Stepper {
   public:
     /// @param mesh, topology, progress must outlive the stepper.
-    ExplicitStepper(const PolygonMesh& mesh, const Topology& topology, const FlowOptions& options, Progress& progress);
+    ExplicitStepper(const PolygonMesh& mesh, const Topology& topology, const StepEquation& equation,
+                    Progress& progress);
 
     /// @throws OptionError naming largest_explicit_step if dt is above it in the first step; ComputationError if the
     ///         result is not finite.

@@ -22,7 +22,8 @@ class InterfaceGaps {
     /// @param positions #V by 3; receives the mean of the copies of each vertex of Γ.
     void join(const std::vector<SubMeshState>& states, Points& positions);
 
-    /// The largest distance between two copies, over the vertices of Γ at the last join, in units of length.
+    /// Statistics over the vertices of Γ at the last join: of the largest distance between two copies of a vertex, in
+    /// units of length.
     [[nodiscard]] LengthStatistics gap() const { return length_statistics(gaps_); }
 
     /// The sub-meshes at the last join, as a mesh with all copies of Γ; null unless keeps_separated.

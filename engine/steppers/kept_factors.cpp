@@ -20,7 +20,7 @@ std::vector<Index> largest_first(std::span<const std::size_t> factors)
     return order;
 }
 
-/// Keeps the first sub-meshes in the order and no others.
+/// Keeps the factors of the first n_whole sub-meshes in the order and no others.
 KeptFactors keep_first(std::span<const std::size_t> factors, std::span<const Index> order, Index n_whole, Index n_slots)
 {
     KeptFactors kept;

@@ -6,34 +6,68 @@
 #include "engine/steppers/explicit_stepper.h"
 #include "engine/steppers/schur_stepper.h"
 #include "engine/steppers/sweep_stepper.h"
+#include "engine/steppers/switching_stepper.h"
 #include "partition/cut/cut_into.h"
 
 namespace seamflow {
 
+namespace {
+
+/// Makes the stepper for one of the ways.
+struct StepperMaker {
+    const PolygonMesh& mesh;
+    const Topology& topology;
+    const Cut& cut;
+    const StepSettings& settings;
+    std::vector<double> curvature;
+    Progress& progress;
+
+    std::unique_ptr<Stepper> operator()(const SweepSteps& sweeps)
+    {
+        return std::make_unique<SweepStepper>(mesh, topology, cut, settings, sweeps, std::move(curvature), progress);
+    }
+
+    std::unique_ptr<Stepper> operator()(const ConvergedSteps& converged)
+    {
+        return std::make_unique<SchurStepper>(mesh, topology, cut, settings, converged.stop, progress);
+    }
+
+    std::unique_ptr<Stepper> operator()(const GradientSteps& gradients)
+    {
+        if (gradients.costs)
+            return std::make_unique<SwitchingStepper>(mesh, topology, settings, gradients, progress);
+        return std::make_unique<ConjugateGradientStepper>(mesh, topology, settings, gradients.stop, progress);
+    }
+
+    /// A single sub-mesh has no Γ, on which a sweep and converged steps could differ. Only the latter keep the factor
+    /// of a linear flow, and have symmetric equations alone.
+    std::unique_ptr<Stepper> operator()(const UndecomposedSteps& undecomposed)
+    {
+        if (settings.equation.is_linear() || undecomposed.tolerance)
+            return std::make_unique<SchurStepper>(mesh, topology, cut, settings, stop_without_interface, progress);
+        return std::make_unique<SweepStepper>(mesh, topology, cut, settings, SweepSteps(), std::vector<double>(),
+                                              progress);
+    }
+
+    std::unique_ptr<Stepper> operator()(const ExplicitSteps&)
+    {
+        return std::make_unique<ExplicitStepper>(mesh, topology, settings.equation, progress);
+    }
+};
+
+}  // namespace
+
 std::unique_ptr<Stepper> make_stepper(const PolygonMesh& mesh, const Topology& topology, const Cut& cut,
-                                      const FlowOptions& options, std::vector<double> curvature, Progress& progress)
+                                      const WayOfSteps& way, const StepSettings& settings,
+                                      std::vector<double> curvature, Progress& progress)
 {
-    if (options.scheme == Scheme::ExplicitEuler)
-        return std::make_unique<ExplicitStepper>(mesh, topology, options, progress);
-    if (options.accuracy.approach == Approach::ConjugateGradients)
-        return std::make_unique<ConjugateGradientStepper>(mesh, topology, options, progress);
-    if (options.accuracy.tolerance || options.flow == FlowEquation::Linear)
-        return std::make_unique<SchurStepper>(mesh, topology, cut, options, progress);
-    return std::make_unique<SweepStepper>(mesh, topology, cut, options, std::move(curvature), progress);
+    return std::visit(StepperMaker{mesh, topology, cut, settings, std::move(curvature), progress}, way);
 }
 
 std::unique_ptr<Stepper> make_undecomposed_stepper(const PolygonMesh& mesh, const Topology& topology,
-                                                   const FlowOptions& options, std::optional<std::size_t> memory_limit,
-                                                   Progress& progress)
+                                                   const StepSettings& settings, Progress& progress)
 {
-    FlowOptions undecomposed = options;
-    undecomposed.accuracy.approach = Approach::Undecomposed;
-    undecomposed.accuracy.tolerance.reset();
-    undecomposed.resources.memory_limit = memory_limit;
-    const Cut whole = cut_into(mesh, topology, 1);
-    if (options.flow == FlowEquation::Linear)
-        return std::make_unique<SchurStepper>(mesh, topology, whole, undecomposed, progress);
-    return std::make_unique<SweepStepper>(mesh, topology, whole, undecomposed, std::vector<double>(), progress);
+    return make_stepper(mesh, topology, cut_into(mesh, topology, 1), UndecomposedSteps(), settings, {}, progress);
 }
 
 }  // namespace seamflow

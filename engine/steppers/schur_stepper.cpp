@@ -24,20 +24,21 @@ template <class Action>
 void SchurStepper::for_each_sub_mesh(const Executor& exec, Action&& action)
 {
     const auto act = [&](Index s) { run_for_sub_mesh(names_[s], [&] { action(s); }); };
-    std::vector<Index> passing;
+    std::vector<Index> recomputed;
     for (Index s = 0; s < static_cast<Index>(sub_meshes_.size()); ++s)
         if (!is_kept(s))
-            passing.push_back(s);
+            recomputed.push_back(s);
     for_each(exec, static_cast<Index>(sub_meshes_.size()), [&](Index s) {
         if (is_own(s) && is_kept(s))
             act(s);
     });
     for_each(exec, factors_.plan.n_slots, [&](Index slot) {
-        for (std::size_t i = usize(slot); i < passing.size(); i += usize(factors_.plan.n_slots))
-            act(passing[i]);
+        for (std::size_t i = usize(slot); i < recomputed.size(); i += usize(factors_.plan.n_slots))
+            act(recomputed[i]);
     });
 }
 
+/// The data of the present step that all sub-meshes share.
 CondensedStep SchurStepper::shared_step()
 {
     return {.before = *before_,
@@ -89,7 +90,8 @@ Point SchurStepper::interior_residual() const
 
 /// Refines the interiors until the remaining back substitution leaves no more than the tolerance, which usually holds
 /// without refinement.
-/// @param first the initial residual.
+/// @param tolerance relative to `first`. @param first the largest residuals of interiors, by column, before the
+/// solution on Γ.
 /// @returns whether this was reached.
 bool SchurStepper::refine_interiors(double tolerance, const Point& first, const Executor& exec)
 {
@@ -133,7 +135,8 @@ std::array<bool, 3> SchurStepper::at_rest(const Executor& exec) const
 }
 
 /// Solves the equation on Γ, and refines the interiors.
-/// @returns stagnation also if refinement of the interiors stagnates.
+/// @param has_matrix whether the matrix is that of the last solution.
+/// @returns `stagnated` is true also if the refinement of the interiors stagnates.
 InterfaceResult SchurStepper::solve_on_interface(bool has_matrix, const IterationStop& stop, const Executor& exec)
 {
     interface_.reached.setZero(equation_.copies().n_vertices(), 3);
@@ -143,6 +146,7 @@ InterfaceResult SchurStepper::solve_on_interface(bool has_matrix, const Iteratio
         interface_.complements, has_matrix, interface_.condensed,
         [&](const Points& update) -> Points& { return refine_all(update, exec); },
         interface_.has_guess ? &interface_.guess : nullptr, stop, interface_.update, exec);
+    // The residual of a coordinate in which Γ is at rest is rounding: it does not count.
     const std::array<bool, 3> rests = at_rest(exec);
     if (std::ranges::find(rests, true) != rests.end()) {
         double moving = 0.0;
@@ -207,7 +211,8 @@ void SchurStepper::back_substitute(Index s)
                                     workspaces_.local());
 }
 
-/// Calls action(i, sub-mesh, local number) for the i-th vertex, in each sub-mesh that the vertex belongs to.
+/// Calls action(i, sub-mesh, local number) for the i-th vertex, in each sub-mesh that the vertex belongs to, and marks
+/// these sub-meshes as changed.
 template <class Action>
 void SchurStepper::change(std::span<const Index> vertices, Action&& action)
 {
@@ -299,7 +304,7 @@ void SchurStepper::report_to(FlowReport& report) const
 {
     report.cut.interface_vertices = interface_.n_vertices;
     report.resources.live_factors = factors_.plan.n_live();
-    report.resources.factor_memory_bytes = factors_.passing->bytes();
+    report.resources.factor_memory_bytes = factors_.recomputed->bytes();
     for (const auto& one : sub_meshes_) {
         if (!one)
             continue;

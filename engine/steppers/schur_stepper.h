@@ -41,14 +41,14 @@ class SchurStepper final : public ConvergedStepper, public ChangeableEquations {
     /// @param given K and M of a linear flow in place of those of the Laplacian, which is a sum over faces; null: none.
     /// @throws ComputationError naming the sub-mesh if an analysis fails; MemoryLimitError if the limit is too low;
     ///         Cancelled, as all functions that take time.
-    SchurStepper(const PolygonMesh& mesh, const Topology& topology, const Cut& cut, const FlowOptions& options,
-                 Progress& progress, const GivenStiffness* given = nullptr);
+    SchurStepper(const PolygonMesh& mesh, const Topology& topology, const Cut& cut, const StepSettings& settings,
+                 const IterationStop& stop, Progress& progress, const GivenStiffness* given = nullptr);
 
     /// The stepper for the sub-meshes of one of several ranks, which construct their steppers, and take steps,
     /// together.
     /// @param mesh the part of the mesh that this rank knows; positions() are Vᵏ⁺¹ only in its own sub-meshes.
-    SchurStepper(const PolygonMesh& mesh, RankSubMeshes sub_meshes, const FlowOptions& options, Progress& progress,
-                 const GivenStiffness* given = nullptr);
+    SchurStepper(const PolygonMesh& mesh, RankSubMeshes sub_meshes, const StepSettings& settings,
+                 const IterationStop& stop, Progress& progress, const GivenStiffness* given = nullptr);
 
     void set_data(const Points& data, DataSteps steps) override;
 
@@ -86,7 +86,7 @@ class SchurStepper final : public ConvergedStepper, public ChangeableEquations {
         /// factor may differ from step to step.
         SharedFactorPool pool;
         /// Memory of the recomputed factors; set once their size is known.
-        std::optional<SharedFactorPool> passing;
+        std::optional<SharedFactorPool> recomputed;
     };
     /// The data on Γ.
     struct Interface {
@@ -94,7 +94,8 @@ class SchurStepper final : public ConvergedStepper, public ChangeableEquations {
         std::vector<DenseFactor> complements;
         /// #copies by 3: each sub-mesh's share of the right-hand side, and later of the residual.
         Points condensed;
-        /// #Γ by 3: Vᵏ⁺¹ - Vᵏ of the last step, if a step has been taken; and of the step before it, if there was one.
+        /// #Γ by 3: Vᵏ⁺¹ - Vᵏ of the last step, if a step has been taken; and of the step before it, if there was one,
+        /// as the first guess of the iteration.
         Points update;
         Points guess;
         bool has_update = false;
@@ -107,9 +108,9 @@ class SchurStepper final : public ConvergedStepper, public ChangeableEquations {
 
     [[nodiscard]] bool is_own(Index s) const { return ranks_->is_own(s); }
     [[nodiscard]] bool is_kept(Index s) const { return factors_.plan.whole[s] != 0; }
-    void make_sub_meshes(Decomposition& decomposition, const PolygonMesh& mesh, const FlowOptions& options,
-                         const GivenStiffness* given, Progress& progress);
-    void choose_factors(const FlowOptions& options);
+    void make_sub_meshes(Decomposition& decomposition, const StepEquation& equation, const GivenStiffness* given,
+                         Progress& progress);
+    void choose_factors(const FactorSettings& settings);
     void make_graph();
     void take_turns(const std::vector<TaskGraph::Node>& tasks);
     template <class Action>
@@ -144,11 +145,12 @@ class SchurStepper final : public ConvergedStepper, public ChangeableEquations {
     /// Per sub-mesh: 1 if its matrix has changed since the last step; and whether any has.
     std::vector<std::uint8_t> changed_;
     bool has_changed_ = false;
-    /// A vertex in a sub-mesh. Per vertex of the mesh, its local vertices, once they have been asked for.
+    /// A vertex in a sub-mesh.
     struct LocalVertex {
         Index sub_mesh;
         Index local;
     };
+    /// Per vertex of the mesh: its local vertices in own sub-meshes; empty until `change` needs them.
     Lists<LocalVertex> local_vertices_of_;
     /// Null for remote sub-meshes, for which this rank computes nothing.
     std::vector<std::unique_ptr<CondensedSubMesh>> sub_meshes_;

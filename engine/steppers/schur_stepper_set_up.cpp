@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "engine/setup/automatic_choices.h"
-#include "engine/setup/equation_terms.h"
 #include "engine/steppers/schur_stepper.h"
 #include "engine/tasks/parallel_executor.h"
 #include "solvers/laplacian/geometry.h"
@@ -30,6 +29,8 @@ double area_of_all(const Decomposition& decomposition, const PolygonMesh& mesh, 
     return SumTree(ranks).add_up(areas, 1).front();
 }
 
+/// The preconditioner's kind of balancing: with a coarse space only if the sub-meshes of all ranks are narrow.
+/// @param time_step dt, in length².
 Balancing balancing_for(const Decomposition& decomposition, const PolygonMesh& mesh, InterfaceRanks& ranks,
                         double time_step)
 {
@@ -42,42 +43,42 @@ Balancing balancing_for(const Decomposition& decomposition, const PolygonMesh& m
 }  // namespace
 
 SchurStepper::SchurStepper(const PolygonMesh& mesh, const Topology& topology, const Cut& cut,
-                           const FlowOptions& options, Progress& progress, const GivenStiffness* given)
-    : SchurStepper(mesh, alone(decompose(mesh, topology, cut.labels, cut.n_parts, progress.exec())), options, progress,
-                   given)
+                           const StepSettings& settings, const IterationStop& stop, Progress& progress,
+                           const GivenStiffness* given)
+    : SchurStepper(mesh, alone(decompose(mesh, topology, cut.labels, cut.n_parts, progress.exec())), settings, stop,
+                   progress, given)
 {
 }
 
-SchurStepper::SchurStepper(const PolygonMesh& mesh, RankSubMeshes sub_meshes, const FlowOptions& options,
-                           Progress& progress, const GivenStiffness* given)
-    : ConvergedStepper(mesh, static_cast<Index>(sub_meshes.decomposition.sub_meshes.size()), options,
+SchurStepper::SchurStepper(const PolygonMesh& mesh, RankSubMeshes sub_meshes, const StepSettings& settings,
+                           const IterationStop& stop, Progress& progress, const GivenStiffness* given)
+    : ConvergedStepper(mesh, static_cast<Index>(sub_meshes.decomposition.sub_meshes.size()), settings, stop,
                        static_cast<double>(sub_meshes.decomposition.sub_meshes.size()), progress)
     , ranks_(std::move(sub_meshes.ranks))
     , names_(std::move(sub_meshes.names))
     , sub_meshes_(sub_meshes.decomposition.sub_meshes.size())
-    , equation_(sub_meshes.decomposition, balancing_for(sub_meshes.decomposition, mesh, *ranks_, options.time_step),
-                *ranks_)
+    , equation_(sub_meshes.decomposition,
+                balancing_for(sub_meshes.decomposition, mesh, *ranks_, settings.equation.time_step), *ranks_)
 {
     Decomposition& decomposition = sub_meshes.decomposition;
-    keeps_matrix_ = options.flow == FlowEquation::Linear;
+    keeps_matrix_ = settings.equation.is_linear();
     changed_.resize(sub_meshes_.size(), 0);
-    if (options.flow != FlowEquation::MeanCurvature)
+    if (settings.equation.terms.keeps_stiffness)
         initial_ = mesh.vertices;
-    factors_.precision = options.resources.precision;
+    factors_.precision = settings.factors.precision;
     interface_.n_vertices = decomposition.n_interface_vertices;
     interface_.complements.resize(sub_meshes_.size());
     interface_.condensed.resize(equation_.copies().n_copies(), 3);
-    make_sub_meshes(decomposition, mesh, options, given, progress);
-    choose_factors(options);
+    make_sub_meshes(decomposition, settings.equation, given, progress);
+    choose_factors(settings.factors);
     make_graph();
 }
 
 /// Makes the sub-meshes. Data of `decomposition` that steps need are moved into them; the rest is freed when all are
 /// analysed.
-void SchurStepper::make_sub_meshes(Decomposition& decomposition, const PolygonMesh& mesh, const FlowOptions& options,
+void SchurStepper::make_sub_meshes(Decomposition& decomposition, const StepEquation& equation,
                                    const GivenStiffness* given, Progress& progress)
 {
-    const FlowTerms terms = terms_of(options, mesh.vertices);
     const InterfaceCopies& copies = equation_.copies();
     progress.expect(static_cast<double>(sub_meshes_.size()));
     for_each(run_in_parallel, static_cast<Index>(sub_meshes_.size()), [&](Index s) {
@@ -90,7 +91,7 @@ void SchurStepper::make_sub_meshes(Decomposition& decomposition, const PolygonMe
         std::unique_ptr<NeumannSystem> system;
         run_for_sub_mesh(names_[s], [&] {
             IndexLists faces = std::move(sub_mesh.face_vertices);
-            system = std::make_unique<NeumannSystem>(sub_mesh, std::move(faces), laplacian_of(options), terms,
+            system = std::make_unique<NeumannSystem>(sub_mesh, std::move(faces), equation.laplacian, equation.terms,
                                                      sub_meshes_.size() == 1 ? run_in_parallel : Executor());
         });
         own.local_to_global = std::move(sub_mesh.local_to_global);
@@ -104,30 +105,32 @@ void SchurStepper::make_sub_meshes(Decomposition& decomposition, const PolygonMe
 }
 
 /// Chooses the factors that are kept. Factors that may be in either precision count as double.
-void SchurStepper::choose_factors(const FlowOptions& options)
+void SchurStepper::choose_factors(const FactorSettings& settings)
 {
     std::vector<std::size_t> bytes;
     for (const auto& one : sub_meshes_)
         if (one)
             bytes.push_back(factors_.precision == Precision::Single ? one->system().factor_bytes<float>()
                                                                     : one->system().factor_bytes<double>());
-    factors_.plan = choose_kept_factors(bytes, options.resources.memory_limit, workspaces_.size());
-    factors_.passing.emplace(factors_.plan.bytes_per_slot);
-    FactorMemory& kept = options.resources.memory_limit ? *std::pmr::new_delete_resource() : factors_.pool;
+    factors_.plan = choose_kept_factors(bytes, settings.memory_limit, workspaces_.size());
+    factors_.recomputed.emplace(factors_.plan.bytes_per_slot);
+    FactorMemory& kept = settings.memory_limit ? *std::pmr::new_delete_resource() : factors_.pool;
+    // The plan has entries for own sub-meshes only; `whole` gets one for each sub-mesh, 1 if it is remote.
     std::vector<std::uint8_t> whole(sub_meshes_.size(), 1);
     auto next = factors_.plan.whole.begin();
     for (std::size_t s = 0; s < sub_meshes_.size(); ++s)
         if (sub_meshes_[s]) {
             whole[s] = *next++;
-            sub_meshes_[s]->use_memory(whole[s] != 0 ? kept : *factors_.passing, whole[s] != 0);
+            sub_meshes_[s]->use_memory(whole[s] != 0 ? kept : *factors_.recomputed, whole[s] != 0);
         }
     factors_.plan.whole = std::move(whole);
 }
 
+/// Adds the tasks of all own sub-meshes to the graph: condense before, and back-substitute after the solution on Γ.
 void SchurStepper::make_graph()
 {
-    std::vector<TaskGraph::Node> passing_condensed;
-    std::vector<TaskGraph::Node> passing_substituted;
+    std::vector<TaskGraph::Node> recomputed_condensed;
+    std::vector<TaskGraph::Node> recomputed_substituted;
     for (Index s = 0; s < static_cast<Index>(sub_meshes_.size()); ++s) {
         if (!is_own(s))
             continue;
@@ -139,12 +142,12 @@ void SchurStepper::make_graph()
         graph_.add_dependency(condensed, equation_solved_);
         graph_.add_dependency(equation_solved_, substituted);
         if (!is_kept(s)) {
-            passing_condensed.push_back(condensed);
-            passing_substituted.push_back(substituted);
+            recomputed_condensed.push_back(condensed);
+            recomputed_substituted.push_back(substituted);
         }
     }
-    take_turns(passing_condensed);
-    take_turns(passing_substituted);
+    take_turns(recomputed_condensed);
+    take_turns(recomputed_substituted);
 }
 
 /// Makes each task wait until an earlier one has freed its slot.

@@ -36,7 +36,7 @@ class Stepper : public SurfaceStepper {
 
     /// Moves some vertices, with all their copies, to positions at which the next step begins. Data on updates and
     /// errors are kept.
-    /// @param vertices those below 0 are ignored. @param to #vertices by 3.
+    /// @param vertices numbers below 0 are ignored. @param to #vertices by 3.
     virtual void set_vertices(std::span<const Index> vertices, const Points& to) = 0;
 
     /// The equations, if they can be changed between steps; null if they cannot.

@@ -24,7 +24,9 @@ void receive(const std::vector<SubMeshState>& states, std::span<const Transfer> 
     }
 }
 
-/// Fetches the other side of a sub-mesh of a mutual sweep, with `array_of` the latest array of each sender.
+/// Fetches the other side of a sub-mesh of a mutual sweep: the halo, and on Γ the mean of the other sub-meshes' copies.
+/// @param array_of array_of(t) is the array of the state of sub-mesh t that is read.
+/// @param other_side #local by 3: receives the rows.
 template <class ArrayOf>
 void receive_other_side(const std::vector<SubMeshState>& states, const std::vector<Transfer>& halo,
                         const std::vector<Transfer>& copies, ArrayOf array_of, const SubMeshState& state,

@@ -47,8 +47,8 @@ struct SubMeshState {
 Point mean_of_copies(const std::vector<SubMeshState>& states, const SubMeshInterface& interface, Index i,
                      Points SubMeshState::*array);
 
-/// Fetches Vᵏ for the halo, and in a mutual sweep the other sub-meshes' copies of Γ; assembles and factorises the
-/// equations. Adds its time to the seconds of the sub-mesh; the functions below do not.
+/// Fetches Vᵏ for the halo, and in a mutual sweep (see plan_mutual_sweep) the other sub-meshes' copies of Γ; assembles
+/// and factorises the equations. Adds its time to the seconds of the sub-mesh; the functions below do not.
 /// @param memory must outlive the states.
 void assemble_and_factorise(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& halo,
                             const SweepPlan& plan, double time_step, FactorMemory& memory, SolverWorkspace& workspace);
@@ -73,8 +73,9 @@ void receive_solution(std::vector<SubMeshState>& states, Index s, const std::vec
 /// Accepts Vᵏ⁺¹ as it was solved.
 void accept(SubMeshState& state);
 
-/// Fetches Vᵏ⁺¹ for the halo, unless it already has all solutions, and accepts Vᵏ⁺¹, with vertices of Γ moved to the
-/// centroids of their edge neighbours (paper, eq. 28). Every sub-mesh at a vertex finds the same bits.
+/// Fetches Vᵏ⁺¹ for the halo, unless the step has several solutions, whose halo has been fetched already; and accepts
+/// Vᵏ⁺¹, with vertices of Γ moved to the centroids of their edge neighbours (paper, eq. 28). Every sub-mesh at a vertex
+/// finds the same bits.
 void accept_corrected(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& halo);
 
 }  // namespace seamflow

@@ -63,6 +63,8 @@ class SweepBuilder {
 
     [[nodiscard]] Index n_sub_meshes() const { return static_cast<Index>(adjacency_.size()); }
 
+    /// Adds assembly with factorisation, and solve, of own sub-meshes; and the arrivals of positions and solutions of
+    /// remote ones.
     void add_factorisations_and_solves()
     {
         for (Index s = 0; s < n_sub_meshes(); ++s) {
@@ -129,8 +131,8 @@ class SweepBuilder {
             if (predicted[s] >= 0)
                 graph_.add_dependency(predicted[s], used);
             for (const Transfer& prediction : plan_.predictions[s]) {
-                // The solve of the predicting sub-mesh, which follows here, waits for this: SubMeshState::solved holds
-                // the prediction until then.
+                // The predicting sub-mesh follows here: its solve waits for that of s, and so for this task. The
+                // arrival of its solution from another rank is made to wait, too.
                 graph_.add_dependency(predicted[prediction.from], used);
                 if (is_remote(prediction.from))
                     graph_.add_dependency(used, solved_[prediction.from]);
@@ -140,6 +142,7 @@ class SweepBuilder {
         }
     }
 
+    /// Adds the tasks that accept Vᵏ⁺¹: each waits until its sub-mesh and all adjacent ones have solved.
     void add_acceptances()
     {
         for (Index s = 0; s < n_sub_meshes(); ++s) {

@@ -11,7 +11,7 @@ namespace seamflow {
 
 namespace {
 
-/// Σ‖ΔV‖ over the vertices of a sub-mesh that are not on Γ, in 1/length.
+/// Σ‖ΔV‖ over the vertices of a sub-mesh that are neither fixed nor on Γ, in 1/length.
 double total_curvature(const SubMesh& sub_mesh, const std::vector<double>& curvature)
 {
     if (curvature.empty())
@@ -42,7 +42,8 @@ std::vector<Index> inverse(const std::vector<Index>& order)
     return indices;
 }
 
-/// Calls visit(t) for the sub-meshes t whose Vᵏ⁺¹ sub-mesh s takes.
+/// Calls visit(t) for each sub-mesh t that solves before s in the sweep and whose Vᵏ⁺¹ on Γ is then used by s: t leads,
+/// and s follows.
 template <class Visit>
 void for_each_leader(const SweepPlan& plan, Index s, Visit&& visit)
 {
@@ -70,11 +71,11 @@ std::vector<double> total_curvatures(const Decomposition& decomposition, const s
     return totals;
 }
 
-std::vector<Index> assign_stages(const std::vector<std::vector<Index>>& adjacency, Colouring colouring,
+std::vector<Index> assign_stages(const std::vector<std::vector<Index>>& adjacency, bool colours_are_labels,
                                  const std::vector<double>& totals)
 {
     std::vector<Index> stage = ascending(adjacency.size());
-    if (colouring == Colouring::Label)
+    if (colours_are_labels)
         return stage;
 
     const std::vector<Index> colours = colour(adjacency);

@@ -2,21 +2,20 @@
 
 #include <vector>
 
-#include "engine/options/flow_options.h"
 #include "engine/setup/sweep_plan.h"
 #include "partition/decomposition/decomposition.h"
 
 namespace seamflow {
 
-/// Σ‖ΔV‖ of each sub-mesh over those of its vertices that are neither on the boundary nor on Γ.
+/// Σ‖ΔV‖ of each sub-mesh over its vertices that are neither fixed nor on Γ.
 /// @param curvature #V: ‖ΔV⁰‖; empty: as if it were 0. @returns #sub-meshes.
 std::vector<double> total_curvatures(const Decomposition& decomposition, const std::vector<double>& curvature);
 
-/// #sub-meshes: the stage of each sub-mesh in a forward sweep, from 0; sub-meshes of one stage have one colour. With
-/// Colouring::Greedy the colours are ordered by decreasing total curvature: the paper's authors let the side with the
-/// larger curvature begin.
+/// #sub-meshes: the stage of each sub-mesh in a forward sweep, from 0; sub-meshes of one stage have one colour. The
+/// colours are ordered by decreasing total curvature: the paper's authors let the side with the larger curvature begin.
+/// @param colours_are_labels whether the stage of a sub-mesh is its label instead.
 /// @param adjacency per sub-mesh: the others with which it shares a vertex of Γ. @param totals see total_curvatures.
-std::vector<Index> assign_stages(const std::vector<std::vector<Index>>& adjacency, Colouring colouring,
+std::vector<Index> assign_stages(const std::vector<std::vector<Index>>& adjacency, bool colours_are_labels,
                                  const std::vector<double>& totals);
 
 /// The stages of the sweep in the opposite direction.

@@ -52,6 +52,8 @@ void SweepStepper::perform_own(TaskKind kind, Index s)
     (kind == TaskKind::Accept ? state.seconds.correct : state.seconds.solve) += watch.lap();
 }
 
+/// Ends the work of sub-mesh s on a solution: measures its error, and accepts it; if the step has several solutions,
+/// only fetches its halo.
 void SweepStepper::finish(Index s, SolverWorkspace& workspace)
 {
     const auto solution = states_[s].solution;
@@ -63,7 +65,7 @@ void SweepStepper::finish(Index s, SolverWorkspace& workspace)
         receive_solution(states_, s, decomposition_.halo[s]);
 }
 
-/// The rows of a sub-mesh's state that a message of this kind has.
+/// The array of a sub-mesh's state whose rows a message of this kind has.
 Points& SweepStepper::rows_of(MessageKind kind, Index s)
 {
     switch (kind) {
@@ -76,6 +78,8 @@ Points& SweepStepper::rows_of(MessageKind kind, Index s)
     }
 }
 
+/// Runs the tasks of one sweep; with several ranks, sends the positions of own sub-meshes first.
+/// @param sweep the number of the plan. @param join is called after all tasks.
 void SweepStepper::run_sweep(std::size_t sweep, const std::function<void()>& join)
 {
     sweep_ = sweep;
@@ -89,6 +93,7 @@ void SweepStepper::run_sweep(std::size_t sweep, const std::function<void()>& joi
     remote_->run(graph_, sweep, send_positions, join);
 }
 
+/// Accepts Vᵏ⁺¹ in sub-mesh s, corrected on Γ if the flow corrects it, and records the correction for the estimate.
 void SweepStepper::accept_solution(Index s)
 {
     corrects_ ? accept_corrected(states_, s, decomposition_.halo[s]) : accept(states_[s]);
@@ -112,8 +117,8 @@ void SweepStepper::step(const Points& before)
         error_->add_step(states_, before);
 }
 
-/// Takes a step with a filter. Each sub-mesh filters its halo, too, so that all sub-meshes at a vertex compute the same
-/// bits.
+/// Takes a step with a filter of several solutions, one sweep for each; then calls end(). Each sub-mesh filters its
+/// halo, too, so that all sub-meshes at a vertex compute the same bits.
 void SweepStepper::take_filtered(std::size_t root, const std::function<void()>& end)
 {
     const auto for_each_own = [&](auto&& action) {
@@ -153,6 +158,7 @@ void SweepStepper::set_solution(SubMeshState::Solution solution)
         state.solution = solution;
 }
 
+/// Joins the positions of the sub-meshes to those of the mesh; copies of Γ are represented by their mean.
 void SweepStepper::join()
 {
     for_each(run_in_parallel, static_cast<Index>(states_.size()), [&](Index s) {

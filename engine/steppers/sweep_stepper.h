@@ -6,8 +6,9 @@
 #include <vector>
 
 #include "engine/measure/flow_report.h"
-#include "engine/options/flow_options.h"
+#include "engine/setup/step_settings.h"
 #include "engine/setup/sweep_plan.h"
+#include "engine/setup/sweep_steps.h"
 #include "engine/state/flow_state.h"
 #include "engine/steppers/error_estimate.h"
 #include "engine/steppers/interface_gaps.h"
@@ -38,8 +39,8 @@ struct SweepSubMeshes {
     RemoteSubMeshes* remote = nullptr;
 };
 
-/// Takes a step in one sweep over the colours of the sub-meshes (see add_sweep), with InterfaceOptions::conditions on
-/// Γ. The result is near the undecomposed step, but differs from it.
+/// Takes a step in one sweep over the colours of the sub-meshes (see add_sweep), with conditions on Γ. The result is
+/// near the undecomposed step, but differs from it.
 class SweepStepper final : public Stepper {
   public:
     /// Cuts out the sub-meshes, analyses their equations and builds the graph.
@@ -47,14 +48,14 @@ class SweepStepper final : public Stepper {
     /// @param curvature #V: ‖ΔV⁰‖, in 1/length; empty: as if it were 0.
     /// @throws ComputationError naming the sub-mesh if an analysis fails; MemoryLimitError if the limit is too low;
     ///         Cancelled, as all functions that take time.
-    SweepStepper(const PolygonMesh& mesh, const Topology& topology, const Cut& cut, const FlowOptions& options,
-                 std::vector<double> curvature, Progress& progress);
+    SweepStepper(const PolygonMesh& mesh, const Topology& topology, const Cut& cut, const StepSettings& settings,
+                 const SweepSteps& sweeps, std::vector<double> curvature, Progress& progress);
 
     /// Makes the stepper for sub-meshes that have already been cut out, maybe those of one rank.
-    /// @param mesh, topology the part of the mesh that the rank knows. @param options for ranks neither the classical
-    /// conditions nor Schwarz's.
+    /// @param mesh, topology the part of the mesh that the rank knows. @param sweeps for ranks neither with the
+    /// classical conditions nor Schwarz's.
     SweepStepper(const PolygonMesh& mesh, const Topology& topology, SweepSubMeshes sub_meshes,
-                 const FlowOptions& options, Progress& progress);
+                 const StepSettings& settings, const SweepSteps& sweeps, Progress& progress);
 
     void step(const Points& before) override;
     [[nodiscard]] const Points& positions() const override { return positions_; }
@@ -70,9 +71,10 @@ class SweepStepper final : public Stepper {
     void report_to(FlowReport& report) const override;
 
   private:
-    void make_states(const PolygonMesh& mesh, const FlowOptions& options, Progress& progress);
+    void make_states(const PolygonMesh& mesh, const StepSettings& settings, const InterfaceConditions& conditions,
+                     Progress& progress);
     [[nodiscard]] bool is_own(Index s) const { return ranks_->is_own(s); }
-    void choose_factor_window(const FlowOptions& options);
+    void choose_factor_window(std::optional<std::size_t> memory_limit);
     [[nodiscard]] const SweepPlan& plan() const { return plans_[sweep_]; }
     void run_sweep(std::size_t sweep, const std::function<void()>& join = {});
     void perform(TaskKind kind, Index s);

@@ -10,15 +10,15 @@
 
 namespace seamflow {
 
-SwitchingStepper::SwitchingStepper(const PolygonMesh& mesh, const Topology& topology, const FlowOptions& options,
-                                   const FlowSize& size, Progress& progress)
+SwitchingStepper::SwitchingStepper(const PolygonMesh& mesh, const Topology& topology, const StepSettings& settings,
+                                   const GradientSteps& gradients, Progress& progress)
     : mesh_(&mesh)
     , topology_(&topology)
-    , options_(&options)
-    , size_(size)
+    , settings_(settings)
+    , size_(gradients.costs.value())
     , progress_(&progress)
-    , gradients_(mesh, topology, options, progress)
-    , iterations_{.most = options.accuracy.converge_iterations}
+    , gradients_(mesh, topology, settings, gradients.stop, progress)
+    , iterations_{.most = gradients.stop.iterations}
 {
 }
 
@@ -36,6 +36,7 @@ void SwitchingStepper::make_factors()
     }
 }
 
+/// Frees the factors, and records that factorising failed in this step.
 void SwitchingStepper::leave_factors()
 {
     failed_ = n_taken_ + 1;
@@ -48,7 +49,7 @@ void SwitchingStepper::try_to_make_factors()
     // The topology of a flow has no twins: it is made again.
     complete_ = *topology_;
     complete_.twin = make_topology(*mesh_, progress_->exec()).twin;
-    factors_ = make_undecomposed_stepper(*mesh_, complete_, *options_, options_->resources.memory_limit, *progress_);
+    factors_ = make_undecomposed_stepper(*mesh_, complete_, settings_, *progress_);
 }
 
 /// Solves the step by the factors.
@@ -96,6 +97,7 @@ void SwitchingStepper::save(StepMemory& memory) const
 
 void SwitchingStepper::restore(const StepMemory& memory)
 {
+    // `save` has appended the numbers of this class to those of gradients_.
     constexpr std::size_t n_own = 5;
     StepMemory of_gradients = memory;
     StepMemory own;

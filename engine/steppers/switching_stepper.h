@@ -3,7 +3,7 @@
 #include <memory>
 #include <span>
 
-#include "engine/setup/cost_model.h"
+#include "engine/setup/way_of_steps.h"
 #include "engine/steppers/conjugate_gradient_stepper.h"
 #include "engine/steppers/stepper.h"
 
@@ -17,10 +17,9 @@ namespace seamflow {
 class SwitchingStepper final : public Stepper {
   public:
     /// @param mesh, topology, progress must outlive the stepper.
-    /// @param options must outlive the stepper; without a filter.
-    /// @param size the input of the costs.
-    SwitchingStepper(const PolygonMesh& mesh, const Topology& topology, const FlowOptions& options,
-                     const FlowSize& size, Progress& progress);
+    /// @param settings without a filter. @param gradients with costs.
+    SwitchingStepper(const PolygonMesh& mesh, const Topology& topology, const StepSettings& settings,
+                     const GradientSteps& gradients, Progress& progress);
 
     void step(const Points& before) override;
     [[nodiscard]] const Points& positions() const override { return gradients_.positions(); }
@@ -43,7 +42,7 @@ class SwitchingStepper final : public Stepper {
 
     const PolygonMesh* mesh_;
     const Topology* topology_;
-    const FlowOptions* options_;
+    StepSettings settings_;
     FlowSize size_;
     Progress* progress_;
     ConjugateGradientStepper gradients_;

@@ -35,6 +35,7 @@ Box box_of(const Points& positions, std::span<const Index> vertices)
     return box;
 }
 
+/// The mean of vertices, computed relative to one of them: so no digits are lost far from the origin.
 Point mean_of(const Points& positions, std::span<const Index> vertices)
 {
     const Point origin = positions.row(vertices.front());
@@ -44,7 +45,8 @@ Point mean_of(const Points& positions, std::span<const Index> vertices)
     return origin + sum / static_cast<double>(vertices.size());
 }
 
-/// The i-th of n points spread over a ball of diameter 1: a shape that suits any faces.
+/// The i-th of n points that are spread evenly over a sphere of diameter 1, by turns of the golden ratio: a shape that
+/// suits any faces.
 Point spread_point(std::size_t i, std::size_t n)
 {
     const double height = 1.0 - (2.0 * static_cast<double>(i) + 1.0) / static_cast<double>(n);
@@ -69,6 +71,7 @@ bool has_small_face(const PolygonMesh& mesh, const Points& positions, double ext
     for_each_block(run_in_parallel, mesh.n_faces(), [&](Index, Index begin, Index end) {
         for (Index f = begin; f < end && !found; ++f) {
             const auto corners = mesh.face(f);
+            // One edge of each face is enough: no edge of a component is longer than its diagonal.
             if ((positions.row(corners[1]) - positions.row(corners[0])).squaredNorm() < extent * extent)
                 found = true;
         }
@@ -173,6 +176,7 @@ void VanishingComponents::step(Stepper& stepper, const Points& before)
 }
 
 /// Brings a component to the pose in which the step is taken.
+/// @param positions #V by 3: the rows of the component are moved. @returns the pose.
 VanishingComponents::Pose VanishingComponents::pose(std::span<const Index> vertices, Points& positions) const
 {
     const Box box = box_of(positions, vertices);
@@ -207,6 +211,7 @@ double VanishingComponents::weight(Index v) const
 void VanishingComponents::bring_back(std::span<const Index> vertices, const Pose& pose, const Points& before,
                                      Points& positions) const
 {
+    // The attachment: dt times the mean weight, and the weighted mean of the initial positions.
     double pull = 0.0;
     Point target = pose.centre;
     if (is_attached_) {

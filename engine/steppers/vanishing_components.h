@@ -28,10 +28,11 @@ class VanishingComponents {
     /// Takes one step. @throws as Stepper::step.
     void step(Stepper& stepper, const Points& before);
 
-    /// To be called after vertices were fixed or released, weights of the attachment changed, or initial positions
-    /// moved.
+    /// To be called after vertices were fixed or released: components without fixed vertices are found anew.
     void look_again() { free_.reset(); }
+    /// To be called when weights of the attachment change. @param weights one for each vertex, in 1/length².
     void attach(std::span<const Index> vertices, std::span<const double> weights);
+    /// To be called when vertices of V⁰ move. @param to #vertices by 3.
     void set_reference_vertices(std::span<const Index> vertices, const Points& to);
 
     /// A sentence on small components; empty if there were none.
@@ -59,9 +60,9 @@ class VanishingComponents {
     bool is_attached_ = false;
     /// Whether the K of steps depends on initial lengths, not on present ones.
     bool has_kept_lengths_ = false;
-    /// #V by 3: the initial positions; empty if neither K is kept nor an attachment exists. The weights of an
-    /// attachment that has one per vertex.
+    /// #V by 3: the initial positions; empty if neither K is kept nor an attachment exists.
     Points initial_ = Points(0, 3);
+    /// #V: the weights of the attachment, in 1/length²; empty if all vertices have the same.
     std::vector<double> weights_;
     /// The result of free_components, once it has been asked for.
     std::optional<IndexLists> free_;

@@ -15,16 +15,16 @@ namespace seamflow {
 
 /// A mesh in the form in which it flows: the given mesh itself; or a copy, near the origin if the given mesh lies far
 /// from it (see origin_offset), with vertices along seams joined (see weld), and without faces that repeat others. The
-/// copy and the given mesh move together.
+/// copy and the given mesh move together. make_surface makes it complete; then nothing replaces mesh() any more.
 class FlowingMesh {
   public:
     /// @param given must outlive this; only this object moves it.
     explicit FlowingMesh(PolygonMesh& given);
 
-    /// The mesh that flows. Its address does not change.
+    /// The mesh that flows.
     [[nodiscard]] const PolygonMesh& mesh() const { return copy_ ? *copy_ : *given_; }
 
-    /// Lets vertices along seams move as one. To be called at most once, before anything refers to mesh().
+    /// Lets vertices along seams move as one. To be called at most once. Replaces mesh().
     /// @param topology of mesh(); becomes that of the mesh with vertices joined.
     /// @param motion with lengths in units of length; its settings for joined vertices then apply to their
     /// representative: it is fixed, or attached by
@@ -50,21 +50,19 @@ class FlowingMesh {
     /// @param vertices of the given mesh; others are ignored. @param to #vertices by 3.
     void move_isolated(std::span<const Index> vertices, const Points& to);
 
-    /// Leaves out the faces on which no row of a moving vertex depends. To be called at most once, before all other
-    /// functions.
+    /// Leaves out the faces on which no row of a moving vertex depends. To be called before all other functions.
+    /// Replaces mesh().
     /// @param strength see MotionOptions::strength: one per vertex of mesh(). @param reach of the Laplacian.
     /// @returns whether there were any.
     bool leave_out_still_faces(std::span<const double> strength, Reach reach);
 
     /// Leaves out faces that repeat others. A surface whose faces occur twice (such as to be seen from both sides) is
-    /// manifold nowhere, but flows like the single surface. To be called at most once, before anything refers to
-    /// mesh().
+    /// manifold nowhere, but flows like the single surface. Replaces mesh().
     /// @param topology of mesh(): only vertices and edges where it is not manifold are searched.
     /// @returns whether there were any.
     bool leave_out_repeated_faces(const Topology& topology);
 
-    /// Replaces faces by triangles. To be called at most once, after faces were left out and vertices joined, and
-    /// before anything refers to mesh().
+    /// Replaces faces by triangles. To be called after faces were left out and vertices joined. Replaces mesh().
     /// @param face_of per triangle, ascending: the face of mesh() that it came from, each at least once.
     void replace_faces(PolygonMesh triangles, std::span<const Index> face_of);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -17,15 +18,15 @@ namespace {
 /// Makes a surface, step by step.
 class SurfaceMaker {
   public:
-    SurfaceMaker(FlowingMesh& mesh, MotionOptions& motion, const SurfaceRequest& request, Progress& progress)
-        : mesh_(mesh)
-        , motion_(motion)
+    SurfaceMaker(FlowingMesh mesh, MotionOptions motion, const SurfaceRequest& request, Progress& progress)
+        : surface_{.mesh = std::move(mesh)}
+        , motion_(std::move(motion))
         , request_(request)
         , exec_(progress.exec())
     {
     }
 
-    Surface make()
+    std::pair<Surface, MotionOptions> make()
     {
         leave_out_still_faces();
         look();
@@ -44,7 +45,7 @@ class SurfaceMaker {
             look();
             constrain_vertices();
         }
-        if (request_.replace_faces && request_.replace_faces(mesh_, surface_)) {
+        if (request_.replace_faces && request_.replace_faces(surface_)) {
             look();
             constrain_vertices();
         }
@@ -54,7 +55,7 @@ class SurfaceMaker {
             surface_.remarks.push_back(remark_on_unmoving_mesh(cracks ? Boundary::Free : motion_.boundary));
         if (cracks)
             surface_.remarks.push_back(remark_on_cracks(*cracks));
-        return std::move(surface_);
+        return {std::move(surface_), std::move(motion_)};
     }
 
   private:
@@ -89,22 +90,24 @@ class SurfaceMaker {
         surface_.size.vertices -= static_cast<Index>(std::ranges::count(topology.kind, VertexKind::Isolated));
     }
 
-    FlowingMesh& mesh_;
-    MotionOptions& motion_;
+    Surface surface_;
+    FlowingMesh& mesh_ = surface_.mesh;
+    MotionOptions motion_;
     const SurfaceRequest& request_;
     Executor exec_;
-    Surface surface_;
 };
 
 }  // namespace
 
-Surface make_surface(FlowingMesh& mesh, MotionOptions& motion, const SurfaceRequest& request, Progress& progress)
+std::pair<Surface, MotionOptions> make_surface(FlowingMesh mesh, MotionOptions motion, const SurfaceRequest& request,
+                                               Progress& progress)
 {
-    return SurfaceMaker(mesh, motion, request, progress).make();
+    return SurfaceMaker(std::move(mesh), std::move(motion), request, progress).make();
 }
 
-MeshReport report_on(const Surface& surface, const FlowingMesh& mesh, const std::vector<double>& strength)
+MeshReport report_on(const Surface& surface, const std::vector<double>& strength)
 {
+    const FlowingMesh& mesh = surface.mesh;
     const Topology& topology = surface.topology;
     MeshReport report;
     report.vertices = mesh.mesh().n_vertices();

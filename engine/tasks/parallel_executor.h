@@ -6,7 +6,8 @@
 
 namespace seamflow {
 
-/// Runs a loop of the lower layers on the threads of the calling arena (see Executor).
+/// The Executor that the engine hands to functions of partition/ and solvers/: runs the body over ranges of 0 to n - 1
+/// on the threads of the task arena of oneTBB in which it is called.
 void run_in_parallel(Index n, const RangeBody& body);
 
 /// The number of threads of the calling arena.

@@ -74,6 +74,7 @@ void Progress::finish()
 
 /// Reports to the observer. If several threads call this at once, one of them reports and the others continue their
 /// work.
+/// @param fraction of the whole. @param at_once whether to report however small the advance is.
 void Progress::report(double fraction, bool at_once)
 {
     if (!control_->on_progress || is_reporting_.test_and_set(std::memory_order_acquire))

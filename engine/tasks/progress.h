@@ -86,6 +86,7 @@ class LoopCount {
     double parts_;
     double counted_ = 0.0;
     int loops_ = 0;
+    /// The number of loops in the last task; before the first task a guess.
     int expected_ = 200;
 };
 

@@ -21,6 +21,7 @@ void leave_for_another(const std::vector<int>& cores)
     for (const int core : cores)
         if (core != no_core)
             CPU_CLR(static_cast<std::size_t>(core), &free);
+    // Linux moves a thread at once from a core that it may no longer use; then the thread may use all its cores again.
     if (CPU_COUNT(&free) > 0 && ::sched_setaffinity(0, sizeof free, &free) == 0)
         ::sched_setaffinity(0, sizeof allowed, &allowed);
 }

@@ -17,6 +17,7 @@ class SeparateCores {
     /// To be called when the calling thread enters the arena.
     /// @param slot its slot in the arena, from 0.
     void enter(int slot);
+    /// To be called when the thread leaves the arena.
     void leave(int slot);
 
   private:

@@ -81,6 +81,7 @@ class TaskGraph::Nodes {
         });
     }
 
+    /// Begins the records of a step.
     void begin_record()
     {
         running.assign(schedule->tasks.size(), {});
@@ -89,6 +90,7 @@ class TaskGraph::Nodes {
         schedule->steps.push_back({.start = clock.seconds()});
     }
 
+    /// Adds the records of the step, in the order of tasks, to the schedule.
     void end_record()
     {
         schedule->steps.back().end = clock.seconds();
@@ -101,6 +103,7 @@ class TaskGraph::Nodes {
     /// Number of the task at each node; -1 at roots.
     std::vector<Index> task_of_node;
     std::optional<Schedule> schedule;
+    /// Begins with the first step.
     Stopwatch clock;
     /// One per task, for the present step; step 0: the task has not run.
     std::vector<TaskRecord> running;
@@ -108,13 +111,14 @@ class TaskGraph::Nodes {
     oneapi::tbb::task_arena arena{oneapi::tbb::task_arena::attach()};
     flow::graph graph;
     std::deque<flow::continue_node<flow::continue_msg>> nodes;
+    /// Tells the thread sanitizer in which order tasks run.
     TaskOrder order;
     Progress* progress = nullptr;
     FirstFailure failure;
     /// Set if a task was skipped because the flow was asked to stop. oneTBB's own cancellation would also make loops
     /// within running tasks skip the ranges that have not begun.
     std::atomic<bool> skipped{false};
-    /// The number of tasks behind each root.
+    /// The numbers of tasks and of events behind each root.
     std::unordered_map<Node, Index> n_tasks;
     std::unordered_map<Node, Index> n_events;
     /// Guards the following members, because signals come from any thread.
@@ -187,6 +191,8 @@ TaskGraph::Node TaskGraph::add_root()
     return nodes_->roots.back();
 }
 
+/// Adds a task behind the last root.
+/// @param n_signals the number of signals that the task waits for besides the tasks before it.
 TaskGraph::Node TaskGraph::add(std::function<void()> body, const ScheduledTask& task, int n_signals)
 {
     const auto node = static_cast<Node>(nodes_->nodes.size());
@@ -257,11 +263,14 @@ const std::optional<Schedule>& TaskGraph::schedule() const
     return nodes_->schedule;
 }
 
+/// Runs all tasks behind a root, and waits for them.
+/// @throws as TaskGraph::run.
 void TaskGraph::run_tasks(Node root, double further_parts)
 {
     if (nodes_->progress != nullptr)
         nodes_->progress->expect(nodes_->n_tasks[root] + further_parts);
     nodes_->order.end(usize(root));
+    // The run ends only after every event has been signalled (see Nodes::start).
     for (Index i = 0; i < nodes_->n_events[root]; ++i)
         nodes_->graph.reserve_wait();
     {

@@ -20,14 +20,15 @@ namespace tbb = oneapi::tbb;
 
 namespace {
 
-/// An arena that is attached to the caller's may report more threads than the caller's limit.
+/// The number of threads of an arena, at most the program's limit: an arena that is attached to the caller's may report
+/// more.
 int threads_of(const tbb::task_arena& arena)
 {
     const auto allowed = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
     return std::min(arena.max_concurrency(), static_cast<int>(allowed));
 }
 
-/// Reports the threads that enter and leave an arena to SeparateCores, which must outlive this.
+/// Keeps the threads of an arena on separate cores (see SeparateCores) as they enter and leave it.
 class ThreadsOfArena final : public tbb::task_scheduler_observer {
   public:
     explicit ThreadsOfArena(tbb::task_arena& arena)
@@ -70,6 +71,7 @@ class Workers::Arena {
             threads_of_arena = std::make_unique<ThreadsOfArena>(arena);
     }
 
+    /// Raises oneTBB's limit if more threads are wanted than there are cores.
     std::optional<tbb::global_control> limit;
     tbb::task_arena arena;
     std::unique_ptr<tbb::task_scheduler_observer> threads_of_arena;

@@ -53,6 +53,9 @@ class Tree {
         double median = 0.0;
     };
 
+    /// Sets node k and all nodes below it. A node divides its sample at the median across the longest side of the
+    /// sample's bounding box.
+    /// @param sample reordered.
     void split(Index k, std::span<Index> sample, const Points& positions)
     {
         if (k >= n_boxes_ || sample.empty())
@@ -74,6 +77,7 @@ class Tree {
     std::vector<Node> nodes_;
 };
 
+/// Sorts points along the longest side of their bounding box.
 void sort_along_longest_side(std::span<Index> points, const Points& positions)
 {
     struct Projection {

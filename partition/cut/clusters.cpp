@@ -17,8 +17,10 @@ namespace {
 /// The total face_weight below which meshes are divided face by face, which takes a fraction of a second and gives the
 /// best boundaries; heavier meshes are divided by clusters.
 constexpr double min_weight_for_clusters = 500'000;
-/// A part is small below this weight: its boundaries matter less, and clusters are grown in lighter meshes, too.
+/// Parts of less weight than this are small: their boundaries matter less, so that lighter meshes are divided by
+/// clusters, too.
 constexpr double small_part = 5'000;
+/// Like min_weight_for_clusters, for meshes that are divided into small parts.
 constexpr double min_weight_for_small_parts = 300'000;
 /// The approximate number of clusters that METIS gets per part: enough to shape the part well and to balance parts
 /// within a few percent.
@@ -107,7 +109,8 @@ class ClusterGrower {
     /// The number of the cluster being grown.
     [[nodiscard]] Index last() const { return first_ + grown_.size(); }
 
-    /// Calls visit for neighbours of face f in the chunk that have no cluster; stops when `visit` returns false.
+    /// Calls visit for neighbours of face f in the chunk that have no cluster; stops when `visit` returns false. Sets
+    /// touches_others_ if it finds a neighbour in another chunk.
     template <class Visit>
     void for_each_free_neighbour(Index f, Visit&& visit)
     {
@@ -123,6 +126,8 @@ class ClusterGrower {
         }
     }
 
+    /// Grows one cluster from the free face `seed`, and appends those of its faces that may have free neighbours to
+    /// outer_.
     void grow_cluster(Index seed)
     {
         const Index begin = end_;
@@ -184,7 +189,7 @@ class ClusterGrower {
 };
 
 /// The fraction of the edges of a sample that lead from one chunk of `size` faces to another.
-double part_across(const PolygonMesh& mesh, const Topology& topology, Index size)
+double fraction_across(const PolygonMesh& mesh, const Topology& topology, Index size)
 {
     constexpr Index sampled = 64;
     Index inner = 0;
@@ -205,7 +210,7 @@ std::vector<Chunk> chunks_of(const PolygonMesh& mesh, const Topology& topology, 
     // about a tenth of all clusters is grown again.
     constexpr double most_edges_across = 0.025;
     const double width = std::sqrt(weight);
-    while (size < mesh.n_faces() && width * part_across(mesh, topology, size) > most_edges_across)
+    while (size < mesh.n_faces() && width * fraction_across(mesh, topology, size) > most_edges_across)
         size = size <= mesh.n_faces() / 2 ? 2 * size : mesh.n_faces();
     std::vector<Chunk> chunks;
     for (Index begin = 0; begin < mesh.n_faces(); begin = chunks.back().end)
@@ -232,6 +237,7 @@ struct InnerClusters {
     std::vector<Index> left_over;
 };
 
+/// Dissolves the clusters that touch other chunks and numbers the others in the order of chunks.
 /// @param grown chunk by chunk, with clusters numbered from 0 in each. @param faces #F: the faces of the clusters.
 InnerClusters keep_inner(const std::vector<Grown>& grown, std::vector<Index> faces, std::vector<Index> cluster_of,
                          const Executor& exec)
@@ -293,6 +299,7 @@ FaceClusters grow_clusters(const PolygonMesh& mesh, const Topology& topology, In
         return one_face_each(mesh);
     std::vector<Index> cluster_of;
     std::vector<Index> faces;
+    // Two independent tasks, at the same time if the executor has several threads.
     for_each(exec, 2, [&](Index one_of_both) {
         if (one_of_both == 0)
             cluster_of = large_vector<Index>(usize(mesh.n_faces()), -1);

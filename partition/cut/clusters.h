@@ -9,7 +9,8 @@
 
 namespace seamflow {
 
-/// The faces of a mesh in small connected groups, the nodes of a graph coarser than that of its faces (see FaceGraph).
+/// The faces of a mesh in small connected groups, the nodes of a graph coarser than the dual graph of the mesh (see
+/// FaceGraph).
 struct FaceClusters {
     /// The faces of every cluster, each connected through edges of exactly two faces.
     IndexLists faces;

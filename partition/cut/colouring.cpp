@@ -33,13 +33,14 @@ bool colour_alternately(const Adjacency& adjacency, Index root, std::vector<Inde
 }
 
 /// The lowest colour that no neighbour has.
+/// @param taken one entry per colour: whether a neighbour has it.
 Index lowest_free(const std::vector<bool>& taken)
 {
     return static_cast<Index>(std::find(taken.begin(), taken.end(), false) - taken.begin());
 }
 
-/// Colours the nodes of a connected component one by one. The next node is the one whose neighbours have the most
-/// different colours; of equals the one with the most neighbours; of equals the first.
+/// Colours the nodes of a connected component one by one (DSATUR, Brélaz 1979). The next node is the one whose
+/// neighbours have the most different colours; of equals the one with the most neighbours; of equals the first.
 void colour_by_saturation(const Adjacency& adjacency, const std::vector<Index>& nodes, std::vector<Index>& colours)
 {
     using Urgency = std::tuple<Index, Index, Index>;

@@ -7,7 +7,7 @@
 
 namespace seamflow {
 
-/// The neighbours of each node, ascending, each in the other's list too.
+/// The neighbours of each node, ascending. Of two neighbours, each is in the list of the other.
 using Adjacency = std::vector<std::vector<Index>>;
 
 /// Colours the nodes so that neighbours differ: connected components with two colours where possible, the others with

@@ -25,6 +25,7 @@ std::string number_of(std::int64_t n, std::string_view thing)
     return fmt::format("{} {}{}", n, thing, n == 1 ? "" : "s");
 }
 
+/// The mesh as one part; no part if it has no faces.
 Cut uncut(const PolygonMesh& mesh)
 {
     Cut cut;
@@ -33,6 +34,7 @@ Cut uncut(const PolygonMesh& mesh)
     return cut;
 }
 
+/// One more than the highest label; 0 without labels.
 Index count_parts(const std::vector<Index>& labels)
 {
     return labels.empty() ? 0 : *std::max_element(labels.begin(), labels.end()) + 1;
@@ -58,7 +60,7 @@ Index sensible_parts(std::int64_t n_faces, Index k)
     return static_cast<Index>(std::clamp<std::int64_t>(n_faces / min_faces_per_part, 1, k));
 }
 
-/// A remark on why a mesh was not cut into k parts. @returns a sentence; empty if it was.
+/// A remark on why a mesh was not cut into k parts; nothing if it was.
 std::optional<Remark> remark_on_number(std::int64_t n_faces, Index k, Index n_parts, Index n_components)
 {
     if (n_parts == k)
@@ -108,6 +110,7 @@ Cut cut_into(const PolygonMesh& mesh, const Topology& topology, Index k, const E
     if (k == 1 || mesh.n_faces() == 0)
         return uncut(mesh);
     const Index n_parts = sensible_parts(mesh.n_faces(), k);
+    // The number of corners - 2 per face is the sum of face_weight.
     const Index weight = cluster_weight(static_cast<double>(mesh.n_corners()) - 2.0 * mesh.n_faces(), n_parts);
     FaceClusters clusters = grow_clusters(mesh, topology, weight, exec);
     const auto measure = weight > 1 ? ArcMeasure::Count : ArcMeasure::Length;
@@ -124,6 +127,7 @@ Cut cut_into(const PolygonMesh& mesh, const Topology& topology, Index k, const E
 
     const Index n_labels = compact_labels(part);
     Cut cut;
+    // The label of a face is the part of its cluster.
     cut.labels = std::move(clusters.cluster_of);
     for_each(exec, mesh.n_faces(), [&](Index f) { cut.labels[f] = part[cut.labels[f]]; });
     if (weight > 1) {

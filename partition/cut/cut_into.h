@@ -22,7 +22,8 @@ inline void run_alone(const std::function<void()>& serial)
 
 /// Cuts a mesh into k parts of about equal numbers of unknowns with short interfaces. k = 1: all faces have label 0,
 /// even where the mesh has several connected components. k > 1: every part lies within one component, so that there are
-/// at least as many parts as components; there may be fewer than k on a small mesh. A remark says when it is not k.
+/// at least as many parts as components; there may be fewer than k on a small mesh. A remark reports a number of parts
+/// other than k.
 /// @param alongside called once with METIS's part of the work, if there is any.
 /// @throws OptionError if k < 1, ComputationError if METIS fails.
 Cut cut_into(const PolygonMesh& mesh, const Topology& topology, Index k, const Executor& exec = run_serially,

@@ -34,7 +34,8 @@ std::mutex& metis_mutex()
     return mutex;
 }
 
-/// METIS's own random numbers while this lives: the caller's rand() then continues as if none had been drawn.
+/// Gives METIS random numbers of its own while this object lives: the caller's rand() then continues as if none had
+/// been drawn.
 class OwnRandomNumbers {
   public:
     OwnRandomNumbers()
@@ -49,12 +50,14 @@ class OwnRandomNumbers {
     /// The state of METIS's own generator. It has the size of the C library's default state, so that the numbers are
     /// the same.
     alignas(8) std::array<char, 128> state_{};
+    /// The state of the caller's generator.
     char* callers_;
 };
 
 /// By how many thousandths a group of parts may exceed its weight; the tolerance of its parts (30) is added to this.
 constexpr idx_t tolerance_of_groups = 10;
 
+/// The options for METIS; defaults except for the seed and, if asked for, connected parts.
 std::array<idx_t, METIS_NOPTIONS> options(bool connected_parts)
 {
     std::array<idx_t, METIS_NOPTIONS> result{};
@@ -95,8 +98,9 @@ std::vector<Index> metis_k_way(const FaceGraph& graph, std::span<const Index> sh
         const bool k_way =
             graph.n_nodes() / n_parts >=
             (afterwards == Afterwards::Refined ? min_nodes_per_refined_part_k_way : min_nodes_per_part_k_way);
-        // METIS refuses to make connected parts from other graphs.
+        // METIS refuses to make connected parts from a graph that is not connected.
         auto settings = options(k_way && graph_components(graph).count() == 1);
+        // Groups of parts, whose shares exceed 1, have a smaller tolerance.
         if (k_way && *std::max_element(shares.begin(), shares.end()) > 1)
             settings[METIS_OPTION_UFACTOR] = tolerance_of_groups;
         auto offsets = copy(graph.offsets);
@@ -125,7 +129,7 @@ namespace {
 
 /// The most parts that METIS makes at once.
 constexpr Index max_parts_at_once = 64;
-/// The number of groups if there are more.
+/// The number of groups into which a graph of more parts is divided first.
 constexpr Index n_groups = 20;
 
 /// Divides k among the components in proportion to their weights, by largest remainders. Components that would get none
@@ -147,15 +151,17 @@ std::vector<Index> share_out(std::vector<double> due, Index k)
                      [&](std::size_t a, std::size_t b) { return due[a] - share[a] > due[b] - share[b]; });
     for (std::size_t i = 0; i < by_remainder.size() && left > 0; ++i, --left)
         ++share[by_remainder[i]];
-    for (Index& parts : share)
-        parts = std::max(Index{1}, parts);
+    for (Index& n_parts : share)
+        n_parts = std::max(Index{1}, n_parts);
     return share;
 }
 
+/// Divides a graph into k parts of about equal weight; into groups of parts first if k is large.
+/// @returns one label per node.
 std::vector<Index> divide_connected(const FaceGraph& graph, Index k, Afterwards afterwards);
 
-/// Divides the part of the graph with each label further, into as many parts as its share.
-/// @returns the new labels, those of the first part before those of the second.
+/// Divides the nodes of each label further, into as many parts as the share of the label.
+/// @returns the new label of each node: those made from label 0 are the lowest, those from label 1 follow, and so on.
 std::vector<Index> divide_further(const FaceGraph& graph, std::span<const Index> labels, std::span<const Index> shares,
                                   Afterwards afterwards)
 {

@@ -83,6 +83,7 @@ std::vector<BlockOfArcs> list_arcs(Index n_nodes, const Executor& exec, Append&&
     return blocks;
 }
 
+/// The arcs between clusters, with the lengths of the shared edges.
 std::vector<BlockOfArcs> list_arcs_by_length(const PolygonMesh& mesh, const Topology& topology,
                                              const FaceClusters& clusters, const Executor& exec)
 {
@@ -129,6 +130,7 @@ std::vector<std::vector<ClusterPair>> list_cut_edges(const PolygonMesh& mesh, co
     return blocks;
 }
 
+/// The arcs between clusters, with the numbers of shared edges as lengths.
 std::vector<BlockOfArcs> list_arcs_by_count(const PolygonMesh& mesh, const Topology& topology,
                                             const FaceClusters& clusters, const Executor& exec)
 {
@@ -140,7 +142,8 @@ std::vector<BlockOfArcs> list_arcs_by_count(const PolygonMesh& mesh, const Topol
                 add(pair.high, pair.low);
             }
     });
-    // Pairs are sorted as plain numbers: a cluster has five times as many pairs as arcs.
+    // Clusters are sorted as plain numbers, which is faster than to sort arcs: a cluster has five times as many shared
+    // edges as arcs.
     for_each(exec, clusters.size(), [&](Index cluster) {
         const auto begin = neighbours.values.begin();
         std::sort(begin + neighbours.offsets[cluster], begin + neighbours.offsets[cluster + 1]);

@@ -43,7 +43,7 @@ inline constexpr double max_weight_sum = 1e9;
 enum class ArcMeasure {
     /// The length of the shared edges.
     Length,
-    /// The number of shared edges, which is about that of the vertices that will lie on the interface.
+    /// The number of shared edges, which is about the number of vertices that will lie on the interface.
     Count,
 };
 

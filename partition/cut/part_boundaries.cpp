@@ -17,6 +17,7 @@ namespace {
 /// Later rounds move hardly any faces.
 constexpr int max_shortening_rounds = 8;
 
+/// Moves single faces between parts (see shorten_boundaries).
 class BoundaryShortener {
   public:
     BoundaryShortener(const PolygonMesh& mesh, const Topology& topology, const std::vector<std::int64_t>& weights,
@@ -52,7 +53,7 @@ class BoundaryShortener {
         for (const Index label : candidates_)
             if (label != own && may_move(f, own, label) && is_better(f, label, best))
                 best = label;
-        // If the face has one edge to its part, the rest of the part stays connected.
+        // If the face has only one edge to its part, the rest of the part stays connected.
         if (best != own && shared_[own] > 1)
             may_be_divided_[own] = true;
         for (const Index label : candidates_)
@@ -66,6 +67,7 @@ class BoundaryShortener {
     [[nodiscard]] const std::vector<bool>& may_be_divided() const { return may_be_divided_; }
 
   private:
+    /// Whether the weights of the two parts allow that face f moves.
     [[nodiscard]] bool may_move(Index f, Index from, Index to) const
     {
         const Index weight = face_weight(mesh_, f);
@@ -90,6 +92,7 @@ class BoundaryShortener {
     /// Whether f is better off in `label` than in `other`.
     [[nodiscard]] bool is_better(Index f, Index label, Index other) const
     {
+        // One edge more may be cut for better balance.
         if (other == labels_[f] && shared_[label] + 1 == shared_[other] &&
             weight_.relieves(face_weight(mesh_, f), other, label))
             return is_outermost(f, label);
@@ -106,6 +109,7 @@ class BoundaryShortener {
     /// One entry per label, 0 between calls: the number of edges that the current face shares with the part.
     std::vector<Index> shared_;
     std::vector<bool> may_be_divided_;
+    /// Scratch: the label of the current face, and the other labels of its neighbours.
     std::vector<Index> candidates_;
 };
 

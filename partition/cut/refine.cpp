@@ -42,8 +42,9 @@ std::vector<bool> find_heaviest(const FaceGraph& graph, const Components& compon
     return is_heaviest;
 }
 
-/// Later rounds move hardly any nodes.
+/// The most rounds over all nodes. Later rounds move hardly any nodes.
 constexpr int max_rounds = 8;
+/// The most times that nodes are moved and loose components then joined.
 constexpr int max_passes = 3;
 
 std::vector<std::int64_t> weights_of_parts(const FaceGraph& graph, Index n_labels, const std::vector<Index>& labels)
@@ -54,6 +55,7 @@ std::vector<std::int64_t> weights_of_parts(const FaceGraph& graph, Index n_label
     return weights;
 }
 
+/// Moves single nodes between parts (see refine).
 class Refiner {
   public:
     Refiner(const FaceGraph& graph, Index n_labels, std::vector<Index>& labels)
@@ -77,6 +79,7 @@ class Refiner {
             shared_[label] += graph_.arc_weights[arc];
         }
         Index best = own;
+        // A node without arcs to its own part stays: it may be the only node of the part.
         if (shared_[own] > 0)
             for (const Index label : candidates_)
                 if (is_better(node, label, best))
@@ -89,6 +92,7 @@ class Refiner {
     }
 
   private:
+    /// Whether to move the node to part `label` rather than to `other`, which may be the node's own part.
     [[nodiscard]] bool is_better(Index node, Index label, Index other) const
     {
         const Index own = labels_[node];
@@ -105,9 +109,11 @@ class Refiner {
     PartWeights weight_;
     /// One entry per label, 0 between calls: the weight of the arcs from the current node to the part.
     std::vector<std::int64_t> shared_;
+    /// Scratch: the label of the current node, and the other labels of its neighbours.
     std::vector<Index> candidates_;
 };
 
+/// Moves nodes to better parts in rounds, until none moves or after max_rounds.
 void move_nodes(const FaceGraph& graph, Index n_labels, std::vector<Index>& labels)
 {
     Refiner refiner(graph, n_labels, labels);

@@ -19,7 +19,7 @@ struct Transfer {
     std::vector<Index> target;
 };
 
-/// One row of a transfer.
+/// One row of a transfer, see Transfer.
 struct TransferRow {
     Index from;
     Index source;

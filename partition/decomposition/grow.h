@@ -13,14 +13,15 @@ namespace seamflow {
 struct Overlap {
     /// #F: the part of every face.
     std::span<const Index> labels;
-    /// #parts, different for parts that share a vertex of Γ: part i grows into parts of the same or a later stage.
+    /// #parts: the stage of a sweep in which each part is solved, different for parts that share a vertex of Γ. Part i
+    /// grows into parts of the same or a later stage.
     std::span<const Index> stage;
     /// The number of times that each part grows by all faces that share a vertex with it, at least 0.
     int layers = 1;
 };
 
 /// The faces of part s after growing, in ascending order.
-/// @param faces those of the ungrown part.
+/// @param faces the faces of the ungrown part, in ascending order.
 std::vector<Index> grow(const PolygonMesh& mesh, const Topology& topology, const Overlap& overlap, Index s,
                         std::vector<Index> faces);
 

@@ -30,6 +30,8 @@ IndexSet::IndexSet(std::span<const Index> values)
         fill_slots(values);
 }
 
+/// Sets ascending_ and words_ for dense values.
+/// @param width the number of indices from the first value to the last.
 void IndexSet::fill_window(std::span<const Index> values, std::size_t width)
 {
     words_.resize(width / bits_per_word + 1);
@@ -48,11 +50,12 @@ void IndexSet::fill_window(std::span<const Index> values, std::size_t width)
             ascending_.push_back(first_ + static_cast<Index>(word * bits_per_word) + std::countr_zero(left));
 }
 
+/// Sets ascending_ and slots_ for scattered values.
 void IndexSet::fill_slots(std::span<const Index> values)
 {
     ascending_.assign(values.begin(), values.end());
     sort_unique(ascending_);
-    // At least two values are this far apart, so that the shift is by fewer bits than the product has.
+    // A single value is dense: here are at least two, hence four slots, and the shift is less than 64.
     slots_.assign(std::bit_ceil(2 * ascending_.size()), Slot{-1, -1});
     shift_ = 64 - std::countr_zero(slots_.size());
     for (std::size_t i = 0; i < ascending_.size(); ++i)

@@ -10,7 +10,8 @@ namespace seamflow {
 
 namespace {
 
-/// Numbers the local vertices in the order of their global indices.
+/// Lists the vertices of the faces, numbers them in the order of their global indices, and sets the faces in these
+/// local numbers.
 void copy_vertices(const PolygonMesh& mesh, SubMeshDraft& draft)
 {
     SubMesh& sub_mesh = draft.sub_mesh;
@@ -50,6 +51,7 @@ void copy_twins(const PolygonMesh& mesh, const Topology& topology, SubMeshDraft&
         }
 }
 
+/// Sets SubMesh::fixed.
 void mark_fixed(const Topology& topology, SubMesh& sub_mesh)
 {
     sub_mesh.fixed.reserve(sub_mesh.local_to_global.size());

@@ -37,7 +37,7 @@ struct SubMeshDraft {
 /// @param faces in ascending order.
 SubMeshDraft copy_faces(const PolygonMesh& mesh, const Topology& topology, std::vector<Index> faces);
 
-/// Appends those of the given vertices that the sub-mesh does not have to the halo.
+/// Makes the given vertices, except for the sub-mesh's own, its halo.
 void append_halo(std::span<const Index> vertices, SubMeshDraft& draft);
 
 /// Appends a vertex of Γ that is corrected after a step, and its edge neighbours, which must all be in the sub-mesh or

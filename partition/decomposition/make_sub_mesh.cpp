@@ -60,6 +60,7 @@ IndexSet list_halo_faces(const Whole& whole, const SubMesh& sub_mesh)
     return IndexSet(faces);
 }
 
+/// Makes the other vertices of the halo faces the halo, and lists these faces in local numbers.
 void localise_halo_faces(const PolygonMesh& mesh, std::span<const Index> halo_faces, SubMeshDraft& draft)
 {
     auto& lists = draft.sub_mesh.interface.halo_faces;
@@ -74,7 +75,8 @@ void localise_halo_faces(const PolygonMesh& mesh, std::span<const Index> halo_fa
     }
 }
 
-/// Fills in the fans and neighbours at one vertex of Γ.
+/// Fills in the fans and neighbours at one vertex of Γ, and appends it to the corrected vertices.
+/// @param neighbours scratch.
 void describe_interface_vertex(const Whole& whole, const IndexSet& halo_faces, Index v, std::vector<Index>& neighbours,
                                SubMeshDraft& draft)
 {

@@ -16,7 +16,8 @@ namespace seamflow {
 SubMesh make_sub_mesh(const PolygonMesh& mesh, const Topology& topology, std::span<const Index> labels,
                       std::vector<Index> faces);
 
-/// Reduces `face_vertices` to the faces around vertices of Γ, which saves memory once the equations are known.
+/// Reduces `face_vertices` to the faces around vertices of Γ, and renumbers `interface.own_faces`; `faces` stays. It
+/// saves memory once the equations are known.
 void keep_faces_at_interface(SubMesh& sub_mesh);
 
 }  // namespace seamflow

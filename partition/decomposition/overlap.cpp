@@ -11,6 +11,7 @@ namespace seamflow {
 
 namespace {
 
+/// Whether v may move and has faces outside the sub-mesh.
 bool is_artificial_boundary(const Topology& topology, const SubMesh& sub_mesh, Index v)
 {
     const auto corners = topology.corners_at(v);
@@ -18,6 +19,7 @@ bool is_artificial_boundary(const Topology& topology, const SubMesh& sub_mesh, I
                                             [&](Index c) { return find_in(sub_mesh.faces, topology.face_of[c]) < 0; });
 }
 
+/// Fills in the interface of a sub-mesh (see make_overlapping_sub_mesh).
 void list_artificial_boundary(const Topology& topology, SubMesh& sub_mesh)
 {
     auto& interface = sub_mesh.interface;
@@ -71,6 +73,7 @@ std::vector<Transfer> list_halo_transfers(const Topology& topology, const Overla
     return transfers_to(s, std::move(rows));
 }
 
+/// Sets Decomposition::adjacency: parts are adjacent if there is a transfer between them.
 void list_adjacent(Decomposition& decomposition)
 {
     decomposition.adjacency.resize(decomposition.halo.size());

@@ -14,9 +14,9 @@ namespace seamflow {
 
 /// Cuts out the sub-mesh of the grown part s. Its interface is its artificial boundary: the vertices that may move and
 /// have faces outside. Of the interface's lists only `vertices` is filled in (the others are -1 or empty): no fan is
-/// needed there. Its corrected and owned vertices are those of the ungrown part. May be called for several sub-meshes
-/// at once.
-/// @param faces those of the ungrown part, in ascending order.
+/// needed there. Its corrected and owned vertices are vertices of the ungrown part. May be called for several
+/// sub-meshes at once.
+/// @param faces the faces of the ungrown part, in ascending order.
 SubMesh make_overlapping_sub_mesh(const PolygonMesh& mesh, const Topology& topology, const Overlap& overlap, Index s,
                                   std::vector<Index> faces);
 

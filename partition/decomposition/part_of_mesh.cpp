@@ -12,7 +12,8 @@ namespace seamflow {
 
 namespace {
 
-SubMesh make_ghost_sub_mesh(const PolygonMesh& mesh, const Topology& topology, std::vector<Index> faces)
+/// The sub-mesh of a fragment (see decompose_part): vertices and the numbers of faces, but no equations.
+SubMesh make_fragment(const PolygonMesh& mesh, const Topology& topology, std::vector<Index> faces)
 {
     SubMesh fragment = copy_faces(mesh, topology, std::move(faces)).sub_mesh;
     fragment.owned.assign(fragment.n_vertices, 0);
@@ -43,7 +44,7 @@ Decomposition decompose_part(const PolygonMesh& mesh, const Topology& topology, 
     std::vector<SubMesh> sub_meshes(faces.size());
     for_each(exec, n, [&](Index s) {
         sub_meshes[s] = is_whole[s] != 0 ? make_sub_mesh(mesh, topology, labels, std::move(faces[s]))
-                                         : make_ghost_sub_mesh(mesh, topology, std::move(faces[s]));
+                                         : make_fragment(mesh, topology, std::move(faces[s]));
     });
     Decomposition decomposition = connect(std::move(sub_meshes), topology, labels, exec);
     for_each(exec, n, [&](Index s) {

@@ -33,6 +33,7 @@ std::vector<Index> reverse_cuthill_mckee(const std::vector<std::vector<Index>>& 
     for (Index start = 0; start < static_cast<Index>(adjacency.size()); ++start) {
         if (reached_in[start] != 0)
             continue;
+        // The vertex that a walk reaches last is among the farthest: after two walks, it is at a far end.
         const Index far_end = walk(walk(start).back()).back();
         const std::vector<Index> component = walk(far_end);
         order.insert(order.end(), component.begin(), component.end());

@@ -43,6 +43,8 @@ bool fits_in_single_precision(const auto& values)
         values, [](double value) { return std::abs(value) > double{std::numeric_limits<float>::max()}; });
 }
 
+/// The value that is read back after `value` has been written in single precision.
+/// @param decimals Single or SingleText.
 double in_single_precision(double value, Decimals decimals)
 {
     const auto single = static_cast<float>(value);
@@ -55,6 +57,7 @@ double in_single_precision(double value, Decimals decimals)
     return read;
 }
 
+/// Checks that each name is one word, no coordinate, and occurs once.
 void require_good_names(const std::filesystem::path& path, const FileFields& fields)
 {
     const auto refuse = [&](const std::string& name, const char* why) {

@@ -10,12 +10,16 @@ namespace seamflow {
 
 namespace {
 
+/// The sizes of the types of numbers, in bytes; 5120 and 5122 are signed.
 constexpr std::array<std::pair<std::uint64_t, std::size_t>, 6> bytes_of_components = {
     {{5120, 1}, {gltf_byte, 1}, {5122, 2}, {gltf_short, 2}, {gltf_int, 4}, {gltf_float, 4}}};
 
+/// The number of numbers in an element of each type.
 constexpr std::array<std::pair<std::string_view, std::size_t>, 7> components_of_types = {
     {{"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}, {"MAT2", 4}, {"MAT3", 9}, {"MAT4", 16}}};
 
+/// The second member of the row of a table that has the key.
+/// @throws InputError naming `value`, the place of the key in the file, if there is none.
 template <class Table, class Key>
 std::size_t found_in(const Table& table, const Key& key, const GltfValue& value)
 {
@@ -58,6 +62,7 @@ GltfSpan elements_of(const GltfValue& accessor)
     return span;
 }
 
+/// The number of elements that an accessor or a list of replacements has, at least 1.
 std::size_t count_of(const GltfValue& list)
 {
     const std::uint64_t count = list["count"].number();
@@ -87,11 +92,14 @@ GltfSpan span_in_view(const GltfContent& content, const GltfValue& source, GltfS
     return span;
 }
 
+/// The index of the i-th replaced element.
+/// @param buffer the bytes of the buffer with the indices.
 std::uint32_t index_of(const GltfSparse& sparse, std::string_view buffer, std::size_t i)
 {
     return gltf_index(buffer.data() + sparse.indices.offset + i * sparse.indices.stride, sparse.indices.component);
 }
 
+/// Checks that the indices of replaced elements ascend, and are less than the number of elements.
 void require_ascending(const GltfContent& content, const GltfValue& list, const GltfSparse& sparse)
 {
     std::int64_t last = -1;

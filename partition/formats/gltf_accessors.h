@@ -22,7 +22,7 @@ struct GltfSpan {
     std::size_t stride = 0;
     std::size_t size = 0;
     std::size_t count = 0;
-    /// The number of the type in the file (see below).
+    /// The type of the numbers, as in the file: see gltf_byte.
     std::uint64_t component = 0;
     std::size_t n_components = 0;
 
@@ -32,6 +32,7 @@ struct GltfSpan {
     friend bool operator==(const GltfSpan&, const GltfSpan&) = default;
 };
 
+/// The types of numbers in a file, as in OpenGL: unsigned integers of 1, 2 and 4 bytes, and floats.
 inline constexpr std::uint64_t gltf_byte = 5121;
 inline constexpr std::uint64_t gltf_short = 5123;
 inline constexpr std::uint64_t gltf_int = 5125;
@@ -79,6 +80,7 @@ struct GltfSparse {
     std::optional<GltfSpan> base;
     /// The indices of the replaced elements, ascending.
     GltfSpan indices;
+    /// The replacements, in the order of `indices`.
     GltfSpan values;
     /// All elements after replacement, in a buffer that is not in the file.
     GltfSpan dense;

@@ -43,6 +43,7 @@ std::string_view piece_at(std::string_view bytes, std::uint64_t offset, std::uin
     return offset <= bytes.size() ? bytes.substr(offset, size) : std::string_view();
 }
 
+/// The bytes of a buffer that is in a `data:` URI, in base64.
 std::string bytes_of_data(const GltfValue& uri)
 {
     const std::string uri_text = uri.text();
@@ -112,6 +113,7 @@ std::uint64_t GltfValue::number() const
 {
     if (value_ == nullptr)
         fail("is missing; export the mesh again");
+    // 2^53, up to which doubles hold all whole numbers.
     constexpr double most = 9007199254740992.0;
     double value = -1.0;
     std::from_chars(value_->source.data(), value_->source.data() + value_->source.size(), value);
@@ -164,7 +166,7 @@ GltfContent::GltfContent(const std::filesystem::path& path, std::string_view con
     }
 }
 
-/// Finds the file, and within it the text and the binary chunk.
+/// Finds the file, and within it the text and the binary chunk: sets file_, text_ and chunk_.
 void GltfContent::take_apart(std::string_view content)
 {
     file_ = content;
@@ -176,6 +178,7 @@ void GltfContent::take_apart(std::string_view content)
         find_chunks();
 }
 
+/// Finds the text and the binary chunk of a .glb file: sets text_ and chunk_.
 void GltfContent::find_chunks()
 {
     const auto version = number_at<std::uint32_t>(file_, signature.size());

@@ -23,6 +23,7 @@ class Accessors {
     {
     }
 
+    /// The elements of the accessor with a number; of a sparse accessor, those after replacement.
     const GltfSpan& operator()(const GltfValue& number)
     {
         const GltfValue accessor = content_.named_by(number, "accessors");
@@ -56,7 +57,8 @@ class SharedVectors {
     }
 
     /// Joins the spans. To be called when all have been added.
-    /// @returns the number of elements.
+    /// @returns the number of elements. If it exceeds the largest Index, joining was broken off, and nothing else may
+    ///          be called.
     std::int64_t join();
 
     [[nodiscard]] const std::vector<GltfVectors>& joined() const { return joined_; }
@@ -70,6 +72,7 @@ class SharedVectors {
   private:
     std::vector<GltfSpan> spans_;
     std::vector<std::string> names_;
+    /// For each span, the index in joined_ of the vectors that contain it.
     std::vector<std::size_t> of_span_;
     std::vector<GltfVectors> joined_;
 };
@@ -97,6 +100,7 @@ std::int64_t SharedVectors::join()
         list.count = std::max(list.count, (span.offset - list.offset) / span.stride + span.count);
         list_of[i] = lists.size() - 1;
     }
+    // For each list its index in joined_: lists are in the order in which their first spans were added.
     std::vector<std::size_t> list_at(lists.size(), none);
     std::int64_t n = 0;
     for (std::size_t i = 0; i < spans_.size(); ++i) {
@@ -120,6 +124,7 @@ bool share_bytes(const GltfSpan& a, const GltfSpan& b)
         return false;
     if (a.stride != b.stride)
         return true;
+    // The distance of elements of b behind those of a, modulo the stride.
     const std::size_t behind = (b.offset % a.stride + a.stride - a.offset % a.stride) % a.stride;
     return behind < a.size || behind + b.size > a.stride;
 }
@@ -145,7 +150,7 @@ void require_apart(const GltfContent& content, std::vector<OccupiedSpan> spans)
             if ((one.is_written || other->is_written) && share_bytes(one.span, other->span))
                 GltfValue(content.path(), nullptr, one.name)
                     .fail("shares bytes with " + other->name + ", which would change with it; export the mesh again");
-        // A span that is only read is needed only if no other such span reaches as far.
+        // Of equal spans that are only read, one is kept.
         if (one.is_written || std::ranges::none_of(reaching, [&](const OccupiedSpan* other) {
                 return !other->is_written && other->span.end() >= one.span.end() && other->span == one.span;
             }))
@@ -166,6 +171,7 @@ class GeometryFinder {
     GltfGeometry finish();
 
   private:
+    /// A primitive, and the numbers of its spans in positions_ and normals_.
     struct Found {
         GltfPrimitive primitive;
         std::size_t positions;
@@ -185,6 +191,8 @@ class GeometryFinder {
     GltfGeometry geometry_;
 };
 
+/// The positions that a primitive names: three floats each.
+/// @throws InputError for others.
 const GltfSpan& GeometryFinder::positions_of(const GltfValue& primitive)
 {
     if (primitive["extensions"]["KHR_draco_mesh_compression"].is_there())
@@ -199,6 +207,8 @@ const GltfSpan& GeometryFinder::positions_of(const GltfValue& primitive)
     return span;
 }
 
+/// The number in normals_ of the normals of a primitive; nothing if it has none that are floats, one for each vertex.
+/// Sets has_tangents and has_other_normals of the surface.
 std::optional<std::size_t> GeometryFinder::normals_of(const GltfValue& attributes, const GltfSpan& positions)
 {
     geometry_.has_tangents |= attributes["TANGENT"].is_there();
@@ -214,9 +224,11 @@ std::optional<std::size_t> GeometryFinder::normals_of(const GltfValue& attribute
     return std::nullopt;
 }
 
+/// Adds a primitive; points and lines are skipped.
 void GeometryFinder::add(const GltfValue& primitive)
 {
     const std::uint64_t mode = primitive["mode"].number_or(4);
+    // Points and lines.
     if (mode < 4)
         return;
     if (mode > 6)
@@ -260,9 +272,10 @@ void GeometryFinder::relate_normals(const Found& found)
     }
 }
 
+/// Numbers the vertices and faces and moves out the surface.
 GltfGeometry GeometryFinder::finish()
 {
-    const auto require_few = [&](std::int64_t n, const char* what) {
+    const auto checked_index = [&](std::int64_t n, const char* what) {
         if (n > std::numeric_limits<Index>::max())
             content_.root().fail(fmt::format("the file has more than {} {}; divide the mesh into several files",
                                              std::numeric_limits<Index>::max(), what));
@@ -270,8 +283,9 @@ GltfGeometry GeometryFinder::finish()
     };
     if (found_.empty())
         content_.root().fail("has no triangles, strips or fans in its meshes; export a mesh with its surface");
-    geometry_.n_vertices = require_few(positions_.join(), "vertices");
-    geometry_.vertex_of_normal.assign(usize(require_few(normals_.join(), "normals")), -2);
+    geometry_.n_vertices = checked_index(positions_.join(), "vertices");
+    // -2: not known yet, see relate_normals.
+    geometry_.vertex_of_normal.assign(usize(checked_index(normals_.join(), "normals")), -2);
     // The key of a primitive: its vertices and mode, and buffer, offset, stride, count and type of its indices.
     std::set<std::tuple<Index, Index, GltfPrimitive::Mode, std::array<std::uint64_t, 5>>> known;
     for (Found& found : found_) {
@@ -290,7 +304,7 @@ GltfGeometry GeometryFinder::finish()
         geometry_.n_faces += found.primitive.n_faces;
         geometry_.primitives.push_back(std::move(found.primitive));
     }
-    require_few(3 * geometry_.n_faces, "corners of triangles");
+    checked_index(3 * geometry_.n_faces, "corners of triangles");
     geometry_.positions = positions_.joined();
     geometry_.normals = normals_.joined();
     for (const GltfVectors& list : geometry_.positions)

@@ -35,6 +35,7 @@ JsonTree::JsonTree(std::string_view text)
     text = text.substr(0, text.find('\0'));
     constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
     std::size_t next = text.starts_with(byte_order_mark) ? byte_order_mark.size() : 0;
+    // The arrays and objects that have not ended yet. As the text is valid, commas and colons tell nothing new.
     std::vector<JsonNode*> open;
     std::string_view key;
     while ((next = text.find_first_not_of(" \t\r\n,:", next)) != std::string_view::npos) {

@@ -32,7 +32,7 @@ struct JsonNode {
 /// The values of a JSON text. Its destruction needs neither memory nor recursion, unlike that of nlohmann's values.
 class JsonTree {
   public:
-    /// No value.
+    /// A tree without values.
     JsonTree() = default;
     /// @param text must outlive this object; it ends at a zero byte. @throws nlohmann::json::exception if it is not
     /// JSON.

@@ -24,6 +24,7 @@ class GltfPosition final : public InputPosition {
         note_faults_in(faults);
     }
 
+    /// Sets the position: element i of a list.
     /// @param list, element must live until the next call.
     void enter(const std::string& list, std::string_view element, std::int64_t i)
     {
@@ -107,6 +108,7 @@ void read_gltf_faces(const GltfContent& content, const GltfGeometry& geometry, s
     }
 }
 
+/// Reads the vertices, and the faces slice by slice.
 /// @param per_slice the number of faces of a slice. @param faults see read_gltf.
 /// @throws InputError if there is any fault; the message names it if all faces are in one slice.
 PolygonMesh read_gltf_slices(const GltfContent& content, const GltfGeometry& geometry, std::int64_t per_slice,

@@ -47,9 +47,12 @@ bool set_float_vector(std::string& bytes, const GltfSpan& span, std::size_t i, c
 struct NewBuffers {
     /// One per buffer; nothing if the buffer does not change.
     std::vector<std::optional<std::string>> bytes;
+    /// Whether a coordinate was rounded to single precision.
     bool rounded = false;
+    /// The number of normals that several vertices share and that stay although the surface has moved.
     std::uint64_t n_staying_normals = 0;
 
+    /// The new bytes of a buffer, at first a copy of the old ones.
     std::string& of(const GltfContent& content, std::size_t buffer)
     {
         if (!bytes[buffer])
@@ -58,6 +61,7 @@ struct NewBuffers {
     }
 };
 
+/// The buffers with the positions of `mesh`, and with normals of its surface.
 NewBuffers with_surface(const GltfContent& content, const GltfGeometry& geometry, const PolygonMesh& mesh,
                         const Executor& exec, double seam_distance)
 {
@@ -96,11 +100,14 @@ NewBuffers with_surface(const GltfContent& content, const GltfGeometry& geometry
     return now;
 }
 
+/// The least and the largest components of vectors.
 struct Bounds {
     Point least = Point::Constant(std::numeric_limits<double>::infinity());
     Point largest = Point::Constant(-std::numeric_limits<double>::infinity());
 };
 
+/// The bounds of the vectors in a span.
+/// @param bytes of the buffer.
 Bounds bounds_in(std::string_view bytes, const GltfSpan& span, const Executor& exec)
 {
     if (span.count > usize(std::numeric_limits<Index>::max()))
@@ -174,7 +181,8 @@ void edit_sparse(JsonEdits& edits, const GltfValue& accessor, std::size_t view)
         const std::string key = text_of_json(members[i]->key);
         return key == "sparse" || key == "bufferView" || key == "byteOffset";
     };
-    // Members after the first are removed together with the comma before them.
+    // The new bufferView stands before the first member, or in its place. Members after the first are removed together
+    // with the comma before them.
     edits.emplace_back(members[0]->member().substr(0, goes(0) ? std::string_view::npos : 0),
                        fmt::format(R"("bufferView":{}{})", view, goes(0) ? "" : ","));
     for (std::size_t i = 1; i < members.size(); ++i)
@@ -203,6 +211,7 @@ void edit_sparse_accessors(JsonEdits& edits, const GltfContent& content, const G
         if (dense == dense_bytes(sparse, bytes_now))
             continue;
         std::string& buffer = now.of(content, sparse.values.buffer);
+        // Floats must begin at a multiple of four bytes.
         buffer.resize((buffer.size() + 3) / 4 * 4);
         more_views += fmt::format(R"(,{{"buffer":{},"byteOffset":{},"byteLength":{}}})", sparse.values.buffer,
                                   buffer.size(), dense.size());
@@ -212,12 +221,14 @@ void edit_sparse_accessors(JsonEdits& edits, const GltfContent& content, const G
     }
     if (grown.empty())
         return;
+    // Replaces the empty text after the last view.
     edits.emplace_back(views.back()->source.substr(views.back()->source.size()), more_views);
     for (const std::size_t i : grown)
         edits.emplace_back(root["buffers"].at(i)["byteLength"].source(), fmt::format("{}", now.bytes[i]->size()));
 }
 
-/// Writes the buffers that are in other files.
+/// Writes the buffers that are in other files, or in the text, and edits their URIs.
+/// @returns a remark that names the files; none if there are no files.
 std::vector<std::string> write_buffers(JsonEdits& edits, OutputFile& file, const GltfContent& content,
                                        const NewBuffers& now)
 {
@@ -251,9 +262,12 @@ std::vector<std::string> write_buffers(JsonEdits& edits, OutputFile& file, const
     return {fmt::format("the binary data of {} are beside it, in {}", file.path().string(), names)};
 }
 
+/// Writes a .glb file.
+/// @param text its JSON text.
 void write_binary_gltf(OutputFile& file, const GltfContent& content, std::string text, const NewBuffers& now)
 {
     constexpr std::size_t unit = 4;
+    // A changed text is filled up with blanks to a multiple of four bytes.
     if (text != content.text()) {
         text.resize(text.find_last_not_of(std::string_view(" \0", 2)) + 1);
         text.resize((text.size() + unit - 1) / unit * unit, ' ');
@@ -303,8 +317,9 @@ std::vector<std::string> remarks_on_other_files(const OutputFile& file, const Gl
                         content.path().string())};
 }
 
-std::vector<std::string> remarks_on_what_stays(const GltfContent& content, const GltfGeometry& geometry,
-                                               const NewBuffers& now)
+/// Remarks on normals and other data that belong to the old surface but stay, and on rounding.
+std::vector<std::string> remarks_on_old_data(const GltfContent& content, const GltfGeometry& geometry,
+                                             const NewBuffers& now)
 {
     std::vector<std::string> remarks;
     const auto remark = [&](bool holds, const char* what) {
@@ -339,7 +354,7 @@ std::vector<std::string> rewrite_gltf(OutputFile& file, const std::filesystem::p
         write_binary_gltf(file, gltf, std::move(text), now);
     else
         file.text(text);
-    for (const auto& more : {remarks_on_other_files(file, gltf), remarks_on_what_stays(gltf, geometry, now)})
+    for (const auto& more : {remarks_on_other_files(file, gltf), remarks_on_old_data(gltf, geometry, now)})
         remarks.insert(remarks.end(), more.begin(), more.end());
     return remarks;
 }

@@ -11,6 +11,7 @@ namespace {
 
 constexpr std::string_view base64_digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 
+/// The value of each character as a base64 digit; 64 for all others.
 constexpr auto base64_values = [] {
     std::array<std::uint8_t, 256> values{};
     values.fill(64);
@@ -82,6 +83,7 @@ std::string gltf_uri_of(std::string_view name)
 
 std::string gltf_name_of(std::string_view uri)
 {
+    // The value of the hexadecimal digit at i. The bit 0x20 makes letters lower case; the digits have it.
     const auto digit = [&](std::size_t i) {
         return i < uri.size() ? std::string_view("0123456789abcdef").find(static_cast<char>(uri[i] | 0x20))
                               : std::string_view::npos;

@@ -11,7 +11,7 @@ namespace seamflow {
 bool is_gltf_data(std::string_view uri);
 
 /// `data:` URI of some bytes.
-/// @param head what is before the comma.
+/// @param head the text before the comma.
 std::string gltf_data(std::string_view head, std::string_view bytes);
 
 /// Appends bytes in base64 (RFC 4648).

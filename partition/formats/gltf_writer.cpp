@@ -39,7 +39,8 @@ void require_fits_gltf(const std::filesystem::path& path, const PolygonMesh& mes
         refuse("the mesh has no faces, but glTF holds vertices of triangles");
     require_triangles(path, mesh, "glTF");
     require_floats(path, mesh.vertices, run_serially, "glTF");
-    // The largest size of a file, whose bytes are counted in 32 bits; the text takes less than a kilobyte.
+    // The largest size of a file, whose bytes are counted in 32 bits; the text takes less than a kilobyte. A vertex
+    // takes 12 bytes, as does a triangle.
     constexpr std::uint64_t most_bytes = std::numeric_limits<std::uint32_t>::max() - 1024;
     if (12 * (static_cast<std::uint64_t>(mesh.n_vertices()) + static_cast<std::uint64_t>(mesh.n_faces())) > most_bytes)
         refuse("the mesh takes more than the 4 GiB of a binary glTF file");

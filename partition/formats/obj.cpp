@@ -76,12 +76,14 @@ void ObjReader::face(TextScanner& scanner, const ObjCounts& before)
     builder_.add_face(corners_);
 }
 
-Index ObjReader::read_corner(std::int64_t n)
+/// Reads a corner of a face.
+/// @param n_vertices the number of vertices before the line. @returns its vertex; -1 if there is no such vertex.
+Index ObjReader::read_corner(std::int64_t n_vertices)
 {
     const auto [number, attributes] = read_obj_corner(scanner_, "a vertex number (as in 7, 7/1, 7//2 or 7/1/2)");
     require_attributes(attributes);
-    if (number < -n) {
-        scanner_.fault(counted_back_too_far(number, n, "correct the face or export the mesh again"));
+    if (number < -n_vertices) {
+        scanner_.fault(counted_back_too_far(number, n_vertices, "correct the face or export the mesh again"));
         return -1;
     }
     if (number == 0) {
@@ -98,7 +100,8 @@ Index ObjReader::read_corner(std::int64_t n)
         return -1;
     }
     if (number < 0)
-        return static_cast<Index>(number + n);
+        return static_cast<Index>(number + n_vertices);
+    // A missing vertex is reported only if its number is the highest so far.
     if (number > n_vertices_) {
         if (number > std::exchange(highest_missing_, std::max(highest_missing_, number)))
             scanner_.fault(fmt::format("names vertex {}, but the file has only {}; correct the face or export the mesh "
@@ -122,6 +125,7 @@ void ObjReader::require_attributes(std::string_view attributes)
     }
 }
 
+/// Reads the mesh from the slices of a file.
 /// @param faults see read_obj. @throws InputError naming the line if there is one slice.
 PolygonMesh read_slices(const TextScanner& whole, std::span<const std::string_view> slices, const Executor& exec,
                         FaultLog* faults)

@@ -45,7 +45,9 @@ Index normal_of(std::string_view attributes, std::int64_t n)
 
 /// The number of normals that stay although the surface has moved, by reason.
 struct StayingNormals {
+    /// Normals of several vertices and several faces.
     Index n_shared = 0;
+    /// Normals that no corner names.
     Index n_unused = 0;
 };
 
@@ -117,7 +119,8 @@ struct CornerNormals {
 
     void face(TextScanner& scanner, const ObjCounts& before);
 
-    /// Scratch: the vertices of a face.
+    /// Scratch, for one face: its vertices, its normals, and two lists for find_distinct_corners and
+    /// are_corners_of_face.
     std::vector<Index> vertices = {};
     std::vector<Index> normals_of_face = {};
     std::vector<Index> distinct = {};
@@ -142,6 +145,7 @@ void CornerNormals::face(TextScanner& scanner, const ObjCounts& before)
             normals.push_back(normals_of_face[usize(k)]);
 }
 
+/// The colours of the vertices.
 /// @param n_components see read_text_colours.
 TextColours read_obj_colours(const std::filesystem::path& path, std::string_view text, Index n_components,
                              const Slicing& slicing)
@@ -194,6 +198,7 @@ std::vector<std::string> rewrite_obj(OutputFile& file, const std::filesystem::pa
     const std::vector<ObjCounts> counts = count_obj(whole, slices, slicing.exec);
     const NewColours colours(file.path(), fields, [&](Index n) { return read_obj_colours(path, text, n, slicing); });
     std::optional<NormalUpdate> normals;
+    // The file has been read: the faults of faces that were accepted then are not reported again.
     FaultLog known_faults{.of_faces_alone = true};
     if (counts.back().n_normals > 0)
         normals.emplace(corners_of_obj_normals(path, text, slicing), mesh,

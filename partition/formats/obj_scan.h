@@ -35,7 +35,7 @@ struct ObjCorner {
     std::string_view attributes;
 };
 
-/// Reads the next corner of the line. @param what is expected, for the message.
+/// Reads the next corner of the line. @param what the corner that is expected, in words for the message.
 /// @throws InputError if it does not begin with a whole number.
 ObjCorner read_obj_corner(TextScanner& scanner, const char* what);
 
@@ -54,7 +54,7 @@ inline bool is_obj_face(std::string_view keyword)
 
 /// Scans the next line if it is a vertex or, for visitors of faces, a face in the commonest form, without fault; see
 /// scan_obj.
-/// @param corners scratch.
+/// @param corners scratch. @returns whether it was such a line.
 template <class Visitor>
 bool scan_plain_obj_line(TextScanner& scanner, Visitor& visitor, ObjCounts& counts, std::vector<Index>& corners)
 {

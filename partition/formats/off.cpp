@@ -100,6 +100,7 @@ void OffReader::face(TextScanner& scanner)
     builder_.add_face(corners_);
 }
 
+/// Reads the mesh from the slices of a file.
 /// @param slices after the header.
 /// @param lines_before see count_lines.
 /// @throws InputError if there is any fault; naming it if there is one slice.
@@ -121,6 +122,7 @@ PolygonMesh read_slices(const TextScanner& after_header, const OffHeader& header
     return mesh;
 }
 
+/// Reads the mesh as one slice.
 /// @param faults see read_off.
 PolygonMesh read_in_one_go(const TextScanner& after_header, const OffHeader& header, FaultLog* faults)
 {
@@ -128,7 +130,10 @@ PolygonMesh read_in_one_go(const TextScanner& after_header, const OffHeader& hea
                        std::array{std::int64_t{0}, header.n_lines()}, run_serially, faults);
 }
 
-/// @param n_components see fields_of_colours.
+/// Reads the colours of the vertices of a text OFF file whose keyword has a C.
+/// @param n_components 4: all colours must have alpha; 3: alpha may be missing.
+/// @returns #V by 4: red, green, blue and alpha, 0 where alpha is missing.
+/// @throws InputError for other files, and naming the line of a vertex without a colour.
 TextColours read_off_colours(const std::filesystem::path& path, std::string_view text, Index n_components,
                              const Slicing& slicing)
 {
@@ -170,6 +175,7 @@ struct OffExtrasVisitor {
     }
 };
 
+/// Reads a file with one line per vertex and face, in slices if it is large and has no fault.
 PolygonMesh read_by_lines(const std::filesystem::path& path, std::string_view text, const Slicing& slicing,
                           FaultLog* faults)
 {

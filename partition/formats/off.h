@@ -17,9 +17,10 @@
 
 namespace seamflow {
 
-/// Reads text OFF, one vertex or face per line: `OFF` and its variants with normals, colours or texture coordinates
-/// (NOFF, COFF, STOFF, STCNOFF, …), which are skipped, as are the colours of faces; also a file that begins with the
-/// three counts instead of `OFF`. A file that begins with `OFF BINARY` is read as binary (see read_binary_off).
+/// Reads text OFF, one vertex or face per line, or with line ends that count as blanks: `OFF` and its variants with
+/// normals, colours or texture coordinates (NOFF, COFF, STOFF, STCNOFF, …), which are skipped, as are the colours of
+/// faces; also a file that begins with the three counts instead of `OFF`. A file that begins with `OFF BINARY` is read
+/// as binary (see read_binary_off).
 /// @param path for messages only. @param faults if not null, collects faults instead of throwing.
 /// @throws InputError naming the line or byte; also for vertices without three coordinates.
 PolygonMesh read_off(const std::filesystem::path& path, std::string_view text, const Slicing& slicing,

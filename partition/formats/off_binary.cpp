@@ -16,6 +16,7 @@ namespace seamflow {
 
 namespace {
 
+/// The bytes of an integer or float.
 constexpr std::size_t word_size = 4;
 /// The bytes of the three counts before the vertices.
 constexpr std::size_t counts_bytes = 3 * word_size;
@@ -29,6 +30,7 @@ PlyElement element_of(const char* name, const char* counts, Encoding encoding)
     return element;
 }
 
+/// A list of words, with its length in a word.
 /// @param type of four bytes.
 PlyProperty word_list(const char* name, PlyType type)
 {

@@ -15,6 +15,7 @@ bool is_digit(char c)
     return c >= '0' && c <= '9';
 }
 
+/// Checks that the prefix consists of ST, C and N, each once at most.
 void require_known_variant(const TextScanner& scanner, std::string_view prefix)
 {
     if (prefix.find_first_of("4n") != std::string_view::npos)
@@ -37,8 +38,8 @@ void require_known_variant(const TextScanner& scanner, std::string_view prefix)
                      Quoted{std::string(prefix) + "OFF"});
 }
 
-/// Reads the keyword OFF with its prefix.
-/// @returns the prefix before OFF.
+/// Reads the keyword OFF with its prefix. Counts may follow OFF without a blank.
+/// @returns the prefix before OFF; empty, and nothing is read, if the file begins with its counts.
 std::string_view read_keyword(TextScanner& scanner)
 {
     if (!scanner.next_line())
@@ -61,6 +62,7 @@ std::string_view read_keyword(TextScanner& scanner)
     return prefix;
 }
 
+/// Reads a number of elements, and checks that the file can hold so many.
 /// @param size of the file, in bytes. @param shortest_line the fewest characters in which a vertex or a face can be
 /// written, with the line end.
 std::int64_t read_count(TextScanner& scanner, std::int64_t size, const char* what, std::int64_t shortest_line)

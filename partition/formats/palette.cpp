@@ -25,6 +25,7 @@ constexpr Colour green{0, 255, 0};
 constexpr Colour yellow{255, 255, 0};
 constexpr Colour red{255, 0, 0};
 
+/// The colour of a value from 0 to 1, linear between the stops; grey for NaN.
 /// @param stops at least two colours, for 0, …, 1, equally spaced.
 Colour interpolate(std::span<const Colour> stops, double value)
 {

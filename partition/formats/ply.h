@@ -18,11 +18,12 @@
 namespace seamflow {
 
 /// Reads PLY in any of its three encodings: x, y and z of the element `vertex`, of any types and in any order, and the
-/// list `vertex_indices` or `vertex_index` of the element `face`. Other properties and other elements, edges among
-/// them, are passed over. In a text file each element stands on a line of its own; after the last element of a binary
-/// file only padding (zeros, blanks, line ends) is accepted.
+/// list `vertex_indices` or `vertex_index` of the elements `face`, or of triangle strips in the element `tristrips`.
+/// Other properties and other elements, edges among them, are passed over. In a text file each element stands on a line
+/// of its own; if the number of lines is another, line ends count as blanks. After the last element of a binary file
+/// only padding (zeros, blanks, line ends) is accepted.
 /// @param path for messages only. @param faults if not null, collects faults instead of throwing.
-/// @throws InputError naming the line, or the element and its byte; also for a surface made of triangle strips.
+/// @throws InputError naming the line, or the element and its byte.
 MeshFile read_ply(const std::filesystem::path& path, std::string_view file, const Slicing& slicing,
                   FaultLog* faults = nullptr);
 

@@ -6,7 +6,7 @@ namespace seamflow {
 
 namespace {
 
-/// The approximate number of bytes of an element in a binary file.
+/// The approximate number of bytes of an element in a binary file, with lists of three numbers.
 std::size_t typical_bytes(const PlyElement& element)
 {
     std::size_t n = 0;
@@ -15,6 +15,7 @@ std::size_t typical_bytes(const PlyElement& element)
     return std::max<std::size_t>(n, 1);
 }
 
+/// The slices of a text file; one slice that crosses lines if the file does not have one line per element.
 std::vector<PlySlice> slice_text(const PlyData& data, const Slicing& slicing)
 {
     const std::vector<std::string_view> bytes = data.after_header.slices(slicing.bytes);

@@ -43,7 +43,7 @@ struct PlyData {
     std::string_view bytes;
     PlyUse use = PlyUse::Mesh;
 
-    /// All elements.
+    /// All elements, as one slice.
     [[nodiscard]] PlySlice whole() const;
 
     /// Divides the first kinds of elements into slices; in a text file the last slice extends to the end.

@@ -19,6 +19,7 @@ namespace seamflow {
 
 namespace {
 
+/// The values of the fields, see FileFields::values.
 Eigen::MatrixXd read_columns(const PlyData& data, const FileFields& fields, const Slicing& slicing)
 {
     const PlyElement& vertices = *data.header.element("vertex");
@@ -40,6 +41,7 @@ Eigen::MatrixXd read_columns(const PlyData& data, const FileFields& fields, cons
     return values;
 }
 
+/// The range of a type of whole numbers; nothing for other types.
 std::optional<WholeRange> whole_range_of(PlyType type)
 {
     if (!is_integer(type))

@@ -26,7 +26,7 @@ Number stored_as(double number)
     }
 }
 
-/// Whether the range of the type includes all numbers. NaN is ignored.
+/// Whether the range of the type includes all numbers, rounded if the type is whole. NaN is ignored.
 bool reaches(PlyType type, const auto& numbers)
 {
     return with_type(type, [&numbers](auto zero) {

@@ -9,6 +9,7 @@ namespace seamflow {
 
 namespace {
 
+/// Reads the coordinates of vertices, which all have the same number of bytes.
 /// @param slots without lists.
 void read_plain_vertices(const std::vector<PlySlot>& slots, const PlySlice& slice, std::endian order,
                          const MeshSlice& mesh_slice)
@@ -31,6 +32,7 @@ void read_plain_vertices(const std::vector<PlySlot>& slots, const PlySlice& slic
     }
 }
 
+/// Reads faces.
 /// @tparam Length, Number the types in the list of corners. @param slots the list and the end.
 template <class Length, class Number>
 void read_plain_faces(const std::vector<PlySlot>& slots, std::string_view bytes, std::endian order,

@@ -21,6 +21,7 @@ namespace seamflow {
 
 namespace {
 
+/// Checks that the vertices have x, y and z, one number each.
 void require_coordinates(const PlyData& data)
 {
     const TextScanner& scanner = data.after_header;
@@ -38,7 +39,8 @@ void require_coordinates(const PlyData& data)
         scanner.fail_at(vertices->line, "the vertices lack x, y or z; correct the header or export the mesh again");
 }
 
-/// @param name of faces or strips.
+/// Checks that faces or strips, if there are any, have one list of corners, of whole numbers.
+/// @param name of the element.
 void require_corners(const PlyData& data, std::string_view name)
 {
     const TextScanner& scanner = data.after_header;
@@ -84,6 +86,7 @@ void add_strips(MeshBuilder& builder, const std::vector<Index>& corners)
     }
 }
 
+/// Reads the vertices begin to end - 1.
 void read_vertices(PlySource& source, MeshBuilder& builder, const PlyElement& vertices, std::uint64_t begin,
                    std::uint64_t end)
 {
@@ -97,6 +100,7 @@ void read_vertices(PlySource& source, MeshBuilder& builder, const PlyElement& ve
         });
 }
 
+/// Reads the faces, or triangle strips, begin to end - 1.
 /// @param n_vertices the number of vertices of the whole file.
 void read_faces(PlySource& source, MeshBuilder& builder, std::int64_t n_vertices, const PlyElement& faces,
                 std::uint64_t begin, std::uint64_t end)
@@ -146,6 +150,7 @@ std::uint64_t vertices_before(std::uint64_t end, const PlyHeader& header)
     return n;
 }
 
+/// Reads the mesh from the slices of a file.
 /// @param faults see read_ply. @throws InputError if there is any fault; the message names it if there is one slice.
 PolygonMesh read_slices(const PlyData& data, std::span<const PlySlice> slices, const Executor& exec, FaultLog* faults)
 {
@@ -171,6 +176,7 @@ PolygonMesh read_slices(const PlyData& data, std::span<const PlySlice> slices, c
             source.finish();
         require_vertices(source.position(), static_cast<std::int64_t>(n_vertices));
     });
+    // Nothing but padding may follow the last slice.
     const std::string_view last = slices.back().bytes;
     data.source({.bytes = last.substr(last.size())}).finish();
     return mesh;
@@ -194,6 +200,8 @@ PolygonMesh read_in_one_go(const PlyData& data, FaultLog* faults)
     return read_slices(data, {&whole, 1}, run_serially, faults);
 }
 
+/// Reads a file in several slices.
+/// @throws InputError if there is any fault; the message need not name it.
 PolygonMesh read_in_slices(const PlyData& data, const Slicing& slicing)
 {
     const std::vector<PlySlice> slices = data.slices(data.header.elements, slicing);

@@ -47,6 +47,7 @@ enum class Normals {
     Other
 };
 
+/// The kind of the normals of the vertices.
 Normals normals_of(const PlyElement& vertices)
 {
     Index n_found = 0;
@@ -60,6 +61,8 @@ Normals normals_of(const PlyElement& vertices)
     return n_usable == 3 ? Normals::Usable : n_found > 0 ? Normals::Other : Normals::None;
 }
 
+/// The change of each property of the vertices to new positions and normals.
+/// @param fits see coordinates_fit.
 std::vector<Change> changes_of(const PlyElement& vertices, const std::array<bool, 3>& fits, bool with_normals)
 {
     const auto n_columns = with_normals ? names_of_columns.end() : names_of_columns.begin() + 3;
@@ -77,7 +80,7 @@ std::vector<Change> changes_of(const PlyElement& vertices, const std::array<bool
     return changes;
 }
 
-/// The change of a property that the file has to the values of a field.
+/// The change by which a property of the file gets the values of a field.
 /// @param remarks gets sentences for the user.
 /// @throws OutputError naming `target`, the file to write.
 Change change_of_field(const PlyProperty& property, Index column, const FileFields& fields,
@@ -153,6 +156,7 @@ class VertexRewriter {
   private:
     /// A number of the present vertex that may change.
     struct Number {
+        /// The number as written in the file.
         std::string_view part;
         double value;
     };
@@ -165,9 +169,11 @@ class VertexRewriter {
     const std::vector<Change>& changes_;
     const NewVertices& now_;
     const PlyElement& vertices_;
-    /// One per property.
+    /// The numbers of the present vertex, one per property.
     std::vector<Number> numbers_;
+    /// The normal of the present vertex in the file.
     Point normal_ = Point::Zero();
+    /// Whether a position has been rounded.
     bool rounded_ = false;
 };
 
@@ -189,7 +195,8 @@ bool VertexRewriter::rewrite(const PlySlice& slice)
     return rounded_;
 }
 
-/// @param end an empty piece of text after the vertex.
+/// Writes vertex v: copies it, with the changed numbers in place of numbers_.
+/// @param end the empty piece of the file after the vertex.
 void VertexRewriter::write_vertex(Index v, std::string_view end)
 {
     const bool is_text = data_.header.encoding == Encoding::Ascii;
@@ -211,6 +218,7 @@ void VertexRewriter::write_vertex(Index v, std::string_view end)
     }
 }
 
+/// Writes a number in its new type, and sets rounded_ if this rounds a position.
 void VertexRewriter::write(ByteWriter& file, const Change& change, double number)
 {
     const Encoding encoding = data_.header.encoding;
@@ -237,6 +245,7 @@ std::string_view line_end_behind(std::string_view header, std::string_view place
 }
 
 /// Writes the header, with wider types where they are necessary, and with new properties.
+/// @returns remarks on the wider types.
 std::vector<std::string> rewrite_header(ByteWriter& file, const std::filesystem::path& path, std::string_view header,
                                         const PlyElement& vertices, const std::vector<Change>& changes,
                                         const FileFields& fields)
@@ -253,6 +262,7 @@ std::vector<std::string> rewrite_header(ByteWriter& file, const std::filesystem:
                           ": the type in " + path.string() + " cannot hold the result");
     }
     const std::string_view line_end = line_end_behind(header, vertices.properties.back().type_word);
+    // Copies the lines up to the last property of the vertices: the new properties follow it.
     splicer.exchange(line_end).text(line_end);
     for (std::size_t p = n_properties; p < changes.size(); ++p) {
         file.text("property double " + fields.names[changes[p].column - first_field]);

@@ -41,6 +41,7 @@ void PlySource::note_faults_in(FaultLog* log)
 
 void PlySource::pass_over(const PlyElement& element, std::uint64_t begin, std::uint64_t end)
 {
+    // Elements without lists, whose only slot is the end, all have the same number of bytes.
     const std::vector<Index> columns(element.properties.size(), -1);
     if (const PlySlot first = slots_of(element, columns).front(); !is_text() && first.property == nullptr &&
                                                                   first.n_bytes > 0 &&
@@ -51,6 +52,7 @@ void PlySource::pass_over(const PlyElement& element, std::uint64_t begin, std::u
         element, begin, end, columns, [](Index, Index, const PlyProperty&) {}, [this](Index) { end_element(); });
 }
 
+/// Goes to the line of element i in a text file.
 void PlySource::begin_line(const PlyElement& element, std::uint64_t i)
 {
     if (!text().next_line())
@@ -59,6 +61,7 @@ void PlySource::begin_line(const PlyElement& element, std::uint64_t i)
                     i, element.count, Quoted{element.name});
 }
 
+/// Checks that the line ends; further words are a harmless fault, and are passed over.
 void PlySource::end_line()
 {
     if (text().crosses_lines() || !text().has_token())

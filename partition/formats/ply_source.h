@@ -37,8 +37,9 @@ struct PlySlot {
 /// The slots of an element, in order. @param columns see columns_of.
 std::vector<PlySlot> slots_of(const PlyElement& element, const std::vector<Index>& columns);
 
-/// The numbers of a PLY file, one after another. In text an element is a line, and types do not matter. All functions
-/// throw InputError, naming the line, or element and byte, if the file has something else.
+/// The numbers of a PLY file, one after another. In text an element is a line, unless line ends count as blanks, and
+/// types do not matter. All functions throw InputError, naming the line, or element and byte, if the file has something
+/// else.
 class PlySource {
   public:
     /// The numbers of a text file.
@@ -62,8 +63,8 @@ class PlySource {
     void note_faults_in(FaultLog* log);
 
     /// Reads the elements begin to end - 1 of a kind, numbered from 0.
-    /// @param columns of its properties. @param read called with the number of the element, the column of a property
-    ///        and its declaration, to read it.
+    /// @param columns the column of each property, see columns_of. @param read called with the number of the element,
+    ///        the column of a property and its declaration, to read it.
     /// @param act called with the number of the element after its last property; it calls end_element.
     void scan(const PlyElement& element, std::uint64_t begin, std::uint64_t end, const std::vector<Index>& columns,
               const auto& read, const auto& act)
@@ -92,7 +93,7 @@ class PlySource {
             end_line();
     }
 
-    /// To be called after the last element.
+    /// Checks that nothing but padding follows. To be called after the last element.
     void finish();
 
     /// The next number, which must be finite, unless faults are collected.
@@ -118,6 +119,7 @@ class PlySource {
     /// @param name of the field, in messages.
     double field(PlyType type, const char* name);
 
+    /// The next number, which must be whole.
     [[gnu::always_inline]] std::int64_t integer(PlyType type)
     {
         if (is_text())

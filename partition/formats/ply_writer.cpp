@@ -22,9 +22,11 @@ struct PlyContent {
     const PolygonMesh& mesh;
     Encoding encoding;
     const PlyExtras& extras;
+    /// See has_long_face.
     bool long_faces;
 };
 
+/// The text of the header.
 std::string header_of(const PlyContent& content)
 {
     const std::string colour = "property uchar red\nproperty uchar green\nproperty uchar blue\n";
@@ -59,6 +61,7 @@ class PlyWriter {
 
   private:
     void write_colour(const Colour& colour);
+    /// Ends the line in a text file.
     void end_element()
     {
         if (content_.encoding == Encoding::Ascii)
@@ -66,6 +69,7 @@ class PlyWriter {
         begins_line_ = true;
     }
 
+    /// Writes numbers, in a binary file all at once.
     template <class Number>
     void write(std::span<const Number> values)
     {
@@ -75,6 +79,7 @@ class PlyWriter {
             write(value);
     }
 
+    /// Writes a number; in a text file after a blank, except at the beginning of a line.
     void write(auto value)
     {
         if (content_.encoding != Encoding::Ascii)
@@ -162,6 +167,7 @@ std::optional<std::array<Index, 3>> columns_of_colours(const FileFields& fields)
     std::array<Index, 3> columns{};
     std::ranges::transform(std::array{"red", "green", "blue"}, columns.begin(),
                            [&](const char* name) { return fields.column(name); });
+    // Whole colours have 8 or 16 bits. Other colours are those of a text file, see fields_of_colours.
     constexpr double most_whole = 65535.0;
     for (const Index c : columns) {
         if (c < 0 || fields.values.col(c).hasNaN())
@@ -174,15 +180,16 @@ std::optional<std::array<Index, 3>> columns_of_colours(const FileFields& fields)
     return columns;
 }
 
+/// The colours of the vertices, scaled to 0 to 255.
 /// @param columns see columns_of_colours. @returns #V.
 std::vector<Colour> colours_in(const FileFields& fields, const std::array<Index, 3>& columns)
 {
     std::vector<Colour> colours(static_cast<std::size_t>(fields.values.rows()));
     for (std::size_t k = 0; k < columns.size(); ++k) {
-        const double all = range_of(fields, columns[k]).value_or(WholeRange{0.0, 1.0}).largest;
+        const double brightest = range_of(fields, columns[k]).value_or(WholeRange{0.0, 1.0}).largest;
         for (std::size_t v = 0; v < colours.size(); ++v)
-            colours[v][k] = static_cast<std::uint8_t>(
-                std::lround(255.0 * std::clamp(fields.values(static_cast<Index>(v), columns[k]) / all, 0.0, 1.0)));
+            colours[v][k] = static_cast<std::uint8_t>(std::lround(
+                255.0 * std::clamp(fields.values(static_cast<Index>(v), columns[k]) / brightest, 0.0, 1.0)));
     }
     return colours;
 }

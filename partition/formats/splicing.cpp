@@ -13,6 +13,9 @@ namespace seamflow {
 
 namespace {
 
+/// The normal `after`, turned round if `given` pointed to the other side of the surface than `before`.
+/// @param given the normal in the file. @param before, after those of the old and of the new positions.
+/// @returns nothing if the normal is the same before and after, or there is none after.
 std::optional<Point> on_the_side_of(const Point& given, const Point& before, const Point& after)
 {
     if (after == before || after == Point::Zero())

@@ -32,8 +32,8 @@ MeshFile read_stl(const std::filesystem::path& path, std::string_view file, cons
 PolygonMesh read_text_stl(const std::filesystem::path& path, std::string_view text, const Slicing& slicing,
                           FaultLog* faults);
 
-/// The parts of a binary file: a title and the number of facets, then facets, each with a normal, three corners and an
-/// attribute.
+/// The bytes of a binary file's header, a title and the number of facets, and of a facet: a normal, three corners and
+/// an attribute.
 constexpr std::size_t stl_header_bytes = 84;
 constexpr std::size_t stl_facet_bytes = 50;
 

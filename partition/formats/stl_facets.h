@@ -31,6 +31,7 @@ class FacetCollector {
     {
     }
 
+    /// Adds a facet. A facet of which two corners coincide is a harmless fault, and no face.
     void add(const std::array<Corner, 3>& points)
     {
         const Index number = n_facets_++;
@@ -89,6 +90,7 @@ join_facets(Index n_slices, const Executor& exec,
 {
     PolygonMesh mesh;
     std::vector<std::vector<std::array<Real, 3>>> of_slice(usize(n_slices));
+    // The number of corners before each slice.
     std::vector<Index> corners(usize(n_slices) + 1, 0);
     Points none(0, 3);
     append_faces(mesh, n_slices, exec, [&](Index i, PolygonMesh& part) {

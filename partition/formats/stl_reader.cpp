@@ -53,7 +53,8 @@ Corner read_point(ByteScanner& scanner)
     return {x, y, z};
 }
 
-/// The corners of a facet within the file; empty if a coordinate is not finite, and perhaps if it is huge.
+/// The corners of a facet within the file; nothing if the sum of their coordinates is not finite: if a coordinate is
+/// not finite, or several are huge.
 std::optional<std::array<Corner, 3>> corners_of(std::string_view facet)
 {
     std::array<Corner, 3> corners;
@@ -68,6 +69,7 @@ std::optional<std::array<Corner, 3>> corners_of(std::string_view facet)
     return std::isfinite(sum) ? std::optional(corners) : std::nullopt;
 }
 
+/// Checks that the file is long enough for the facets that it declares.
 void require_room_for_facets(ByteScanner& scanner, std::string_view file)
 {
     if (file.size() < header_bytes)
@@ -80,10 +82,12 @@ void require_room_for_facets(ByteScanner& scanner, std::string_view file)
                      counted(n, "facet", "facets"), file.size(), (file.size() - header_bytes) / facet_bytes);
 }
 
+/// Reads the facets begin to end - 1.
 void read_facets(ByteScanner& scanner, std::uint64_t begin, std::uint64_t end, BinaryFacets& collector)
 {
     for (std::uint64_t f = begin; f < end; ++f) {
         scanner.enter("facet", f);
+        // Finite facets are read at once; others number by number, which reports the coordinate at fault.
         if (scanner.remaining() >= facet_bytes)
             if (const auto corners = corners_of(scanner.peek(facet_bytes))) {
                 scanner.take(facet_bytes);
@@ -99,6 +103,7 @@ void read_facets(ByteScanner& scanner, std::uint64_t begin, std::uint64_t end, B
     }
 }
 
+/// Reads a binary file.
 /// @param per_slice the number of facets of a slice. @param faults see read_stl.
 /// @throws InputError if there is any fault; the message names it if all facets are in one slice.
 PolygonMesh read_binary(const std::filesystem::path& path, std::string_view file, std::uint64_t per_slice,

@@ -28,6 +28,7 @@ struct WrittenFacet {
     [[nodiscard]] StlFacet values() const { return {corners[0].values, corners[1].values, corners[2].values}; }
 };
 
+/// The first three floats of some bytes.
 WrittenNumbers floats_at(std::string_view bytes)
 {
     WrittenNumbers floats;
@@ -46,6 +47,7 @@ struct TextFacetVisitor {
 
     void normal(TextScanner& scanner)
     {
+        // Passes over the word `normal`.
         scanner.token();
         facet_so_far.normal = read_normal(scanner);
     }
@@ -60,7 +62,7 @@ struct NameFinder {
     void solid(TextScanner& scanner) { has_name |= scanner.has_token(); }
 };
 
-/// The form of a file read by read_stl, as the template for one with other positions.
+/// A file read by read_stl, in pieces of whole facets, as the template for a file with other positions.
 struct StlForm {
     StlForm(const std::filesystem::path& path, std::string_view content, const Slicing& slicing)
         : whole(path, content, stl_syntax)
@@ -84,7 +86,8 @@ struct StlForm {
         if (is_text) {
             TextScanner scanner(whole, rest);
             TextFacetVisitor<Visit> visitor{visit};
-            scan_text_stl(scanner, piece > 0, visitor);
+            const bool begins_in_solid = piece > 0;
+            scan_text_stl(scanner, begins_in_solid, visitor);
             return;
         }
         for (constexpr std::size_t size = 3 * sizeof(float); !rest.empty(); rest.remove_prefix(stl_facet_bytes))
@@ -122,6 +125,7 @@ void exchange_facet(Splicer& splicer, const WrittenFacet& before, const StlFacet
                 exchange(before.corners[corner].parts[k], after[corner][k]);
 }
 
+/// Whether two facets differ in any bit of a coordinate.
 bool is_other_facet(const StlFacet& a, const StlFacet& b)
 {
     for (std::size_t corner = 0; corner < 3; ++corner)

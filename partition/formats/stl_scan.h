@@ -11,7 +11,8 @@ namespace seamflow {
 
 inline constexpr TextSyntax stl_syntax = {.comment = '\0'};
 
-/// Compares with a keyword in lower case.
+/// Whether a token is a keyword, in letters of either case.
+/// @param keyword in lower case.
 bool is_keyword(std::string_view token, std::string_view keyword);
 
 /// Goes to the next line. @param keyword with which it should begin, for the message.
@@ -29,7 +30,8 @@ bool is_end_of(TextScanner& scanner, std::string_view what);
 /// @throws InputError if there are more corners, or other words.
 void end_stl_facet(TextScanner& scanner);
 
-/// @throws InputError unless the line ends here.
+/// Checks that the line of a corner ends here.
+/// @throws InputError if it continues.
 void end_stl_corner(TextScanner& scanner);
 
 /// Scans a text, or a slice of it (see stl_slices_at_facets). The visitor has those of the following functions that it

@@ -78,6 +78,7 @@ std::vector<std::string_view> stl_slices_at_facets(const TextScanner& whole, std
         return std::string_view(first, static_cast<std::size_t>(last - first));
     };
     const char* begin = whole.rest().data();
+    // Each slice is extended up to the next line that begins with `facet`.
     for (const std::string_view slice : whole.slices(bytes)) {
         TextScanner scanner(whole, slice_between(slice.data() + slice.size(), end));
         const char* line = scanner.rest().data();
@@ -103,6 +104,7 @@ struct TextFacetReader {
     void facet() { collector.add(corners); }
 };
 
+/// Reads the mesh from the slices of a text.
 /// @param faults see read_stl. @throws InputError if there is any fault; the message names it if there is one slice.
 PolygonMesh read_text_slices(const TextScanner& whole, std::span<const std::string_view> slices, const Executor& exec,
                              FaultLog* faults)

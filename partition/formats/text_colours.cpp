@@ -23,7 +23,7 @@ struct WrittenNumber {
 /// The numbers of a colour in the file, as far as they exist.
 struct WrittenColour {
     std::array<WrittenNumber, colour_names.size()> numbers = {};
-    /// The number of numbers in the line, which may exceed the size of the array.
+    /// The number of numbers where the colour should be, which may exceed the size of the array.
     std::size_t count = 0;
 };
 

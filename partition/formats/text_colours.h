@@ -42,7 +42,7 @@ TextColours read_text_colours(const TextScanner& after_header, const Slicing& sl
                                        [&] { return read({after_header.rest()}, Executor(run_serially)); });
 }
 
-/// Returns colours as fields.
+/// The colours of a file as fields.
 /// @param read gives the colours of a file, for a number of components (see ColourReader).
 /// @throws InputError also for other names than colour_names and their groups; see names_of_fields.
 FileFields fields_of_colours(const std::filesystem::path& path, std::span<const std::string> names,

@@ -49,7 +49,8 @@ std::vector<Edge> edges_where(const Surface& s, const Executor& exec, Predicate&
     return edges;
 }
 
-/// A half-edge without a twin is on an edge of one face, or of three or more.
+/// Counts the edges and lists the faulty ones. A half-edge without a twin is on an edge of one face, or of three or
+/// more.
 void inspect_edges(const Surface& s, const Executor& exec, MeshInspection& found)
 {
     const auto alone = select(exec, s.mesh.n_corners(), [&](Index h) { return s.topology.twin[h] < 0; });
@@ -75,6 +76,7 @@ void inspect_edges(const Surface& s, const Executor& exec, MeshInspection& found
         edges_where(s, exec, [&](Index h) { return s.is_finite(h) && !std::isnormal(s.length(h)); });
 }
 
+/// The lengths of the edges whose ends have finite positions; zeros if there are none.
 EdgeLengths measure_edges(const Surface& s)
 {
     EdgeLengths found{.shortest = std::numeric_limits<double>::infinity()};
@@ -95,6 +97,8 @@ EdgeLengths measure_edges(const Surface& s)
     return found;
 }
 
+/// Sets `box` and `bits_for_detail`.
+/// @param found with edge lengths.
 void measure_box(const PolygonMesh& mesh, const Executor& exec, MeshInspection& found)
 {
     const BoundingBox box = box_of_faces(mesh, exec);
@@ -113,6 +117,7 @@ bool lacks_area(const PolygonMesh& mesh, Index f)
     return !has_area(mesh.face(f), mesh.vertices) && std::ranges::all_of(mesh.face(f), is_finite);
 }
 
+/// The vertices with the same position as an earlier vertex, ascending.
 std::vector<Index> coincident_vertices(const Points& positions, const Executor& exec)
 {
     std::vector<PointNumbers::Place> places;
@@ -130,7 +135,8 @@ bool run_opposite(std::span<const Index> face, std::span<const Index> other)
     return other[(begin + 1) % other.size()] != face[1];
 }
 
-/// Also counts components, and pairs of faces that cross, without duplicate faces.
+/// Lists the faces that are duplicates. Counts the components, and lists the pairs of faces that cross, of the mesh
+/// without duplicates.
 void inspect_duplicates(const Surface& s, const Executor& exec, MeshInspection& found)
 {
     std::vector<Index> faces(s.mesh.n_faces());

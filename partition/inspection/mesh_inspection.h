@@ -92,7 +92,7 @@ struct MeshInspection {
 };
 
 /// Examines a mesh. Nearly linear in its size.
-/// @param mesh valid (see require_valid), but coordinates need not be finite.
+/// @param mesh valid (see require_valid), but coordinates need not be finite. @param topology before free_junctions.
 MeshInspection inspect(const PolygonMesh& mesh, const Topology& topology, const Executor& exec = run_serially);
 
 /// The mesh with only the first face of each set of faces that have the same vertices: one side of a surface with two.

@@ -7,7 +7,7 @@ namespace seamflow {
 
 namespace {
 
-/// Moves the lower part of the points along the longest side to the front.
+/// Moves the n_lower points that are lowest along the longest side of their bounding box to the front of `order`.
 void divide(std::span<Index> order, std::size_t n_lower, std::span<const Point> points)
 {
     Box box;
@@ -28,6 +28,7 @@ std::vector<Index> order_of_neighbours(std::span<const Point> points, const Exec
     std::iota(order.begin(), order.end(), 0);
     for (std::size_t length = std::bit_ceil(points.size()); length > 1; length /= 2) {
         const std::size_t n_lower = length / 2;
+        // Only nodes of more than n_lower points are divided.
         for_each(exec, static_cast<Index>((points.size() + n_lower - 1) / length), [&](Index k) {
             const std::span rest = std::span(order).subspan(usize(k) * length);
             divide(rest.first(std::min(rest.size(), length)), n_lower, points);

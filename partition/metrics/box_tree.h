@@ -54,6 +54,7 @@ class BoxTree {
     template <class Visit>
     void for_each_meeting(const Box& box, Index first, Visit&& visit) const
     {
+        // At each level at most one node waits, besides the children of the last one.
         std::array<Node, 64> waiting;
         std::size_t n_waiting = 0;
         if (size() > 0)

@@ -28,8 +28,8 @@ struct Regions {
     /// In length³: positive if the region lies within its surface, negative if it lies around it, 0 if the volume may
     /// be rounding of positions in single precision, as between repeated faces.
     std::vector<double> volumes;
-    /// Sides of faces on which the next face around an edge, where sheets meet, lies. If the two faces belong to two
-    /// sheets that lie on each other, the region at the side has the volume 0.
+    /// At edges where sheets meet: the sides of faces on which the next face around the edge lies. If the two faces
+    /// belong to two sheets that lie on each other, the region at the side has the volume 0.
     std::vector<Index> contacts;
 };
 
@@ -39,6 +39,7 @@ void join_at_face(const PolygonMesh& mesh, const Topology& topology, Index f, Di
     for (Index h = mesh.face_offsets[f]; h < mesh.face_offsets[f + 1]; ++h) {
         const Index twin = topology.twin[h];
         if (twin > h) {
+            // The side of the neighbour that faces side 2 f.
             const Index front =
                 2 * topology.face_of[twin] + (mesh.face_vertices[twin] == mesh.face_vertices[h] ? 1 : 0);
             sides.join(2 * f, front);
@@ -83,6 +84,7 @@ std::vector<double> of_lists(const IndexLists& lists, const Executor& exec, Valu
     return values;
 }
 
+/// The volume of the region with these sides, in length³; its sign as in Regions::volumes.
 double volume_on(std::span<const Index> sides, const PolygonMesh& mesh, const Points& positions, const Executor& exec)
 {
     if (sides.empty())
@@ -94,6 +96,7 @@ double volume_on(std::span<const Index> sides, const PolygonMesh& mesh, const Po
     });
 }
 
+/// The volume of the region with these sides (see volume_on); 0 if it may be rounding of positions in single precision.
 double certain_volume_on(std::span<const Index> sides, const PolygonMesh& mesh, const Points& positions,
                          const Executor& exec)
 {
@@ -113,6 +116,7 @@ IndexLists sides_of(const std::vector<Index>& region_of, Index n_regions)
     });
 }
 
+/// The regions into which the faces at given positions divide space.
 Regions find_regions(const PolygonMesh& mesh, const Points& positions, const Executor& exec)
 {
     Topology topology = make_topology(mesh, exec);

@@ -15,7 +15,7 @@ namespace {
 /// Edges, or vertices twice for a vertex, each with one of their triangles.
 using Crowd = std::vector<std::pair<Edge, Index>>;
 
-/// Moves the triangles of a crowd that are in no fan yet into fans.
+/// Makes fans of the triangles of a crowd that are in no fan yet, where they are enough for a crowded fan.
 void add_fans(Crowd crowd, std::vector<bool>& is_in_fan, std::vector<CrowdedFan>& fans)
 {
     std::ranges::sort(crowd);
@@ -35,6 +35,7 @@ void add_fans(Crowd crowd, std::vector<bool>& is_in_fan, std::vector<CrowdedFan>
     }
 }
 
+/// A bound of the rounding error of a unit vector.
 constexpr double direction_rounding = 32.0 * std::numeric_limits<double>::epsilon();
 
 Box all_directions()
@@ -65,7 +66,7 @@ Box directions_from(const Point& vertex, const std::array<Point, 2>& edge)
     const Point other = Point(edge[1] - vertex).stableNormalized();
     const double bulge = 1.0 - std::sqrt(std::max(0.0, 1.0 - 0.25 * (one - other).squaredNorm())) + direction_rounding;
     const bool have_length = one.squaredNorm() > 0.5 && other.squaredNorm() > 0.5;
-    // The condition is also true if the numbers are not numbers.
+    // The condition is also true if the bulge is NaN.
     if (!have_length || !(bulge < 1.0))
         return all_directions();
     return {one.cwiseMin(other) - Point::Constant(bulge), one.cwiseMax(other) + Point::Constant(bulge)};

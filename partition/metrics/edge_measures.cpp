@@ -11,14 +11,17 @@ namespace seamflow {
 
 namespace {
 
+/// Lengths of the half-edges of a mesh, in units of length.
 struct LengthsOfEdges {
     double total = 0.0;
     double longest = 0.0;
+    /// The number of half-edges.
     Index n = 0;
     /// See has_needle.
     bool has_needles = false;
 };
 
+/// Adds up the lengths of all half-edges. Looks for needles only if no vertices are left out.
 /// @param is_left_out #V, or empty: 1 for vertices whose edges do not count.
 LengthsOfEdges add_up_edges(const PolygonMesh& mesh, const Points& positions, std::span<const std::uint8_t> is_left_out,
                             const Executor& exec)
@@ -41,7 +44,7 @@ LengthsOfEdges add_up_edges(const PolygonMesh& mesh, const Points& positions, st
         }
         lengths.total += around;
         lengths.longest = std::max(lengths.longest, longest);
-        // The ratio of edges in a face that counts as large: few faces have it.
+        // Only faces whose edges have a larger ratio than this, which are few, are tested for needles.
         constexpr double much = 5.0;
         if (is_left_out.empty() && longest > much * shortest)
             lengths.has_needles = lengths.has_needles || has_needle(corners, positions);
@@ -60,18 +63,21 @@ double mean_of(const LengthsOfEdges& edges)
     return edges.n > 0 ? edges.total / edges.n : 0.0;
 }
 
-/// Whether edges of spikes would change the mean much.
+/// Whether an edge is so long that edges of spikes, if there are any, change the mean much.
 bool has_long_edges(const LengthsOfEdges& edges)
 {
     constexpr double long_in_means = 4.0;
     return edges.longest > long_in_means * mean_of(edges);
 }
 
+/// The spikes. They are searched for only if there are needles.
+/// @param all without vertices left out.
 std::vector<Spike> spikes_of(const LengthsOfEdges& all, const PolygonMesh& mesh, const Points& positions)
 {
     return all.has_needles ? spikes_at_needles(mesh, positions) : std::vector<Spike>();
 }
 
+/// The mean length without the edges of spikes, if these change it much; otherwise that of all half-edges.
 double mean_without(const std::vector<Spike>& spikes, const LengthsOfEdges& all, const PolygonMesh& mesh,
                     const Points& positions, const Executor& exec)
 {

@@ -18,6 +18,8 @@ class ExactSum {
     /// Adds sign · x y z.
     void add(int sign, double x, double y, double z)
     {
+        // A double is a mantissa of 53 bits times a power of two, of at least 2⁻¹¹²⁶: in the unit of the sum, no
+        // product of three has a negative exponent.
         int exponent = 3392;
         const auto mantissa = [&exponent](double number) -> Wide {
             int of_number = 0;
@@ -25,6 +27,7 @@ class ExactSum {
             exponent += of_number - 53;
             return static_cast<std::uint64_t>(std::ldexp(fraction, 53));
         };
+        // The product has 159 bits, and six digits after the shift.
         const Wide of_two = mantissa(x) * mantissa(y);
         const Wide of_third = mantissa(z);
         const int shift = exponent % bits;
@@ -66,7 +69,8 @@ class ExactSum {
 
   private:
     static constexpr int bits = 32;
-    /// The digits, the lowest first; each is the sum of its parts of all products so far.
+    /// The digits of 32 bits, the lowest first, enough for the largest doubles. Each is the sum of the digits of all
+    /// products so far, with their signs; carries are left to sign().
     std::array<std::int64_t, 208> digits_{};
 };
 
@@ -84,6 +88,7 @@ int side_of_plane(const Point& a, const Point& b, const Point& c, const Point& d
 /// The side of the line through a and b on which c lies, seen along a coordinate axis: 1, -1, or 0 on that line.
 int side_of_line(int axis, const Point& a, const Point& b, const Point& c)
 {
+    // As in side_of_plane, with d infinitely far away along the axis.
     const Point along = Point::Unit(axis);
     ExactSum sum;
     sum.add_determinant(1, b, c, along);
@@ -126,7 +131,7 @@ bool meets(const Point& p, const Point& q, const TriangleCorners& t)
         return false;
     if (side_of_p == 0 && side_of_q == 0)
         return meets_in_plane(p, q, t);
-    // The line through p and q passes all three edges on the same side.
+    // They meet if the line through p and q passes all three edges on the same side.
     const auto [least, most] = std::minmax(
         {side_of_plane(p, q, t[0], t[1]), side_of_plane(p, q, t[1], t[2]), side_of_plane(p, q, t[2], t[0])});
     return least * most >= 0;

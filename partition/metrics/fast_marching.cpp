@@ -42,6 +42,7 @@ class Front {
     {
     }
 
+    /// Notes that the front can reach v at a distance.
     void put(Index v, double distance)
     {
         if (distance < distances_[v]) {
@@ -50,6 +51,8 @@ class Front {
         }
     }
 
+    /// Moves the front from vertex to vertex, the nearest first, up to a distance.
+    /// @returns #V: the distances; infinite at vertices that are not reached.
     std::vector<double> march(double farthest)
     {
         while (!next_.empty() && next_.top().first <= farthest) {
@@ -89,6 +92,7 @@ class Front {
     const Topology& topology_;
     std::vector<std::uint8_t> is_reached_;
     std::vector<double> distances_;
+    /// Distances and vertices that the front reaches next, the nearest first; a vertex may occur several times.
     std::priority_queue<Candidate, std::vector<Candidate>, std::greater<>> next_;
 };
 

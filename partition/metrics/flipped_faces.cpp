@@ -37,7 +37,8 @@ std::vector<Index> folded_faces(const PolygonMesh& mesh, const Points& before, c
             around_after.row(v) += is;
         }
     }
-    const auto agrees = [&](Index f, const Points& positions, const Points& around) {
+    // Negative if a face opposes the sum of the faces around its corners.
+    const auto agreement = [&](Index f, const Points& positions, const Points& around) {
         const Point own = vector_area(mesh.face(f), positions);
         Point others = -static_cast<double>(mesh.face(f).size()) * own;
         for (const Index v : mesh.face(f))
@@ -46,7 +47,7 @@ std::vector<Index> folded_faces(const PolygonMesh& mesh, const Points& before, c
     };
     std::vector<Index> folded;
     std::ranges::copy_if(flipped, std::back_inserter(folded), [&](Index f) {
-        return agrees(f, before, around_before) > 0.0 && agrees(f, after, around_after) < 0.0;
+        return agreement(f, before, around_before) > 0.0 && agreement(f, after, around_after) < 0.0;
     });
     return folded;
 }

@@ -60,6 +60,7 @@ class CrossingSearch {
         : positions_(positions)
         , pieces_(pieces_of(mesh, positions, exec))
         , fans_(mark_fans())
+        // The pieces are sorted first, by the fans: the leaves of the tree are ranges of sorted pieces.
         , tree_((sort_pieces(exec), boxes_of_leaves(exec)))
     {
     }
@@ -98,8 +99,9 @@ class CrossingSearch {
     void add_if_crossing(const Piece& one, const Piece& other, std::vector<FacePair>& found) const;
     void search_within(const PiecesOfFan& fan, std::vector<FacePair>& found) const;
     [[nodiscard]] Index first_to_search(Index leaf) const;
-    void search(Index leaf, std::vector<FacePair>& found) const;
-    void search(const Piece& piece, const Box& its_box, Index begin, Index end, std::vector<FacePair>& found) const;
+    void search_from(Index leaf, std::vector<FacePair>& found) const;
+    void search_range(const Piece& piece, const Box& its_box, Index begin, Index end,
+                      std::vector<FacePair>& found) const;
 
     [[nodiscard]] Index begin_of(Index leaf) const { return leaf * leaf_size; }
     [[nodiscard]] Index end_of(Index leaf) const
@@ -152,6 +154,7 @@ void CrossingSearch::sort_pieces(const Executor& exec)
     pieces_ = std::move(sorted);
 }
 
+/// The box around the pieces of each leaf.
 std::vector<Box> CrossingSearch::boxes_of_leaves(const Executor& exec) const
 {
     const auto n = static_cast<Index>(pieces_.size());
@@ -172,7 +175,7 @@ void CrossingSearch::run_round(Index first, std::vector<FacePair>& found, const 
         const Index begin = std::min(tree_.size(), first + task * leaves_of_task);
         const Index end = std::min(tree_.size(), begin + leaves_of_task);
         for (Index leaf = begin; leaf < end && of_task[task].size() < most_self_intersections; ++leaf)
-            search(leaf, of_task[task]);
+            search_from(leaf, of_task[task]);
     });
     for (const auto& pairs : of_task)
         found.insert(found.end(), pairs.begin(), pairs.end());
@@ -184,6 +187,7 @@ void CrossingSearch::add_if_crossing(const Piece& one, const Piece& other, std::
         found.push_back({std::min(one.face, other.face), std::max(one.face, other.face)});
 }
 
+/// Adds the crossing pairs within a crowded fan.
 void CrossingSearch::search_within(const PiecesOfFan& fan, std::vector<FacePair>& found) const
 {
     std::vector<Triangle> corners;
@@ -202,20 +206,23 @@ Index CrossingSearch::first_to_search(Index leaf) const
     return fan != no_fan && end_of(leaf) <= fans_[fan].end ? fans_[fan].end / leaf_size : leaf;
 }
 
-void CrossingSearch::search(Index leaf, std::vector<FacePair>& found) const
+/// Adds the crossing pairs of which one piece is in a leaf, and the other in the same leaf or a later one.
+void CrossingSearch::search_from(Index leaf, std::vector<FacePair>& found) const
 {
     std::array<Box, leaf_size> boxes;
     for (Index i = begin_of(leaf); i < end_of(leaf); ++i)
         boxes[i - begin_of(leaf)] = box(pieces_[i]);
     tree_.for_each_meeting(tree_.leaf(leaf), first_to_search(leaf), [&](Index other) {
         for (Index i = begin_of(leaf); i < end_of(leaf); ++i)
-            search(pieces_[i], boxes[i - begin_of(leaf)], other == leaf ? i + 1 : begin_of(other), end_of(other),
-                   found);
+            search_range(pieces_[i], boxes[i - begin_of(leaf)], other == leaf ? i + 1 : begin_of(other), end_of(other),
+                         found);
     });
 }
 
-void CrossingSearch::search(const Piece& piece, const Box& its_box, Index begin, Index end,
-                            std::vector<FacePair>& found) const
+/// Adds the pairs of a piece and the pieces from begin to end - 1 that cross; those within one crowded fan are left to
+/// search_within.
+void CrossingSearch::search_range(const Piece& piece, const Box& its_box, Index begin, Index end,
+                                  std::vector<FacePair>& found) const
 {
     for (Index j = begin; j < end; ++j)
         if ((pieces_[j].fan == no_fan || pieces_[j].fan != piece.fan) && box(pieces_[j]).meets(its_box))

@@ -8,7 +8,7 @@
 
 namespace seamflow {
 
-/// A half-edge among all those at one edge.
+/// One of the half-edges at an edge where sheets meet.
 struct SheetSpoke {
     /// The angle of its face around the edge, in radians, from -π to π.
     double angle;

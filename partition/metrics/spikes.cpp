@@ -16,7 +16,10 @@ namespace seamflow {
 
 namespace {
 
+/// The edges of a spike are longer than this many of the other edges of their faces; also the ratio of edges in a
+/// needle.
 constexpr double least_in_edges = 10.0;
+/// The edges of a spike are longer than this many diagonals of the box around its neighbours.
 constexpr double least_in_boxes = 3.0;
 /// A block with more vertices than this fraction of the block beside it is part of the shape of the surface.
 constexpr double most_of_neighbour = 0.1;
@@ -34,7 +37,7 @@ void for_each_edge(std::span<const Index> corners, Visit&& visit)
         visit(corners[k], corners[k + 1 < corners.size() ? k + 1 : 0]);
 }
 
-/// Sets of vertices that are connected by edges of at most ten times the shortest one at either end.
+/// Sets of vertices that are connected by edges at most ten times as long as the shortest edge at each end.
 class Blocks {
   public:
     Blocks(const PolygonMesh& mesh, const Points& positions)
@@ -60,9 +63,10 @@ class Blocks {
         for (const Index block : block_of_)
             ++around_[block].n_vertices;
         for (Index f = 0; f < mesh.n_faces(); ++f)
-            look_at(mesh.face(f));
+            measure(mesh.face(f));
     }
 
+    /// The vertices of the blocks that are spikes, ascending.
     [[nodiscard]] std::vector<Spike> spikes() const
     {
         std::vector<Spike> all;
@@ -73,13 +77,16 @@ class Blocks {
     }
 
   private:
-    /// Squared lengths around a block.
+    /// The surroundings of a block. Lengths are squared.
     struct Around {
         Index n_vertices = 0;
         /// The number of vertices of the largest block beside it.
         Index n_beside = 0;
+        /// The shortest edge that leaves the block.
         double shortest = std::numeric_limits<double>::infinity();
+        /// The longest edge within another block, of all faces with a corner in this one.
         double longest_of_others = 0.0;
+        /// The box around the vertices at the other ends of edges that leave the block.
         Eigen::AlignedBox3d neighbours = {};
 
         [[nodiscard]] bool is_spike() const
@@ -90,7 +97,8 @@ class Blocks {
         }
     };
 
-    void look_at(std::span<const Index> corners)
+    /// Adds the edges of a face to the surroundings of its blocks.
+    void measure(std::span<const Index> corners)
     {
         if (std::ranges::all_of(corners, [&](Index v) { return block_of_[v] == block_of_[corners[0]]; }))
             return;
@@ -98,7 +106,7 @@ class Blocks {
             const double squared = squared_length(positions_, v, w);
             for (const auto& [from, to] : {std::pair(v, w), std::pair(w, v)})
                 if (block_of_[from] != block_of_[to])
-                    leave(block_of_[from], to, squared);
+                    add_leaving(block_of_[from], to, squared);
             for (const Index other : corners)
                 if (block_of_[v] == block_of_[w] && block_of_[other] != block_of_[v])
                     around_[block_of_[other]].longest_of_others =
@@ -106,7 +114,9 @@ class Blocks {
         });
     }
 
-    void leave(Index block, Index to, double squared)
+    /// Adds an edge that leaves a block.
+    /// @param to the vertex at its other end.
+    void add_leaving(Index block, Index to, double squared)
     {
         Around& around = around_[block];
         around.shortest = std::min(around.shortest, squared);
@@ -158,6 +168,7 @@ Points without_spikes(const PolygonMesh& mesh, const Topology& topology, const s
     for (const Spike& spike : spikes)
         left.push_back(spike.vertex);
     while (!left.empty()) {
+        // All means of a round are taken before vertices move, so that their order does not matter.
         std::vector<Index> next;
         Points means(static_cast<Eigen::Index>(left.size()), 3);
         std::vector<Index> done;

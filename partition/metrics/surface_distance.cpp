@@ -15,9 +15,10 @@ namespace seamflow {
 
 namespace {
 
+/// Stands for no point: infinitely far away.
 const Point nowhere = Point::Constant(std::numeric_limits<double>::infinity());
 
-/// The point of the plane of the triangle that is nearest to the origin; nothing if it lies outside the triangle.
+/// The point of the plane of the triangle that is nearest to the origin; `nowhere` if it lies outside the triangle.
 Point foot_inside(const Point& a, const Point& b, const Point& c)
 {
     const Point u = b - a;
@@ -95,6 +96,7 @@ Box box_of(const TriangleCorners& t)
 }
 
 /// The triangles in an order that keeps neighbours together.
+/// @throws InputError for a mesh without faces.
 std::vector<TriangleCorners> triangles_of(const PolygonMesh& surface, const Executor& exec)
 {
     if (surface.n_faces() == 0)
@@ -151,6 +153,7 @@ class SurfaceDistance::Tree {
     {
     }
 
+    /// The distance of each point from the surface.
     [[nodiscard]] std::vector<double> distances(std::span<const Point> points, const Executor& exec) const
     {
         const std::vector<Index> order = order_of_neighbours(points, exec);
@@ -200,6 +203,7 @@ class SurfaceDistance::Tree {
         std::vector<Candidate> nodes;
     };
 
+    /// The result of the search for one point.
     struct Answer {
         double distance;
         /// The number of candidates that were examined.
@@ -217,7 +221,8 @@ class SurfaceDistance::Tree {
     BoxTree tree_;
 };
 
-/// @param closest in: the triangle to begin with; out: the closest triangle.
+/// The distance of point p from the surface.
+/// @param candidates to search. @param closest in: the triangle to begin with; out: the closest triangle.
 SurfaceDistance::Tree::Answer SurfaceDistance::Tree::distance(const Point& p, const Candidates& candidates,
                                                               Index& closest) const
 {
@@ -267,6 +272,8 @@ void SurfaceDistance::Tree::add_within_reach(BoxTree::Node node, Candidates& fou
         found.nodes.push_back({std::sqrt(squared), node});
 }
 
+/// The candidates of a group of points, found among the nodes below the candidates of a larger group.
+/// @param closest in: the triangle to begin with; out: the triangle closest to the centre of the group.
 SurfaceDistance::Tree::Candidates SurfaceDistance::Tree::narrowed(std::span<const Point> points,
                                                                   std::span<const Index> group,
                                                                   const Candidates& candidates, Index& closest) const
@@ -288,8 +295,8 @@ SurfaceDistance::Tree::Candidates SurfaceDistance::Tree::narrowed(std::span<cons
 }
 
 /// Measures point by point, each search beginning with the closest triangle of the previous point, as long as this is
-/// fast. If it is slow, because many triangles are about as far away, halves of the group are searched first for the
-/// triangles within reach of all their points.
+/// fast. If it is slow, because many triangles are about as far away, the rest of the group is divided into halves, and
+/// the nodes within reach of each half are found first.
 void SurfaceDistance::Tree::measure(std::span<const Point> points, std::span<const Index> group,
                                     const Candidates& candidates, Index& closest, std::vector<double>& distances) const
 {

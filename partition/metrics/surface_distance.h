@@ -6,7 +6,6 @@
 #include "partition/executor.h"
 #include "partition/metrics/length_statistics.h"
 #include "partition/polygon_mesh.h"
-#include "partition/vector_area.h"
 
 namespace seamflow {
 

@@ -26,7 +26,7 @@ struct Estimate {
     [[nodiscard]] bool has_sign() const { return is_positive() || is_negative(); }
 };
 
-/// A scalar product. If products overflow, the result can be anything.
+/// A scalar product. If products overflow, the bound of its error is infinite.
 Estimate dot(const Point& d, const Point& p)
 {
     constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -61,6 +61,7 @@ struct Span {
     }
 };
 
+/// Whether the triangles have no value along an axis in common, despite rounding.
 bool separates(const Point& axis, const TriangleCorners& a, const TriangleCorners& b)
 {
     const Span of_a(axis, a);

@@ -22,15 +22,17 @@ enum class Quality {
     None,
 };
 
-/// A corner that could be cut off. Ears are compared by their priority.
+/// A corner that could be cut off. The smallest ear is cut off first: by quality, then by diagonal, then by number.
 struct Ear {
     Quality quality = Quality::None;
+    /// The squared length of the diagonal.
     double diagonal = std::numeric_limits<double>::infinity();
     Index vertex = 0;
 
     friend auto operator<=>(const Ear&, const Ear&) = default;
 };
 
+/// Twice the area of triangle abc, positive if the path from a by b to c turns left.
 double turn(const Point2& a, const Point2& b, const Point2& c)
 {
     const Point2 u = b - a;
@@ -63,6 +65,7 @@ class EarClipper {
     std::vector<Ear> ears_;
 };
 
+/// Projects the corners onto a plane normal to the vector area.
 EarClipper::EarClipper(std::span<const Index> corners, const Points& positions)
     : corners_(corners)
     , positions_(positions)
@@ -88,18 +91,21 @@ bool EarClipper::is_empty(const Point2& a, const Point2& b, const Point2& c) con
     });
 }
 
+/// The quality of the ear at k.
 Quality EarClipper::quality_of(std::size_t k) const
 {
     const Point2& a = flat(before(k));
     const Point2& b = flat(k);
     const Point2& c = flat(after(k));
     const double turning = turn(a, b, c);
+    // The largest sine of a turn that may be rounding.
     constexpr double flatness = 1e-12;
     if (std::abs(turning) <= flatness * (b - a).norm() * (c - b).norm())
         return Quality::Flat;
     return turning > 0.0 && is_empty(a, b, c) ? Quality::Clean : Quality::None;
 }
 
+/// Sets the ear at k.
 void EarClipper::examine(std::size_t k)
 {
     const Point diagonal = positions_.row(vertex(before(k))) - positions_.row(vertex(after(k)));
@@ -117,6 +123,7 @@ void EarClipper::examine_around(std::size_t k, Quality quality)
         examine(other);
 }
 
+/// Cuts off ears until three corners are left, and appends all triangles.
 void EarClipper::run(std::vector<Triangle>& triangles)
 {
     for (std::size_t k = 0; left_.size() > 3 && k < left_.size(); ++k)

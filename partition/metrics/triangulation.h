@@ -36,6 +36,7 @@ struct CentreFans {
     std::vector<Index> faces;
 };
 
+/// Divides the faces of a mesh into triangles, see CentreFans.
 /// @param positions #V by 3, not necessarily those of the mesh.
 CentreFans fans_around_centres(const PolygonMesh& mesh, const Points& positions);
 

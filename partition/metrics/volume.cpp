@@ -20,6 +20,7 @@ XXH64_hash_t hash_of_half_edge(Index from, Index to)
     return from < to ? hash : XXH64_hash_t{0} - hash;
 }
 
+/// The sum of the hashes of the half-edges of a face.
 XXH64_hash_t hash_of_face(std::span<const Index> corners)
 {
     XXH64_hash_t of_face = 0;

@@ -12,7 +12,9 @@ namespace seamflow {
 
 namespace {
 
+/// In component_of_: the face is in no loose component.
 constexpr Index settled = -1;
+/// In component_of_: the face is in a suspect part, and its component is not known yet.
 constexpr Index unvisited = -2;
 
 /// The loose components of the suspect parts, and the procedure that joins them.
@@ -38,18 +40,20 @@ class LooseComponents {
     const PolygonMesh& mesh_;
     const Topology& topology_;
     std::vector<Index>& labels_;
-    /// #F: the face's loose component, or `settled`.
+    /// #F: the face's loose component, `settled` or `unvisited`.
     std::vector<Index> component_of_;
     IndexLists components_;
+    /// One entry per loose component: whether it is or was in the queue.
     std::vector<bool> queued_;
+    /// The loose components that have a settled face beside them, in the order in which they are joined.
     std::vector<Index> queue_;
-    /// Scratch: one entry per label, zero between uses.
+    /// Scratch: one entry per label, zero between uses; and the labels that are not zero.
     std::vector<double> shared_length_;
     std::vector<Index> candidates_;
 };
 
 /// Appends the component of face f within its part; its faces become settled. Reads `component_of_` only for faces of
-/// this part.
+/// this part, so that parts can be searched at once.
 void LooseComponents::collect_component(Index f, IndexLists& components)
 {
     component_of_[f] = settled;
@@ -82,6 +86,7 @@ void LooseComponents::keep_loose_components(const IndexLists& components)
     }
 }
 
+/// Finds the components of each suspect part, and keeps all but its largest as loose.
 void LooseComponents::find(const std::vector<bool>& suspects, const Executor& exec)
 {
     component_of_.assign(labels_.size(), settled);
@@ -99,7 +104,8 @@ void LooseComponents::find(const std::vector<bool>& suspects, const Executor& ex
         if (n_faces[label] == 0)
             return;
         collect_component(lowest[label], found[label]);
-        if (found[label].values.size() == n_faces[label])
+        const bool is_connected = found[label].values.size() == n_faces[label];
+        if (is_connected)
             found[label] = {};
     });
     const auto is_left = [&](Index f) { return component_of_[f] == unvisited; };
@@ -143,7 +149,8 @@ Index LooseComponents::best_neighbour(Index component)
     return best;
 }
 
-/// Joins the loose components, ring by ring around the settled parts.
+/// Joins the loose components to parts, ring by ring around the settled faces.
+/// @returns the faces that changed their label.
 std::vector<Index> LooseComponents::join()
 {
     std::vector<Index> moved;

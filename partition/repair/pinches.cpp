@@ -17,6 +17,7 @@ Index excess_runs_at_interior(const PolygonMesh& mesh, const Topology& topology,
 {
     const auto label_of = [&](Index halfedge) { return labels[topology.face_of[halfedge]]; };
     const auto corners = topology.corners_at(v);
+    // Twice the number of edges at v between two faces of one part.
     std::size_t n_half_joints = 0;
     for (const Index corner : corners)
         for (const Index spoke : {corner, topology.previous(mesh, corner)})
@@ -31,7 +32,8 @@ Index excess_runs_at_interior(const PolygonMesh& mesh, const Topology& topology,
     return static_cast<Index>(n_runs - around.size());
 }
 
-/// Follows a chain of merged labels to its end.
+/// The label into which a label has finally been merged. Halves the chain of labels between them.
+/// @param parent the label into which each label was merged; itself if it was not.
 Index merged_into(std::vector<Index>& parent, Index label)
 {
     while (parent[label] != label) {
@@ -65,6 +67,7 @@ void PinchMender::count_faces(const Executor& exec)
         [](Index) { return 1; });
 }
 
+/// Sets runs_.
 void PinchMender::find_runs(const Fan& fan)
 {
     runs_.clear();
@@ -175,6 +178,7 @@ void PinchMender::propose_giving(const Fan& fan)
         propose(fan, smallest, smallest + 1, runs_[(smallest + n - 1) % n].label);
 }
 
+/// Moves a face to another part, and updates n_faces_.
 void PinchMender::set_label(Index f, Index label)
 {
     --n_faces_[labels_[f]];
@@ -182,6 +186,7 @@ void PinchMender::set_label(Index f, Index label)
     labels_[f] = label;
 }
 
+/// The number of pinches at the vertices of the faces.
 Index PinchMender::pinches_around(const std::vector<Index>& faces)
 {
     nearby_.clear();

@@ -14,7 +14,8 @@ namespace seamflow {
 /// @param labels #F.
 bool may_be_pinched(const PolygonMesh& mesh, const Topology& topology, const std::vector<Index>& labels, Index v);
 
-/// Finds and mends pinched vertices: those at which the faces of one part form several runs within one fan of the mesh.
+/// Finds and mends pinched vertices: vertices at which the faces of one part form several runs within one fan of the
+/// mesh.
 class PinchMender {
   public:
     /// @param mesh, topology, labels must outlive the object. @param n_labels all labels are below it.
@@ -28,8 +29,8 @@ class PinchMender {
     Index pinches_at(Index v);
 
     /// Moves faces at v to other parts until v is not pinched, in small steps. Each step is the best of a few
-    /// candidates, by the number of parts that it empties, the pinches that it leaves nearby, the number of faces moved
-    /// and the length of the cut.
+    /// candidates, by the number of parts that it empties, the change of the number of pinches nearby, the number of
+    /// faces moved and the change of the length of the cut.
     /// @param moved gets the faces that changed their label, @param labels_before the labels they had.
     void mend(Index v, std::vector<Index>& moved, std::vector<Index>& labels_before);
 
@@ -44,15 +45,19 @@ class PinchMender {
         std::size_t begin;
         std::size_t count;
     };
+    /// Faces that get another label.
     struct Move {
         std::vector<Index> faces;
         Index label;
     };
     /// The cost of a move, most important first; compared in this order.
     struct Cost {
+        /// The number of parts that lose their last face.
         Index parts_used_up;
+        /// The change of the number of pinches at the vertices of the moved faces.
         Index pinches;
         std::size_t faces;
+        /// The change of the length of the edges between parts.
         double cut_length;
         friend auto operator<=>(const Cost&, const Cost&) = default;
     };
@@ -73,12 +78,15 @@ class PinchMender {
     std::vector<Index>& labels_;
     /// One entry per label: its number of faces.
     std::vector<std::int64_t> n_faces_;
+    /// One entry per label: the number of the last count_excess_runs that met it; and the number of the present one.
     std::vector<std::size_t> met_in_count_;
     std::size_t count_ = 0;
     /// The runs of the fan examined last, in order; and the label that occurs in several runs.
     std::vector<Run> runs_;
     Index pinched_label_ = -1;
+    /// The candidates for the present step.
     std::vector<Move> moves_;
+    /// Scratch: vertices, and labels of faces before a move.
     std::vector<Index> nearby_;
     std::vector<Index> labels_before_;
 };

@@ -30,6 +30,7 @@ class VertexQueue {
             queued_[v] = true;
     }
 
+    /// Adds the vertices of the faces that are not in the queue.
     void add_corners_of(const PolygonMesh& mesh, const std::vector<Index>& faces)
     {
         for (const Index f : faces)
@@ -61,6 +62,7 @@ struct Suspects {
     std::vector<Index> vertices;
 };
 
+/// All parts, and all vertices that may be pinched.
 Suspects suspect_all(const PolygonMesh& mesh, const Topology& topology, Index n_labels,
                      const std::vector<Index>& labels, const Executor& exec)
 {
@@ -70,6 +72,7 @@ Suspects suspect_all(const PolygonMesh& mesh, const Topology& topology, Index n_
     };
 }
 
+/// The suspected parts, and the vertices of suspected faces that may be pinched.
 Suspects suspects_of(const PolygonMesh& mesh, const Topology& topology, const SuspectedDefects& suspected,
                      const std::vector<Index>& labels, const Executor& exec)
 {
@@ -123,7 +126,8 @@ std::unique_ptr<Index[]> copy_of(const std::vector<Index>& labels, const Executo
     return copy;
 }
 
-/// @param suspects with one entry per label, each label within one component.
+/// Repairs a cut and closes gaps in its labels.
+/// @param suspects with one entry per label, each label within one component of the mesh.
 /// @param before #F, the initial labels.
 /// @returns the number of faces whose labels differ from the initial ones.
 Index mend(const PolygonMesh& mesh, const Topology& topology, Suspects suspects, const Index* before,

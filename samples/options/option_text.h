@@ -11,7 +11,6 @@
 #include <utility>
 #include <vector>
 
-#include "engine/options/amount.h"
 #include "engine/options/motion_options.h"
 #include "engine/options/option_names.h"
 #include "engine/options/option_traits.h"

@@ -81,6 +81,8 @@ Point AdaptedRobin::right_hand_side(Index i, const Points& positions, const Poin
 
 bool AdaptedRobin::is_well_defined(Index i, const Points& positions) const
 {
+    // The largest cosine of the angle between the conormals; and the least distance between the two neighbours along Γ,
+    // in mean edge lengths.
     constexpr double most_aligned = -0.5;
     constexpr double shortest_tangent = 0.3;
     if (!conormals_[i])

@@ -22,8 +22,8 @@ enum class RightSide {
 /// \f[ (I + dt\, (p\, \partial_{n_A} + q\, \partial_t))\, V_A^{k+1} = (I - dt\, p\, \partial_{n_B})\, V_B , \f]
 ///
 /// with A the sub-mesh and B the complement fan, each with its own outward conormal, α and ‖N‖ from Vᵏ. In the paper
-/// V_B is V_B^k. Where one of the two conormals does not exist, p counts as 0 and the vertex does not move. And the
-/// classical ones (see make_ventcell).
+/// V_B is V_B^k. Where one of the two conormals does not exist, p counts as 0 and the vertex does not move. With
+/// RightSide::OthersCopy, these are the classical conditions (see make_ventcell).
 class AdaptedRobin final : public TransmissionCondition {
   public:
     /// @param sub_mesh must outlive the condition. @param q at least 0, without dimension.
@@ -61,17 +61,17 @@ class AdaptedRobin final : public TransmissionCondition {
     std::vector<TangentialWeights> others_weights_;
 };
 
-/// The adapted Ventcell condition of the paper (eq. 24), with the tangential derivative along Γ, whose lengths are
-/// those of Vᵏ. Straightens Γ.
+/// The adapted Ventcell condition of the paper (eq. 24), with the tangential derivative along Γ, for the lengths of
+/// edges in Vᵏ. The condition straightens Γ.
 /// @param sub_mesh must outlive the condition.
 /// @param q not negative, without dimension.
 std::unique_ptr<TransmissionCondition> make_adapted_ventcell(const SubMesh& sub_mesh, double q = 0.0);
 
-/// The classical Ventcell condition (paper, eqs. 20 and 21): (I + dt (p ∂n + q ∂t)) V_A^{k+1} = (I + dt (p ∂n +
-/// q ∂t)) V_B, with V_B the other side's own copy of Γ and what lies beyond. n is A's outward conormal; on the right it
-/// is taken as the opposite of B's, so that a flat mesh stays as it is. The tangential derivative is that along either
-/// side's own copy of Γ, whose lengths are those of Vᵏ. Otherwise as AdaptedRobin; with q = 0 the classical Robin
-/// condition.
+/// The classical Ventcell condition (paper, eqs. 20 and 21): (I + dt (p ∂n + q ∂t)) V_A^{k+1} = (I + dt (p ∂n + q ∂t))
+/// V_B, with V_B the other side's own copy of Γ and the vertices beyond. n is A's outward conormal; on the right-hand
+/// side, the opposite of B's outward conormal replaces it, so that a flat mesh stays as it is. The tangential
+/// derivative is taken along either side's own copy of Γ, for the lengths of edges in Vᵏ. Otherwise as AdaptedRobin;
+/// with q = 0 the classical Robin condition.
 /// @param sub_mesh must outlive the condition.
 /// @param q not negative, without dimension.
 std::unique_ptr<TransmissionCondition> make_ventcell(const SubMesh& sub_mesh, double q = 0.0);

@@ -8,11 +8,12 @@
 
 namespace seamflow {
 
-/// The stencil of a derivative at each vertex of a sub-mesh's Γ: the vertices of its own faces there.
+/// The stencil of a derivative at each vertex of a sub-mesh's Γ: the vertices of the sub-mesh's own faces at this
+/// vertex.
 struct DerivativeStencils {
     /// Per vertex of Γ: the vertices of the stencil, ascending.
     IndexLists columns;
-    /// Per vertex of Γ: the indices in `columns` of the corners of its own faces, face after face.
+    /// Per vertex of Γ: the indices in `columns` of the corners of the own faces at the vertex, face after face.
     IndexLists corner_columns;
     /// Per vertex of Γ: the indices in `columns` of the vertex itself and of its two neighbours along the boundary.
     std::vector<Index> centre;
@@ -37,7 +38,7 @@ struct Conormal {
 /// @param positions #local by 3, the halo included.
 std::optional<Conormal> own_conormal(const SubMesh& sub_mesh, Index i, const Points& positions);
 
-/// The conormal of the other side: that of the complement fan.
+/// The conormal of the other side, which is the conormal of the complement fan.
 std::optional<Conormal> complement_conormal(const SubMesh& sub_mesh, Index i, const Points& positions);
 
 /// The row of ∂n at the i-th vertex of Γ, linear in the positions because α and ‖N‖ are constants: (Σ_f (e_i - Σ_{k∈f}

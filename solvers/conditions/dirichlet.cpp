@@ -4,6 +4,7 @@ namespace seamflow {
 
 namespace {
 
+/// Rows of the identity (see make_dirichlet).
 class Dirichlet final : public TransmissionCondition {
   public:
     explicit Dirichlet(const SubMesh& sub_mesh)

@@ -22,6 +22,7 @@ enum class RowKind : std::uint8_t {
     Robin,
 };
 
+/// See make_predicted_side.
 class PredictedSide final : public TransmissionCondition {
   public:
     PredictedSide(const SubMesh& sub_mesh, const ScaledLaplacian& laplacian, const Points* stiffness_at)
@@ -94,6 +95,8 @@ class PredictedSide final : public TransmissionCondition {
         columns_.close();
     }
 
+    /// The kind of row i for the geometry of this step: with a response of the other side wherever the Laplacian allows
+    /// it and its diagonal stays at least 0.
     [[nodiscard]] RowKind choose_kind(Index i, const Points& positions) const
     {
         if (!responds_[i])
@@ -116,7 +119,7 @@ class PredictedSide final : public TransmissionCondition {
         return sum;
     }
 
-    /// Stores ρ of the vertices beyond Γ in all rows where the other side responds.
+    /// Fills responses_: ρ of the vertices beyond Γ in all rows where the other side responds, 0 elsewhere.
     void keep_responses(const Points& positions)
     {
         responses_.assign(star_.columns().values.size(), 0.0);

@@ -23,6 +23,8 @@ struct EdgeLists {
     std::vector<double> lengths;
 };
 
+/// The edges of all faces of a sub-mesh.
+/// @param positions #local by 3.
 EdgeLists list_edges(const SubMesh& sub_mesh, const Points& positions)
 {
     EdgeLists lists;

@@ -33,6 +33,7 @@ class StarLaplacian {
     }
 
   private:
+    /// Fills columns_ and slots_ from the entries of the assembler.
     void make_slots(const SubMeshInterface& interface);
 
     /// The faces that touch Γ, with local vertices.
@@ -40,8 +41,9 @@ class StarLaplacian {
     Topology topology_;
     std::unique_ptr<LaplacianAssembler> assembler_;
     IndexLists columns_;
+    /// Per entry of the assembler: the index in values_ to which its coefficient is added.
     std::vector<Index> slots_;
-    /// One value per entry of columns_, and a last one that is never read.
+    /// One value per entry of columns_, and a last one that is never read: it collects the entries of rows off Γ.
     std::vector<double> values_;
 };
 

@@ -18,6 +18,7 @@ class ChebyshevExpansion {
   public:
     explicit ChebyshevExpansion(Index n_terms);
 
+    /// @returns one coefficient per term.
     [[nodiscard]] Eigen::VectorXd coefficients(const std::function<double(double)>& f) const;
 
   private:

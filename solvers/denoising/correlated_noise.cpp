@@ -35,9 +35,11 @@ constexpr double least_share_of_noise = 0.25;
 constexpr double most_share_of_noise = 16.0;
 
 /// The covariances of the residuals of local fits on a regular mesh, at some distances along a line.
-/// @param covariance the covariance of the heights before the fits, as a function of the distance in edges.
+/// @param lags the distances, in edges. @param covariance the covariance of the heights before the fits, as a function
+/// of the distance in edges.
 template <class Covariance>
-std::vector<double> left_over(const LocalFits::Kernel& kernel, std::span<const double> lags, Covariance&& covariance)
+std::vector<double> residual_covariances(const LocalFits::Kernel& kernel, std::span<const double> lags,
+                                         Covariance&& covariance)
 {
     const auto between = [&](const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
         return covariance((to - from).norm());
@@ -58,17 +60,20 @@ std::vector<double> left_over(const LocalFits::Kernel& kernel, std::span<const d
     return result;
 }
 
+/// The Gaussian correlation over a length at a distance, both in edges.
 double gaussian_at(double distance, double length)
 {
     return std::exp(-distance * distance / (4.0 * length * length));
 }
 
+/// The correlation of white noise at a distance in edges: 1 within the first lag, 0 beyond.
 double white_at(double distance)
 {
     return distance < 0.5 * width_of_lags ? 1.0 : 0.0;
 }
 
-/// White noise, and correlated noise with a Gaussian correlation over a length.
+/// White noise, and correlated noise with a Gaussian correlation over a length in edges. Both variances are in squared
+/// edges.
 struct TwoNoises {
     double white = 0.0;
     double correlated = 0.0;
@@ -81,19 +86,20 @@ struct TwoNoises {
 };
 
 /// The noise that explains covariances best, by least squares.
-/// @param seen the covariances of the residuals of the widest fits, at the lags.
-TwoNoises noise_with(const LocalFits::Kernel& kernel, std::span<const double> lags, std::span<const double> seen)
+/// @param kernel of the widest fits. @param lags distances, in edges. @param seen the covariances of the residuals of
+/// these fits at the lags.
+TwoNoises fitted_noise(const LocalFits::Kernel& kernel, std::span<const double> lags, std::span<const double> seen)
 {
     using Column = Eigen::Map<const Eigen::ArrayXd>;
     const auto size = static_cast<Eigen::Index>(lags.size());
     const Column y(seen.data(), size);
-    const std::vector<double> of_white = left_over(kernel, lags, white_at);
+    const std::vector<double> of_white = residual_covariances(kernel, lags, white_at);
     const Column w(of_white.data(), size);
     TwoNoises best;
     double least = std::numeric_limits<double>::infinity();
     for (const double length : correlation_lengths) {
         const std::vector<double> of_correlated =
-            left_over(kernel, lags, [&](double d) { return gaussian_at(d, length); });
+            residual_covariances(kernel, lags, [&](double d) { return gaussian_at(d, length); });
         const Column a(of_correlated.data(), size);
         const double ww = (w * w).sum();
         const double aa = (a * a).sum();
@@ -101,6 +107,7 @@ TwoNoises noise_with(const LocalFits::Kernel& kernel, std::span<const double> la
         const double determinant = ww * aa - wa * wa;
         TwoNoises noise{((w * y).sum() * aa - (a * y).sum() * wa) / determinant,
                         ((a * y).sum() * ww - (w * y).sum() * wa) / determinant, length};
+        // Variances are at least 0: if least squares makes one of them negative, the other noise alone is fitted.
         if (noise.white < 0.0)
             noise = {0.0, (a * y).sum() / aa, length};
         if (noise.correlated < 0.0)
@@ -135,7 +142,7 @@ CorrelatedNoise::CorrelatedNoise(const PolygonMesh& mesh, const Topology& topolo
     }
     heights_ = LocalFits(averages.neighbours(), before, normals_).heights(radii, exec);
     for_each(exec, mesh.n_vertices(), [&](Index v) { heights_.row(v) /= edge_at(v); });
-    find_places(exec);
+    find_calm_half(exec);
     find_covariances(exec);
 }
 
@@ -164,7 +171,7 @@ Points CorrelatedNoise::normals_of(const Points& positions, int rounds, const Ex
     return normals;
 }
 
-void CorrelatedNoise::find_places(const Executor& exec)
+void CorrelatedNoise::find_calm_half(const Executor& exec)
 {
     VertexAverages::Rows near(mesh_.n_faces(), n_radii);
     squares_.resize(mesh_.n_faces(), n_radii);
@@ -233,7 +240,7 @@ void CorrelatedNoise::find_covariances(const Executor& exec)
             lags.push_back(width_of_lags * static_cast<double>(k));
             seen.push_back(total[k] / number);
         }
-    const TwoNoises noise = lags.empty() ? TwoNoises{} : noise_with(LocalFits::kernel(radii.back()), lags, seen);
+    const TwoNoises noise = lags.empty() ? TwoNoises{} : fitted_noise(LocalFits::kernel(radii.back()), lags, seen);
     is_bounded_ = noise.length < correlation_lengths.back() && noise.correlated > least_correlated * noise.white &&
                   noise.correlated < most_correlated * noise.white;
     for (std::size_t k = 0; k < n_lags; ++k)
@@ -281,6 +288,7 @@ Points CorrelatedNoise::without(const Executor& exec) const
         const double share = std::clamp(squares[0] / calm_squares_[0], least_share_of_noise, most_share_of_noise);
         const OfRadii risks =
             (1.0 - part_of_calm) / share * squares + part_of_calm * calm_squares_ + 2.0 * shared_ - variance;
+        // Radii with nearly the least risk are mixed, so that the result does not jump from one radius to another.
         OfRadii weights = ((risks.minCoeff() - risks) / (risk_temperature * variance)).exp();
         weights /= weights.sum();
         of_vertices[v] = (weights * Eigen::Map<const OfRadii>(radii.data())).sum();

@@ -19,12 +19,13 @@ namespace seamflow {
 
 /// Correlated noise, which is similar at neighbouring vertices, and its removal by local fits (see LocalFits).
 ///
-/// The residuals of the widest fits, on the calmer half of the surface, have the covariances of the noise, less what
-/// such fits take of the noise, which is known. White noise and noise with a Gaussian correlation are sought that
+/// The residuals of the widest fits, on the calmer half of the surface, have the covariances of the noise, reduced by
+/// the share that such fits remove, which is known. White noise and noise with a Gaussian correlation are sought that
 /// together explain these covariances. From this noise and the residuals follows the risk of fits of any radius, their
 /// expected squared distance from the true surface (Mallows' Cp, with the terms of Altman, Kernel smoothing of data
-/// with correlated errors, 1990; Stein, 1981). Each place gets the radii with the least risk there. Then all of this is
-/// done once more on the result. Bits do not depend on how loops are run.
+/// with correlated errors, 1990; Stein, 1981). At each vertex, the fits of all radii are mixed, those with the least
+/// risk nearly alone. The result is then fitted once more with the mean of these radii. Bits do not depend on how loops
+/// are run.
 class CorrelatedNoise {
   public:
     /// @param topology twins are not used. @param averages of the mesh. @param signs #F: see face_signs. All of these
@@ -54,12 +55,18 @@ class CorrelatedNoise {
     /// The number of distances at which covariances are measured. Lag k has the pairs whose distance is within a
     /// quarter of an edge of k / 2 edges.
     static constexpr std::size_t n_lags = 9;
+    /// One number per radius, and one per lag.
     using OfRadii = Eigen::Array<double, 1, n_radii>;
     using OfLags = Eigen::Array<double, 1, n_lags>;
 
+    /// #V by 3: unit normals of the vertices, averaged over some rounds; 0 where there is none.
     [[nodiscard]] Points normals_of(const Points& positions, int rounds, const Executor& exec) const;
+    /// The mean length of the edges around v; 1 if it is 0.
     [[nodiscard]] double edge_at(Index v) const { return edges_[v] > 0.0 ? edges_[v] : 1.0; }
-    void find_places(const Executor& exec);
+    /// Averages the squared heights around each face (squares_), and finds the calmer half of the surface (is_calm_,
+    /// calm_squares_).
+    void find_calm_half(const Executor& exec);
+    /// Finds the noise that explains the residuals (covariances_, shared_, is_bounded_).
     void find_covariances(const Executor& exec);
 
     const PolygonMesh& mesh_;
@@ -76,6 +83,7 @@ class CorrelatedNoise {
     VertexAverages::Rows squares_;
     /// #V: 1 in the calmer half of the surface.
     std::vector<std::uint8_t> is_calm_;
+    /// Per radius, the mean squared height on the calmer half of the surface, in squared edges.
     OfRadii calm_squares_;
     /// The covariances of the noise at the lags, in squared edges.
     OfLags covariances_;

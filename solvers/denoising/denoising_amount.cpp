@@ -36,14 +36,18 @@ constexpr double for_normals = 1.2;
 /// A filter is used only if its risk is below this fraction of σ², the risk of the unchanged mesh.
 constexpr double clear_gain = 0.9;
 
+/// The column of the random vector in the signals.
 constexpr int probe_column = 3;
 
+/// The value of the filter (1 + (t L)³)⁻¹ at an eigenvalue of L. @param amount t.
 double filter_of_order_three(double amount, double eigenvalue)
 {
     const double scaled = amount * eigenvalue;
     return 1.0 / (1.0 + scaled * scaled * scaled);
 }
 
+/// The amount at a position in the list of amounts, which are in geometric progression.
+/// @param place from 0 to n_amounts - 1, need not be whole.
 double amount_at(double place)
 {
     return smallest_amount * std::pow(largest_amount / smallest_amount, place / (n_amounts - 1));
@@ -105,7 +109,7 @@ class Risks {
     }
 
     /// The last position up to the given one where the mean displacement is at most the noise.
-    [[nodiscard]] double within(double noise, double place) const
+    [[nodiscard]] double last_place_within(double noise, double place) const
     {
         constexpr int n_halvings = 40;
         double allowed = 0.0;
@@ -171,19 +175,21 @@ class FilteredSample {
     }
 
   private:
+    /// The Chebyshev coefficients of the filter with an amount.
     [[nodiscard]] Eigen::VectorXd coefficients(double amount) const
     {
         return expansion_.coefficients(
             [amount](double eigenvalue) { return filter_of_order_three(amount, eigenvalue); });
     }
 
-    /// Tⱼ X - (-1)ʲ X at a vertex, which is 0 if X is constant: filters leave constants unchanged, whatever their size
-    /// and however few terms the filters have.
-    [[nodiscard]] Eigen::RowVector4d change(Index j, const Signals& term, Index place) const
+    /// Tⱼ X - (-1)ʲ X at vertex i of the sample, which is 0 if X is constant: filters leave constants unchanged,
+    /// whatever their size and however few terms the filters have.
+    [[nodiscard]] Eigen::RowVector4d change(Index j, const Signals& term, Index i) const
     {
-        return term.row(place) + (j % 2 == 0 ? -1.0 : 1.0) * signals_.row(place);
+        return term.row(i) + (j % 2 == 0 ? -1.0 : 1.0) * signals_.row(i);
     }
 
+    /// Sets positions_ to the positions filtered with these Chebyshev coefficients.
     void filter_positions(const Eigen::VectorXd& coefficients)
     {
         Signals filtered = signals_;
@@ -197,7 +203,7 @@ class FilteredSample {
         for_each(exec_, n, [&](Index i) { positions_.row(sample_.vertices[i]) = filtered.row(i).head<3>(); });
     }
 
-    /// The products of all columns with each other, averaged.
+    /// n_terms by n_terms: the scalar products of all columns with each other, summed over the rows.
     [[nodiscard]] Eigen::MatrixXd products(const Eigen::MatrixXd& columns) const
     {
         const auto n = static_cast<Index>(columns.rows());
@@ -223,12 +229,13 @@ class FilteredSample {
     const Executor& exec_;
 };
 
-DenoisingAmount choose(const Risks& risks, double noise)
+/// The amount of least regret, enlarged for the sake of normals, at which vertices move by no more than the noise.
+DenoisingAmount best_amount(const Risks& risks, double noise)
 {
     const double nearest = risks.place_of_least_regret(least_noise * noise, most_noise * noise);
     const double ratio = largest_amount / smallest_amount;
     const double more = std::log(for_normals) / std::log(ratio) * (n_amounts - 1);
-    const double place = risks.within(noise, std::min<double>(nearest + more, n_amounts - 1));
+    const double place = risks.last_place_within(noise, std::min<double>(nearest + more, n_amounts - 1));
     return {amount_at(place), std::max(risks.risk(place, noise), 0.0), std::sqrt(risks.squared_move(place))};
 }
 
@@ -244,7 +251,7 @@ DenoisingAmount denoising_amount(const PolygonMesh& mesh, const Topology& topolo
         return none;
     DenoisingAmount found{first_amount, 0.0, 0.0};
     for (int round = 0; round < n_rounds; ++round)
-        found = choose(sample.risks(found.amount), noise);
+        found = best_amount(sample.risks(found.amount), noise);
     return found.risk < clear_gain * noise * noise && found.move <= noise ? found : none;
 }
 

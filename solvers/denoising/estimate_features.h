@@ -16,11 +16,11 @@ namespace seamflow {
 struct EstimateFeatures {
     using Rows = VertexAverages::Rows;
 
-    /// #F by 2 K - 1, for K estimates: logarithms of means over 6 rounds of VertexAverages::spread, and over 24 rounds.
+    /// #F by 2 K - 1, for K estimates: logarithms of means over 5 rounds of VertexAverages::spread, and over 23 rounds.
     Rows near;
     Rows around;
 
-    /// Replaces all features by those of these estimates.
+    /// Replaces all features by the features of these estimates.
     void measure(const NormalEstimates& estimates, const VertexAverages& averages, const Executor& exec = run_serially);
 };
 

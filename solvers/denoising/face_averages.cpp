@@ -164,6 +164,7 @@ void FaceAverages::average_far(const AverageWeights& weights, const FaceVectors&
 {
     // Golub and Varga, Chebyshev semi-iterative methods (1961): x⁺ = x⁻ + ω (x - x⁻ + r / d), where the eigenvalues of
     // the matrix lie between d - c and d + c.
+    // t of the equation, in which `last` is the largest eigenvalue and 1 the least.
     constexpr float reach = 40.0F;
     constexpr float least_eigenvalue_of_means = -0.5F;
     constexpr int rounds = 16;

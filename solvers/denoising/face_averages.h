@@ -30,9 +30,10 @@ struct AverageWeights {
 ///
 /// a is the area, b the mean area of a face and its neighbours, c the centroid, r the root mean square distance of the
 /// neighbours' centroids, and n a guide normal, where one is given. Small faces count less than the others around them,
-/// but where faces grow from row to row, as those of a globe towards its equator, means are not drawn to the larger
-/// ones: they would tilt. With a guide this is the joint bilateral filter of normals (Zheng et al., Bilateral normal
-/// filtering for mesh denoising, 2011). Several rounds reach further. Bits do not depend on how loops are run.
+/// but where faces grow from row to row, such as the faces of a globe towards its equator, means are not drawn to the
+/// larger faces, which would tilt them. With a guide this is the joint bilateral filter of normals (Zheng et al.,
+/// Bilateral normal filtering for mesh denoising, 2011). Several rounds reach further. Bits do not depend on how loops
+/// are run.
 class FaceAverages {
   public:
     /// Prepares the neighbours. `measure` must be called before anything is averaged.
@@ -40,7 +41,7 @@ class FaceAverages {
     /// the object.
     FaceAverages(const PolygonMesh& mesh, const Topology& topology, const Executor& exec = run_serially);
 
-    /// Sets areas and centroids to those at these positions, #V by 3.
+    /// Computes areas and centroids at these positions, #V by 3.
     void measure(const Points& positions, const Executor& exec = run_serially);
 
     /// The unit normals at these positions, on the same side of the surface where faces share an edge. A face without
@@ -74,8 +75,8 @@ class FaceAverages {
     void average_far(const AverageWeights& weights, const FaceVectors& vectors, FaceVectors& means,
                      std::array<FaceVectors, 2>& scratch, const Executor& exec = run_serially) const;
 
-    /// The mean over the patch whose vectors agree best, among those around the face and around each of its neighbours;
-    /// a patch is a face and its neighbours (Zhang et al., Guided mesh normal filtering, 2015).
+    /// The mean over the patch whose vectors agree best, among the patches around the face and around each of its
+    /// neighbours; a patch is a face and its neighbours (Zhang et al., Guided mesh normal filtering, 2015).
     void average_best_patch(const FaceVectors& vectors, FaceVectors& means, const Executor& exec = run_serially) const;
 
     /// #F: the roughness of the surface around each face: the mean squared chord between its vector and those of its

@@ -14,7 +14,7 @@ struct FilterSample {
     /// The numbers of the vertices in the mesh, ascending.
     std::vector<Index> vertices;
     /// For each vertex of the sample, its neighbours along edges, as indices in `vertices`. Vertices that do not move,
-    /// such as those at rims of patches, have none.
+    /// such as vertices at rims of patches, have no neighbours.
     IndexLists neighbours;
     /// The indices in `vertices` of vertices that move and are too far from rims of patches to be affected by them.
     std::vector<Index> measured;

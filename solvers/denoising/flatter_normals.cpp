@@ -31,19 +31,20 @@ constexpr Fading by_noise{0.2F, 0.15F};
 constexpr Fading by_bends{0.06F, 0.1F};
 constexpr double least_bend = 0.04;
 constexpr double largest_bend = 0.3;
-/// The share by how far the directions of patches are missed: by the mean squared chord between them and those of the
-/// noisy surface with flatter normals, over that with the estimates.
+/// The share by the misfit of flatter normals: the mean squared chord between the directions of patches of the noisy
+/// surface and of the same patches with flatter normals, over the same chord with the estimates.
 constexpr Fading by_misfit{1.15F, 1.3F};
 
 /// The rounds of bilateral means, and their σ (see FaceAverages).
 constexpr int flattening_rounds = 12;
 constexpr float flattening_sigma = 0.1F;
-/// The rounds of averages that make a patch, and the rounds over which all that is compared is averaged.
+/// The rounds of averages that make a patch, and the rounds over which the compared numbers are averaged.
 constexpr int patch_rounds = 4;
 constexpr int comparing_rounds = 16;
 
 using FaceRows = VertexAverages::Rows;
 
+/// The result of flattening estimated normals.
 struct FlatterNormals {
     /// #F by 3: of length 1, or 0 as the estimates.
     Points normals;
@@ -51,6 +52,7 @@ struct FlatterNormals {
     std::vector<float> bends;
 };
 
+/// Replaces unit vectors by their bilateral means, several times.
 void flatten(const FaceAverages& averages, FaceVectors& vectors, const Executor& exec)
 {
     FaceVectors means;
@@ -76,7 +78,9 @@ float bends_at(const PolygonMesh& mesh, const Topology& topology, const FaceVect
     return n_bends / static_cast<float>(mesh.face(f).size());
 }
 
-FlatterNormals flattened(const NoisySurface& surface, const Points& normals, const Executor& exec)
+/// The flatter normals of the whole surface, computed piece by piece.
+/// @param normals #F by 3: the estimates.
+FlatterNormals flatter_normals_of(const NoisySurface& surface, const Points& normals, const Executor& exec)
 {
     std::vector<Index> all(usize(surface.mesh.n_faces()));
     std::iota(all.begin(), all.end(), 0);
@@ -119,10 +123,11 @@ FaceRows areas_of_patches(const NoisySurface& surface, AreaOf&& area_of, const E
     return around;
 }
 
-/// #F by 3: what decides around each face: the fraction of bends; and the squared chords between the directions of
-/// patches and those of the noisy surface, with the estimated normals and with the flatter ones.
-FaceRows compared(const NoisySurface& surface, const Points& estimated, const FlatterNormals& flatter,
-                  const Executor& exec)
+/// #F by 3, averaged around each face: the fraction of bends; the squared chord between the direction of the noisy
+/// patch around a face (that of its vector area) and the direction of the same patch with the estimated normals; and
+/// the squared chord with the flatter normals.
+FaceRows comparison(const NoisySurface& surface, const Points& estimated, const FlatterNormals& flatter,
+                    const Executor& exec)
 {
     const Index n_faces = surface.mesh.n_faces();
     const auto noisy_area = [&](Index f) { return vector_area(surface.mesh.face(f), surface.positions); };
@@ -152,24 +157,24 @@ FaceRows compared(const NoisySurface& surface, const Points& estimated, const Fl
 bool take_flatter_normals(const NoisySurface& surface, DenoisedNormals& estimated, const Executor& exec)
 {
     const Index n_faces = surface.mesh.n_faces();
-    std::vector<float> parts(usize(n_faces), 0.0F);
+    std::vector<float> weights(usize(n_faces), 0.0F);
     for_each(exec, n_faces, [&](Index f) {
         if (std::ranges::any_of(surface.mesh.face(f), [&](Index v) { return surface.shares[v] > 0.0; }))
-            parts[f] = by_noise(estimated.noise[f]);
+            weights[f] = by_noise(estimated.noise[f]);
     });
-    const auto is_some = [](float part) { return part > 0.0F; };
-    if (std::ranges::none_of(parts, is_some))
+    const auto is_some = [](float weight) { return weight > 0.0F; };
+    if (std::ranges::none_of(weights, is_some))
         return false;
     Points& normals = estimated.normals;
-    const FlatterNormals flatter = flattened(surface, normals, exec);
-    const FaceRows around = compared(surface, normals, flatter, exec);
+    const FlatterNormals flatter = flatter_normals_of(surface, normals, exec);
+    const FaceRows around = comparison(surface, normals, flatter, exec);
     for_each(exec, n_faces, [&](Index f) {
         const float misfit = around(f, 1) > 0.0F ? around(f, 2) / around(f, 1) : by_misfit.zero_at;
-        parts[f] *= by_bends(around(f, 0)) * by_misfit(misfit);
-        if (parts[f] > 0.0F)
-            normals.row(f) = (normals.row(f) + parts[f] * (flatter.normals.row(f) - normals.row(f))).normalized();
+        weights[f] *= by_bends(around(f, 0)) * by_misfit(misfit);
+        if (weights[f] > 0.0F)
+            normals.row(f) = (normals.row(f) + weights[f] * (flatter.normals.row(f) - normals.row(f))).normalized();
     });
-    return std::ranges::any_of(parts, is_some);
+    return std::ranges::any_of(weights, is_some);
 }
 
 }  // namespace seamflow

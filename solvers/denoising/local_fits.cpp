@@ -37,8 +37,9 @@ double biweight(double squared)
 }
 
 /// Fits a polynomial at one vertex.
-/// @param nearest the vertex itself, then its neighbours by distance; the last one has no weight.
-/// @returns the height of the polynomial above the vertex.
+/// @param nearest squared distances and vertices: the vertex itself, then its neighbours by distance; the last one has
+/// no weight.
+/// @returns the height of the polynomial above the vertex; empty if there are too few vertices.
 std::optional<double> fit_quadratic(const Points& positions, const Points& normals,
                                     std::span<const std::pair<double, Index>> nearest)
 {
@@ -104,6 +105,7 @@ std::vector<double> LocalFits::heights_within(std::span<const double> radii, con
 
 std::size_t LocalFits::n_within(double radius)
 {
+    // A regular mesh of triangles with edges of length 1 has 2/√3 vertices per unit of area.
     return static_cast<std::size_t>(std::lround(2.0 * std::numbers::pi / std::numbers::sqrt3 * radius * radius));
 }
 

@@ -25,8 +25,8 @@ namespace {
 
 /// The most relaxation of vertices along the surface, as in fit_vertices.
 constexpr double most_relaxation = 0.1;
-/// The standard deviation of the noise over that of the motions. It is above 1 because some noise stays. Eight surfaces
-/// of the literature with noise of 0.2 to 0.47 mean edges had 1.03 to 1.065.
+/// The standard deviation of the noise over the standard deviation of the motions. It is above 1 because some noise
+/// stays. Eight surfaces of the literature with noise of 0.2 to 0.47 mean edges had 1.03 to 1.065.
 constexpr double noise_by_motion = 1.045;
 
 /// After much noise, one fit does not reach the wanted normals. Vertices are fitted again, at most so often, until the
@@ -44,8 +44,8 @@ constexpr int rounds_of_thinning = 6;
 /// The evidence on a mesh thinned once that proves noise where the whole mesh has Correlation::Possible. No clean
 /// surface with this had more than 2.5 (thinned twice: 0.9, see NoisyPlaces).
 constexpr float proof_by_thinned = 3.0F;
-/// Where places are doubtful, local fits are taken if their risk is below this, and the noise above this, in edges. Of
-/// reliefs under white noise, those with so little risk had 0.1 at most.
+/// Where places are doubtful, local fits are taken if their risk is below the first number and the deviation of the
+/// noise above the second, in edges. Reliefs under white noise with so little risk had a deviation of 0.1 at most.
 constexpr double clear_risk = 0.45;
 constexpr double clear_deviation = 0.15;
 
@@ -59,6 +59,7 @@ double mean_chord(const PolygonMesh& mesh, const Points& positions, const Points
     return total / std::max(mesh.n_faces(), Index{1});
 }
 
+/// The mean squared length of the edges at vertex v, one edge per face.
 double mean_squared_edge(const PolygonMesh& mesh, const Topology& topology, Index v, const Points& positions)
 {
     const auto corners = topology.corners_at(v);
@@ -162,7 +163,7 @@ Points MeshDenoiser::without_noise(const Points& before, std::span<const double>
     }
     const KeptStructure kept = n_thinned_ == 0 ? put_back_structure(before, begun, found, exec) : KeptStructure{};
     const Points& normals = found.normals.normals;
-    if (n_thinned_ == 0 && std::ranges::any_of(found.places.shares, [](double part) { return part > 0.0; }))
+    if (n_thinned_ == 0 && std::ranges::any_of(found.places.shares, [](double share) { return share > 0.0; }))
         improve_fit(begun, found, exec);
     std::vector<double>& shares = found.places.shares;
     Points& fitted = found.fitted;
@@ -213,6 +214,7 @@ std::optional<Points> MeshDenoiser::without_correlated_noise(const Points& befor
     if (std::ranges::all_of(wanted, [](Correlation one) { return one == Correlation::None; }))
         return {};
     Points result = before;
+    // Local fits are tried at vertices that have other noise as well.
     std::vector<std::uint8_t> is_fitted(wanted.size(), 0);
     for (std::size_t v = 0; v < wanted.size() && n_thinned_ == 0; ++v)
         is_fitted[v] =
@@ -227,6 +229,7 @@ std::optional<Points> MeshDenoiser::without_correlated_noise(const Points& befor
             const bool is_doubtful = wanted[v] == Correlation::Doubtful;
             if (is_doubtful ? is_clear : without.has_value())
                 result.row(v) = without->row(v);
+            // If the noise is not plausible, thinned meshes have to prove it.
             wanted[v] = is_doubtful || without ? Correlation::None : Correlation::Possible;
         });
     }
@@ -250,6 +253,7 @@ void MeshDenoiser::remove_on_thinned(const Points& before, std::span<const Noisy
             thin_out(*mesh_, *topology_, averages_.neighbours(), before, n_chosen, static_cast<std::uint64_t>(round));
         MeshDenoiser denoiser(thinned.mesh, thinned.topology, exec, {}, as_one_, n_thinned_ + 1, least_evidence);
         const Points moved = denoiser.denoise(thinned.mesh.vertices, {}, exec);
+        // If the first thinned mesh has no noise, the others are not tried.
         if (round == 0 && denoiser.noise().part == 0.0)
             return;
         for (Index i = 0; i < thinned.mesh.n_vertices(); ++i) {
@@ -353,9 +357,9 @@ void MeshDenoiser::measure_noise(const Points& motions, std::span<const double> 
 
 SurfaceNoise measure_noise(const PolygonMesh& mesh, const Topology& topology, const Executor& exec)
 {
-    const auto measured = [&](const PolygonMesh& part, const Topology& of_part, bool as_one) {
-        MeshDenoiser denoiser(part, of_part, exec, {}, as_one);
-        denoiser.denoise(part.vertices, {}, exec);
+    const auto measured = [&](const PolygonMesh& surface, const Topology& of_surface, bool as_one) {
+        MeshDenoiser denoiser(surface, of_surface, exec, {}, as_one);
+        denoiser.denoise(surface.vertices, {}, exec);
         return denoiser.noise();
     };
     const FilterSample sample = take_filter_sample(mesh, topology, exec);

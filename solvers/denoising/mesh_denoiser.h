@@ -81,6 +81,7 @@ class MeshDenoiser {
     [[nodiscard]] const std::vector<Spike>& spikes() const { return spikes_; }
 
   private:
+    /// A mesh of triangles, with its topology.
     struct Triangles {
         PolygonMesh mesh;
         Topology topology;
@@ -99,6 +100,7 @@ class MeshDenoiser {
     /// Analyses the noise.
     /// @param before #V by 3, without spikes.
     [[nodiscard]] Findings examine(const Points& before, const Executor& exec) const;
+    /// The findings in the form that NoisyPlaces takes; refers to the arguments.
     [[nodiscard]] NoisyPlaces::Denoised denoised(const Points& before, const Findings& found) const;
     /// Removes noise.
     /// @param before #V by 3, without spikes. @param strengths #V, or empty.
@@ -113,8 +115,8 @@ class MeshDenoiser {
     void remove_on_thinned(const Points& before, std::span<const NoisyPlaces::Correlation> correlated,
                            NoisyPlaces::Correlation which, Points& result, const Executor& exec) const;
     /// Moves vertices to fit normals.
-    /// @param normals #F by 3. @param chord the mean chord between them and those of the faces. @param positions #V
-    /// by 3.
+    /// @param normals #F by 3. @param chord the mean chord between these normals and the normals of the faces.
+    /// @param positions #V by 3.
     void fit(const Points& normals, double chord, Points& positions, const Executor& exec) const;
     /// Takes flatter normals where they are nearer to the truth (see take_flatter_normals), and fits vertices again:
     /// from `before` if there are such normals, and further where one fit is not enough.
@@ -125,7 +127,8 @@ class MeshDenoiser {
     /// @param begun #V by 3: without correlated noise.
     [[nodiscard]] KeptStructure put_back_structure(const Points& before, Points& begun, Findings& found,
                                                    const Executor& exec) const;
-    /// Applies keep_facing with respect to the normals of the wanted positions.
+    /// Applies keep_facing, with faces oriented to one side.
+    /// @param before #V by 3. @param wanted #F by 3: the wanted normals. @param positions #V by 3; replaced.
     void keep_all_facing(const Points& before, Points wanted, Points& positions, const Executor& exec) const;
     /// Measures the noise for noise().
     /// @param motions #V by 3, to the positions after. @param shares #V: 0 for vertices without noise. @param is_flat
@@ -158,7 +161,7 @@ class MeshDenoiser {
     std::vector<Spike> spikes_;
 };
 
-/// The noise of a mesh; of a large mesh, that of patches spread all over it (see take_filter_sample).
+/// The noise of a mesh; for a large mesh, the noise of patches spread all over it (see take_filter_sample).
 /// @param topology with twins.
 SurfaceNoise measure_noise(const PolygonMesh& mesh, const Topology& topology, const Executor& exec = run_serially);
 

@@ -54,8 +54,8 @@ void for_each_piece(const PolygonMesh& mesh, const Topology& topology, const Poi
         for (const Index f : faces)
             add(piece_of[f], f);
     });
-    // All pieces have the same stage, so that any piece may grow into any other; the last label, of faces that are in
-    // no piece, has an earlier stage.
+    // All pieces have the same stage (see `grow`), so that any piece may grow into any other; the last label, of faces
+    // that are in no piece, has an earlier stage.
     std::vector<Index> stages(usize(n_boxes) + 1, 1);
     stages.back() = 0;
     for (Index p = 0; p < n_boxes; ++p) {

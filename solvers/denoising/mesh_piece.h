@@ -22,6 +22,7 @@ struct MeshPiece {
     std::vector<Index> vertices;
 };
 
+/// Some faces of a mesh as a mesh of their own.
 /// @param topology twins are not used. @param positions #V by 3. @param faces ascending.
 MeshPiece cut_out(const PolygonMesh& mesh, const Topology& topology, const Points& positions, std::vector<Index> faces,
                   const Executor& exec = run_serially);
@@ -41,7 +42,7 @@ struct PieceSizes {
 /// action needs memory for one piece at a time.
 /// @param positions #V by 3, all finite. @param faces ascending; pieces grow into no other faces.
 /// @param action called with each piece and, per face of the piece, 1 for the faces that it had before it grew. Each
-///        face is such a face of exactly one piece.
+/// face was in exactly one piece before the pieces grew.
 void for_each_piece(const PolygonMesh& mesh, const Topology& topology, const Points& positions,
                     std::vector<Index> faces, const PieceSizes& sizes, const Executor& exec,
                     const std::function<void(const MeshPiece&, std::span<const std::uint8_t> is_own)>& action);

@@ -38,7 +38,7 @@ void NearestVertices::clear(std::size_t n_slots)
 void NearestVertices::insert(Index v)
 {
     constexpr std::size_t multiplier = 2654435761U;
-    // Half of the slots stay empty. The table grows for rings around hubs, vertices of very many edges.
+    // Half of the slots stay empty. Further vertices of rings around hubs, vertices of very many edges, are left out.
     if (2 * found_.size() >= slots_.size())
         return;
     std::size_t slot = static_cast<std::size_t>(v) * multiplier % slots_.size();

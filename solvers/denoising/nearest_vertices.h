@@ -21,12 +21,16 @@ class NearestVertices {
                                                    std::size_t count);
 
   private:
+    /// Empties the table, and enlarges it to at least n_slots.
     void clear(std::size_t n_slots);
+    /// Adds a vertex that was not found before; none once half of the slots are used.
     void insert(Index v);
 
+    /// The vertices found, ring by ring.
     std::vector<Index> found_;
     /// A hash table of the vertices found; -1 in empty slots.
     std::vector<Index> slots_;
+    /// The slots of found_.
     std::vector<std::size_t> used_;
     std::vector<std::pair<double, Index>> nearest_;
 };

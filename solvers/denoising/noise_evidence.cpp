@@ -21,6 +21,7 @@ constexpr float least_correlation = -0.05F;
 constexpr float revival_of_noise = 0.35F;
 constexpr float wide_revival_of_noise = 0.6F;
 
+/// The logarithm of the odds at a place, by a logistic regression.
 float evidence(const NoiseWeights& weights, const PlaceStatistics& place)
 {
     const auto features = features_of(place);

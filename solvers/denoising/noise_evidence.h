@@ -11,7 +11,8 @@ namespace seamflow {
 inline constexpr std::array<std::string_view, 8> noise_features{
     "median", "correlation", "revival", "noise", "smoothness", "wide_correlation", "wide_revival", "wide_kurtosis"};
 
-/// The features of a place: medians, kurtosis and noise as logarithms, revivals as the excess over those of noise.
+/// The features of a place: medians, kurtosis and noise as logarithms, revivals as the excess over the revivals of
+/// noise.
 std::array<float, noise_features.size()> features_of(const PlaceStatistics& place);
 
 /// The logarithm of the odds that the displacement which the denoiser would remove at a place is noise and not shape: a

@@ -31,10 +31,10 @@ constexpr float evidence_against_of_quarter = -2.5F;
 constexpr float evidence_of_correlated_noise_alone = 1.0F;
 /// Beside other noise, places with more evidence than this are doubtful: fits must show that the noise is no shape.
 constexpr float evidence_of_doubtful_noise = -1.0F;
-/// The evidence at a place that outweighs that of its component. For noise: the median of the component plus this
-/// difference, but at least clear evidence and at most this limit, which is above the 5.1 that places of clean surfaces
-/// in the training data reached. Against noise: chosen by hand. Thinned surfaces, which bend more, are judged as a
-/// whole.
+/// The evidence at a place that outweighs the evidence of its component. For noise: the median of the component plus
+/// this difference, but at least clear evidence and at most this limit, which is above the 5.1 that places of clean
+/// surfaces in the training data reached. Against noise: chosen by hand. Thinned surfaces, which bend more, are judged
+/// as a whole.
 constexpr float outweighing_difference = 9.0F;
 constexpr float most_outweighing_evidence = 6.5F;
 constexpr float outweighing_evidence_against = -4.0F;
@@ -81,6 +81,7 @@ double smooth_step(double x)
     return t * t * (3.0 - 2.0 * t);
 }
 
+/// All faces as a single component.
 Components all_together(const PolygonMesh& mesh)
 {
     Components all;
@@ -106,8 +107,8 @@ Points mean_normals(const Topology& topology, const Points& normals, const Execu
     return means;
 }
 
-/// Per vertex: the index of the nearest of some places, along edges; -1 if it reaches none.
-std::vector<Index> nearest_of(std::span<const Index> places, const IndexLists& neighbours)
+/// Per vertex: the index, in `places`, of the nearest place along edges; -1 if no place is connected with it.
+std::vector<Index> nearest_places(std::span<const Index> places, const IndexLists& neighbours)
 {
     std::vector<Index> nearest(usize(neighbours.size()), -1);
     std::vector<Index> reached(places.begin(), places.end());
@@ -122,15 +123,16 @@ std::vector<Index> nearest_of(std::span<const Index> places, const IndexLists& n
     return nearest;
 }
 
-/// #F: numbers of vertices, averaged around each face.
+/// #F by 1: values of vertices, averaged around each face.
+/// @param value_at gives the value of a vertex.
 VertexAverages::Rows means_around(const NoisyPlaces::Denoised& denoised, int rounds, const Executor& exec,
-                                  const auto& number_of)
+                                  const auto& value_at)
 {
     VertexAverages::Rows near(denoised.mesh.n_faces(), 1);
     for_each(exec, denoised.mesh.n_faces(), [&](Index f) {
         near(f, 0) = 0.0F;
         for (const Index v : denoised.mesh.face(f))
-            near(f, 0) += number_of(v) / static_cast<float>(denoised.mesh.face(f).size());
+            near(f, 0) += value_at(v) / static_cast<float>(denoised.mesh.face(f).size());
     });
     VertexAverages::Rows around(denoised.mesh.n_faces(), 1);
     denoised.averages.spread(near, around, 0, rounds, exec);
@@ -201,6 +203,7 @@ std::vector<std::uint8_t> NoisyPlaces::decide(std::span<const Index> component_o
         for (std::size_t i = 0; i < evidence.size(); ++i)
             add(component_of_place[i], evidence[i]);
     });
+    // Per component: the evidence that a place of it must exceed to have noise.
     std::vector<float> least(sizes.size());
     for (Index c = 0; c < components_.count(); ++c) {
         const auto begin = of_components.values.begin() + of_components.offsets[c];
@@ -214,9 +217,9 @@ std::vector<std::uint8_t> NoisyPlaces::decide(std::span<const Index> component_o
             std::nth_element(begin, place, end);
             return *place;
         };
-        const bool is_doubtful = n_thinned_ > 1 || sizes[c] < few_faces;
+        const bool needs_clear_evidence = n_thinned_ > 1 || sizes[c] < few_faces;
         const float lower = quantile(1.0 - part_with_evidence);
-        const float needed = is_doubtful ? std::max(least_evidence, clear_evidence) : least_evidence;
+        const float needed = needs_clear_evidence ? std::max(least_evidence, clear_evidence) : least_evidence;
         const bool half_has_it = needed == 0.0F && finds_single_places && lower > evidence_against_of_quarter &&
                                  quantile(0.5) > evidence_of_half;
         if (lower > needed || half_has_it)
@@ -288,7 +291,7 @@ NoisyPlaces::Found NoisyPlaces::find(const Denoised& denoised, const Executor& e
                 result[i] = Correlation::Possible;
         return result;
     }();
-    const std::vector<Index> nearest = nearest_of(places, neighbours);
+    const std::vector<Index> nearest = nearest_places(places, neighbours);
     const std::vector<double> edges = edge_lengths_at_vertices(mesh, topology, before, exec);
     const VertexAverages::Rows displaced = means_around(denoised, displacement_rounds, exec, [&](Index v) {
         return edges[v] > 0.0 ? static_cast<float>(motion_along_normal(topology, denoised.found.normals, v,
@@ -296,6 +299,7 @@ NoisyPlaces::Found NoisyPlaces::find(const Denoised& denoised, const Executor& e
                                                    edges[v])
                               : 0.0F;
     });
+    // Places with noise, blended with the places around them: from 0 to 1 at each face.
     const VertexAverages::Rows open = means_around(denoised, rounds_of_blended_places, exec, [&](Index v) {
         return nearest[v] >= 0 && has_noise[nearest[v]] != 0 ? 1.0F : 0.0F;
     });

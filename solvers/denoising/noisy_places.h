@@ -48,6 +48,7 @@ class NoisyPlaces {
         /// #V by 3.
         const Points& before;
         const Points& after;
+        /// The estimated normals and noise.
         const DenoisedNormals& found;
         /// #V: see flat_vertices.
         std::span<const std::uint8_t> is_flat;
@@ -58,11 +59,12 @@ class NoisyPlaces {
         None,
         /// The surface looks as if it had correlated noise; a thinned mesh must prove it.
         Possible,
-        /// There is other noise besides, and fits have to show that it is clear of shape.
+        /// There is other noise besides; local fits have to show that the correlated noise is not shape.
         Doubtful,
         Found
     };
 
+    /// The result of `find`.
     struct Found {
         /// #V: the share of its displacement that each vertex moves by, from 0 to 1.
         std::vector<double> shares;
@@ -70,12 +72,13 @@ class NoisyPlaces {
         std::vector<Correlation> correlated;
     };
 
+    /// Decides at which vertices the removed displacements are noise.
     [[nodiscard]] Found find(const Denoised& denoised, const Executor& exec = run_serially) const;
 
     /// Displacements removed from a component that look like a pattern, not like noise.
     struct Structure {
         Index component;
-        /// The vertex where they look most like a pattern.
+        /// The vertex around which the displacements look most like a pattern.
         Index place;
     };
 

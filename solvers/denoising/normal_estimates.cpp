@@ -15,7 +15,7 @@ namespace {
 const std::vector<int> rounds_of_positions{2, 3, 4, 8, 16};
 const std::vector<int> rounds_of_robust_positions{3, 6};
 /// The index in rounds_of_positions of the surface from which the robust filter measures distances.
-constexpr std::size_t place_of_surface = 2;
+constexpr std::size_t index_of_surface = 2;
 
 /// Replaces the vectors of a list one after the other, and appends more.
 class Writer {
@@ -25,6 +25,7 @@ class Writer {
     {
     }
 
+    /// The next vectors of the list, to be overwritten; appended if there are none.
     FaceVectors& next()
     {
         if (count_ == vectors_->size())
@@ -40,13 +41,14 @@ class Writer {
             copy(vectors);
     }
 
-    /// Removes the vectors of the list that were not replaced.
-    void take(std::vector<FaceVectors>& list)
+    /// Swaps vectors with the next ones of the list instead of copying them; `list` is left with replaced vectors.
+    void swap_in(std::vector<FaceVectors>& list)
     {
         for (FaceVectors& vectors : list)
             next().swap(vectors);
     }
 
+    /// The number of estimates written so far.
     [[nodiscard]] int count() const { return static_cast<int>(count_); }
 
   private:
@@ -72,7 +74,8 @@ void add_low_pass(int round, int rounds, const FaceVectors& mean, FaceVectors& t
 }
 
 /// Adds bilateral means: each round is guided by the result of the round before.
-/// @param vectors of length 1 or 0; replaced by the last result.
+/// @param vectors of length 1 or 0; replaced by the last result. @param wanted the rounds whose results are added,
+/// ascending. @param found receives these results.
 void add_bilateral_means(const FaceAverages& averages, FaceVectors& vectors, float sigma,
                          std::initializer_list<int> wanted, Writer& found, FaceVectors& scratch, const Executor& exec)
 {
@@ -121,7 +124,7 @@ void NormalEstimator::begin(const Points& positions, const Executor& exec)
         if (rounds_of_positions[i] != 3)
             of_positions_.push_back(std::move(normals));
     }
-    const Points& surface = filtered[place_of_surface];
+    const Points& surface = filtered[index_of_surface];
     Points normals(positions.rows(), 3);
     for_each(exec, static_cast<Index>(positions.rows()),
              [&](Index v) { normals.row(v) = vertex_normals_(v, surface); });
@@ -153,7 +156,7 @@ void NormalEstimator::first(NormalEstimates& found, const Executor& exec)
     const int bilateral_anchor = writer.count() - 1;
     normalise(once, exec);
     add_bilateral_means(averages_, once, 0.3F, {3, 10}, writer, scratch_[0], exec);
-    writer.take(of_positions_);
+    writer.swap_in(of_positions_);
     found.anchors = {0, writer.count() - 2, bilateral_anchor};
     averages_.average_best_patch(noisy_, writer.next(), exec);
     normalise(twice, exec);

@@ -37,11 +37,12 @@ class NormalEstimator {
     void first(NormalEstimates& found, const Executor& exec = run_serially);
 
     /// Makes estimates with the help of an earlier result: means of the noisy normals over faces that belong together
-    /// according to this result, and further means of the result. Weights and areas are those of the last `refine`.
+    /// according to this result, and further means of the result. Weights and areas come from the positions of the last
+    /// `refine`.
     /// @param normals of length 1, or 0 for faces without area.
     void further(const FaceVectors& normals, NormalEstimates& found, const Executor& exec = run_serially);
 
-    /// Sets areas and centroids to those at these positions, #V by 3.
+    /// Computes areas and centroids at these positions, #V by 3.
     void refine(const Points& positions, const Executor& exec = run_serially) { averages_.measure(positions, exec); }
 
     [[nodiscard]] const FaceAverages& averages() const { return averages_; }
@@ -61,6 +62,7 @@ class NormalEstimator {
     VertexAverages of_vertices_;
     PositionFilters filters_;
     VertexNormals vertex_normals_;
+    /// The unit normals of the noisy surface.
     FaceVectors noisy_;
     /// The normals of filtered surfaces: for `first`, which moves them to its result; for `further`; and for both.
     std::vector<FaceVectors> of_positions_;

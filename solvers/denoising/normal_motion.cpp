@@ -30,6 +30,7 @@ constexpr int freeing_rounds = 6;
 /// The number of times that a motion is halved before its vertex stays.
 constexpr int halvings = 9;
 
+/// Compares faces with their wanted normals, which shows the folded ones.
 class FoldedFaces {
   public:
     FoldedFaces(const PolygonMesh& mesh, const Topology& topology, const Points& wanted, const Executor& exec)
@@ -106,7 +107,7 @@ Points along_normals(const PolygonMesh& mesh, const Topology& topology, const Po
 {
     Points positions(before.rows(), 3);
     for_each(exec, mesh.n_vertices(), [&](Index v) {
-        // S = mean n nᵀ, m S² (S² + δ² I)⁻¹
+        // The motion m becomes m S² (S² + δ² I)⁻¹, with S = mean n nᵀ and δ = half_kept.
         Eigen::Matrix3d squared_cosines = Eigen::Matrix3d::Zero();
         const auto corners = topology.corners_at(v);
         for (const Index corner : corners) {

@@ -23,10 +23,12 @@ constexpr double near_radius = 7.0;
 constexpr double far_radius = 13.0;
 constexpr std::size_t most_of_place = 800;
 /// The autocorrelation is bounded: displacements above this many medians are reduced to it, so that a sharp edge does
-/// not outweigh its surroundings; and vertices whose normal has a smaller cosine than this with that of the middle do
-/// not count.
+/// not outweigh its surroundings; and vertices do not count whose normal has a smaller cosine than this with the normal
+/// of the middle.
 constexpr float most_medians_of_height = 3.0F;
 constexpr double least_cosine_to_middle = 0.5;
+/// Directions in half a circle, because the autocorrelation is the same in opposite directions; and the distances of a
+/// revival, in edge lengths.
 constexpr int n_directions = 12;
 constexpr int first_lag = 3;
 constexpr int last_lag = 18;
@@ -38,6 +40,7 @@ constexpr std::size_t n_fits = 48;
 constexpr std::array<double, 2> fit_radii{2.2, 5.0};
 constexpr int fewest_of_fit = 9;
 
+/// The median of numbers, whose order changes; 0 if there are none.
 float median_of(std::vector<float>& numbers)
 {
     if (numbers.empty())
@@ -87,6 +90,7 @@ class Autocorrelation {
     }
 
   private:
+    /// Sums over the pairs of points whose difference rounds to one point of the grid.
     struct Cell {
         float products = 0.0F;
         float squares = 0.0F;
@@ -95,20 +99,21 @@ class Autocorrelation {
 
     static constexpr int width = 2 * last_lag + 1;
 
-    [[nodiscard]] static std::size_t number_of(const Eigen::Vector2f& difference)
+    /// The index in cells_ of the grid point nearest to a difference.
+    [[nodiscard]] static std::size_t cell_index(const Eigen::Vector2f& difference)
     {
         const int x = static_cast<int>(std::lround(difference.x())) + last_lag;
         const int y = static_cast<int>(std::lround(difference.y())) + last_lag;
         return static_cast<std::size_t>(std::clamp(y, 0, width - 1) * width + std::clamp(x, 0, width - 1));
     }
 
-    Cell& cell_of(const Eigen::Vector2f& difference) { return cells_[number_of(difference)]; }
+    Cell& cell_of(const Eigen::Vector2f& difference) { return cells_[cell_index(difference)]; }
 
     /// The sums over the grid cells of a difference and of its negative.
     [[nodiscard]] Cell around(const Eigen::Vector2f& difference) const
     {
-        const Cell& here = cells_[number_of(difference)];
-        const Cell& opposite = cells_[number_of(-difference)];
+        const Cell& here = cells_[cell_index(difference)];
+        const Cell& opposite = cells_[cell_index(-difference)];
         return {here.products + opposite.products, here.squares + opposite.squares, here.pairs + opposite.pairs};
     }
 
@@ -132,6 +137,7 @@ class Place {
         locate();
     }
 
+    /// See measure_place.
     [[nodiscard]] PlaceStatistics statistics() const
     {
         PlaceStatistics found;
@@ -163,6 +169,8 @@ class Place {
         return frame;
     }
 
+    /// Collects the vertices within far_radius of the middle, by rings. @param edge the length of the edges at the
+    /// middle.
     void collect(double edge)
     {
         vertices_.push_back(middle_);
@@ -175,6 +183,7 @@ class Place {
                     vertices_.push_back(w);
     }
 
+    /// Fills the data of each collected vertex.
     void locate()
     {
         for (const Index v : vertices_) {
@@ -188,6 +197,7 @@ class Place {
         }
     }
 
+    /// @param column of TakenAway::displacements: 0 for the denoiser, 1 for the low-pass filter.
     [[nodiscard]] TakenStatistics statistics_of(int column) const
     {
         std::vector<float> heights;
@@ -200,6 +210,7 @@ class Place {
         return {median_of(sizes), correlation(heights), revival(heights), kurtosis(heights)};
     }
 
+    /// See TakenStatistics. @param heights displacements to one side of the surface, one per vertex of vertices_.
     [[nodiscard]] float correlation(std::span<const float> heights) const
     {
         float products = 0.0F;
@@ -219,6 +230,7 @@ class Place {
         return squares > 0.0F ? products / squares : 0.0F;
     }
 
+    /// See TakenStatistics, and `correlation`.
     [[nodiscard]] float revival(std::span<const float> heights) const
     {
         std::vector<Eigen::Vector2f> points;
@@ -243,6 +255,7 @@ class Place {
         return Autocorrelation(points, numbers).revival();
     }
 
+    /// See TakenStatistics, and `correlation`.
     [[nodiscard]] float kurtosis(std::span<const float> heights) const
     {
         double n = 0.0;
@@ -265,6 +278,7 @@ class Place {
     }
 
     /// The residual of the best quadratic function around a vertex, in edge lengths; -1 if there are too few vertices.
+    /// @param radius in edge lengths.
     [[nodiscard]] double residual(Index v, double radius) const
     {
         using Row = Eigen::Matrix<double, 6, 1>;
@@ -291,6 +305,7 @@ class Place {
         return radius * std::sqrt(std::max(rest, 0.0) / (n - 6));
     }
 
+    /// See PlaceStatistics::smoothness.
     [[nodiscard]] float smoothness() const
     {
         constexpr double rounding = 1e-9;
@@ -306,6 +321,7 @@ class Place {
         }
         std::ranges::sort(found);
         std::array<double, 2> totals{rounding, rounding};
+        // The quarter of the vertices with the least residuals of the wider fits.
         for (std::size_t i = 0; i < (found.size() + 3) / 4; ++i)
             for (const std::size_t k : {0U, 1U})
                 totals[k] += found[i][k];
@@ -318,10 +334,15 @@ class Place {
     double edge_ = 0.0;
     /// The middle, then the vertices around it.
     std::vector<Index> vertices_;
+    /// The index in vertices_ of each vertex of the place.
     std::unordered_map<Index, Index> place_of_;
-    /// One per vertex of vertices_: its position in the plane of the frame, in edge lengths.
+    /// One per vertex of vertices_, as in the following members: its position in the plane of the frame, in edge
+    /// lengths.
     std::vector<Eigen::Vector2f> plane_;
+    /// -1 if the normal points to the other side than the normal of the middle, otherwise 1.
     std::vector<float> signs_;
+    /// Whether the vertex counts: it moves and is not left out; whether it is within near_radius; and whether its
+    /// normal is near the normal of the middle or its opposite.
     std::vector<std::uint8_t> counts_;
     std::vector<std::uint8_t> is_near_;
     std::vector<std::uint8_t> is_facing_;
@@ -356,6 +377,7 @@ std::vector<Index> spread_places(const Topology& topology, const IndexLists& nei
             next.clear();
             for (const Index w : front)
                 for (const Index x : neighbours[w])
+                    // Rings pass through vertices that were reached from earlier places.
                     if (reached_from[x] != v) {
                         reached_from[x] = v;
                         next.push_back(x);

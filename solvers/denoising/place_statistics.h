@@ -12,8 +12,8 @@
 
 namespace seamflow {
 
-/// Statistics of the displacements of the vertices around a place, by which noise and shape are distinguished.
-/// Displacements are those along the normals, in mean lengths of the edges at each vertex.
+/// Statistics of the displacements of the vertices around a place (a vertex, see NoisyPlaces), by which noise and shape
+/// are distinguished. Displacements are those along the normals, in mean lengths of the edges at each vertex.
 struct TakenStatistics {
     /// The median of the absolute values.
     float median = 0.0F;

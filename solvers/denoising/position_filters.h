@@ -23,7 +23,7 @@ class PositionFilters {
 
     /// Filters the positions by normalised convolution (Knutsson, Westin, 1993): a vertex has the less weight, the
     /// further it is from the filtered surface, compared with the vertices around it. Where noise moves only some of
-    /// the vertices, those without noise determine the result.
+    /// the vertices, the other vertices determine the result.
     /// @param filtered #V by 3: a result of low_pass. @param normals #V by 3: of the filtered surface.
     [[nodiscard]] std::vector<Points> robust_low_pass(const Points& positions, const Points& filtered,
                                                       const Points& normals, const std::vector<int>& rounds,

@@ -50,6 +50,8 @@ class BandedEquations {
     {
     }
 
+    /// Adds to a coefficient of the symmetric matrix. For different unknowns, (i, j) and (j, i) are both added by the
+    /// caller, and only the pair with i < j counts.
     void add(Index i, Index j, double value)
     {
         const Index row = std::max(number(i), number(j));
@@ -60,7 +62,8 @@ class BandedEquations {
             band_(row, row - column) += i < j ? value : 0.0;
     }
 
-    /// @param right_hand_side by 3, in the order of the curve.
+    /// Factorises the matrix in place and solves the equations, once.
+    /// @param right_hand_side n by 3, in the order of the curve. @returns n by 3, in the same order.
     Points solve(const Points& right_hand_side)
     {
         const auto n = static_cast<Index>(band_.rows());
@@ -93,6 +96,7 @@ class BandedEquations {
     static constexpr Index width = 4;
     using Band = Eigen::Matrix<double, Eigen::Dynamic, width + 1, Eigen::RowMajor>;
 
+    /// The number of the i-th unknown of the curve in the matrix.
     [[nodiscard]] Index number(Index i) const
     {
         const auto n = static_cast<Index>(band_.rows());
@@ -126,6 +130,7 @@ Points normals_along(const RimCurve& curve, const Points& normals)
     return sums;
 }
 
+/// The edges of one face between vertices of kind Boundary.
 std::vector<Segment> segments_of(const PolygonMesh& mesh, const Topology& topology)
 {
     std::vector<Segment> segments;
@@ -207,6 +212,7 @@ std::vector<RimCurve> find_rim_curves(const PolygonMesh& mesh, const Topology& t
         curve.is_closed = v == start && at_vertex[start].size() == 2 && curve.faces.size() > 2;
         curves.push_back(std::move(curve));
     };
+    // Open curves first, from their ends; the rest are closed.
     for (const bool begins_at_ends : {true, false})
         for (Index s = 0; s < n; ++s)
             for (const Index v : segments[s].ends)
@@ -232,6 +238,7 @@ SmoothCurve smooth_curve(const RimCurve& curve, const Points& positions, double 
     h = h.cwiseMax(shortest_edge * mean);
     const auto is_end = [&](Index i) { return !curve.is_closed && (i == 0 || i == n - 1); };
     const auto length_at = [&](Index i) { return is_end(i) ? h[i == 0 ? 0 : n - 2] : 0.5 * (h[previous(i)] + h[i]); };
+    // The three vertices of b_i, and their coefficients.
     const auto bend = [&](Index i) {
         const std::array<Index, 3> at{previous(i), i, next(i)};
         const double before = 1.0 / h[previous(i)];
@@ -367,9 +374,9 @@ void spread_into_band(const PolygonMesh& mesh, const Topology& topology, std::sp
         if (ring[v] <= 0)
             continue;
         const Point normal = normals(topology.corners_at(v), positions);
-        const double part = topology.moves(v) ? 1.0 - static_cast<double>(ring[v]) / (n_rings[v] + 1.0) : 0.0;
+        const double fraction = topology.moves(v) ? 1.0 - static_cast<double>(ring[v]) / (n_rings[v] + 1.0) : 0.0;
         const Point motion = motions.row(v);
-        motions.row(v) = part * (motion - motion.dot(normal) * normal);
+        motions.row(v) = fraction * (motion - motion.dot(normal) * normal);
     }
 }
 

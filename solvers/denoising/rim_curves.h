@@ -34,12 +34,13 @@ struct SmoothCurve {
     std::vector<double> smoothness;
 };
 
-/// Minimises Σ m_i |x_i - p_i|² + (2R/π)⁴ Σ w_i |b_i|² / m_i, with the length m_i of the curve at a vertex and
-/// b_i = (x_{i+1} - x_i) / h_i - (x_i - x_{i-1}) / h_{i-1}: the biharmonic smoothing of a curve, which halves bumps of
-/// radius R (see smoothed_radius) and hardly shrinks larger shapes. The ends of open curves stay.
+/// Minimises Σ m_i |x_i - p_i|² + (2R/π)⁴ Σ w_i |b_i|² / m_i, with the length m_i of the curve at a vertex and b_i =
+/// (x_{i+1} - x_i) / h_i - (x_i - x_{i-1}) / h_{i-1}, h being the lengths of edges: the biharmonic smoothing of a
+/// curve, which halves bumps of radius R (see smoothed_radius) and hardly shrinks larger shapes. The ends of open
+/// curves stay.
 /// @param positions p: one per vertex, by 3. @param radius R, in units of length.
-/// @param keeps_corners whether the weights w are small where the curve bends by more than 0.6 radians within R:
-///        they are found in a few rounds. Otherwise all are 1.
+/// @param keeps_corners whether the weights w are small where the curve bends by more than 0.6 radians within R: the
+/// weights are found in a few rounds. Otherwise all are 1.
 SmoothCurve smooth_curve(const RimCurve& curve, const Points& positions, double radius, bool keeps_corners);
 
 /// The directions across a curve.

@@ -74,6 +74,7 @@ struct Distances {
         return most;
     }
 
+    /// The mean fourth power over the square of the mean square.
     [[nodiscard]] double kurtosis() const
     {
         const double square = of_vertices.squaredNorm() / static_cast<double>(of_vertices.size());
@@ -100,6 +101,8 @@ bool is_noisy(const Distances& distances, const std::vector<double>& smoothness,
            (correlation < 0.0 && (is_on_noise || kurtosis > least_kurtosis_of_noise));
 }
 
+/// The mean length of the edges of a curve.
+/// @param positions one row per vertex of the curve.
 double mean_length(const RimCurve& curve, const Points& positions)
 {
     double total = 0.0;

@@ -38,8 +38,8 @@ constexpr Trial of_large_surfaces{std::span(edge_keeping_amounts).last(1), 0.08F
 /// A place may not be replaced if the mean motion is more than this multiple of the limit; between the limit and this,
 /// results are blended.
 constexpr float replaced_below = 1.7F;
-/// The largest mean motion around a place, over that of the denoised surface, in which some noise is left, the more the
-/// less noise there is: the factor for little motion, and in general.
+/// The largest mean motion around a place, over the mean motion of the denoised surface. That surface keeps some noise,
+/// relatively more where there is less noise: below little_motion, in edge lengths, the factor is larger.
 constexpr float little_motion = 0.08F;
 constexpr float most_motion_where_little = 1.2F;
 constexpr float most_motion = 1.15F;
@@ -54,6 +54,7 @@ constexpr int blending_rounds = 4;
 
 using FaceRows = VertexAverages::Rows;
 
+/// Measures surfaces with the vertices of a DenoisedSurface, and blends them.
 class SmootherPlaces {
   public:
     SmootherPlaces(const DenoisedSurface& surface, const Executor& exec)
@@ -154,7 +155,7 @@ double mean_edge_of(const DenoisedSurface& surface, std::span<const Index> faces
 }
 
 /// The fraction of a place that is replaced: falls smoothly from 1 to 0.
-float replaced_part(const Trial& trial, float squared_motion)
+float replaced_fraction(const Trial& trial, float squared_motion)
 {
     return std::clamp((replaced_below - squared_motion / trial.replaced_up_to) / (replaced_below - 1.0F), 0.0F, 1.0F);
 }
@@ -179,7 +180,7 @@ void replace_places(const DenoisedSurface& surface, const Components& components
     const auto moves = [&](Index f) {
         return std::ranges::any_of(surface.mesh.face(f), [&](Index v) { return surface.shares[v] > 0.0; });
     };
-    bool any = open([&](Index f) { return replaced_part(trial, of_first(f, 0)) > 0.0F && moves(f); });
+    bool any = open([&](Index f) { return replaced_fraction(trial, of_first(f, 0)) > 0.0F && moves(f); });
     FaceRows of_result = of_first;
     for (std::size_t i = 0; any && i < trial.amounts.size(); ++i) {
         Points smoothed = surface.before;
@@ -208,7 +209,7 @@ void replace_places(const DenoisedSurface& surface, const Components& components
             const bool is_better = is_open[components.component_of[f]] != 0 &&
                                    of_smoothed(f, 0) <= most_squared_motion(of_first(f, 0)) &&
                                    of_smoothed(f, 1) < of_result(f, 1);
-            better(f, 0) = is_better ? replaced_part(trial, of_first(f, 0)) : 0.0F;
+            better(f, 0) = is_better ? replaced_fraction(trial, of_first(f, 0)) : 0.0F;
         });
         any = open([&](Index f) { return better(f, 0) > 0.0F; });
         const std::vector<double> weights = places.blended(std::move(better));
@@ -246,7 +247,7 @@ bool helps_on_sample(const DenoisedSurface& surface, const Trial& trial, double 
 void take_smoother_places(const DenoisedSurface& surface, const Components& components, double angle, Points& result,
                           const Executor& exec)
 {
-    if (std::ranges::none_of(surface.shares, [](double part) { return part > 0.0; }))
+    if (std::ranges::none_of(surface.shares, [](double share) { return share > 0.0; }))
         return;
     const bool is_large = surface.mesh.n_faces() > most_untried_faces;
     const Trial& trial = is_large ? of_large_surfaces : of_small_surfaces;

@@ -13,8 +13,8 @@ namespace {
 
 /// A maximal set of vertices with faces, of which no two are neighbours.
 /// @returns #V: 1 for vertices of the set.
-std::vector<std::uint8_t> choose(const Topology& topology, const IndexLists& neighbours, const Points& positions,
-                                 std::span<const int> n_chosen, std::uint64_t round)
+std::vector<std::uint8_t> independent_set(const Topology& topology, const IndexLists& neighbours,
+                                          const Points& positions, std::span<const int> n_chosen, std::uint64_t round)
 {
     struct Candidate {
         int n_chosen;
@@ -39,8 +39,9 @@ std::vector<std::uint8_t> choose(const Topology& topology, const IndexLists& nei
 ThinnedMesh thin_out(const PolygonMesh& mesh, const Topology& topology, const IndexLists& neighbours,
                      const Points& positions, std::span<const int> n_chosen, std::uint64_t round)
 {
-    const std::vector<std::uint8_t> is_chosen = choose(topology, neighbours, positions, n_chosen, round);
+    const std::vector<std::uint8_t> is_chosen = independent_set(topology, neighbours, positions, n_chosen, round);
     ThinnedMesh thinned;
+    // Per vertex: the number in the thinned mesh of the kept vertex to which it belongs; -1 if there is none.
     std::vector<Index> number_of(is_chosen.size(), -1);
     for (Index v = 0; v < mesh.n_vertices(); ++v)
         if (is_chosen[v] != 0) {
@@ -71,6 +72,7 @@ ThinnedMesh thin_out(const PolygonMesh& mesh, const Topology& topology, const In
             faces.push_back({corners, f});
     }
     std::ranges::sort(faces);
+    // Of several faces with the same corners, the first is kept.
     std::vector<Index> kept;
     for (std::size_t i = 0; i < faces.size(); ++i)
         if (i == 0 || faces[i].first != faces[i - 1].first)

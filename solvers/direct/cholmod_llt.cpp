@@ -76,6 +76,8 @@ struct CholmodLong {
 /// The number of unknowns above which a factor may outgrow 32-bit integers.
 constexpr Index most_unknowns_for_cholmod_int = 1'000'000;
 
+/// Throws a ComputationError if the last call of CHOLMOD failed.
+/// @param task in the text of the error.
 void require_ok(const cholmod_common& common, const char* task)
 {
     if (common.status == CHOLMOD_OUT_OF_MEMORY || common.status == CHOLMOD_TOO_LARGE)
@@ -95,6 +97,8 @@ struct Settings {
     Settings& operator=(const Settings&) = delete;
 };
 
+/// See make_cholmod_llt.
+/// @tparam Interface CholmodInt or CholmodLong.
 template <class Interface>
 class CholmodLlt final : public DirectSolver {
   public:
@@ -146,6 +150,7 @@ class CholmodLlt final : public DirectSolver {
         require_ok(common, "factorisation");
         if (common.status == CHOLMOD_OK)
             return true;
+        // The matrix is not positive definite.
         free_factor();
         return false;
     }

@@ -11,7 +11,8 @@ namespace seamflow {
 
 namespace {
 
-/// The columns of a block, the rows that are processed at once, and the entries of L in such a tile.
+/// The number of columns of a block, of rows that are processed at once, and of entries of L in a tile of these rows
+/// and columns.
 constexpr Index block_width = 4;
 constexpr Index n_lanes = DenseFactor::lanes;
 constexpr Index tile_size = block_width * n_lanes;
@@ -97,10 +98,12 @@ struct Block {
 
     /// The number of the first row of the first tile.
     [[nodiscard]] Index top() const { return begin / n_lanes * n_lanes; }
-    /// An entry in the block's own rows, those of its diagonal, row > column.
+    /// An entry of L in the rows of the block's diagonal. Row and column are counted from the block's first; row >
+    /// column.
     [[nodiscard]] float own(Index row, Index column) const { return tiles[column * n_lanes + begin - top() + row]; }
 };
 
+/// The entries of v in the block's own rows.
 inline FourSums own_rows(const Block& block, const float* v)
 {
     FourSums rows;
@@ -171,6 +174,7 @@ struct Lower {
     const float* tiles;
     Index n;
 
+    /// The number of groups of n_lanes rows.
     [[nodiscard]] Index n_groups() const { return (n + n_lanes - 1) / n_lanes; }
 
     /// The number of tiles before a block.

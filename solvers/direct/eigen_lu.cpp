@@ -47,6 +47,7 @@ class Factors : public Eigen::SparseLU<Matrix<Integer>, Eigen::COLAMDOrdering<In
     }
 };
 
+/// See make_eigen_lu.
 template <class Integer>
 class EigenLu final : public DirectSolver {
   public:
@@ -109,7 +110,9 @@ class EigenLu final : public DirectSolver {
 
     void free_factor() override { factors_.reset(); }
 
+    /// The matrix, its rows divided by row_sizes_.
     Matrix<Integer> matrix_;
+    /// Per row: a power of two near the sum of the absolute values.
     Eigen::VectorXd row_sizes_;
     std::optional<Factors<Integer>> factors_;
     std::size_t factor_bytes_ = 0;

@@ -9,7 +9,7 @@ namespace {
 
 /// The least work, in multiplications, for which several threads are used.
 constexpr double least_work = 2e7;
-/// The largest share of all work that a subtree has; groups have little more.
+/// The largest share of all work that a subtree or a group has.
 constexpr double largest_share = 1.0 / 32.0;
 
 /// Per supernode, the work of the subtree below it, in multiplications.

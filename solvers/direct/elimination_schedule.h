@@ -21,6 +21,7 @@ struct EliminationSchedule {
     [[nodiscard]] bool exists() const { return groups.size() > 1; }
 };
 
+/// @param supernode_of per unknown: its supernode.
 EliminationSchedule schedule_elimination(const SymbolicFactor& pattern, const std::vector<Index>& supernode_of);
 
 }  // namespace seamflow

@@ -33,7 +33,7 @@ enum class Precision {
     Double,
 };
 
-/// Whether a factorisation is foreign: that of another library.
+/// Whether a factorisation is foreign: that of CHOLMOD or UMFPACK, libraries that a build may lack.
 constexpr bool is_foreign(Factorisation factorisation)
 {
     return factorisation == Factorisation::Cholmod || factorisation == Factorisation::Umfpack;

@@ -16,8 +16,8 @@ constexpr Index chunk = 64;
 constexpr Index most_lanes = 16;
 
 /// Some rows of a panel times D Lᵀ of as many other rows as there are lanes.
-/// @param rows the first entry of the first row. @param width the distance between rows.
-/// @param use(r, sums) takes the sums of row r.
+/// @param rows the first entry of the first row. @param width the distance between rows. @param factors D Lᵀ: for each
+/// of n columns, the numbers of all lanes. @param use(r, sums) takes the sums of row r.
 template <Index Rows, class Vector, class Number, class Use>
 [[gnu::always_inline]] inline void multiply(const Number* rows, std::size_t width, const Number* factors, Index n,
                                             Use&& use)
@@ -43,10 +43,12 @@ struct Targets {
     /// The first target row, and the number of target rows.
     Index first;
     Index n;
+    /// Per target row: its lane.
     std::array<Index, usize(most_lanes)> lane;
 };
 
-Targets in_order(Index first, Index n)
+/// The n rows from `first` on, in lanes 0, 1, 2 and so on.
+Targets consecutive_targets(Index first, Index n)
 {
     Targets targets{first, n, {}};
     std::iota(targets.lane.begin(), targets.lane.end(), 0);
@@ -83,7 +85,7 @@ template <class Vector, class Number, class Use>
     }
 }
 
-/// The number of leading columns, of some ascending columns, that lie within `width` consecutive ones.
+/// The number of the first columns, of some ascending columns, that lie within `width` consecutive columns.
 [[gnu::always_inline]] inline Index count_neighbours(const Index* columns, Index n, Index width)
 {
     Index count = 1;
@@ -92,7 +94,7 @@ template <class Vector, class Number, class Use>
     return count;
 }
 
-/// Updates columns that lie within as many consecutive ones as there are lanes. In the columns in between, 0 is
+/// Updates columns that lie within as many consecutive columns as there are lanes. From the columns in between, 0 is
 /// subtracted.
 template <class Vector, class Number>
 [[gnu::always_inline]] inline void update_columns(const LdlPanel<Number>& earlier, Index row_index, Index n,
@@ -122,7 +124,7 @@ template <class Vector, class Number>
         return;
     const std::size_t width = usize(panel.width);
     Number* target = panel.values + usize(last) * (width + 1);
-    const Targets targets = in_order(last, n);
+    const Targets targets = consecutive_targets(last, n);
     if (n == Vector::lanes)
         multiply_all<Vector>(panel, first, last, targets,
                              [&](Index i, const Vector& sums) { sums.subtract_from(target + usize(i) * width); });
@@ -133,6 +135,7 @@ template <class Vector, class Number>
 
 /// Factorises columns that depend only on each other.
 /// @param Columns 1 to 4.
+/// @returns whether their pivots are finite and not 0.
 template <Index Columns, class Number>
 [[gnu::always_inline]] inline bool factorise_columns(const LdlPanel<Number>& panel, Index first)
 {
@@ -169,6 +172,7 @@ template <Index Columns, class Number>
     return sound;
 }
 
+/// Factorises n columns, n from 0 to 4.
 template <class Number>
 [[gnu::always_inline]] inline bool factorise_columns(const LdlPanel<Number>& panel, Index first, Index n)
 {
@@ -186,6 +190,7 @@ template <class Number>
     }
 }
 
+/// See subtract_update.
 struct SubtractUpdate {
     template <Index Width, class Number>
     void operator()(SimdWidth<Width>, const LdlPanel<Number>& earlier, Index row_index, Index n_columns,
@@ -193,6 +198,7 @@ struct SubtractUpdate {
     {
         for (Index t = 0, n = 0; t < n_columns; t += n) {
             const auto among = [&](Index width) { return count_neighbours(target_rows + t, n_columns - t, width); };
+            // Sixteen lanes are used if they take two registers at most.
             if constexpr (Width * sizeof(double) >= 8 * sizeof(Number))
                 if (n_columns - t > 8 && (n = among(16)) > 8) {
                     update_columns<SimdBlock<Number, Width, 16>>(earlier, row_index + t, n, target_rows + t, later);
@@ -208,6 +214,7 @@ struct SubtractUpdate {
     }
 };
 
+/// See factorise_panel. Columns are factorised in groups, and a group in two halves.
 struct FactorisePanel {
     template <Index Width, class Number>
     bool operator()(SimdWidth<Width>, const LdlPanel<Number>& panel) const

@@ -15,7 +15,7 @@ struct LdlPanel {
     Number* values;
     /// Number of columns.
     Index width;
-    /// The unknowns of the rows, ascending: first those of the columns.
+    /// The unknowns of the rows, ascending: first the unknowns of the columns.
     std::span<const Index> rows;
 };
 
@@ -45,7 +45,7 @@ constexpr Index wide_ldl_row = 16;
 template <Index Length, class Number>
 void forward_substitute_panel(const LdlPanel<Number>& panel, Number* x);
 
-/// Solves for a panel's unknowns; those of its other rows are given.
+/// Solves for the unknowns of a panel's columns, given the unknowns of its other rows.
 /// @tparam Length see forward_substitute_panel. @param x see forward_substitute_panel.
 template <Index Length, class Number>
 void back_substitute_panel(const LdlPanel<Number>& panel, Number* x);

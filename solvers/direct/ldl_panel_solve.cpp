@@ -99,6 +99,7 @@ template <class Use>
         use(std::integral_constant<Index, 4>());
 }
 
+/// See forward_substitute_panel.
 template <Index Length>
 struct EliminatePanel {
     template <Index Width, class Number>
@@ -110,6 +111,7 @@ struct EliminatePanel {
     }
 };
 
+/// See back_substitute_panel.
 template <Index Length>
 struct SubstitutePanel {
     template <Index Width, class Number>

@@ -22,7 +22,7 @@ template <class Number>
 constexpr std::ptrdiff_t cache_line = 64 / sizeof(Number);
 
 /// Per unknown, its supernode.
-std::vector<Index> blocks_of_unknowns(const SymbolicFactor& pattern)
+std::vector<Index> supernodes_of_unknowns(const SymbolicFactor& pattern)
 {
     std::vector<Index> supernode_of(pattern.n());
     for (Index b = 0; b < pattern.n_supernodes(); ++b)
@@ -56,6 +56,8 @@ bool has_small_pivot(const LdlPanel<Number>& panel, const std::vector<double>& d
     return is_small;
 }
 
+/// Copies the diagonal of a panel that is not yet factorised.
+/// @param diagonal enlarged if it is shorter than the panel is wide.
 template <class Number>
 void copy_diagonal(const LdlPanel<Number>& panel, std::vector<double>& diagonal)
 {
@@ -103,7 +105,7 @@ LdlSolver::LdlSolver(const SparsePattern& upper, std::optional<Index> n_last, co
             throw ComputationError("the system's factor is too large: use more sub-meshes");
         panels_.push_back(static_cast<Index>(end));
     }
-    const std::vector<Index> supernode_of = blocks_of_unknowns(pattern_);
+    const std::vector<Index> supernode_of = supernodes_of_unknowns(pattern_);
     list_updates(supernode_of);
     find_slots(upper, supernode_of);
     if (exec_)
@@ -112,6 +114,7 @@ LdlSolver::LdlSolver(const SparsePattern& upper, std::optional<Index> n_last, co
         list_targets();
 }
 
+/// Fills updates_: a supernode updates each later one that has some of its rows.
 void LdlSolver::list_updates(const std::vector<Index>& supernode_of)
 {
     const auto for_each_update = [&](auto use) {
@@ -147,8 +150,8 @@ void LdlSolver::list_targets()
     });
 }
 
-/// Finds the index of each entry in the factor. An entry of column j belongs to the supernode of its row, which is
-/// eliminated first; the index of j among the rows of that supernode is known.
+/// Replaces slots_, in which each entry has the index of its column among the rows of its supernode, by the index of
+/// each entry in the factor. An entry belongs to the supernode of its row, which is eliminated before its column.
 void LdlSolver::find_slots(const SparsePattern& upper, const std::vector<Index>& supernode_of)
 {
     for (std::size_t k = 0; k < slots_.size(); ++k) {
@@ -173,8 +176,8 @@ std::optional<LdlFactor<Number>> LdlSolver::factorise(std::span<const double> va
     const double scale = scale_of<Number>(values.first(slots_.size()));
     const double inverse = 1.0 / scale;
     for (std::size_t k = 0; k < slots_.size(); ++k) {
-        const Index row_index = slots_[k];
-        (row_index < n_factor_numbers() ? factor[row_index] : last[row_index - n_factor_numbers()]) =
+        const Index slot = slots_[k];
+        (slot < n_factor_numbers() ? factor[slot] : last[slot - n_factor_numbers()]) =
             static_cast<Number>(inverse * values[k]);
     }
     bool has_pivots = !schedule_.exists() || factorise_by_subtrees(factor, least_pivot);
@@ -188,6 +191,7 @@ std::optional<LdlFactor<Number>> LdlSolver::factorise(std::span<const double> va
     return has_pivots ? std::optional(LdlFactor<Number>(*this, std::move(numbers), scale)) : std::nullopt;
 }
 
+/// Enlarges a workspace to the number of unknowns.
 void LdlSolver::enlarge(LdlWorkspace& workspace) const
 {
     if (workspace.row_of.size() < usize(n())) {
@@ -209,6 +213,7 @@ bool LdlSolver::factorise_supernode(Index supernode, const LdlPanel<Number>& pan
 
 /// Factorises the groups; subtracts their updates from the supernodes above them; factorises these one by one, and
 /// subtracts each one's updates from later ones.
+/// @returns whether all pivots are large enough.
 template <class Number>
 bool LdlSolver::factorise_by_subtrees(Number* factor, Number least_pivot) const
 {
@@ -245,7 +250,8 @@ bool LdlSolver::factorise_by_subtrees(Number* factor, Number least_pivot) const
     return true;
 }
 
-/// @param above a factorised supernode, by its index in schedule_.above.
+/// Subtracts the updates of a factorised supernode above the groups from later supernodes.
+/// @param above its index in schedule_.above.
 template <class Number>
 void LdlSolver::subtract_from_targets(Index above, Number* factor) const
 {
@@ -261,6 +267,7 @@ void LdlSolver::subtract_from_targets(Index above, Number* factor) const
     });
 }
 
+/// Subtracts the updates of earlier supernodes (updates_) from the panel of a supernode.
 template <class Number>
 void LdlSolver::subtract_updates(const LdlPanel<Number>& later, Index supernode, Number* factor,
                                  LdlWorkspace& workspace) const
@@ -282,7 +289,7 @@ void LdlFactor<Number>::solve(const Columns& right_hand_side, Columns& solution,
     assert(solver_->n_last_ == 0);
     const Index n = solver_->n();
     const double unit = scale_of<Number>(std::span(right_hand_side.data(), usize(3) * usize(n)));
-    // There is no last block to solve for.
+    // Without last unknowns, the memory of their block is free for the solution.
     auto& rows_of_solution = std::get<std::vector<Number>>(workspace.last);
     rows_of_solution.resize(std::max(rows_of_solution.size(), usize(ldl_row) * usize(n)));
     Number* const x = rows_of_solution.data();

@@ -97,9 +97,10 @@ class LdlSolver {
         Index n_columns;
     };
 
-    /// The number of numbers before those of the unknowns kept together.
+    /// The number of entries of a factor before the block of the unknowns that are kept together.
     [[nodiscard]] Index n_factor_numbers() const { return n_last_ > 0 ? panels_.rbegin()[1] : panels_.back(); }
-    /// The number of numbers of a factor; without its last block, including those of three right-hand sides.
+    /// The number of floating-point numbers of a factor: its entries without that block, and three right-hand sides if
+    /// it has rows().
     [[nodiscard]] std::size_t n_numbers() const
     {
         return usize(n_factor_numbers()) + (has_rows_ ? usize(ldl_row) * usize(n()) : 0);
@@ -124,6 +125,7 @@ class LdlSolver {
         return {factor + panels_[supernode], pattern_.width(supernode), pattern_.rows[supernode]};
     }
 
+    /// The number of unknowns that are kept together at the end; and whether factors have rows().
     Index n_last_;
     bool has_rows_;
     /// Per entry of the matrix: its index in the factor.
@@ -162,8 +164,8 @@ class LdlFactor {
     /// @pre the solver was constructed with n_last.
     [[nodiscard]] Number* rows() { return numbers_.get() + solver_->n_factor_numbers(); }
 
-    /// Forward substitution for all except the last unknowns: the rows of these become L⁻¹ rows(), and the last rows
-    /// become the right-hand sides for the last unknowns.
+    /// Forward substitution for all unknowns except the last: their rows become L⁻¹ rows(), and the last rows become
+    /// the right-hand sides for the last unknowns.
     void forward_substitute();
 
     /// Solves for all unknowns except the last, in units of 1 / scale(). rows() in: the result of `forward_substitute`,
@@ -179,6 +181,8 @@ class LdlFactor {
     {
     }
 
+    /// Substitution for the supernodes of the first n unknowns.
+    /// @param x all unknowns by Length, row by row.
     template <Index Length>
     void forward_substitute(Number* x, Index n) const;
     template <Index Length>

@@ -16,7 +16,7 @@ constexpr Eigen::Index upper = 1;
 
 /// Subtracts the contributions of some columns of a supernode from the column of L and the row of U of the unknown
 /// rows[row_index].
-/// @param columns the first of them; each has as many entries as there are rows.
+/// @param columns the first of these columns; each has as many entries as there are rows.
 template <std::size_t Width>
 void subtract(const Pair* columns, std::span<const Index> rows, std::size_t row_index, Pair* elimination)
 {
@@ -87,6 +87,7 @@ std::optional<LuSolver::Factor> LuSolver::factorise(std::span<const double> valu
     return factor;
 }
 
+/// Sets row_sizes of the workspace.
 void LuSolver::measure_rows(std::span<const double> values, LuWorkspace& workspace) const
 {
     workspace.row_sizes.assign(pattern_.n(), 0.0);
@@ -97,6 +98,7 @@ void LuSolver::measure_rows(std::span<const double> values, LuWorkspace& workspa
         }
 }
 
+/// Copies the values of the column of L and of the row of U of an unknown to the workspace.
 void LuSolver::load(Index unknown, std::span<const double> values, LuWorkspace& workspace) const
 {
     for (const auto& [slot, position] : loads_[unknown])
@@ -127,17 +129,17 @@ bool LuSolver::store(Index supernode, Index column, const Factor& factor, LuWork
     const double* sizes = workspace.row_sizes.data();
     const double size = sizes[rows[column]];
     const double inverse = 1.0 / workspace.elimination[rows[column]][lower];
-    bool will_do = std::isfinite(inverse) && std::abs(inverse) * size * least_pivot <= 1.0;
+    bool is_acceptable = std::isfinite(inverse) && std::abs(inverse) * size * least_pivot <= 1.0;
     for (std::size_t m = usize(column); m < rows.size(); ++m) {
         Pair& entry = workspace.elimination[rows[m]];
         const double multiplier = entry[lower] * inverse;
-        will_do &= std::abs(multiplier) * size <= largest_multiplier * sizes[rows[m]];
-        will_do &= std::abs(entry[upper]) <= largest_growth * size;
+        is_acceptable &= std::abs(multiplier) * size <= largest_multiplier * sizes[rows[m]];
+        is_acceptable &= std::abs(entry[upper]) <= largest_growth * size;
         result[m] = Pair(multiplier, entry[upper]);
         entry.setZero();
     }
     result[column][lower] = inverse;
-    return will_do;
+    return is_acceptable;
 }
 
 void LuSolver::Factor::solve(const Columns& right_hand_side, Columns& solution, LuWorkspace& workspace) const

@@ -44,6 +44,7 @@ class LuSolver {
   private:
     /// The position of a value while its column of L and row of U are computed.
     struct Load {
+        /// The index of the value in the matrix.
         Index slot;
         /// Twice the unknown for the column of L; one more for the row of U.
         Index position;

@@ -19,6 +19,7 @@ constexpr Index most_unknowns_for_ldl = 2'000'000;
 /// hexagons).
 constexpr Index most_unknowns_for_lu = 20'000;
 
+/// An LdlSolver behind the interface of direct solvers.
 class OwnLdl final : public DirectSolver {
   public:
     OwnLdl(const SparsePattern& upper, const EliminationTree& tree, Executor exec, Pivots pivots)
@@ -45,8 +46,8 @@ class OwnLdl final : public DirectSolver {
     std::optional<LdlFactor<double>> factor_;
 };
 
-/// Uses an LuSolver if the pivots on the diagonal are acceptable, and otherwise a foreign solver, which searches for
-/// better ones. The choice depends only on the matrix.
+/// Uses an LuSolver if the pivots on the diagonal are acceptable, and otherwise UMFPACK or Eigen, which search for
+/// better ones. The choice depends only on the matrix and the build.
 class OwnLu final : public DirectSolver {
   public:
     explicit OwnLu(const SparsePattern& pattern)

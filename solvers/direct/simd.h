@@ -77,7 +77,7 @@ struct SimdBlock {
         for (Index p = 0; p < n_registers; ++p)
             registers[p] += factor * numbers.registers[p];
     }
-    /// Subtracts all numbers from neighbouring entries.
+    /// Subtracts the numbers of the block from as many neighbouring entries.
     [[gnu::always_inline]] void subtract_from(Number* target) const
     {
         for (Index p = 0; p < n_registers; ++p) {
@@ -87,7 +87,7 @@ struct SimdBlock {
             store(entries, target + p * lanes_of_register);
         }
     }
-    /// Subtracts the first n numbers from neighbouring entries.
+    /// Subtracts the first n numbers of the block from n neighbouring entries.
     [[gnu::always_inline]] void subtract_from(Number* target, Index n) const
     {
         for (Index t = 0; t < n; ++t)

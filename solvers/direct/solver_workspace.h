@@ -38,6 +38,7 @@ class CholmodWorkspace {
   public:
     /// Defined only in the file that calls CHOLMOD.
     struct State;
+    /// The state, made by the first call.
     [[nodiscard]] State& state();
 
   private:

@@ -36,6 +36,8 @@ struct UmfpackLong {
 /// Above this number of unknowns a factor may outgrow 32-bit integers.
 constexpr Index most_unknowns_for_umfpack_int = 100'000;
 
+/// Throws a ComputationError if a call of UMFPACK failed or found a singular matrix.
+/// @param task in the text of the error.
 void require_ok(long status, const char* task)
 {
     if (status == UMFPACK_OK)
@@ -47,6 +49,8 @@ void require_ok(long status, const char* task)
     throw_failure("UMFPACK", task, status);
 }
 
+/// See make_umfpack_lu.
+/// @tparam Interface UmfpackInt or UmfpackLong.
 template <class Interface>
 class UmfpackLu final : public DirectSolver {
   public:
@@ -100,13 +104,13 @@ class UmfpackLu final : public DirectSolver {
 
     bool make_factor(std::span<const double> values, FactorMemory&, SolverWorkspace&) override
     {
-        if (do_pivots(values, fast_) == UMFPACK_OK && !numeric_.is_nearly_singular)
+        if (factorise_with(values, fast_) == UMFPACK_OK && !numeric_.is_nearly_singular)
             return true;
         // Iterative refinement needs more memory.
         work_.numbers.resize(5 * work_.integers.size());
         if (!careful_.symbolic)
             analyse(careful_);
-        require_ok(do_pivots(values, careful_), "factorisation");
+        require_ok(factorise_with(values, careful_), "factorisation");
         return true;
     }
 
@@ -125,6 +129,7 @@ class UmfpackLu final : public DirectSolver {
 
     void free_factor() override { numeric_ = {}; }
 
+    /// Analyses the pattern for a way of choosing pivots.
     void analyse(Way& way)
     {
         void* symbolic = nullptr;
@@ -134,9 +139,9 @@ class UmfpackLu final : public DirectSolver {
         way.symbolic.reset(symbolic);
     }
 
-    /// Factorises.
+    /// Factorises with a way of choosing pivots.
     /// @returns UMFPACK_OK, or the warning that the matrix is singular.
-    int do_pivots(std::span<const double> values, Way& way)
+    int factorise_with(std::span<const double> values, Way& way)
     {
         numeric_ = {nullptr, values, &way};
         void* numbers = nullptr;

@@ -61,6 +61,7 @@ void ErrorEquation::number_own(std::vector<Index>& kinds)
 /// @param kinds #V: receives the numbers.
 void ErrorEquation::number_remote(const PolygonMesh& mesh, const Topology& topology, std::vector<Index>& kinds)
 {
+    /// A vertex of Γ, and the lowest sub-mesh that has it, which numbers it.
     struct Neighbour {
         Index lowest;
         Index vertex;
@@ -89,7 +90,7 @@ void ErrorEquation::number_remote(const PolygonMesh& mesh, const Topology& topol
     }
 }
 
-/// The rank of a vertex's neighbour receives the row of the vertex, which is a neighbour of that one in turn.
+/// Sets up the exchange of rows between ranks: a rank that numbers a neighbour of a vertex receives the vertex's row.
 void ErrorEquation::share_rows()
 {
     std::map<Index, SharedRows::Lists> with;
@@ -105,6 +106,7 @@ void ErrorEquation::share_rows()
     shared_.emplace(*ranks_, std::move(with));
 }
 
+/// Fills rows_.neighbours.
 /// @param kinds #V: the number of a vertex of Γ; off_interface or fixed_vertex for other vertices.
 void ErrorEquation::list_neighbours(std::span<const Index> kinds, const Executor& exec)
 {
@@ -178,10 +180,11 @@ void ErrorEquation::measure_whole_rows(const PolygonMesh& mesh, const Topology& 
     });
 }
 
-/// The mesh beyond Γ also couples the vertices of Γ to each other, so that rough errors decay sooner: on regular grids
-/// T grows with the wave number along Γ, and not with its square. A multiple of the response, the smaller the more the
-/// vertices are coupled already, approximates this: with these numbers within a factor of 2 for Δ_F and Δ_A on regular
-/// quads and triangles at all wave numbers except the highest.
+/// Adds to the couplings between vertices of Γ. The mesh beyond Γ also couples these vertices to each other, so that
+/// rough errors decay sooner: on regular grids T grows with the wave number along Γ, and not with its square. A
+/// multiple of the response, the smaller the more the vertices are coupled already, approximates this: with these
+/// numbers within a factor of 2 for Δ_F (Laplacian::Fujiwara) and Δ_A (Laplacian::AlexaWardetzky) on regular quads and
+/// triangles at all wave numbers except the highest.
 void ErrorEquation::stiffen(const Executor& exec)
 {
     for_each(exec, size(), [&](Index i) {
@@ -210,7 +213,7 @@ double ErrorEquation::add_up(const Executor& exec, Value&& value)
     return tree_.add_up(sums_, 1).front();
 }
 
-/// T times the direction.
+/// Row i of T times the direction.
 Point ErrorEquation::product(Index i) const
 {
     Point sum = rows_.diagonal[i] * iteration_.direction.row(i);

@@ -44,14 +44,14 @@ class ErrorEquation {
     /// @param time_step dt, in length².
     void assemble(Index s, const Points& before, const Points& after, const Points& stiffness_at, double time_step);
 
-    /// Replaces the right-hand side by that of Δ_P, whose rows reach beyond what one sub-mesh knows. All ranks call
-    /// this together.
+    /// Replaces the right-hand side by the one of Δ_P (Laplacian::PtackovaVelho), whose rows reach further than the
+    /// faces that one sub-mesh knows. All ranks call this together.
     /// @param before, after see WholeRows::measure.
     void measure_whole_rows(const PolygonMesh& mesh, const Topology& topology, const Points& before,
                             const Points& after, double time_step, const Executor& exec);
 
-    /// Adds the attachment of a vertex to V⁰.
-    /// @param weight dt w. @param distance Vᵏ⁺¹ as solved minus V⁰, in length.
+    /// Adds the term dt M w to row i, after `assemble`: it pulls the vertex back to V⁰ (see FlowTerms).
+    /// @param weight dt w. @param distance from V⁰ to Vᵏ⁺¹ as solved, in length.
     void attach(Index i, double weight, const Point& distance)
     {
         const double entry = weight * rows_.mass[i];
@@ -95,7 +95,7 @@ class ErrorEquation {
         std::vector<Index> index_in_sub_mesh;
         std::vector<Index> local_vertex;
         /// The vertices that other ranks number and that are neighbours of own vertices: for each, the sub-mesh that
-        /// numbers it. On this rank, their numbers follow the own ones.
+        /// numbers it. Their numbers on this rank follow the numbers of own vertices.
         std::vector<Index> remote;
     };
     struct Rows {
@@ -105,11 +105,12 @@ class ErrorEquation {
         std::vector<double> couplings;
         /// Per vertex of Γ: see error_row. No lists if all faces are oriented alike.
         Lists<std::int8_t> senses;
+        /// Per vertex of Γ: M_v and T_vv (see ErrorRow), and the sum of the row of T.
         std::vector<double> mass;
         std::vector<double> diagonal;
         std::vector<double> row_sum;
-        /// Per vertex of Γ, those of other ranks included: the response of the vertices beyond Γ to each neighbour
-        /// along Γ.
+        /// Per vertex of Γ, the vertices of other ranks included: the response of the vertices beyond Γ to each
+        /// neighbour along Γ.
         std::vector<double> response;
         /// #Γ by 3: see normal().
         Points normal;

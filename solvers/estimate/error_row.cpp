@@ -19,8 +19,8 @@ struct Draft {
     std::span<const Index> neighbours;
     std::span<double> couplings;
     ErrorRow row;
-    /// Over the couplings to vertices that share a face but no edge with v: their sum, and the sum of their products
-    /// with squared distances, for the ones across Γ and for all.
+    /// Over the couplings to vertices that share a face but no edge with v: their sum; the sum of their products with
+    /// squared distances across Γ; and the sum of their products with squared distances.
     double far = 0.0;
     double far_across = 0.0;
     double far_squares = 0.0;
@@ -29,6 +29,7 @@ struct Draft {
 
     [[nodiscard]] Point to(Index other) const { return before.row(other) - before.row(vertex); }
     [[nodiscard]] bool keeps_stiffness() const { return &stiffness_at != &before; }
+    /// The square of the component of a vector across Γ.
     [[nodiscard]] double square_across(const Point& difference) const
     {
         const double tangential = difference.dot(along);
@@ -97,7 +98,7 @@ void for_each_face(std::span<const Index> fan, const IndexLists& faces, Index v,
 
 /// The squared distance over which a disturbance spreads in a step: dt D, D = ΣK d² / 4M. D is 1 for a Laplacian that
 /// is exact on quadratic functions. It is clamped, because obtuse triangles can make it meaningless.
-double spread(const Draft& draft, double time_step)
+double squared_spread(const Draft& draft, double time_step)
 {
     double squares = draft.far_squares;
     for (std::size_t j = 0; j < draft.neighbours.size(); ++j)
@@ -105,7 +106,8 @@ double spread(const Draft& draft, double time_step)
     return std::clamp(0.25 * squares / draft.row.mass, 0.25 * time_step, 4.0 * time_step);
 }
 
-/// Computes the diagonal, and drops the couplings to vertices that are not on Γ.
+/// Computes the diagonal and the response, and drops the couplings to vertices that are not on Γ.
+/// @param kinds see error_row. @param spread_squared see `squared_spread`.
 void close_row(std::span<const Index> kinds, double spread_squared, Draft& draft)
 {
     double held = 0.0;
@@ -168,7 +170,7 @@ ErrorRow error_row(const SubMesh& sub_mesh, const ScaledLaplacian& laplacian, In
     });
     draft.row.normal = unit_or_zero(draft.row.normal);
     draft.row.residual += draft.row.mass * (after.row(v) - before.row(v));
-    close_row(kinds, spread(draft, step.time_step), draft);
+    close_row(kinds, squared_spread(draft, step.time_step), draft);
     return draft.row;
 }
 

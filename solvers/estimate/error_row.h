@@ -19,14 +19,15 @@ inline constexpr Index fixed_vertex = -2;
 /// fraction e^-θ of the error is left, cosh θ = 1 + d² / 2 dt D, D being the diffusivity of the row itself. T is
 /// positive definite: negative couplings count as 0.
 struct ErrorRow {
-    /// M_v: in length for Δ_F, in length² for the other Laplacians.
+    /// M_v: in length for Δ_F (Laplacian::Fujiwara), in length² for the other Laplacians.
     double mass = 0.0;
     /// T_vv.
     double diagonal = 0.0;
     /// The response of the vertices beyond Γ, in the unit of T: the sum of their couplings, each times e^-θ.
     double response = 0.0;
     Point residual = Point::Zero();
-    /// The unit normal of the surface at Vᵏ, with Δ_F that of the sub-mesh's own side; zero where the surface has none.
+    /// The unit normal of the surface at Vᵏ, with Δ_F the normal of the sub-mesh's own side; zero where the surface has
+    /// none.
     Point normal = Point::Zero();
 };
 
@@ -41,13 +42,12 @@ struct SolvedStep {
     double time_step;
 };
 
-/// The row at the i-th vertex of a sub-mesh's Γ. For Δ_P, T is that of Δ_A, and the residual is 0: rows of Δ_P reach
-/// beyond the halo.
+/// The row at the i-th vertex of a sub-mesh's Γ. For Δ_P (Laplacian::PtackovaVelho), T is that of Δ_A
+/// (Laplacian::AlexaWardetzky), and the residual is 0: rows of Δ_P reach beyond the halo.
 /// @param senses one per face around the vertex, first the sub-mesh's own faces, then those of the complement fan: 1,
-/// or
-///        -1 if the face is oriented against the others (see VertexNormals::sense). Empty: 1 everywhere.
+/// or -1 if the face is oriented against the others (see VertexNormals::sense). Empty: 1 everywhere.
 /// @param kinds one per edge neighbour of the vertex (see CorrectedVertices): its number on Γ, off_interface or
-///        fixed_vertex.
+/// fixed_vertex.
 /// @param couplings one per edge neighbour: receives -T_vw where the neighbour is on Γ, and 0 elsewhere.
 ErrorRow error_row(const SubMesh& sub_mesh, const ScaledLaplacian& laplacian, Index i,
                    std::span<const std::int8_t> senses, std::span<const Index> kinds, const SolvedStep& step,

@@ -18,7 +18,7 @@ WholeRows::WholeRows(const Decomposition& decomposition, const PolygonMesh& mesh
     of_copies_.setZero(copies_.n_copies(), 3);
 }
 
-/// Lists the rows sub-mesh by sub-mesh. All faces around a vertex beside Γ are in one sub-mesh.
+/// Lists the rows at Γ and beside Γ, sub-mesh by sub-mesh. All faces around a vertex beside Γ are in one sub-mesh.
 void WholeRows::list_rows(const Decomposition& decomposition, const PolygonMesh& mesh, const Topology& topology,
                           const InterfaceRanks& ranks)
 {
@@ -66,6 +66,7 @@ void WholeRows::list_rows(const Decomposition& decomposition, const PolygonMesh&
     }
 }
 
+/// Fills faces_ and number_, and replaces the faces of faces_at_ by their indices in faces_.
 void WholeRows::list_faces(const PolygonMesh& mesh, const Topology& topology)
 {
     number_.assign(usize(mesh.n_faces()), -1);
@@ -88,6 +89,7 @@ void WholeRows::list_faces(const PolygonMesh& mesh, const Topology& topology)
     }
 }
 
+/// Computes of_rows_.
 void WholeRows::evaluate(const PolygonMesh& mesh, const Topology& topology, const Points& before, const Points& after,
                          double time_step, const Executor& exec)
 {

@@ -61,11 +61,12 @@ class WholeRows {
     /// Per row: its vertex; and the own faces around the vertex, as indices of `faces_`.
     std::vector<Index> vertices_;
     IndexLists faces_at_;
-    /// The own faces of the rows, then the faces that share an edge with one of them.
+    /// The n_inner_ own faces of the rows, then the faces that share an edge with one of them.
     std::vector<Face> faces_;
     Index n_inner_ = 0;
     /// #F: the index of a face in `faces_`, or -1.
     std::vector<Index> number_;
+    /// #rows by 3: the residuals from the own faces around each vertex.
     Points of_rows_;
     /// #copies by 3: the shares of the copies' sub-meshes.
     Points of_copies_;

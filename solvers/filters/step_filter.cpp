@@ -17,7 +17,7 @@ struct Polynomial {
 };
 
 /// The least-squares fit over u in [0, 1], with the weight uᵏ that g is multiplied by.
-Polynomial fit(int order, int degree)
+Polynomial fit_polynomial(int order, int degree)
 {
     constexpr Eigen::Index n = 1001;
     const Eigen::ArrayXd u = Eigen::ArrayXd::LinSpaced(n, 0.0, 1.0);
@@ -42,7 +42,8 @@ Polynomial harmonic_polynomial(const StepFilter& filter)
 {
     constexpr int highest_degree = 40;
     for (int degree = 1;; ++degree)
-        if (Polynomial g = fit(filter.order, degree); g.error <= filter.tolerance || degree == highest_degree)
+        if (Polynomial g = fit_polynomial(filter.order, degree);
+            g.error <= filter.tolerance || degree == highest_degree)
             return g;
 }
 
@@ -60,8 +61,8 @@ void combine(double a, PointBlocks& x, double b, const PointBlocks& y, double c,
 }
 
 /// rest = g(u S) rest, by the recurrence of the Chebyshev polynomials T_j(8 u S - 1).
-void divide(const Polynomial& g, PointBlocks& rest, const std::function<const PointBlocks&(const PointBlocks&)>& solve,
-            const Executor& exec)
+void apply_polynomial(const Polynomial& g, PointBlocks& rest,
+                      const std::function<const PointBlocks&(const PointBlocks&)>& solve, const Executor& exec)
 {
     double constant = 1.0;
     for (std::size_t j = 1; j <= g.a.size(); ++j)
@@ -122,7 +123,7 @@ void apply_filter(const StepFilter& filter, PointBlocks& rest,
         combine(1.0, rest, -1.0, solution, 0.0, solution, exec);
     }
     if (filter.kind == Filter::Diffusion)
-        divide(harmonic_polynomial(filter), rest, solve, exec);
+        apply_polynomial(harmonic_polynomial(filter), rest, solve, exec);
 }
 
 }  // namespace seamflow

@@ -16,8 +16,9 @@ enum class Filter {
     /// is implicit surface diffusion (Desbrun et al., Implicit Fairing of Irregular Meshes, 1999). The higher the
     /// order, the less of large features and the more of small ones is removed.
     Diffusion,
-    /// V ← V + Σ of S applied to the rest of V, m times in all, which multiplies a mode by 1 - (λ / (1 + λ))ᵐ. Large
-    /// features shrink only to order m; small features stay longer than with Diffusion.
+    /// S is applied m times in all: first to V, then each time to the part of V that the sum of the results still
+    /// lacks. The sum has a mode times 1 - (λ / (1 + λ))ᵐ. Large features shrink only to order m; small features stay
+    /// longer than with Diffusion.
     LowPass,
 };
 
@@ -48,7 +49,7 @@ double lambda_of(const StepFilter& filter, double left);
 /// The number of solutions of a step, including that of S V.
 int n_solutions(const StepFilter& filter);
 
-/// Rows of arrays that belong together, #rows by 3 each.
+/// Blocks of rows that together are one array of points, #rows by 3 each.
 using PointBlocks = std::vector<Points>;
 
 /// Completes a filter that is not plain. With u = 1 - S, the low-pass filter subtracts uᵐ V from V, and the k-harmonic

@@ -31,6 +31,7 @@ IndexLists inverse_lists(std::span<const Index> list_of, Index n_lists)
 using FourDoubles = SimdVector<double, 4>;
 static_assert(DenseFactor::lanes == 8);
 
+/// The sum of eight numbers.
 inline double sum_of(const FourDoubles& low, const FourDoubles& high)
 {
     const FourDoubles sums = low + high;
@@ -105,6 +106,7 @@ CoarseSpace::CoarseSpace(const InterfaceCopies& copies, InterfaceRanks& ranks)
     coefficients_.resize(size(), 3);
 }
 
+/// Finds the classes of Γ and numbers their functions: fills function_, copies_in_, functions_at_, terms_of_ and sent_.
 void CoarseSpace::find_functions()
 {
     std::vector<VertexClass> here;
@@ -129,6 +131,7 @@ void CoarseSpace::find_functions()
     function_.resize(copies_.n_copies());
     values_at_.resize(function_.size());
     Index n_functions = 0;
+    // The functions of all classes are numbered in order; copies are known for the classes of this rank alone.
     auto next = classes.begin();
     const auto pass = [&] { n_functions += (next++)->n_functions(); };
     for (std::size_t i = 0; i < here.size(); ++i, pass()) {
@@ -169,7 +172,7 @@ std::vector<CoarseSpace::VertexClass> CoarseSpace::classes_of_all(const std::vec
     return all;
 }
 
-/// The function of a vertex's first copy is the constant.
+/// Computes values_at_ from the weights of all copies. The function of a vertex's first copy is the constant.
 void CoarseSpace::set_functions(std::span<const double> weights, const Executor& exec)
 {
     for_each(exec, size(), [&](Index f) {
@@ -187,6 +190,7 @@ void CoarseSpace::set_functions(std::span<const double> weights, const Executor&
     });
 }
 
+/// Fills functions_at_ and terms_of_.
 void CoarseSpace::list_functions(const std::vector<VertexClass>& classes)
 {
     functions_at_ = make_lists(ranks_.n_sub_meshes(), [&](auto&& add) {
@@ -201,6 +205,7 @@ void CoarseSpace::list_functions(const std::vector<VertexClass>& classes)
     terms_of_ = inverse_lists(functions_at_.values, size());
 }
 
+/// Fills sent_.
 void CoarseSpace::divide_terms(const std::vector<VertexClass>& classes)
 {
     const std::vector<Index>& holders = ranks_.holders();
@@ -222,7 +227,8 @@ void CoarseSpace::divide_terms(const std::vector<VertexClass>& classes)
                 sent_[holders[global_number]].terms.push_back(term);
 }
 
-/// Two functions have an entry in E where one sub-mesh has both.
+/// The entries of E on and above the diagonal, sub-mesh by sub-mesh. Two functions have an entry in E where one
+/// sub-mesh has both.
 std::vector<MatrixEntry> CoarseSpace::entries() const
 {
     std::vector<MatrixEntry> entries;
@@ -234,6 +240,7 @@ std::vector<MatrixEntry> CoarseSpace::entries() const
     return entries;
 }
 
+/// Finds the elimination ordering of E, and analyses its pattern.
 void CoarseSpace::analyse()
 {
     energy_.unknown_of.resize(size());
@@ -268,7 +275,8 @@ void CoarseSpace::prepare(std::span<const DenseFactor> complements, std::span<co
     energy_.factor = energy_.solver->factorise<double>(energy_.values, energy_.memory, energy_.workspace);
 }
 
-/// With S = R Rᵀ, the share of E is (Rᵀ Z)ᵀ (Rᵀ Z), which rounding cannot make indefinite.
+/// Computes the Share of a sub-mesh. With S = R Rᵀ, the share of E is (Rᵀ Z)ᵀ (Rᵀ Z), which rounding cannot make
+/// indefinite.
 void CoarseSpace::multiply_functions(Index s, const DenseFactor& schur)
 {
     const auto functions = functions_at_[ranks_.global_numbers()[s]];
@@ -357,6 +365,7 @@ void CoarseSpace::correct(const Points& residual, Points& y, const Executor& exe
     });
 }
 
+/// Subtracts the shares of all sub-meshes in Zᵀ S y from the sum for function f.
 void CoarseSpace::subtract_terms(Index f)
 {
     Point sum = sums_.row(f);

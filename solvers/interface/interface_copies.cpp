@@ -8,9 +8,11 @@ namespace seamflow {
 
 namespace {
 
-/// A vertex of Γ, found in the lowest whole sub-mesh that has it.
+/// A vertex of Γ, by its indices in two sub-meshes.
 struct FoundVertex {
+    /// The index of the vertex in the Γ of the lowest sub-mesh that has it, whole or not.
     Index in_lowest;
+    /// The lowest whole sub-mesh that has the vertex, and its index in the Γ of that sub-mesh.
     Index s;
     Index i;
 };
@@ -31,7 +33,7 @@ std::vector<std::vector<FoundVertex>> find_vertices(const std::vector<SubMesh>& 
     return found;
 }
 
-/// The local indices of each sub-mesh's copies, ascending.
+/// Per sub-mesh: the indices of its listed copies in its Γ, ascending.
 std::vector<std::vector<Index>> find_copies(const std::vector<SubMesh>& sub_meshes,
                                             const std::vector<std::vector<FoundVertex>>& found)
 {

@@ -35,8 +35,8 @@ struct InterfaceCopies {
     IndexLists of_vertex;
 };
 
-/// The exchange of rows of copies between ranks. Afterwards, both of two ranks that share a vertex have the rows of all
-/// its copies.
+/// The exchange of rows of copies between ranks. Afterwards, every rank with a copy of a vertex has the rows of all
+/// copies of this vertex.
 /// @param ranks must outlive the result.
 SharedRows shared_copies(const InterfaceCopies& copies, InterfaceRanks& ranks);
 

@@ -57,7 +57,7 @@ InterfaceResult InterfaceEquation::solve(std::span<const DenseFactor> complement
         r.array().rowwise() /= unit.array();
     };
     if (stop.iterations > 0)
-        start(multiply, guess, unit, x, exec);
+        set_initial_solution(multiply, guess, unit, x, exec);
     InterfaceResult result{
         conjugate_gradients(PreconditionedEquations{multiply, precondition, measure}, stop, x, vectors_, exec)};
     require_finite_result(std::isfinite(result.residual));
@@ -68,7 +68,8 @@ InterfaceResult InterfaceEquation::solve(std::span<const DenseFactor> complement
     return result;
 }
 
-/// Each column is solved for in a unit of its own, so that squares of its rows do not overflow.
+/// Divides each column of the right-hand side by a unit of its own, so that squares of its rows do not overflow.
+/// @returns the units: powers of two.
 Point InterfaceEquation::measure_right_hand_side()
 {
     Point largest = Point::Zero();
@@ -80,8 +81,8 @@ Point InterfaceEquation::measure_right_hand_side()
     return unit;
 }
 
-/// The length of the next step of conjugate gradients, if it had the step size of the last one and its direction were
-/// the preconditioned residual alone.
+/// The farthest that the next step of conjugate gradients would move a vertex of Γ, on any rank, if it had the step
+/// size of the last one and its direction were the preconditioned residual alone.
 double InterfaceEquation::estimate_distance(const Point& unit)
 {
     double largest = 0.0;
@@ -122,10 +123,10 @@ void InterfaceEquation::sum_copies(Points& copies, Points& sums, const Executor&
     });
 }
 
-/// Solves for the coarse unknowns, because the preconditioner is symmetric only with an x that solves for these. Then
-/// moves along the guess as far as this reduces the error.
-void InterfaceEquation::start(const MapPoints& multiply, const Points* guess, const Point& unit, Points& x,
-                              const Executor& exec)
+/// Begins with an x that satisfies the coarse equations: the balanced preconditioner is symmetric only from there. Then
+/// moves x along the guess to the least error.
+void InterfaceEquation::set_initial_solution(const MapPoints& multiply, const Points* guess, const Point& unit,
+                                             Points& x, const Executor& exec)
 {
     if (coarse_) {
         coarse_->correct(vectors_.r, vectors_.p, exec);
@@ -140,27 +141,30 @@ void InterfaceEquation::start(const MapPoints& multiply, const Points* guess, co
             coarse_->correct(vectors_.r, vectors_.p, exec);
         advance(multiply, x, vectors_, exec);
     }
+    // Until now, α was the step size along the guess. If no iteration follows, estimate_distance uses 1.
     vectors_.alpha.setOnes();
 }
 
+/// product = S direction.
 void InterfaceEquation::multiply(std::span<const DenseFactor> complements, const Points& direction, Points& product,
                                  const Executor& exec)
 {
-    on_each(complements, direction, false, product, exec,
-            [](const DenseFactor& schur, FloatColumns columns, FloatColumns result) {
-                schur.multiply(columns, result);
-                return std::pair(result, schur.scale());
-            });
+    sum_over_sub_meshes(complements, direction, false, product, exec,
+                        [](const DenseFactor& schur, FloatColumns columns, FloatColumns result) {
+                            schur.multiply(columns, result);
+                            return std::pair(result, schur.scale());
+                        });
 }
 
+/// preconditioned = Σ W_i S_i⁻¹ W_i residual, balanced if there is a coarse space.
 void InterfaceEquation::precondition(std::span<const DenseFactor> complements, const Points& residual,
                                      Points& preconditioned, const Executor& exec)
 {
-    on_each(complements, residual, true, preconditioned, exec,
-            [](const DenseFactor& schur, FloatColumns columns, FloatColumns scratch) {
-                schur.solve(columns, scratch);
-                return std::pair(columns, 1.0 / schur.scale());
-            });
+    sum_over_sub_meshes(complements, residual, true, preconditioned, exec,
+                        [](const DenseFactor& schur, FloatColumns columns, FloatColumns scratch) {
+                            schur.solve(columns, scratch);
+                            return std::pair(columns, 1.0 / schur.scale());
+                        });
     if (coarse_)
         coarse_->correct(residual, preconditioned, exec);
 }
@@ -169,8 +173,8 @@ void InterfaceEquation::precondition(std::span<const DenseFactor> complements, c
 /// their own, so that single precision can represent lengths of any unit. It returns the columns with its result, and
 /// the factor to multiply the result by.
 template <class Apply>
-void InterfaceEquation::on_each(std::span<const DenseFactor> complements, const Points& source, bool weighted,
-                                Points& target, const Executor& exec, Apply&& apply)
+void InterfaceEquation::sum_over_sub_meshes(std::span<const DenseFactor> complements, const Points& source,
+                                            bool weighted, Points& target, const Executor& exec, Apply&& apply)
 {
     const auto weight = [&](Index copy) { return weighted ? weights_[copy] : 1.0; };
     for_each(exec, copies_.n_sub_meshes(), [&](Index s) {

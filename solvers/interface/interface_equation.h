@@ -76,7 +76,8 @@ class InterfaceEquation {
     [[nodiscard]] bool is_fixed(Index vertex) const { return !is_fixed_.empty() && is_fixed_[vertex] != 0; }
     void weigh_copies(std::span<const DenseFactor> complements, const Executor& exec);
     void sum_copies(Points& copies, Points& sums, const Executor& exec);
-    void start(const MapPoints& multiply, const Points* guess, const Point& unit, Points& x, const Executor& exec);
+    void set_initial_solution(const MapPoints& multiply, const Points* guess, const Point& unit, Points& x,
+                              const Executor& exec);
     Point measure_right_hand_side();
     [[nodiscard]] double estimate_distance(const Point& unit);
     void multiply(std::span<const DenseFactor> complements, const Points& direction, Points& product,
@@ -84,22 +85,23 @@ class InterfaceEquation {
     void precondition(std::span<const DenseFactor> complements, const Points& residual, Points& preconditioned,
                       const Executor& exec);
     template <class Apply>
-    void on_each(std::span<const DenseFactor> complements, const Points& source, bool weighted, Points& target,
-                 const Executor& exec, Apply&& apply);
+    void sum_over_sub_meshes(std::span<const DenseFactor> complements, const Points& source, bool weighted,
+                             Points& target, const Executor& exec, Apply&& apply);
 
     InterfaceRanks* ranks_;
     InterfaceCopies copies_;
     SharedRows shared_;
     std::optional<CoarseSpace> coarse_;
-    /// Per copy; 0 for a fixed vertex: without weights and functions of the coarse space nothing moves it, so that its
-    /// neighbours have the residuals of the equations that are solved.
+    /// Per copy: its weight W_i; 0 for a fixed vertex: without weights and functions of the coarse space nothing moves
+    /// it, so that its neighbours have the residuals of the equations that are solved.
     std::vector<double> weights_;
     /// Per vertex of Γ: 1 if it is fixed; empty if none has ever been fixed.
     std::vector<std::uint8_t> is_fixed_;
-    /// Per sub-mesh, three columns for its rows and three for the result; and the index at which those of each sub-mesh
-    /// begin.
+    /// Per sub-mesh, three columns for its rows and three for the result; and the index at which the columns of each
+    /// sub-mesh begin.
     AlignedFloats products_;
     std::vector<std::size_t> first_product_;
+    /// #copies by 3: the results of each sub-mesh, before they are summed.
     Points residual_copies_;
     Points right_hand_side_;
     InterfaceSums sums_;

@@ -25,6 +25,7 @@ class SumTree {
     std::vector<double> add_up(std::vector<double>& rows, std::size_t width);
 
   private:
+    /// Row `from` is added to row `to`.
     struct Addition {
         Index to;
         Index from;
@@ -53,6 +54,7 @@ class InterfaceSums {
     const InterfaceCopies* copies_;
     const InterfaceRanks* ranks_;
     SumTree tree_;
+    /// Per sub-mesh of all ranks: its sums.
     std::vector<double> rows_;
 };
 

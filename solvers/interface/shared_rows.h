@@ -28,6 +28,7 @@ class SharedRows {
 
   private:
     InterfaceRanks* ranks_;
+    /// The numbers of the other ranks, ascending.
     std::vector<Index> others_;
     /// The rows to send and to receive, per other rank.
     std::vector<Lists> lists_;

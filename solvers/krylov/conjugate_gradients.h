@@ -17,7 +17,7 @@ namespace seamflow {
 /// Computes points, n by 3, from others.
 using MapPoints = std::function<void(const Points& from, Points& to)>;
 
-/// Two vectors for each of three columns.
+/// Two arrays A and B, n by 3, whose columns are multiplied pair by pair.
 struct VectorPair {
     const Points& a;
     const Points& b;
@@ -137,12 +137,15 @@ inline IterationResult conjugate_gradients(const PreconditionedEquations& equati
     const Point wanted = stop.tolerance * v.b_norms;
     Point measured = v.b_norms;
     Point drift = Point::Constant(first_drift);
+    // The norms at which the residual is to be measured.
     const auto goals = [&] {
         return Point(((1.0 - 1.0 / safety) * wanted).cwiseMax(most_reduction_at_once * measured));
     };
     const auto is_below = [](const Point& norms, const Point& limits) {
         return (norms.array() <= limits.array()).all();
     };
+    // The norms of the residual. If they are below the goals, the residual is measured, unless it is below the
+    // tolerance whatever its drift.
     const auto norms_as_measured = [&] {
         const Point norms = v.norms(v.r, exec);
         const Point doubt = safety * drift.cwiseProduct(measured);

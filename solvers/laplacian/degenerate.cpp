@@ -14,7 +14,7 @@ namespace seamflow {
 
 namespace {
 
-/// Whether the length of an edge is a normal double, as the root of a positive double always is.
+/// Whether the squared length of an edge neither vanishes nor overflows: the length is then a normal double.
 bool has_length(const Point& edge)
 {
     const double square = edge.squaredNorm();
@@ -36,6 +36,8 @@ Index edge_without_length(const PolygonMesh& mesh, Index f, Matters&& matters)
     return -1;
 }
 
+/// Throws the InputError for an edge without length.
+/// @param corner the corner of face f at which the edge begins.
 [[noreturn]] void refuse_edge(const PolygonMesh& mesh, Index f, Index corner)
 {
     const auto corners = mesh.face(f);
@@ -46,6 +48,8 @@ Index edge_without_length(const PolygonMesh& mesh, Index f, Matters&& matters)
                      "them, move one, or scale the mesh");
 }
 
+/// Throws the InputError for a face without area.
+/// @param instead a further remedy.
 [[noreturn]] void refuse_face(Index f, const std::string& instead)
 {
     throw InputError("face " + std::to_string(f) +

@@ -10,8 +10,8 @@
 namespace seamflow {
 
 /// Checks that the Laplacian's coefficients are finite at all vertices that may move: Fujiwara divides by the lengths
-/// of their edges, Alexa-Wardetzky by the areas of their faces, Ptáčková-Velho also by the areas of the faces next to
-/// these.
+/// of their edges, Alexa-Wardetzky and VirtualRefinement by the areas of their faces, Ptáčková-Velho also by the areas
+/// of the faces next to these.
 /// @throws InputError naming the first edge without length or face without area, and a remedy.
 void require_sound_geometry(const PolygonMesh& mesh, const Topology& topology, Laplacian laplacian,
                             const Executor& exec = run_serially);

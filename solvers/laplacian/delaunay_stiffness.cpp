@@ -18,8 +18,8 @@ namespace {
 /// Weights are cotangents, without a unit: weights nearer to 0 than this are rounding errors of positions.
 constexpr double negligible_weight = 1e-8;
 
-/// Whether an off-diagonal entry of a row of K is positive.
-/// @param entries of the row, in any order.
+/// Whether an off-diagonal entry K_vw of a row is positive, which means that the weight -K_vw is negative.
+/// @param entries of the row, in any order; sorted. @param in_faces see make_delaunay.
 bool has_negative_weight(std::vector<std::pair<Index, double>>& entries, bool in_faces)
 {
     if (in_faces && std::ranges::any_of(entries, [](const auto& e) { return e.second > negligible_weight; }))
@@ -36,6 +36,7 @@ bool has_negative_weight(std::vector<std::pair<Index, double>>& entries, bool in
     return false;
 }
 
+/// Whether any vertex that moves has a negative weight in its row.
 bool has_negative_weights(const PolygonMesh& mesh, const Topology& topology, Laplacian laplacian, bool in_faces,
                           const Executor& exec)
 {
@@ -59,7 +60,7 @@ bool has_negative_weights(const PolygonMesh& mesh, const Topology& topology, Lap
     });
 }
 
-/// Half-edges that share their edges, the longest edges first.
+/// Per edge, the longest edges first: its half-edges.
 Lists<Index> edges_by_length(const IntrinsicTriangles& triangles)
 {
     struct HalfEdgeOfPair {
@@ -109,6 +110,7 @@ Lists<Index> edges_by_length(const IntrinsicTriangles& triangles)
 /// Moves the weight of one half-edge of an obtuse triangle, opposite to the obtuse angle, towards 0. With the weights w
 /// of this edge and x, y of the others, 4 (x y + w x + w y) = 1, K of the triangle is the sum of K of the slope along
 /// this edge, 1 / 4 (x + y), and of the bend across it: w = 1 / 4 (x + y) - b x y / (x + y) with b = 1.
+/// @param weight the new weight of half-edge h. @param weights per half-edge; changed in the triangle of h.
 void soften(Index h, double weight, std::vector<double>& weights)
 {
     double& x = weights[IntrinsicTriangles::next(h)];
@@ -148,6 +150,8 @@ std::vector<double> softened_weights(const IntrinsicTriangles& triangles, const 
     return weights;
 }
 
+/// K with given weights, and M of the triangles.
+/// @param weights per half-edge.
 GivenStiffness stiffness_of(const IntrinsicTriangles& triangles, const std::vector<double>& weights, Index n_vertices)
 {
     struct Entry {

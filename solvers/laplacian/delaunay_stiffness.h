@@ -27,11 +27,11 @@ struct DelaunaySurface {
 /// Surfaces, 2007; lengths and angles of the surface do not change). K has the cotangents of these triangles, M a third
 /// of their areas at each corner. Edges of the boundary, edges of three faces or more, and edges whose flip would join
 /// two vertices twice, or leave a triangle without area in space, are not flipped. If the weight of such an edge is
-/// below 0, the obtuse triangles at it are softened: K of a triangle is that of the slope along its longest edge, plus
-/// that of the bend across it; the bend is reduced until the weight is 0. On the boundary, across which nothing flows,
-/// a bend is small.
+/// below 0, the obtuse triangles at it are softened: K of a triangle is the sum of two terms, of the slope along its
+/// longest edge and of the bend across it; the term of the bend is reduced until the weight is 0. On the boundary,
+/// across which nothing flows, a bend is small.
 /// @param topology with the vertices that move; entries between other vertices do not matter.
-/// @param laplacian Δ_A or Δ_B; for other Laplacians there is no result.
+/// @param laplacian AlexaWardetzky or VirtualRefinement; for other Laplacians there is no result.
 /// @param in_faces whether the weights in each single face must also be at least 0.
 /// @returns nothing if all weights are above -1e-8 already.
 std::optional<DelaunaySurface> make_delaunay(const PolygonMesh& mesh, const Topology& topology, Laplacian laplacian,

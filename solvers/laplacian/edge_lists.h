@@ -23,7 +23,7 @@ enum class Contributions {
     OwnFaces,
 };
 
-/// Faces of a sub-mesh, and those beyond its Γ.
+/// Faces of a sub-mesh, and faces beyond its Γ.
 struct FacesOnBothSides {
     IndexListsView own;
     IndexListsView beyond;
@@ -46,7 +46,7 @@ struct OuterEdges {
 /// The edges of own faces on the rim of the sub-mesh, and all edges of the faces beyond, ascending.
 OuterEdges list_outer_edges(const FacesOnBothSides& faces);
 
-/// Appends the edges between two own faces, or those on the rim, each once.
+/// Appends the edges between two own faces, or the edges on the rim of the sub-mesh, each once.
 void append_own_edges(const FacesOnBothSides& faces, bool on_rim, std::vector<VertexPair>& edges);
 
 }  // namespace seamflow

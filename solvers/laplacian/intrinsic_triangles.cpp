@@ -66,6 +66,7 @@ double IntrinsicTriangles::half_cotangent(Index h) const
     return size > 0.0 ? -0.5 * a.dot(b) / std::max(std::abs(cross(a, b)), thinnest * size) : 0.0;
 }
 
+/// Whether the weight of the edge of h is below 0 by more than rounding.
 bool IntrinsicTriangles::is_far_from_delaunay(Index h) const
 {
     const double here = half_cotangent(h);
@@ -93,7 +94,7 @@ bool IntrinsicTriangles::are_joined(Index h, Index v) const
     return false;
 }
 
-/// Reverses the order of its corners.
+/// Reverses the order of the corners of triangle t.
 void IntrinsicTriangles::turn_over(Index t)
 {
     std::swap(corners_[t][1], corners_[t][2]);
@@ -102,11 +103,13 @@ void IntrinsicTriangles::turn_over(Index t)
     for (Index k = 0; k < 3; ++k) {
         const auto old = static_cast<std::size_t>(2 - k);
         edges_[3 * t + k] = {-old_edges[old].x(), old_edges[old].y()};
-        join(3 * t + k, old_twins[old]);
+        make_twins(3 * t + k, old_twins[old]);
     }
 }
 
-void IntrinsicTriangles::join(Index h, Index twin)
+/// Makes two half-edges twins of each other.
+/// @param twin -1 if h has none.
+void IntrinsicTriangles::make_twins(Index h, Index twin)
 {
     twin_[h] = twin;
     if (twin >= 0)
@@ -135,6 +138,7 @@ bool IntrinsicTriangles::flip(Index h, const Points& positions)
     const Vector bc = edge(next(h));
     const Vector ca = edge(previous(h));
     const Vector cd = 0.5 * ((ca + ad) - (bc + db));
+    // Both new triangles need an area, in their plane and at the positions.
     if (!(cross(ad, -cd) > 0.0 && cross(bc, cd) > 0.0) ||
         !std::isnormal(seamflow::area(std::array{a, d, c}, positions)) ||
         !std::isnormal(seamflow::area(std::array{b, c, d}, positions)))
@@ -148,11 +152,11 @@ bool IntrinsicTriangles::flip(Index h, const Points& positions)
     edges_[3 * s] = bc;
     edges_[3 * s + 1] = cd;
     edges_[3 * s + 2] = db;
-    join(3 * t, around[0]);
-    join(3 * t + 1, 3 * s + 1);
-    join(3 * t + 2, around[1]);
-    join(3 * s, around[2]);
-    join(3 * s + 2, around[3]);
+    make_twins(3 * t, around[0]);
+    make_twins(3 * t + 1, 3 * s + 1);
+    make_twins(3 * t + 2, around[1]);
+    make_twins(3 * s, around[2]);
+    make_twins(3 * s + 2, around[3]);
     return true;
 }
 

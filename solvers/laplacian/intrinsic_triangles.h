@@ -45,7 +45,7 @@ class IntrinsicTriangles {
     [[nodiscard]] bool are_joined(Index h, Index v) const;
     bool flip(Index h, const Points& positions);
     void turn_over(Index t);
-    void join(Index h, Index twin);
+    void make_twins(Index h, Index twin);
 
     std::vector<std::array<Index, 3>> corners_;
     /// Per half-edge: its vector in the plane of its triangle.

@@ -45,6 +45,7 @@ class KeptStiffness final : public SymmetricLaplacian {
 
     void give(const GivenStiffness& given, std::span<const Index> local_to_global) override
     {
+        // Each vertex has one pair per face and other corner of this face: its mass is shared evenly by these pairs.
         const auto share_of_mass = [&](Index local) {
             const Index v = local_to_global[usize(local)];
             Index n = 0;
@@ -90,6 +91,7 @@ class KeptStiffness final : public SymmetricLaplacian {
                 diagonal_[pairs_[i].first] -= entries_[i];
                 diagonal_[pairs_[i].second] -= entries_[i];
             }
+            // S, C and D of a face are divided by the same number, and the rows of S - C D⁻¹ Cᵀ still sum to zero.
             for (std::size_t end = i; i < begin + n; i = end) {
                 const Index auxiliary = pairs_[i].second;
                 const double d = unweighted_auxiliary_[auxiliary - n_vertices_];
@@ -151,6 +153,7 @@ class KeptStiffness final : public SymmetricLaplacian {
   private:
     [[nodiscard]] bool is_auxiliary(Index v) const { return v >= n_vertices_; }
 
+    /// Replaces the kept K by given entries, one per pair, and its diagonal by minus their sums.
     void take_given(std::vector<double> entries)
     {
         entries_ = std::move(entries);
@@ -166,6 +169,7 @@ class KeptStiffness final : public SymmetricLaplacian {
     [[nodiscard]] double largest_difference(std::size_t begin, std::size_t end,
                                             const SquaredDifference& squared_difference) const
     {
+        // A face with auxiliary unknowns lists only pairs of consecutive corners.
         const bool has_all_pairs = begin == end || !is_auxiliary(pairs_[end - 1].second);
         double largest = 0.0;
         for (std::size_t i = begin; i < end && !is_auxiliary(pairs_[i].second); ++i)

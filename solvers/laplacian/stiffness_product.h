@@ -40,9 +40,10 @@ void with_product(const StiffnessProduct* product, AssembleWith&& assemble_with)
         add_with([](const Point& difference, const Point& increment) -> Point { return difference + increment; });
 }
 
-/// Adds the share of an auxiliary unknown to the product: -c (cᵀ u) / d with u = V - V₀ + X - X₀, V₀ being that of one
-/// corner, and the term by which the rows of S do not sum to zero. c has n entries; the i-th is that of vertex(i).
-/// @param d its entry of D.
+/// Adds the share of an auxiliary unknown to the product: -c (cᵀ u) / d with u = V - V₀ + X - X₀, V₀ and X₀ being those
+/// of one corner, and the term by which the rows of S do not sum to zero.
+/// @param n the number of corners. @param vertex gives the i-th corner. @param entry gives its entry of c. @param d the
+/// entry of D.
 template <class VertexOf, class EntryOf>
 void add_auxiliary(const StiffnessProduct& product, const Points& positions, std::size_t n, VertexOf&& vertex,
                    EntryOf&& entry, double d)

@@ -103,6 +103,7 @@ class SymmetricEdges final : public SymmetricLaplacian {
     }
 
   private:
+    /// Adds to the degrees of vertices, which inverse_degree_ holds at first.
     void count_edges(const std::vector<VertexPair>& edges, double share)
     {
         for (const VertexPair& e : edges) {
@@ -117,7 +118,7 @@ class SymmetricEdges final : public SymmetricLaplacian {
     };
 
     Kernel kernel_;
-    /// First the edges that count fully, then the edges that count half.
+    /// First the n_whole_ edges that count fully, then the edges that count half.
     std::vector<Edge> edges_;
     std::size_t n_whole_ = 0;
     /// Per vertex: 1 / number of edges, edges on the boundary counting half; 1 if M_v is a sum and not a mean.
@@ -242,6 +243,7 @@ class SymmetricFaces final : public SymmetricLaplacian {
   private:
     using LargeFace =
         decltype(Kernel::polygon({}, std::declval<const Points&>(), 0.0, std::declval<typename Kernel::Scratch&>()));
+    /// The number of auxiliary unknowns of a face that has any.
     static constexpr Index n_of_face =
         static_cast<Index>(std::tuple_size_v<decltype(std::declval<LargeFace>().auxiliary())>);
 

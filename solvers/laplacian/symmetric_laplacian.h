@@ -23,9 +23,10 @@ inline constexpr std::size_t most_corners_without_auxiliary = 64;
 /// The squared difference of the data of two vertices.
 using SquaredDifference = std::function<double(Index v, Index w)>;
 
-/// A Laplacian that is M⁻¹ K with M diagonal and positive and K symmetric and positive semi-definite: Δ_F with M = Σ‖e‖
-/// / val, Δ_A and Δ_B with M the areas of the vertices, Δ_U with M their degrees. Assembled from faces, repeatedly as
-/// the mesh moves.
+/// A Laplacian that is M⁻¹ K with M diagonal and positive and K symmetric and positive semi-definite: Δ_F (Fujiwara)
+/// with M the mean length of the edges at each vertex, Δ_A (AlexaWardetzky) and Δ_B (VirtualRefinement) with M the
+/// areas of the vertices, Δ_U (Uniform) with M their degrees times h²/4. Assembled from faces, repeatedly as the mesh
+/// moves.
 ///
 /// K of a face of n corners has n² entries. With auxiliary unknowns Y of some faces it is S - C D⁻¹ Cᵀ, a few numbers
 /// for each corner, where D is diagonal, of either sign. Then the matrices are those of

@@ -8,6 +8,7 @@ namespace seamflow {
 
 namespace {
 
+/// Assembles Δ_P (Laplacian::PtackovaVelho) face by face, from the fluxes Φ_f (see PtackovaVelho).
 class TwoRingAssembler final : public LaplacianAssembler {
   public:
     explicit TwoRingAssembler(const FacesOnBothSides& faces)
@@ -72,6 +73,7 @@ class TwoRingAssembler final : public LaplacianAssembler {
                 stencil_index_.push_back(place_in(stencil_[f], v));
     }
 
+    /// Computes face_areas_ and vertex_areas_.
     void measure_areas(const Points& positions)
     {
         std::fill(vertex_areas_.begin(), vertex_areas_.end(), 0.0);
@@ -109,11 +111,13 @@ class TwoRingAssembler final : public LaplacianAssembler {
     FacesOnBothSides faces_;
     std::vector<double> face_areas_;
     std::vector<double> vertex_areas_;
+    /// Per half-edge: its face.
     std::vector<Index> face_of_;
     /// Per face: the vertices on which Φ depends, ascending.
     IndexLists stencil_;
     /// Per half-edge of each face, and corner of the face across: the index of that corner in the stencil.
     std::vector<Index> stencil_index_;
+    /// The coefficients of Φ_f of one face at its stencil.
     std::vector<double> flux_;
 };
 

@@ -14,8 +14,9 @@ template <EdgeKernel Kernel, class Entry>
 double visit_row(Kernel kernel, const PolygonMesh& mesh, const Topology& topology, const Points& positions, Index v,
                  Entry&& entry)
 {
-    // Where faces are oriented alike, each edge of an interior vertex is the beginning of one half-edge. Elsewhere each
-    // half-edge counts as half of its edge.
+    // If faces are oriented alike, exactly one half-edge of each edge at an interior vertex begins there: they visit
+    // each edge once. Elsewhere the half-edges before and after each corner are visited, with half the weight of their
+    // edge.
     const bool once = topology.oriented && topology.kind[v] == VertexKind::Interior;
     const double share = once ? 1.0 : 0.5;
     const Point here = positions.row(v);
@@ -36,6 +37,7 @@ double visit_row(Kernel kernel, const PolygonMesh& mesh, const Topology& topolog
     return Kernel::averages_mass ? mass / degree : mass;
 }
 
+/// The same for a Laplacian that is a sum over faces.
 template <FaceKernel Kernel, class Entry>
 double visit_row(Kernel, const PolygonMesh& mesh, const Topology& topology, const Points& positions, Index v,
                  Entry&& entry)

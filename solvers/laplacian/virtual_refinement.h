@@ -19,9 +19,9 @@ namespace seamflow {
 
 /// Δ_B of Bunge, Herholz, Kazhdan and Botsch (Polygon Laplacian Made Simple, 2020). A face with more than three corners
 /// xₖ gets a virtual vertex x = Σ wₖ xₖ, Σ wₖ = 1, for which the fan of triangles (xₖ, xₖ₊₁, x) has the least sum of
-/// squared areas; w is the shortest of those that give this x. K = Pᵀ F P with the cotangent stiffness F of the fan and
-/// P = [I; wᵀ]. M has the areas of the vertices, as that of Δ_A, which it equals on triangles. K is positive
-/// semi-definite, and 0 for constants alone.
+/// squared areas; w is the shortest vector of weights with this x. K = Pᵀ F P with the cotangent stiffness F of the fan
+/// and P = [I; wᵀ]. M has the areas of the vertices, as for Δ_A (AlexaWardetzky). On triangles, Δ_B equals Δ_A. K is
+/// positive semi-definite, and 0 for constants alone.
 struct VirtualRefinement {
     static constexpr LaplacianTraits traits{
         Laplacian::VirtualRefinement, "virtual-refinement", "Δ_B", Reach::Faces, Divisor::FaceAreas, true};

@@ -48,6 +48,7 @@ class CrowdedFans {
     }
 
   private:
+    /// A corner, the index of its fan in fans_, and its index in this fan.
     struct FanCorner {
         Index corner;
         std::size_t fan;

@@ -10,9 +10,9 @@
 
 namespace seamflow {
 
-/// The faces around each face: those that share a vertex with it. At a vertex of more than most_at_vertex faces, such
-/// as the pole of a globe, only most_at_vertex faces count, evenly spaced around the vertex, so that they are on all
-/// sides of it. Together with faces that share an edge there are at most most_at_vertex + 2 neighbours per corner.
+/// The faces around each face, which share a vertex with it. At a vertex of more than most_at_vertex faces, such as the
+/// pole of a globe, only most_at_vertex faces count, evenly spaced around the vertex, so that they are on all sides of
+/// it. Together with faces that share an edge there are at most most_at_vertex + 2 neighbours per corner.
 struct FaceNeighbours {
     static constexpr std::size_t most_at_vertex = 24;
 
@@ -27,6 +27,7 @@ struct FaceNeighbours {
     }
 };
 
+/// The neighbours of all faces.
 /// @param topology with twins.
 FaceNeighbours make_face_neighbours(const PolygonMesh& mesh, const Topology& topology,
                                     const Executor& exec = run_serially);

@@ -23,6 +23,7 @@ Edge edge_of(const PolygonMesh& mesh, const Topology& topology, Index h)
     return edge_between(mesh.face_vertices[h], mesh.face_vertices[topology.next(mesh, h)]);
 }
 
+/// Whether a face has an edge between two vertices, which need not exist.
 bool is_edge(const PolygonMesh& mesh, const Topology& topology, const Edge& edge)
 {
     if (edge[0] < 0 || edge[1] >= mesh.n_vertices())

@@ -122,6 +122,7 @@ Points NormalDiffusion::smoothed(const Points& positions, double time_step, doub
     return normals;
 }
 
+/// Computes areas_, centroids_, reach_ and scale_. @param time_step τ, in length².
 void NormalDiffusion::measure(const Points& positions, double time_step, const Executor& exec)
 {
     const Index n = mesh_->n_faces();
@@ -182,8 +183,9 @@ double NormalDiffusion::measure_noise(const Points& positions, const Points& nor
 }
 
 /// Gives all faces of a plane the same chord. A plane is a set of connected faces with the same normal; its chord is
-/// that to the most similar plane around it, or to the mean of these weighted by length of edges. The chord is 0 for
-/// wide planes, and where the planes around bend like a round shape, which noise does not make.
+/// the shorter one of two: between its normal and the most similar normal of a plane around it, and between its normal
+/// and the mean of these normals, weighted by the lengths of edges. The chord is 0 for wide planes, and where the
+/// planes around bend like a round shape, which noise does not make.
 /// @param chords #F: replaced, except for faces without area.
 void NormalDiffusion::spread_over_planes(const Points& positions, const Points& normals, double edge_chord,
                                          std::vector<double>& chords) const
@@ -236,6 +238,7 @@ void NormalDiffusion::spread_over_planes(const Points& positions, const Points& 
     }
 }
 
+/// Finds the guides that are means of the similar normals around each face.
 void NormalDiffusion::find_guides(const Points& normals, const Executor& exec)
 {
     const double width = std::max(width_by_noise * noise_, least_sigma);
@@ -249,8 +252,8 @@ void NormalDiffusion::find_guides(const Points& normals, const Executor& exec)
     });
 }
 
-/// Finds the guides that are means of whole patches: of a face and its neighbours, around the face itself or one of its
-/// neighbours, if these are on one side of edges.
+/// Replaces guides by the mean normals of whole patches, each a face and its neighbours: around the face itself or one
+/// of its neighbours, if the normals of the patch agree, so that it is on one side of edges.
 void NormalDiffusion::find_patches(const Points& normals, const Executor& exec)
 {
     const Index n = mesh_->n_faces();
@@ -277,6 +280,7 @@ void NormalDiffusion::find_patches(const Points& normals, const Executor& exec)
     });
 }
 
+/// Computes weights_ and diagonal_. @param longest the chord of normals, 3σ or less, from which on nothing diffuses.
 void NormalDiffusion::find_weights(const Points& normals, double longest, const Executor& exec)
 {
     for_each(exec, mesh_->n_faces(), [&](Index f) {

@@ -17,15 +17,15 @@ namespace seamflow {
 /// m_i = Σ_j γ_ij |c_i - c_j|², γ_ij = exp(-2 |c_i - c_j|² / r_i r_j), with c the centroids and r_i the root mean
 /// square distance of the neighbours: where nothing stops them, normals diffuse as by the Laplacian of the surface, so
 /// that τ is in length². The factor at the end, Tukey's diffusivity (Black et al., Robust anisotropic diffusion, 1998),
-/// stops it at edges. It takes the geometric mean of two chords, that of the normals n themselves and that of guides g,
-/// which noise moves less (Zhang et al., Guided mesh normal filtering, 2015): g_i is the mean normal of the face and
-/// its neighbours, where those that differ from it by more than noise count less; with much noise, that of a face and
-/// all its neighbours, around i or a neighbour of i, that agrees best, if it agrees as far as noise permits. σ is eight
-/// times the noise, and at most a third of the chord of the angle that counts as an edge: sharper edges stop all
-/// diffusion, and without noise only planar faces have weights. The noise is measured: the median chord between a face
-/// and the most similar one across an edge, or the mean of these. The system is symmetric and positive definite;
-/// conjugate gradients solve for all three columns together, so that results rotate with the surface. Bits do not
-/// depend on how loops are run.
+/// stops it at edges. It takes the geometric mean of two chords, between the normals n and between guides g, which
+/// noise moves less (Zhang et al., Guided mesh normal filtering, 2015): g_i is the mean normal of the face and its
+/// neighbours, in which neighbours that differ by more than noise count less. With much noise, g_i is the mean normal
+/// of a patch, a face and its neighbours, around i or a neighbour of i: of the patch whose normals agree best, if they
+/// agree as far as noise permits. σ is eight times the noise, and at most a third of the chord of the angle that counts
+/// as an edge: sharper edges stop all diffusion, and without noise only planar faces have weights. The noise is
+/// measured: the median chord between a face and the most similar one across an edge, or the mean of these. The system
+/// is symmetric and positive definite; conjugate gradients solve for all three columns together, so that results rotate
+/// with the surface. Bits do not depend on how loops are run.
 class NormalDiffusion {
   public:
     /// @param mesh must outlive this; its vertices are not used. @param topology with twins; not needed afterwards.
@@ -39,6 +39,7 @@ class NormalDiffusion {
     NormalDiffusion(const PolygonMesh& mesh, const PolygonMesh& connected, const Topology& topology,
                     const Executor& exec);
 
+    /// Smooths the normals of the faces at some positions.
     /// @param positions #V by 3. @param time_step the sum of all τ, in length².
     /// @param angle between the normals of faces, in degrees, 0 to 180: sharper edges stay.
     /// @returns #F by 3, of length 1, or 0 for faces without area.

@@ -31,6 +31,7 @@ constexpr double far_away = 6.0;
 std::vector<float> weights_of_corners(const PolygonMesh& mesh, const Topology& topology, const Points& positions,
                                       const Points& centroids, const Executor& exec)
 {
+    // Per vertex: the squared distance beyond which a face counts less.
     std::vector<double> reach(usize(mesh.n_vertices()), std::numeric_limits<double>::infinity());
     const auto squared_distance = [&](Index v, Index corner) {
         return (centroids.row(topology.face_of[corner]) - positions.row(v)).squaredNorm();
@@ -78,7 +79,8 @@ struct WantedFaces {
     std::vector<float> weights;
 };
 
-/// The step of one vertex.
+/// The motion of one vertex in a round, without momentum.
+/// @param relaxation the fraction of the way to the mean of the neighbours; 0: none.
 Point fitting_step(const WantedFaces& faces, const Points& positions, Index v, double relaxation)
 {
     const auto& [mesh, topology, normals, centroids, weights] = faces;

@@ -50,8 +50,8 @@ bool belong_together(const EliminationTree& tree, Index column)
     return tree.parent[column] == column + 1 && tree.count[column] == tree.count[column + 1] + 1;
 }
 
-/// The end of the columns that have the same rows as the first one except for each other, at most most_columns; the
-/// last n_last columns are one supernode.
+/// The last column of the supernode that begins with the column `first`, without merging: its columns have the same
+/// rows, apart from their own. It has at most most_columns columns; the last n_last columns are one supernode.
 Index end_of_supernode(const EliminationTree& tree, Index first, Index n_last, Index most_columns)
 {
     const auto n = static_cast<Index>(tree.parent.size());
@@ -72,9 +72,10 @@ bool is_worth(double zeros, Index width, Index n_rows)
     return (width <= 8 && zeros <= 0.4 * size) || (width <= most_relaxed_columns && zeros <= 0.15 * size);
 }
 
-/// The furthest end of a supernode that, after merging, is worth its zeros (see is_worth), and in which the parents of
-/// all columns but the last are in the supernode: then these columns have no further row that the last column does not
-/// have.
+/// The last column of the widest supernode from `first` on that, after merging, is worth its zeros (see is_worth), and
+/// in which the parents of all columns but the last are in the supernode: then these columns have no further row that
+/// the last column does not have.
+/// @param last the last column without merging.
 Index end_of_relaxed_supernode(const EliminationTree& tree, Index first, Index last, Index n_last)
 {
     const auto n = static_cast<Index>(tree.parent.size());
@@ -90,6 +91,7 @@ Index end_of_relaxed_supernode(const EliminationTree& tree, Index first, Index l
         }
         const Index width = top + 1 - first;
         const Index n_rows = tree.count[top];
+        // The entries of the columns before `top` if these had all its rows, less the entries that they have.
         const double zeros = 0.5 * (width - 1.0) * width + (width - 1.0) * (n_rows + 1.0) - entries_before;
         const bool is_end = top + 1 == n - n_last || !belong_together(tree, top);
         if (is_end && furthest_parent <= top && is_worth(zeros, width, n_rows))

@@ -10,11 +10,11 @@
 namespace seamflow {
 
 /// The entries of the factors L and U of a matrix that may be nonzero if every pivot is taken from the diagonal, with
-/// the matrix's pattern made symmetric. Unknowns are numbered in the elimination ordering, and gathered into supernodes
-/// of consecutive ones, whose columns of L have the same rows except for each other. The rows of U are those columns,
-/// transposed.
+/// the matrix's pattern made symmetric. Unknowns are numbered in the elimination ordering, and gathered into
+/// supernodes: consecutive unknowns whose columns of L have the same rows, apart from the rows of these unknowns. The
+/// rows of U have the transposed pattern of the columns of L.
 struct SymbolicFactor {
-    /// An update of one column of L, and one row of U, by a supernode of earlier ones.
+    /// An update of one column of L, and of one row of U, by an earlier supernode.
     struct Update {
         Index supernode;
         /// The index of the column among the supernode's rows.

@@ -95,6 +95,7 @@ BlockRowMatrix::BlockRowMatrix(std::vector<Index> blocks, const Pattern& pattern
 BlockRowMatrix::Entry BlockRowMatrix::entry(const BlockRow& in_block, Index column)
 {
     const Index inner = column - in_block.begin;
+    // A column of a later block may also be less than most_rows away; it is not found in this block.
     if (inner >= 0 && inner < most_rows) {
         Entries<Inner>& part = column < in_block.row ? lower_ : upper_;
         if (const Index e = part.find(in_block.row, static_cast<Inner>(inner)); e >= 0)

@@ -49,6 +49,7 @@ GeneralSystem::GeneralSystem(SystemParts parts, std::unique_ptr<TransmissionCond
     solver_ = make_general_solver(pattern_, parts.factorisation);
 }
 
+/// Fills row_of_.
 void GeneralSystem::make_rows()
 {
     row_of_.assign(sub_mesh_->n_vertices, Row::Laplacian);
@@ -90,6 +91,7 @@ Point GeneralSystem::pull(Index v) const
     return pulls_ ? Point(time_step_ * screening_.weight(v) * screening_.initial.row(v)) : Point::Zero();
 }
 
+/// Fills in the rows on Γ: the condition where the sub-mesh leads, the identity where it follows.
 void GeneralSystem::assemble_interface(const Points& positions, const Points& other_side)
 {
     const auto& vertices = sub_mesh_->interface.vertices;

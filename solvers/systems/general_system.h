@@ -44,8 +44,8 @@ class GeneralSystem final : public SubMeshSystem {
     std::unique_ptr<TransmissionCondition> condition_;
     std::unique_ptr<LaplacianAssembler> laplacian_;
     SparsePattern pattern_;
-    /// The index in values_ of each entry of the Laplacian, or that of the last value, which is never read; then of the
-    /// diagonal entry of each vertex; then of each entry of the condition's columns.
+    /// The indices in values_ of the entries of the Laplacian, where unwanted entries have the index of the last value,
+    /// which is never read; of the diagonal entry of each vertex; and of the entries of the condition's columns.
     std::vector<Index> slots_;
     std::vector<Index> diagonal_slots_;
     std::vector<Index> interface_slots_;
@@ -54,6 +54,7 @@ class GeneralSystem final : public SubMeshSystem {
     std::unique_ptr<DirectSolver> solver_;
     Index n_nearly_singular_ = 0;
     std::vector<InterfaceRole> roles_;
+    /// Scratch: the coefficients of one row of the condition.
     std::vector<double> row_;
     Screening screening_;
     /// dt of the present step, in length².

@@ -27,8 +27,8 @@ namespace seamflow {
 class NeumannSystem {
   public:
     /// @param sub_mesh without overlap; needed only during the call.
-    /// @param faces the sub-mesh's face_vertices. Δ_A and Δ_B keep them, as most of their data; Δ_F keeps edges
-    /// instead.
+    /// @param faces the sub-mesh's face_vertices. Δ_A (AlexaWardetzky) and Δ_B (VirtualRefinement) keep them, as most
+    /// of their data; Δ_F (Fujiwara) and Δ_U (Uniform) keep edges instead.
     /// @param exec runs loops of a mesh without Γ on several threads; empty: everything runs on the calling thread.
     /// @throws ComputationError if the analysis fails.
     NeumannSystem(const SubMesh& sub_mesh, IndexLists faces, const ScaledLaplacian& laplacian,
@@ -77,6 +77,7 @@ class NeumannSystem {
     [[nodiscard]] Assembled assemble(const Points& positions, const Points& increments, double time_step,
                                      SolverWorkspace& workspace, const Points* data = nullptr) const;
 
+    /// Factorises the matrix of a step.
     /// @param precision Automatic: single precision.
     /// @param memory must outlive the factor, as must the system.
     /// @returns nothing where the precision is Automatic, and single precision would lose too many digits.
@@ -140,7 +141,7 @@ class NeumannSystem {
     void leave_out_fixed(std::span<double> matrix, const Points& increments, Points& residual) const;
 
     Index n_interface_;
-    /// Per own vertex: 1 if it is fixed; empty if none has ever been fixed. The number of fixed vertices.
+    /// Per own vertex: 1 if it is fixed; empty if none has ever been fixed. And the number of fixed vertices.
     std::vector<std::uint8_t> is_fixed_;
     Index n_fixed_ = 0;
     /// The faces, if the Laplacian needs them in each step.

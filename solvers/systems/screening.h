@@ -22,6 +22,7 @@ struct Screening {
     [[nodiscard]] double weight(Index v) const { return exists() ? weights[v] * step_scale(v) : 0.0; }
 };
 
+/// The attachment and the step scales of a sub-mesh.
 /// @param own the own vertices of the sub-mesh, by their numbers in the whole mesh.
 inline Screening make_screening(const FlowTerms& terms, std::span<const Index> own)
 {

@@ -17,7 +17,7 @@ namespace seamflow {
 
 /// The equations of one backward Euler step on one sub-mesh, one per own vertex:
 ///   fixed vertices       V^{k+1} = V^k
-///   Γ, following         V^{k+1} = what the leading sub-mesh found
+///   Γ, following         V^{k+1} = the result of the leading sub-mesh
 ///   Γ, leading           the transmission condition
 ///   all others           (I + dt Δ) V^{k+1} = V^k, Δ from the sub-mesh's own faces
 ///
@@ -55,6 +55,7 @@ class SubMeshSystem {
     /// Kind of the factorisation (see DirectSolver::kind).
     [[nodiscard]] virtual Factorisation factorisation() const = 0;
 
+    /// Factorises the matrix of a step.
     /// @param memory must outlive the factor, as must the system.
     /// @throws ComputationError if the equations are singular or not finite.
     [[nodiscard]] virtual Factor factorise(const Assembled& equations, FactorMemory& memory,

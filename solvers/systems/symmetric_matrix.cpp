@@ -13,6 +13,7 @@ namespace seamflow {
 
 namespace {
 
+/// Throws a ComputationError if a system of n unknowns has more entries than an Index can count.
 void require_countable(std::size_t n_entries, Index n)
 {
     if (n_entries > usize(std::numeric_limits<Index>::max()))
@@ -66,6 +67,7 @@ UpperPattern upper_pattern(const PairsOfUnknowns& pairs, const std::vector<Index
     std::vector<Index> number_of(n);
     for (Index u = 0; u < n; ++u)
         number_of[order[u]] = u;
+    // Calls action(row, column, pair, is_new); is_new is false if an earlier pair has the same entry.
     const auto for_each_entry_above_diagonal = [&](auto&& action) {
         std::vector<Index> last_row_of(n, -1);
         for (Index row = 0; row < n; ++row)
@@ -103,6 +105,7 @@ std::vector<Index> SymmetricMatrix::number_unknowns(const std::vector<VertexPair
 {
     const Index first = n_vertices;
     n_vertices += laplacian->n_auxiliary();
+    // 0 marks the future unknowns until they are numbered.
     std::vector<Index> unknown_of(usize(n_vertices), -1);
     for (std::size_t v = 0; v < is_known.size(); ++v)
         unknown_of[v] = is_known[v] == 0 ? 0 : -1;

@@ -23,12 +23,13 @@ struct PairsOfUnknowns {
         Index pair;
     };
     Lists<Entry> of;
-    /// The number of all pairs, including those of which a vertex is not unknown.
+    /// The number of all pairs, including pairs with a vertex that is not unknown.
     std::size_t n_pairs = 0;
 
     [[nodiscard]] Index n() const { return of.size(); }
 };
 
+/// Lists the pairs of two unknowns at both of them.
 /// @param unknown_of per vertex, its unknown or -1; vertices beyond the end of the list are not unknown.
 /// @param n number of unknowns.
 /// @throws ComputationError if 2³¹ numbers or more must be kept, two for each pair and one for each unknown.
@@ -44,6 +45,7 @@ struct UpperPattern {
     std::vector<Index> slots;
 };
 
+/// The upper triangle of a matrix with an entry for each pair.
 /// @param order the unknowns in the order of the matrix.
 UpperPattern upper_pattern(const PairsOfUnknowns& pairs, const std::vector<Index>& order);
 
@@ -51,8 +53,8 @@ UpperPattern upper_pattern(const PairsOfUnknowns& pairs, const std::vector<Index
 /// Laplacian, divided by the step scale (see Screening).
 struct SymmetricMatrix {
     std::unique_ptr<SymmetricLaplacian> laplacian;
-    /// The number of local vertices, the halo included, plus that of auxiliary unknowns, which are numbered after the
-    /// vertices.
+    /// The number of local vertices, the halo included, plus the number of auxiliary unknowns, which are numbered after
+    /// the vertices.
     Index n_vertices = 0;
     /// Per unknown, in the elimination ordering: its vertex.
     std::vector<Index> vertex_of{};

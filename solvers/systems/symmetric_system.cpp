@@ -35,6 +35,8 @@ SymmetricSystem::SymmetricSystem(const SystemParts& parts, SymmetricRows rows, S
 }
 
 /// Renumbers the unknowns in the elimination ordering.
+/// @param unknown_of renumbered. @param tree receives the elimination tree.
+/// @returns the pattern of the upper triangle.
 SparsePattern SymmetricSystem::list_entries(const std::vector<VertexPair>& pairs, std::vector<Index>& unknown_of,
                                             EliminationTree& tree)
 {
@@ -49,8 +51,8 @@ SparsePattern SymmetricSystem::list_entries(const std::vector<VertexPair>& pairs
     return std::move(upper.pattern);
 }
 
-/// The couplings that are not entries of the matrix: first those at own vertices, then those of vertices of Γ with
-/// vertices beyond Γ, in the order of the vertices of Γ.
+/// Lists the couplings that are not entries of the matrix: first the couplings with fixed vertices, then those of
+/// vertices of Γ with vertices beyond Γ, in the order of the vertices of Γ.
 void SymmetricSystem::list_couplings(const std::vector<VertexPair>& pairs, const std::vector<Index>& unknown_of)
 {
     const auto is_unknown = [&](Index v) { return unknown_of[v] >= 0; };
@@ -75,8 +77,8 @@ void SymmetricSystem::list_couplings(const std::vector<VertexPair>& pairs, const
     std::replace(matrix_.slots.begin(), matrix_.slots.end(), Index{-1}, slot);
 }
 
-/// The entries in the row of each vertex of Γ. They move to the right-hand side in steps in which the sub-mesh follows
-/// there.
+/// Lists the entries in the row of each vertex of Γ. They move to the right-hand side in steps in which the sub-mesh
+/// follows there.
 void SymmetricSystem::list_interface(const SparsePattern& upper, const std::vector<Index>& unknown_of)
 {
     const auto& vertices = sub_mesh_->interface.vertices;
@@ -172,6 +174,7 @@ SubMeshSystem::Factor SymmetricSystem::factorise(const Assembled& equations, Fac
     require_finite_equations(equations.matrix);
     if (auto factor = solver_->factorise(equations.matrix, memory, workspace))
         return std::move(*factor);
+    // Responses can make the matrix indefinite.
     drop_responses(equations.matrix);
     return require_factor(solver_->factorise(equations.matrix, memory, workspace));
 }
@@ -209,6 +212,9 @@ void SymmetricSystem::solve(const Factor& factor, const Points& positions, Point
             solution.row(vertex_at(i)) = workspace.right_hand_side.row(rows_[i].unknown);
 }
 
+/// Computes the right-hand side.
+/// @param positions Vᵏ, or the data that the step is applied to. @param known the values at fixed vertices, and on Γ
+/// where the sub-mesh follows.
 void SymmetricSystem::fill_right_hand_side(const Points& positions, const Points& known, Columns& right) const
 {
     set_rows(right, matrix_.n());

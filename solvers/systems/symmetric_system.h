@@ -24,8 +24,8 @@ enum class SymmetricRows {
 /// right-hand side: fixed vertices, Γ where the sub-mesh follows, the predicted other side.
 class SymmetricSystem final : public SubMeshSystem {
   public:
-    /// @param parts with a symmetric Laplacian; with SymmetricRows::Transmission, Alexa-Wardetzky and only triangles
-    ///        among the faces that touch Γ. The factorisation is not Umfpack.
+    /// @param parts with a symmetric Laplacian; with SymmetricRows::Transmission, one whose rows respond at all
+    /// vertices of Γ (see responds_at). The factorisation is not Umfpack.
     SymmetricSystem(const SystemParts& parts, SymmetricRows rows, SolverWorkspace& workspace);
 
     Assembled assemble(const Points& positions, const Points& other_side, double time_step, double p,

@@ -16,11 +16,13 @@ namespace {
 
 /// The most blocks. 64 keep as many threads busy; smaller blocks leave more entries out of the preconditioner.
 constexpr Index most_blocks = 64;
+/// The fewest rows of a block, and the usual number of rows where there are more blocks.
 constexpr Index fewest_rows = 512;
 constexpr Index usual_rows = BlockRowMatrix::most_rows / 2;
 /// The most edges between blocks, as a fraction of all edges.
 constexpr double most_between_blocks = 1.0 / 6.0;
 
+/// The number of blocks for this many rows: a power of two.
 Index number_of_blocks(Index n_rows)
 {
     const Index wanted = std::max(std::min(n_rows / fewest_rows, most_blocks), n_rows / usual_rows);
@@ -39,7 +41,8 @@ IndexLists consecutive_blocks(Index n_rows, Index n_blocks)
 }
 
 /// The fraction of the edges of faces whose ends are in different blocks.
-double part_between(const PolygonMesh& mesh, const IndexLists& blocks, const Executor& exec)
+/// @param blocks of consecutive vertices.
+double fraction_between_blocks(const PolygonMesh& mesh, const IndexLists& blocks, const Executor& exec)
 {
     auto block_of = large_vector<Index>(usize(mesh.n_vertices()));
     for_each(exec, blocks.size(),
@@ -83,7 +86,7 @@ IndexLists make_blocks(const PolygonMesh& mesh, const Topology& topology, bool h
         return divide_vertices_of_faces(mesh, topology, exec);
     const Index n = number_of_blocks(mesh.n_vertices());
     IndexLists blocks = consecutive_blocks(mesh.n_vertices(), n);
-    if (part_between(mesh, blocks, exec) <= most_between_blocks)
+    if (fraction_between_blocks(mesh, blocks, exec) <= most_between_blocks)
         return blocks;
     return divide_into_boxes(mesh.vertices, n, exec);
 }

@@ -21,6 +21,7 @@ struct WholeMeshRows {
     std::vector<Index> row_of;
 };
 
+/// Gives a row to each vertex, except to those without faces if most vertices have none.
 WholeMeshRows make_whole_mesh_rows(const PolygonMesh& mesh, const Topology& topology, const Executor& exec);
 
 /// A matrix with an entry for each coefficient of these rows, all 0. Vertices that do not move have the row of the

@@ -132,6 +132,7 @@ WholeMeshSystem::Sizes WholeMeshSystem::assemble(const Points& of_rows, const Ex
             });
             const Point here = of_rows.row(i);
             double diagonal = 0.0;
+            // The sums of the sizes of all terms of the residual, which bound its rounding error.
             Eigen::Array4d size = Eigen::Array4d::Zero();
             Point residual = Point::Zero();
             const double whole_mass = visit(row, [&](auto&& find, Index j, double k) {
@@ -212,6 +213,7 @@ void WholeMeshSystem::keep_exact()
     masses_.resize(moves_.size());
 }
 
+/// Begins a pass from the residual that the matrix has.
 /// @param squared the sum of the squared residuals, each divided by the diagonal entry.
 WholeMeshSystem::PassStart WholeMeshSystem::start_pass(double squared, const Executor& exec)
 {
@@ -235,12 +237,14 @@ double WholeMeshSystem::farthest_move(const Executor& exec) const
         keep_larger));
 }
 
-/// The sum of the further updates, if they keep decreasing at the rate of this pass. After a pass too short to show a
-/// rate: the previous estimate, scaled like the residual.
-/// @param length unit of the updates. @param before_pass, left the residual before and after the pass, as fractions of
-///        the first residual.
-double WholeMeshSystem::distance_after(const BlockRowMatrix::Result& pass, double length, double before_pass,
-                                       double left, double distance_before)
+/// The estimated largest distance of a vertex to its position in the exact step, in units of length, after a pass: the
+/// sum of the updates that are still to come, if they decrease at the mean rate of this pass (a geometric series),
+/// times the ratio of the recomputed residual to that at which the pass arrived. After a pass too short to show a rate:
+/// the previous estimate, scaled like the residual.
+/// @param length the unit of pass.last_update. @param before_pass, left the residuals before and after the pass, as
+///        fractions of the first residual. @param distance_before the estimate after the previous pass; 0: none.
+double WholeMeshSystem::estimate_distance_after(const BlockRowMatrix::Result& pass, double length, double before_pass,
+                                                double left, double distance_before)
 {
     if (pass.residual > shortest_pass && distance_before > 0.0)
         return distance_before * left / before_pass;
@@ -259,6 +263,7 @@ void WholeMeshSystem::write_without_row(const Points* before, Points& after, con
     });
 }
 
+/// Sets the time step and its units. A kept matrix of another time step does not count any more.
 void WholeMeshSystem::take_units(double time_step)
 {
     has_matrix_ &= time_step == time_step_;
@@ -310,6 +315,7 @@ WholeMeshSystem::Result WholeMeshSystem::step(const Points& before, double time_
     return solve({sizes.residual.sum(), after, after, &before, false, guess}, stop, after, exec);
 }
 
+/// Lists numbers of vertices by rows.
 /// @param by_rows at least #rows by 3. A result is written only later, so that its memory can be used for V until then.
 void WholeMeshSystem::list_by_rows(const Points& by_vertices, Points& by_rows, const Executor& exec) const
 {
@@ -357,6 +363,7 @@ WholeMeshSystem::Result WholeMeshSystem::solve(const Beginning& beginning, const
     double distance = 0.0;
     bool is_in_rows = beginning.is_in_rows;
     bool is_written = false;
+    // Recomputes the residual of the solution in after_, and begins a pass from it.
     const auto renew = [&] {
         const double renewed = measure(beginning.of_rows, beginning.data, beginning.before != nullptr, exec);
         if (renewed > 0.0)
@@ -401,7 +408,7 @@ WholeMeshSystem::Result WholeMeshSystem::solve(const Beginning& beginning, const
             is_in_rows = true;
             renew();
         }
-        distance = distance_after(pass, length, before_pass, left, distance);
+        distance = estimate_distance_after(pass, length, before_pass, left, distance);
         criterion.note(pass.iterations, left, left / before_pass);
     }
     if (!is_written)

@@ -66,9 +66,9 @@ class WholeMeshSystem {
         double mass = 0.0;
         double length = 0.0;
     };
-    /// Per column, the sum of squares, each divided by the diagonal entry.
+    /// Two sums of squares per column, each square divided by the diagonal entry: of the rounding errors of the
+    /// residual, and of the residual.
     struct Sizes {
-        /// Per column, the same sum for the rounding errors of the residual.
         Eigen::Array4d rounding;
         Eigen::Array4d residual;
     };
@@ -110,8 +110,8 @@ class WholeMeshSystem {
     PassStart start_pass(double squared, const Executor& exec);
     [[nodiscard]] double farthest_move(const Executor& exec) const;
     void write_without_row(const Points* before, Points& after, const Executor& exec) const;
-    static double distance_after(const BlockRowMatrix::Result& pass, double length, double before_pass, double left,
-                                 double distance_before);
+    static double estimate_distance_after(const BlockRowMatrix::Result& pass, double length, double before_pass,
+                                          double left, double distance_before);
 
     const PolygonMesh* mesh_;
     const Topology* topology_;

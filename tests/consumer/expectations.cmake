@@ -70,9 +70,8 @@ if(EXISTS "${seamflow_DIR}/seamflow-distributed-targets.cmake")
     find_package(seamflow REQUIRED COMPONENTS distributed)
     file(WRITE "${CMAKE_CURRENT_BINARY_DIR}/ranks.cpp" [[
 #include <atomic>
-#include <seamflow/engine/ranks/mpi_transport.h>
 #include <seamflow/engine/ranks/rank_group.h>
-#include <seamflow/engine/ranks/thread_transport.h>
+#include <seamflow/engine/ranks/transport.h>
 int main(int argc, char**)
 {
     std::atomic<int> n = 0;

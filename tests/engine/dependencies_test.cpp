@@ -9,7 +9,8 @@
 #include <doctest/doctest.h>
 
 #include "engine/mean_curvature_flow.h"
-#include "engine/setup/sub_mesh_options.h"
+#include "engine/setup/flow_plan.h"
+#include "engine/setup/sub_mesh_equations.h"
 #include "engine/steppers/sweep_order.h"
 #include "partition/decomposition/overlap.h"
 #include "partition/decomposition/reverse_cuthill_mckee.h"
@@ -177,19 +178,20 @@ Index check_graphs(const PolygonMesh& mesh, const FlowOptions& options)
     const FlowReport report = mean_curvature_flow(moved, options);
     const Decomposition decomposition = decomposed(mesh, options, report);
     std::vector<std::vector<Index>> ranks{colours_of(report)};
-    if (alternates(options, usize(report.cut.n_sub_meshes())))
+    const SweepSteps sweeps = sweeps_of(options, report.cut.n_sub_meshes());
+    if (sweeps.alternates)
         ranks.push_back(reversed(colours_of(report)));
     const std::vector<Index> order = reverse_cuthill_mckee(decomposition.adjacency);
     const Schedule& schedule = report.schedule.value();
     std::size_t first = 0;
     for (const std::vector<Index>& rank : ranks) {
-        const SweepPlan plan = make_plan(decomposition, options, rank);
+        const SweepPlan plan = make_plan(decomposition, sweeps.conditions, rank);
         FactorWindow window = least_window(plan, order_by_need(plan, order));
         window.size = report.resources.live_factors;
-        const std::vector<Task> tasks = tasks_of(plan, predicts(options));
+        const std::vector<Task> tasks = tasks_of(plan, predict(sweeps.conditions));
         const RecordedWaits recorded = recorded_from(schedule, first, tasks.size());
         CHECK(recorded.tasks == tasks);
-        check_same(recorded.waits, waits_of(plan, decomposition.adjacency, window, predicts(options)));
+        check_same(recorded.waits, waits_of(plan, decomposition.adjacency, window, predict(sweeps.conditions)));
         first += tasks.size();
     }
     CHECK(first == schedule.tasks.size());

@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include "engine/setup/flow_plan.h"
 #include "engine/steppers/schur_stepper.h"
 #include "engine/steppers/sweep_stepper.h"
 #include "engine/tasks/workers.h"
@@ -106,6 +107,11 @@ struct Parts {
     Cut cut = cut_into(mesh, topology, 3);
     AllOptions options = test::small_flows(n_task_steps, 0).front().options;
     std::vector<double> curvature = std::vector<double>(static_cast<std::size_t>(mesh.n_vertices()), 0.0);
+
+    [[nodiscard]] StepSettings settings_for(const WayOfSteps& way) const
+    {
+        return settings_of(options, way, mesh.vertices);
+    }
 };
 
 }  // namespace
@@ -133,26 +139,29 @@ TEST_CASE("a graph one of whose tasks has thrown runs again, and gives the same 
     Parts parts;
     SUBCASE("sweeps")
     {
-        for (const Transmission transmission : {Transmission::Predicted, Transmission::Derivative}) {
-            parts.options.interface.transmission = transmission;
+        for (const InterfaceConditions& conditions :
+             {InterfaceConditions(PredictedTransmission()), InterfaceConditions(AdaptedConditions())})
             every_graph_runs_again<SweepStepper>([&](Progress& progress) {
-                return SweepStepper(parts.mesh, parts.topology, parts.cut, parts.options, parts.curvature, progress);
+                const SweepSteps sweeps{.conditions = conditions, .alternates = true, .corrects = true};
+                return SweepStepper(parts.mesh, parts.topology, parts.cut, parts.settings_for(sweeps), sweeps,
+                                    parts.curvature, progress);
             });
-        }
     }
+    const ConvergedSteps converged{{.tolerance = 1e-3, .iterations = 1000}};
     SUBCASE("converged")
     {
-        parts.options.accuracy.tolerance = 1e-3;
         every_graph_runs_again<SchurStepper>([&](Progress& progress) {
-            return SchurStepper(parts.mesh, parts.topology, parts.cut, parts.options, progress);
+            return SchurStepper(parts.mesh, parts.topology, parts.cut, parts.settings_for(converged), converged.stop,
+                                progress);
         });
     }
     SUBCASE("converged in little memory")
     {
-        parts.options.accuracy.tolerance = 1e-3;
+        parts.options.accuracy.tolerance = converged.stop.tolerance;
         parts.options.resources.memory_limit = test::least_memory_limit(parts.mesh, parts.options).value();
         every_graph_runs_again<SchurStepper>([&](Progress& progress) {
-            return SchurStepper(parts.mesh, parts.topology, parts.cut, parts.options, progress);
+            return SchurStepper(parts.mesh, parts.topology, parts.cut, parts.settings_for(converged), converged.stop,
+                                progress);
         });
     }
 }

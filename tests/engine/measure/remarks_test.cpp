@@ -40,28 +40,26 @@ TEST_CASE("a mesh none of whose vertices can move is remarked on, one of which s
 
 TEST_CASE("the estimate of the last step is remarked on")
 {
-    const FlowOptions options;
     for (const bool grows : {true, false}) {
         FlowReport report;
         report.steps.resize(2);
         report.steps[grows ? 1 : 0].estimated_v_max = 2.0;
         report.steps[grows ? 0 : 1].estimated_v_max = 0.5;
-        remark_on_drift(options, report);
+        remark_on_drift(report);
         CHECK(count_with(report.remarks, "by estimate") == (grows ? 1 : 0));
     }
 }
 
 TEST_CASE("an estimate is remarked on from one mean edge length on")
 {
-    const FlowOptions options;
     FlowReport report;
-    remark_on_drift(options, report);
+    remark_on_drift(report);
     report.steps.resize(1);
     report.steps[0].estimated_v_max = 0.9;
-    remark_on_drift(options, report);
+    remark_on_drift(report);
     CHECK(report.remarks.empty());
     report.steps[0].estimated_v_max = 2.5;
-    remark_on_drift(options, report);
+    remark_on_drift(report);
     REQUIRE(report.remarks.size() == 1);
     CHECK(count_with(report.remarks, "up to 2.5 mean edge lengths") == 1);
 }

@@ -8,7 +8,7 @@
 #include <doctest/doctest.h>
 
 #include "engine/ranks/communicator.h"
-#include "engine/ranks/thread_transport.h"
+#include "engine/ranks/transport.h"
 #include "tests/engine/ranks/rank_checks.h"
 
 using namespace seamflow;

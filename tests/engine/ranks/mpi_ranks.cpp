@@ -6,7 +6,7 @@
 #define DOCTEST_CONFIG_IMPLEMENT
 #include <doctest/doctest.h>
 
-#include "engine/ranks/mpi_transport.h"
+#include "engine/ranks/transport.h"
 #include "tests/engine/ranks/rank_checks.h"
 #include "tests/engine/ranks/rank_flows.h"
 

@@ -8,7 +8,7 @@
 #include <doctest/doctest.h>
 
 #include "engine/ranks/rank_group.h"
-#include "engine/ranks/thread_transport.h"
+#include "engine/ranks/transport.h"
 #include "engine/state/flow_state.h"
 #include "samples/options/smooth_surface.h"
 #include "tests/support/flows.h"

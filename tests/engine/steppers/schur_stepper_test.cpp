@@ -6,6 +6,7 @@
 
 #include "engine/mean_curvature_flow.h"
 #include "engine/options/option_names.h"
+#include "engine/setup/flow_plan.h"
 #include "engine/steppers/schur_stepper.h"
 #include "partition/cut/cut_into.h"
 #include "partition/errors.h"
@@ -231,7 +232,8 @@ TEST_CASE("vertices that are fixed between steps keep their values in many colum
     options.flow = FlowEquation::Linear;
     const FlowControl control;
     Progress progress(control);
-    SchurStepper stepper(mesh, topology, cut_into(mesh, topology, 1), options, progress);
+    SchurStepper stepper(mesh, topology, cut_into(mesh, topology, 1),
+                         settings_of(options, UndecomposedSteps(), mesh.vertices), stop_without_interface, progress);
     stepper.set_fixed(std::array<Index, 2>{200, 201}, true);
     const Eigen::MatrixXd before = Eigen::MatrixXd::Random(mesh.n_vertices(), 40);
     Eigen::MatrixXd expected = before;

@@ -125,8 +125,8 @@ TEST_CASE("adjacent sub-meshes have different ranks, and ranks have no gaps")
 {
     for (const Index k : {2, 3, 8, 20}) {
         const Decomposition decomposition = cut_up(make_triangles(3000), k);
-        for (const Colouring colouring : {Colouring::Greedy, Colouring::Label}) {
-            const auto stage = assign_stages(decomposition.adjacency, colouring,
+        for (const bool colours_are_labels : {false, true}) {
+            const auto stage = assign_stages(decomposition.adjacency, colours_are_labels,
                                              total_curvatures(decomposition, std::vector<double>(4000, 1.0)));
             std::vector<int> used(stage.size(), 0);
             for (std::size_t s = 0; s < stage.size(); ++s) {
@@ -145,8 +145,7 @@ TEST_CASE("adjacent sub-meshes have different ranks, and ranks have no gaps")
 
 TEST_CASE("with labels as colours the rank is the label")
 {
-    const auto stage =
-        assign_stages(cut_up(make_quads(1000), 5).adjacency, Colouring::Label, std::vector<double>(5, 0.0));
+    const auto stage = assign_stages(cut_up(make_quads(1000), 5).adjacency, true, std::vector<double>(5, 0.0));
     CHECK(stage == std::vector<Index>{0, 1, 2, 3, 4});
 }
 
@@ -159,8 +158,7 @@ TEST_CASE("the colour with more curvature in the interior of its sub-meshes goes
         const SubMesh& sub_mesh = decomposition.sub_meshes[curved];
         for (Index v = 0; v < sub_mesh.n_vertices; ++v)
             curvature[sub_mesh.local_to_global[v]] = 1.0;
-        const auto stage =
-            assign_stages(decomposition.adjacency, Colouring::Greedy, total_curvatures(decomposition, curvature));
+        const auto stage = assign_stages(decomposition.adjacency, false, total_curvatures(decomposition, curvature));
         CHECK(stage[curved] == 0);
         CHECK(stage[1 - curved] == 1);
     }
@@ -180,7 +178,7 @@ TEST_CASE("curvature on the interface and on the boundary does not count")
     for (Index v = 0; v < first.n_vertices; ++v)
         if (first.fixed[v] == 0)
             curvature[first.local_to_global[v]] += 1e-3;
-    CHECK(assign_stages(decomposition.adjacency, Colouring::Greedy, total_curvatures(decomposition, curvature)) ==
+    CHECK(assign_stages(decomposition.adjacency, false, total_curvatures(decomposition, curvature)) ==
           std::vector<Index>{0, 1});
 }
 

@@ -151,8 +151,8 @@ TEST_CASE("the solution is the update by the undecomposed step on Γ")
         for (const Laplacian laplacian : symmetric_laplacians) {
             CAPTURE(name_of(laplacian));
             const Points update = undecomposed_step(cut, laplacian, time_step) - cut.mesh.vertices;
-            // Of a flat mesh that stays where it is there may be rounding alone to solve for.
-            // With uniform weights that may be so of single coordinates.
+            // Of a flat mesh that stays where it is there may be rounding alone to solve for. With uniform weights that
+            // may be so of single coordinates.
             const bool moves = (update.cwiseAbs().maxCoeff() > 1e-13 || laplacian != Laplacian::VirtualRefinement) &&
                                laplacian != Laplacian::Uniform;
             for (const Balancing balancing : {Balancing::None, Balancing::Coarse}) {

@@ -1,0 +1,67 @@
+#include "engine/setup/sub_mesh_equations.h"
+
+#include <cmath>
+#include <type_traits>
+#include <utility>
+
+#include "engine/tasks/parallel_executor.h"
+#include "partition/decomposition/overlap.h"
+#include "solvers/conditions/adapted_robin.h"
+#include "solvers/conditions/robin_parameter.h"
+
+namespace seamflow {
+
+std::unique_ptr<SubMeshSystem> make_equations(const SubMesh& sub_mesh, std::vector<Index> twin, bool is_only,
+                                              const StepSettings& settings, const InterfaceConditions& conditions,
+                                              SolverWorkspace& workspace)
+{
+    SystemParts parts{sub_mesh,
+                      std::move(twin),
+                      settings.equation.laplacian,
+                      settings.factors.factorisation,
+                      settings.equation.terms,
+                      is_only ? Executor(run_in_parallel) : Executor()};
+    if (predict(conditions))
+        return make_predicted_system(std::move(parts), workspace);
+    if (std::holds_alternative<SchwarzConditions>(conditions))
+        return make_following_system(std::move(parts), workspace);
+    const auto* const classical = std::get_if<ClassicalConditions>(&conditions);
+    auto condition = classical != nullptr ? make_ventcell(sub_mesh, classical->q)
+                                          : make_adapted_ventcell(sub_mesh, std::get<AdaptedConditions>(conditions).q);
+    return make_system(std::move(parts), std::move(condition), workspace);
+}
+
+double robin_parameter(const SubMesh& sub_mesh, const Points& positions, const InterfaceConditions& conditions,
+                       double time_step)
+{
+    // p √dt with predictions. With a good prediction the other side responds to a further movement of Γ like a half
+    // plane: the derivative is 1/√dt, so that dt p = √dt would be right for smooth surfaces. Measured on twelve meshes,
+    // Δ_A and Δ_P, a little less is better.
+    constexpr double predicted_p_in_diffusion_lengths = 0.7;
+    if (sub_mesh.interface.vertices.empty())
+        return 0.0;
+    const auto parameter = [&](const auto& kind) {
+        if constexpr (requires { kind.p; }) {
+            if (const double* const given = std::get_if<double>(&kind.p))
+                return *given;
+            const auto& [eta, edge] = std::get<OptimalRobin>(kind.p);
+            return optimal_robin_parameter(sub_mesh, positions, eta, edge);
+        } else {
+            return std::is_same_v<std::decay_t<decltype(kind)>, PredictedTransmission>
+                       ? predicted_p_in_diffusion_lengths / std::sqrt(time_step)
+                       : 0.0;
+        }
+    };
+    return std::visit(parameter, conditions);
+}
+
+SweepPlan make_plan(const Decomposition& decomposition, const InterfaceConditions& conditions,
+                    const std::vector<Index>& stage)
+{
+    if (std::holds_alternative<SchwarzConditions>(conditions))
+        return plan_overlapping_sweep(decomposition, stage);
+    return have_copies(conditions) ? plan_mutual_sweep(decomposition, stage, run_in_parallel)
+                                   : plan_sweep(decomposition, stage, run_in_parallel);
+}
+
+}  // namespace seamflow

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <variant>
+
+#include "solvers/conditions/robin_edge.h"
+
+/// The settings of sweeps, as decided before the first step: nothing in them is left open.
+namespace seamflow {
+
+/// p* of the paper (eqs. 26 and 27), for each sub-mesh.
+struct OptimalRobin {
+    /// η of eq. 26.
+    double eta = 1.0;
+    PEdge edge = PEdge::Automatic;
+};
+
+/// The Robin parameter: a given one, in 1/length, or p*.
+using RobinChoice = std::variant<OptimalRobin, double>;
+
+/// Adapted Robin conditions with a prediction of the other side of Γ (see Transmission::Predicted).
+struct PredictedTransmission {};
+
+/// Adapted Robin or Ventcell conditions with derivatives at Vᵏ.
+struct AdaptedConditions {
+    RobinChoice p;
+    /// The Ventcell parameter, without dimension; 0: Robin conditions.
+    double q = 0.0;
+};
+
+/// Classical Robin or Ventcell conditions: every sub-mesh has its own copy of Γ.
+struct ClassicalConditions {
+    RobinChoice p;
+    /// The Ventcell parameter, without dimension; 0: Robin conditions.
+    double q = 0.0;
+    /// See ReportOptions::keep_gaps.
+    bool keeps_gaps = false;
+};
+
+/// The alternating Schwarz method.
+struct SchwarzConditions {
+    /// The layers of faces by which sub-meshes overlap.
+    int overlap = 1;
+};
+
+/// The conditions on Γ in a sweep.
+using InterfaceConditions =
+    std::variant<PredictedTransmission, AdaptedConditions, ClassicalConditions, SchwarzConditions>;
+
+/// One sweep over the colours of the sub-meshes.
+struct SweepSteps {
+    InterfaceConditions conditions;
+    /// Whether labels are colours (see Colouring::Label).
+    bool colours_are_labels = false;
+    /// Whether every other sweep goes backward.
+    bool alternates = false;
+    /// Whether vertices of Γ move to the centroids of their neighbours after a step.
+    bool corrects = false;
+};
+
+/// Whether every sub-mesh has its own copy of Γ.
+inline bool have_copies(const InterfaceConditions& conditions)
+{
+    return std::holds_alternative<ClassicalConditions>(conditions);
+}
+
+/// Whether sub-meshes predict the other side of Γ.
+inline bool predict(const InterfaceConditions& conditions)
+{
+    return std::holds_alternative<PredictedTransmission>(conditions);
+}
+
+}  // namespace seamflow

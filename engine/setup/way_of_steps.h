@@ -1,0 +1,54 @@
+#pragma once
+
+#include <optional>
+#include <variant>
+
+#include "engine/options/approach.h"
+#include "engine/setup/cost_model.h"
+#include "engine/setup/sweep_steps.h"
+#include "solvers/krylov/stopping_criterion.h"
+
+/// The ways of taking steps, as decided before the first step: one type for each, with the settings that it alone has.
+/// Nothing in them is left open.
+namespace seamflow {
+
+/// Sub-meshes that converge to the undecomposed step.
+struct ConvergedSteps {
+    /// By the residual on Γ, relative to that of the positions before the step.
+    IterationStop stop;
+};
+
+/// For converged steps of a single sub-mesh, which has no Γ: they are exact.
+inline constexpr IterationStop stop_without_interface{.tolerance = 1e-10, .iterations = 1};
+
+/// Conjugate gradients on the whole mesh.
+struct GradientSteps {
+    /// By the residual of all rows, relative to that of the positions before the step.
+    IterationStop stop;
+    /// The input of the costs of steps, if they may begin with the solution by one factorisation (see
+    /// SwitchingStepper); otherwise empty.
+    std::optional<FlowSize> costs = {};
+};
+
+/// One factorisation of the whole mesh: exact.
+struct UndecomposedSteps {
+    /// Only for the report: the tolerance that was asked for.
+    std::optional<double> tolerance = {};
+};
+
+/// Explicit Euler steps of the whole mesh.
+struct ExplicitSteps {};
+
+/// The way of taking steps.
+using WayOfSteps = std::variant<SweepSteps, ConvergedSteps, GradientSteps, UndecomposedSteps, ExplicitSteps>;
+
+/// The name of a way. Explicit steps have that of sweeps, which are as little converged.
+Approach approach_of(const WayOfSteps& way);
+
+/// The tolerance of the steps, if they are converged or one was asked for.
+std::optional<double> tolerance_of(const WayOfSteps& way);
+
+/// Whether steps are taken without sub-meshes.
+bool takes_whole_mesh(const WayOfSteps& way);
+
+}  // namespace seamflow
