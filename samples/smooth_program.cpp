@@ -31,8 +31,6 @@
 #include "engine/tasks/stopwatch.h"
 #include "engine/tasks/workers.h"
 #include "partition/errors.h"
-#include "partition/formats/edge_files.h"
-#include "partition/formats/index_files.h"
 #include "partition/formats/mesh_io.h"
 #include "partition/io/input_file.h"
 #include "samples/command/smooth_command.h"
@@ -56,36 +54,17 @@ namespace seamflow {
 
 namespace {
 
-/// Completes options that the command line leaves to the input.
-/// @param left_out ascending: the faces of the file that are not in the mesh.
-void complete_options(SmoothCommand& command, const PolygonMesh& mesh, const std::vector<Index>& left_out,
-                      const Executor& exec, RunRecord& run)
-{
-    if (!command.labels.empty())
-        command.options.cut.labels = labels_of_faces(command.labels, mesh.n_faces(), left_out);
-    MotionOptions& motion = command.options.motion;
-    if (!command.fix.empty())
-        motion.fixed_vertices = read_vertex_set(command.fix, mesh.n_vertices(), command.fix_property);
-    if (!command.edges.empty() || command.edges_from_file)
-        motion.feature_edges = read_edges(command.edges_from_file ? command.input : command.edges, mesh.n_vertices());
-    if (!command.attach_weights.empty())
-        motion.attachment_weights =
-            read_vertex_weights(command.attach_weights, mesh.n_vertices(), command.attach_property);
-    motion.strength = read_region(command, mesh.n_vertices());
-    about_file(command.input, [&] { resolve_amount(command, mesh, exec, run); });
-}
-
 /// The page of --html, so far the input; empty without --html.
 /// @param left_out ascending: the faces of the file that are not in the mesh.
-std::optional<PageFlow> make_page(const SmoothCommand& command, const PolygonMesh& mesh,
+std::optional<PageFlow> make_page(const SmoothCommand& command, const MeshFile& file,
                                   const std::vector<Index>& left_out)
 {
     std::optional<PageFlow> page;
     if (command.html.empty())
         return page;
-    require_showable(mesh, command.html);
+    require_showable(file.mesh, command.html);
     Workers(command.options.resources.threads).execute([&] {
-        page.emplace(std::make_shared<const PageMesh>(mesh, read_file_colours(command.input, mesh, left_out)),
+        page.emplace(std::make_shared<const PageMesh>(file.mesh, read_file_colours(command.input, file, left_out)),
                      command.output.filename().string(), command.options.laplacian, command.options.steps,
                      command.options.report.reference);
     });
@@ -162,37 +141,13 @@ MeshFile read_input(SmoothCommand& command, FaultLog& left_out, const Stopwatch&
     MeshFile file = command.options.motion.strict ? read_mesh(command.input, exec)
                                                   : read_faulty_mesh(command.input, left_out, exec);
     require_faces(command.input, file.mesh.n_faces(), left_out);
-    complete_options(command, file.mesh, left_out.faces_left_out, exec, run);
+    read_named_files(command, file.mesh, left_out.faces_left_out);
+    about_file(command.input, [&] { resolve_amount(command, file.mesh, exec, run); });
     run.read_seconds = whole.seconds();
     print_input(out, run, file.mesh.n_vertices(), file.mesh.n_faces());
     print_preset(out, run, command.chosen);
     print_amount(out, run.scale, command.options);
     return file;
-}
-
-/// Remarks on what of the input file is not in the result, or no longer there.
-std::vector<std::string> remarks_on_input(const SmoothCommand& command, const MeshOutput& output,
-                                          const FaultLog& left_out, const Executor& exec)
-{
-    const bool joined = !command.options.report.keep_gaps;
-    std::vector<std::string> remarks = output.remarks_on_losses(joined, exec);
-    if (left_out.count > 0)
-        remarks.push_back(output.remark_on_faces(left_out, joined));
-    std::error_code ignored;
-    if (std::filesystem::equivalent(command.input, command.output, ignored))
-        remarks.push_back("The result has replaced the input, in one go when it was complete.");
-    return remarks;
-}
-
-/// What --every-step writes; empty without it.
-/// @throws OutputError for a mesh that its format cannot hold.
-std::optional<MeshOutput> output_of_steps(const SmoothCommand& command, const MeshFile& input)
-{
-    if (!command.every_step)
-        return {};
-    MeshOutput steps(command.every_step->path(1), input);
-    steps.require_storable();
-    return steps;
 }
 
 /// Reads, flows and writes.
@@ -208,9 +163,12 @@ ExitStatus run(SmoothCommand& command, RunRecord& run, RankGroup* ranks)
     MeshFile file = read_input(command, left_out, whole, run, exec, out);
     const MeshOutput output(command.output, file);
     output.require_storable();
-    const std::optional<MeshOutput> steps = output_of_steps(command, file);
-    const std::vector<std::string> losses = remarks_on_input(command, output, left_out, exec);
-    std::optional<PageFlow> page = make_page(command, file.mesh, left_out.faces_left_out);
+    std::optional<MeshOutput> steps;
+    if (command.every_step)
+        steps.emplace(command.every_step->path(1), file).require_storable();
+    const std::vector<std::string> losses =
+        output.remarks_on_input(command.input, left_out, !command.options.report.keep_gaps, exec);
+    std::optional<PageFlow> page = make_page(command, file, left_out.faces_left_out);
     std::optional<SurfaceChangeMeter> change;
     if (!command.quiet || !command.report.empty() || !command.html.empty())
         change.emplace(file.mesh, exec);

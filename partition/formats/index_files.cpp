@@ -4,12 +4,16 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
+#include <iterator>
+#include <optional>
 #include <string>
+#include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "partition/errors.h"
+#include "partition/executor.h"
 #include "partition/formats/mesh_io.h"
 #include "partition/formats/ply_data.h"
 #include "partition/formats/ply_header.h"
@@ -48,198 +52,181 @@ std::string_view trimmed(std::string_view line)
     return line.substr(first, line.find_last_not_of(" \t\r") - first + 1);
 }
 
-/// "path:line: ", the beginning of messages about a line.
-std::string place_of_line(const std::filesystem::path& path, std::size_t line)
-{
-    return fmt::format("{}:{}: ", path.string(), line);
-}
-
-[[noreturn]] void refuse_line(const std::filesystem::path& path, std::size_t line, std::string_view text,
-                              const std::string& why)
-{
-    throw InputError(fmt::format("{}{} {}", place_of_line(path, line), in_quotes(text), why));
-}
-
 bool is_weight(double value)
 {
     return value >= 0.0 && std::isfinite(value);
 }
 
-Index parse_index(std::string_view text, const std::filesystem::path& path, std::size_t line, const NumberWords& words)
-{
-    Index value = -1;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error == std::errc::result_out_of_range)
-        refuse_line(path, line, text, "is too large or too small: use numbers from 0 to 2147483647");
-    if (error != std::errc() || end != text.data() + text.size())
-        refuse_line(path, line, text,
-                    fmt::format("is not {}: write one whole number for each {}, each on a line of its own", words.name,
-                                words.element));
-    if (value < 0)
-        refuse_line(path, line, text, fmt::format("is negative: {}", words.negative));
-    return value;
-}
-
-double parse_weight(std::string_view text, const std::filesystem::path& path, std::size_t line)
-{
-    double value = 0.0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size() || !is_weight(value))
-        refuse_line(path, line, text,
-                    "is not a weight: write a number of at least 0 for each vertex, each on a line of its own");
-    return value;
-}
-
-/// Reads a text file with one number per line.
-/// @param take called in order with each line that is not blank, and its number, counted from 1.
-/// @returns the number of lines.
-template <class Take>
-std::size_t read_lines(const std::filesystem::path& path, Take&& take)
-{
-    std::ifstream file(path);
-    if (!file || std::filesystem::is_directory(path))
-        throw InputError(path.string() + ": cannot open the file for reading: check its name and permissions");
-    std::string text;
-    std::size_t line = 0;
-    while (std::getline(file, text)) {
-        ++line;
-        if (const std::string_view number = trimmed(text); !number.empty())
-            take(number, line);
+/// A text file with one number on each line.
+class LineFile final : public InputPosition {
+  public:
+    explicit LineFile(const std::filesystem::path& path)
+        : path_(path.string())
+        , file_(path)
+    {
+        if (!file_ || std::filesystem::is_directory(path))
+            throw InputError(path_ + ": cannot open the file for reading: check its name and permissions");
     }
-    if (file.bad())
-        throw InputError(place_of_line(path, line) +
-                         "the file could not be read to its end: copy it to a working disk");
-    return line;
-}
 
-/// Reads a text file with one number per line for each of n elements.
-/// @param parse called with a line that is not blank, and its number.
-template <class Parse>
-auto read_each(const std::filesystem::path& path, Index n, const NumberWords& words, Parse&& parse)
+    /// Goes to the next number. False at the end of the file.
+    bool next()
+    {
+        for (text_ = {}; text_.empty() && std::getline(file_, line_); ++n_lines_)
+            text_ = trimmed(line_);
+        if (file_.bad())
+            fail("the file could not be read to its end: copy it to a working disk");
+        // Messages about an empty file are about its first line.
+        n_lines_ = std::max<std::size_t>(n_lines_, 1);
+        return !text_.empty();
+    }
+
+    /// Reads the number, which must be whole and at least 0.
+    void read(Index& value, const NumberWords& words) const
+    {
+        const std::errc error = parse(value);
+        if (error == std::errc::result_out_of_range)
+            fail("{} is too large or too small: use numbers from 0 to 2147483647", Quoted{text_});
+        if (error != std::errc())
+            fail("{} is not {}: write one whole number for each {}, each on a line of its own", Quoted{text_},
+                 words.name, words.element);
+        if (value < 0)
+            fail("{} is negative: {}", Quoted{text_}, words.negative);
+    }
+
+    /// Reads the number, which must be a weight.
+    void read(double& value, const NumberWords& words) const
+    {
+        if (parse(value) != std::errc() || !is_weight(value))
+            fail("{} is not {}: write a number of at least 0 for each {}, each on a line of its own", Quoted{text_},
+                 words.name, words.element);
+    }
+
+  private:
+    [[nodiscard]] std::string position() const override { return fmt::format("{}:{}", path_, n_lines_); }
+
+    std::errc parse(auto& value) const
+    {
+        const char* const last = text_.data() + text_.size();
+        const auto [end, error] = std::from_chars(text_.data(), last, value);
+        return error == std::errc() && end != last ? std::errc::invalid_argument : error;
+    }
+
+    std::string path_;
+    std::ifstream file_;
+    std::string line_;
+    /// The number, in the line.
+    std::string_view text_;
+    std::size_t n_lines_ = 0;
+};
+
+/// Reads a text file with a number for each of n elements.
+template <class Number>
+std::vector<Number> read_each(const std::filesystem::path& path, Index n, const NumberWords& words)
 {
-    std::vector<decltype(parse(std::string_view(), std::size_t{}))> numbers;
-    const std::size_t n_lines = read_lines(path, [&](std::string_view text, std::size_t line) {
-        const auto number = parse(text, line);
-        if (numbers.size() == usize(n))
-            throw InputError(fmt::format("{}more {} than the mesh has {} ({}): remove the surplus, or use the {} with "
-                                         "the mesh they belong to",
-                                         place_of_line(path, line), words.names, words.elements, n, words.names));
-        numbers.push_back(number);
-    });
-    if (numbers.size() != usize(n))
-        throw InputError(fmt::format("{}the file ends after {} of {} {}: give one for each {}, or use the {} with the "
-                                     "mesh they belong to",
-                                     place_of_line(path, std::max<std::size_t>(n_lines, 1)), numbers.size(), n,
-                                     words.names, words.element, words.names));
+    LineFile file(path);
+    std::vector<Number> numbers;
+    for (Number number{}; file.next(); numbers.push_back(number)) {
+        file.read(number, words);
+        if (std::ssize(numbers) == n)
+            file.fail("more {} than the mesh has {} ({}): remove the surplus, or use the {} with the mesh they belong "
+                      "to",
+                      words.names, words.elements, n, words.names);
+    }
+    if (std::ssize(numbers) != n)
+        file.fail("the file ends after {} of {} {}: give one for each {}, or use the {} with the mesh they belong to",
+                  numbers.size(), n, words.names, words.element, words.names);
     return numbers;
 }
 
-std::vector<Index> from_lines(const std::filesystem::path& path, Index n_vertices)
+/// Reads a text file with numbers of vertices.
+std::vector<Index> read_list(const std::filesystem::path& path, Index n_vertices)
 {
+    LineFile file(path);
     std::vector<Index> vertices;
-    read_lines(path, [&](std::string_view text, std::size_t line) {
-        const Index v = parse_index(text, path, line, vertex_words);
+    for (Index v = 0; file.next(); vertices.push_back(v)) {
+        file.read(v, vertex_words);
         if (v >= n_vertices)
-            throw InputError(fmt::format("{}there is no vertex {}: the mesh has {}, numbered from 0; use the file with "
-                                         "the mesh it belongs to",
-                                         place_of_line(path, line), v, n_vertices));
-        vertices.push_back(v);
-    });
+            file.fail("there is no vertex {}: the mesh has {}, numbered from 0; use the file with the mesh it belongs "
+                      "to",
+                      v, n_vertices);
+    }
     sort_unique(vertices);
     return vertices;
 }
 
-/// Checks that the file has a vertex property of this name, and as many vertices as the mesh.
-void require_property(const TextScanner& scanner, const PlyHeader& header, Index n_vertices, std::string_view property)
+/// Reads a property of the vertices of a .ply file.
+/// @param complaint gives the fault of a number and a remedy, to follow the name of the property; empty: none.
+/// @returns n_vertices; nothing for any other file.
+std::optional<std::vector<double>> read_column(const std::filesystem::path& path, Index n_vertices,
+                                               std::string_view property, std::string (*complaint)(double number))
 {
-    const PlyElement* const element = header.element("vertex");
-    if (element == nullptr)
-        scanner.fail("the file has no vertices; use one with the mesh's vertices and their property " +
-                     in_quotes(property));
-    if (element->count != static_cast<std::uint64_t>(n_vertices))
-        throw InputError(
-            fmt::format("{}: the file has {} vertices, but the mesh has {}; use it with the mesh it belongs to",
-                        scanner.position_of(element->line), element->count, n_vertices));
-    require_number(scanner, *element, property);
-}
-
-/// @param take called with each vertex, its number, and the source, in order.
-template <class Take>
-void read_ply_property(const std::filesystem::path& path, Index n_vertices, std::string_view property, Take&& take)
-{
+    if (format_of(path) != FileFormat::Ply)
+        return {};
     const InputFile file{OpenFile(path)};
-    TextScanner scanner(path, file.content(), ply_syntax);
-    const PlyHeader header = read_ply_header(scanner);
-    require_property(scanner, header, n_vertices, property);
-    const PlyData data{path, file.content(), header, scanner, scanner.rest(), PlyUse::OtherData};
-    const PlyElement& vertices = *header.element("vertex");
+    const PlyData data = ply_data_of(path, file.content(), PlyUse::OtherData);
+    const PlyElement* const vertices = data.header.element("vertex");
+    if (vertices == nullptr)
+        data.after_header.fail("the file has no vertices; use one with the mesh's vertices and their property {}",
+                               Quoted{property});
+    if (vertices->count != static_cast<std::uint64_t>(n_vertices))
+        data.after_header.fail_at(vertices->line,
+                                  "the file has {} vertices, but the mesh has {}; use it with the mesh it belongs to",
+                                  vertices->count, n_vertices);
+    require_number(data.after_header, *vertices, property);
+    std::vector<double> numbers;
+    numbers.reserve(vertices->count);
     data.scan(
-        data.whole(), vertices, columns_of(vertices, [&](const PlyProperty& p) { return p.name == property ? 0 : -1; }),
-        [&](PlySource& source, Index v, Index, const PlyProperty& wanted) {
-            take(v, source.number(wanted.type), source);
+        data.whole(), *vertices, columns_of(*vertices, {property}),
+        [&](PlySource& source, Index, Index, const PlyProperty& wanted) {
+            const double number = numbers.emplace_back(source.number(wanted.type));
+            if (const std::string why = complaint(number); !why.empty())
+                source.position().fail("{} {}", Quoted{property}, why);
         },
         [](PlySource&, Index) {});
-}
-
-std::vector<Index> from_ply(const std::filesystem::path& path, Index n_vertices, std::string_view property)
-{
-    std::vector<Index> vertices;
-    read_ply_property(path, n_vertices, property, [&](Index v, double value, auto& source) {
-        if (std::isnan(value))
-            source.position().fail(in_quotes(property) + " is not a number; write 0 or 1 for each vertex");
-        if (value != 0.0)
-            vertices.push_back(v);
-    });
-    return vertices;
+    return numbers;
 }
 
 }  // namespace
 
 std::vector<Index> read_labels(const std::filesystem::path& path, Index n_faces)
 {
-    return read_each(path, n_faces, label_words, [&](std::string_view text, std::size_t line) {
-        return parse_index(text, path, line, label_words);
-    });
+    return read_each<Index>(path, n_faces, label_words);
 }
 
 std::vector<Index> read_vertex_set(const std::filesystem::path& path, Index n_vertices, std::string_view property)
 {
-    return format_of(path) == FileFormat::Ply ? from_ply(path, n_vertices, property) : from_lines(path, n_vertices);
+    const auto marks = read_column(path, n_vertices, property, [](double mark) -> std::string {
+        return std::isnan(mark) ? "is not a number; write 0 or 1 for each vertex" : "";
+    });
+    if (!marks)
+        return read_list(path, n_vertices);
+    return select(run_serially, n_vertices, [&](Index v) { return (*marks)[v] != 0.0; });
 }
 
 std::vector<double> read_vertex_weights(const std::filesystem::path& path, Index n_vertices, std::string_view property)
 {
-    if (format_of(path) != FileFormat::Ply)
-        return read_each(path, n_vertices, weight_words,
-                         [&](std::string_view text, std::size_t line) { return parse_weight(text, path, line); });
-    std::vector<double> weights;
-    weights.reserve(usize(n_vertices));
-    read_ply_property(path, n_vertices, property, [&](Index, double value, auto& source) {
-        if (!is_weight(value))
-            source.position().fail(in_quotes(property) +
-                                   " is not a weight; write a number of at least 0 for each vertex");
-        weights.push_back(value);
+    auto weights = read_column(path, n_vertices, property, [](double weight) -> std::string {
+        return is_weight(weight) ? "" : "is not a weight; write a number of at least 0 for each vertex";
     });
-    return weights;
+    return weights ? std::move(*weights) : read_each<double>(path, n_vertices, weight_words);
 }
 
 std::vector<double> read_vertex_strengths(const std::filesystem::path& path, Index n_vertices,
                                           std::string_view property)
 {
-    std::vector<double> strengths(usize(n_vertices), 0.0);
-    if (format_of(path) != FileFormat::Ply) {
-        for (const Index v : from_lines(path, n_vertices))
-            strengths[v] = 1.0;
-        return strengths;
-    }
-    read_ply_property(path, n_vertices, property, [&](Index v, double value, auto& source) {
-        if (!(value >= 0.0 && value <= 1.0))
-            source.position().fail(fmt::format("{} is {:g}; write a number from 0 (the vertex stays) to 1 "
-                                               "(it moves like without a region) for each vertex",
-                                               in_quotes(property), value));
-        strengths[v] = value;
+    auto strengths = read_column(path, n_vertices, property, [](double strength) {
+        return strength >= 0.0 && strength <= 1.0
+                   ? std::string()
+                   : fmt::format("is {:g}; write a number from 0 (the vertex stays) to 1 (it moves like without a "
+                                 "region) for each vertex",
+                                 strength);
     });
-    return strengths;
+    if (strengths)
+        return std::move(*strengths);
+    std::vector<double> all(n_vertices, 0.0);
+    for (const Index v : read_list(path, n_vertices))
+        all[v] = 1.0;
+    return all;
 }
 
 }  // namespace seamflow

@@ -103,16 +103,16 @@ InputFile MeshSource::read_again(const Executor& exec) const
 void MeshSource::require_same_faces(const std::filesystem::path& path, const PolygonMesh& mesh,
                                     const Executor& exec) const
 {
-    const auto refuse = [&](std::string_view why) {
+    std::string difference;
+    if (mesh.n_vertices() != n_vertices_ || mesh.n_faces() != n_faces_)
+        difference = fmt::format("{} vertices and {} faces, but that file {} and {}", mesh.n_vertices(), mesh.n_faces(),
+                                 n_vertices_, n_faces_);
+    else if (checksum_of_faces(mesh, exec) != faces_checksum_)
+        difference = "other faces than that file";
+    if (!difference.empty())
         throw OutputError(
             fmt::format("{}: cannot be written in the form of {}: the mesh has {}; write it without that form",
-                        path.string(), file_.path().string(), why));
-    };
-    if (mesh.n_vertices() != n_vertices_ || mesh.n_faces() != n_faces_)
-        refuse(fmt::format("{} vertices and {} faces, but that file {} and {}", mesh.n_vertices(), mesh.n_faces(),
-                           n_vertices_, n_faces_));
-    if (checksum_of_faces(mesh, exec) != faces_checksum_)
-        refuse("other faces than that file");
+                        path.string(), file_.path().string(), difference));
 }
 
 namespace {
@@ -239,26 +239,21 @@ MeshFile read_whole(OpenFile open, const InputFile& input, FileFormat format, co
     return file;
 }
 
-/// @param format nothing: the format is recognised from the content. @param faults see read_whole.
-MeshFile read_open(OpenFile open, std::optional<FileFormat> format, const Executor& exec, FaultLog* faults)
-{
-    const InputFile input(open);
-    if (!format)
-        format = recognised_format(input.content());
-    if (const auto with_others = functions_of(*format).with_others; with_others != nullptr)
-        if (auto all = with_others(open, input.content())) {
-            const InputFile content(*all);
-            return read_whole(std::move(*all), content, *format, exec, faults);
-        }
-    return read_whole(std::move(open), input, *format, exec, faults);
-}
-
 /// Finds the format and reads; a lack of memory is reported with the name of the file.
 MeshFile read(const std::filesystem::path& path, const Executor& exec, FaultLog* faults)
 {
-    const auto format = is_input_stream(path) ? std::nullopt : std::optional(require_format(path));
+    auto format = is_input_stream(path) ? std::nullopt : std::optional(require_format(path));
     try {
-        return read_open(OpenFile(path), format, exec, faults);
+        OpenFile open(path);
+        const InputFile input(open);
+        if (!format)
+            format = recognised_format(input.content());
+        if (const auto with_others = functions_of(*format).with_others; with_others != nullptr)
+            if (auto all = with_others(open, input.content())) {
+                const InputFile content(*all);
+                return read_whole(std::move(*all), content, *format, exec, faults);
+            }
+        return read_whole(std::move(open), input, *format, exec, faults);
     } catch (const std::bad_alloc&) {
         throw ComputationError(path.string() +
                                ": there is not enough memory for this mesh; close other programs, raise "

@@ -119,8 +119,9 @@ void ObjReader::require_attributes(std::string_view attributes)
     for (const char c : attributes) {
         slashes += c == '/' ? 1 : 0;
         if (slashes > 2 || (c != '/' && c != '-' && c != '+' && (c < '0' || c > '9')))
-            scanner_.fail("expected a corner as in 7, 7/1, 7//2 or 7/1/2, but found " + in_quotes(attributes) +
-                          " after the vertex number; correct the face or export the mesh again");
+            scanner_.fail("expected a corner as in 7, 7/1, 7//2 or 7/1/2, but found {} after the vertex number; "
+                          "correct the face or export the mesh again",
+                          Quoted{attributes});
     }
 }
 
@@ -197,7 +198,7 @@ std::vector<ObjCounts> count_obj(const TextScanner& whole, std::span<const std::
     }
     constexpr std::int64_t most = std::numeric_limits<Index>::max();
     if (std::max(counts.back().n_vertices, counts.back().n_normals) > most)
-        whole.fail(fmt::format("more than {} vertices or normals; divide the mesh into several files", most));
+        whole.fail("more than {} vertices or normals; divide the mesh into several files", most);
     return counts;
 }
 

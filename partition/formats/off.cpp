@@ -28,9 +28,9 @@ namespace {
 void next_line(TextScanner& scanner, const char* what, std::int64_t i, std::int64_t n)
 {
     if (!scanner.next_line())
-        scanner.fail(fmt::format("the file ends after {} of {} {}; it has been cut off, or the counts in its header "
-                                 "are wrong: export the mesh again",
-                                 i, n, what));
+        scanner.fail("the file ends after {} of {} {}; it has been cut off, or the counts in its header "
+                     "are wrong: export the mesh again",
+                     i, n, what);
 }
 
 /// Scans lines of text OFF after its header, which are vertices, then faces. Besides the functions of scan_vertex the
@@ -84,9 +84,9 @@ class OffReader {
 void OffReader::require_end()
 {
     if (scanner_.next_line())
-        scanner_.fail(fmt::format("the file continues after the {} vertices and {} faces that its header announces; "
-                                  "correct the counts in the header",
-                                  header_.n_vertices, header_.n_faces));
+        scanner_.fail("the file continues after the {} vertices and {} faces that its header announces; "
+                      "correct the counts in the header",
+                      header_.n_vertices, header_.n_faces);
     require_vertices(scanner_, header_.n_vertices);
 }
 
@@ -143,8 +143,9 @@ TextColours read_off_colours(const std::filesystem::path& path, std::string_view
     TextScanner scanner(path, text);
     const OffHeader header = read_off_header(scanner);
     if (!header.has_colours())
-        scanner.fail("the keyword " + in_quotes(std::string(header.prefix) + "OFF") +
-                     " announces no colours of vertices; write them behind the coordinates, and the keyword COFF");
+        scanner.fail(
+            "the keyword {} announces no colours of vertices; write them behind the coordinates, and the keyword COFF",
+            Quoted{std::string(header.prefix) + "OFF"});
     return read_text_colours(scanner, slicing, [&](const std::vector<std::string_view>& slices, const Executor& exec) {
         const std::vector<std::int64_t> lines_before = count_lines(scanner, slices, exec);
         TextColours colours(static_cast<Index>(header.n_vertices), 4);

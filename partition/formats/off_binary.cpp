@@ -89,8 +89,8 @@ PolygonMesh read_binary_off(const std::filesystem::path& path, std::string_view 
         ByteScanner(path, file, offset, std::endian::big)
             .fail("the binary data do not end where their counts say, in either byte order; the file has been cut off, "
                   "or holds more than coordinates and faces: convert the mesh to text OFF or to PLY");
-    const TextScanner no_text(path, {});
-    return read_ply_elements({path, file, *layout, no_text, file.substr(offset + counts_bytes)}, slicing, faults);
+    return read_ply_elements({path, file, TextScanner(path, {}), *layout, file.substr(offset + counts_bytes)}, slicing,
+                             faults);
 }
 
 bool rewrite_binary_off(OutputFile& output, std::string_view file, std::size_t offset, const PolygonMesh& mesh,

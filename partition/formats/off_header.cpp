@@ -20,8 +20,8 @@ void require_known_variant(const TextScanner& scanner, std::string_view prefix)
 {
     if (prefix.find_first_of("4n") != std::string_view::npos)
         scanner.fail(
-            in_quotes(std::string(prefix) + "OFF") +
-            " files, whose vertices do not have just three coordinates, cannot be read; convert the mesh to OFF");
+            "{} files, whose vertices do not have just three coordinates, cannot be read; convert the mesh to OFF",
+            Quoted{std::string(prefix) + "OFF"});
     constexpr std::array<std::string_view, 3> parts = {"ST", "C", "N"};
     std::array<int, 3> n_found{};
     std::string_view left = prefix;
@@ -34,8 +34,8 @@ void require_known_variant(const TextScanner& scanner, std::string_view prefix)
             }
     }
     if (!left.empty())
-        scanner.fail("the keyword " + in_quotes(std::string(prefix) + "OFF") +
-                     " is unknown; convert the mesh to OFF, COFF or NOFF");
+        scanner.fail("the keyword {} is unknown; convert the mesh to OFF, COFF or NOFF",
+                     Quoted{std::string(prefix) + "OFF"});
 }
 
 /// Reads the keyword OFF with its prefix. Counts may follow OFF without a blank.
@@ -49,8 +49,9 @@ std::string_view read_keyword(TextScanner& scanner)
         return {};
     const auto off = word.find("OFF");
     if (off == std::string_view::npos || (word.size() > off + 3 && !is_digit(word[off + 3])))
-        scanner.fail("the file begins with " + in_quotes(word) +
-                     " and not with OFF; if it has another format, give it that format's extension");
+        scanner.fail(
+            "the file begins with {} and not with OFF; if it has another format, give it that format's extension",
+            Quoted{word});
     const std::string_view prefix = word.substr(0, off);
     require_known_variant(scanner, prefix);
     scanner.skip(off + 3);
@@ -68,9 +69,9 @@ std::int64_t read_count(TextScanner& scanner, std::int64_t size, const char* wha
 {
     const std::int64_t n = scanner.integer(what);
     if (n < 0 || n > (size + 1) / shortest_line)
-        scanner.fail(fmt::format("{} is {}, but a file of {} bytes cannot hold so many; correct the header, or export "
-                                 "the mesh again if it was cut off",
-                                 what, n, size));
+        scanner.fail("{} is {}, but a file of {} bytes cannot hold so many; correct the header, or export "
+                     "the mesh again if it was cut off",
+                     what, n, size);
     return n;
 }
 
@@ -98,8 +99,9 @@ OffHeader read_off_header(TextScanner& scanner)
     if (scanner.has_token())
         scanner.integer("the number of edges");
     if (scanner.has_token() && !scanner.crosses_lines())
-        scanner.fail("expected the end of the line after the numbers of vertices, faces and edges, but found " +
-                     in_quotes(scanner.peek()) + "; correct the header");
+        scanner.fail("expected the end of the line after the numbers of vertices, faces and edges, but found {}; "
+                     "correct the header",
+                     Quoted{scanner.peek()});
     return header;
 }
 

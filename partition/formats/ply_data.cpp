@@ -1,5 +1,7 @@
 #include "partition/formats/ply_data.h"
 
+#include <utility>
+
 namespace seamflow {
 
 namespace {
@@ -28,6 +30,13 @@ std::vector<PlySlice> slice_text(const PlyData& data, const Slicing& slicing)
 }
 
 }  // namespace
+
+PlyData ply_data_of(const std::filesystem::path& path, std::string_view file, PlyUse use)
+{
+    TextScanner scanner(path, file, ply_syntax);
+    PlyHeader header = read_ply_header(scanner);
+    return {path, file, scanner, std::move(header), scanner.rest(), use};
+}
 
 PlySlice PlyData::whole() const
 {

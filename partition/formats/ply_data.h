@@ -36,11 +36,11 @@ struct PlyData {
     const std::filesystem::path& path;
     /// The whole file.
     std::string_view file;
-    const PlyHeader& header;
-    /// Only for a text file: a scanner at the last line of the header.
-    const TextScanner& after_header;
+    /// Only for a PLY file: a scanner at the last line of the header.
+    TextScanner after_header;
+    PlyHeader header;
     /// The content after the header.
-    std::string_view bytes = after_header.rest();
+    std::string_view bytes;
     PlyUse use = PlyUse::Mesh;
 
     /// All elements, as one slice.
@@ -98,6 +98,11 @@ struct PlyData {
         });
     }
 };
+
+/// The elements of a PLY file, after reading its header.
+/// @param path for messages only; must outlive the result, as must the file.
+/// @throws InputError (see read_ply_header).
+PlyData ply_data_of(const std::filesystem::path& path, std::string_view file, PlyUse use = PlyUse::Mesh);
 
 /// Reads the elements as a mesh.
 /// @param data with vertices whose coordinates are single numbers. @param faults if not null, collects faults instead

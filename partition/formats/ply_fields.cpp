@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "partition/errors.h"
 #include "partition/formats/ply.h"
 #include "partition/formats/ply_data.h"
@@ -26,7 +28,7 @@ Eigen::MatrixXd read_columns(const PlyData& data, const FileFields& fields, cons
     const std::vector<PlySlice> slices = data.slices(data.up_to(vertices), slicing);
     std::vector<std::string> words;
     for (const std::string& name : fields.names)
-        words.push_back("the number " + in_quotes(name));
+        words.push_back(fmt::format("the number {}", Quoted{name}));
     Eigen::MatrixXd values(static_cast<Index>(vertices.count), static_cast<Index>(words.size()));
     for_each(slicing.exec, static_cast<Index>(slices.size()), [&](Index i) {
         data.scan(
@@ -52,23 +54,22 @@ std::optional<WholeRange> whole_range_of(PlyType type)
 
 /// The fields of a file, without values.
 /// @throws InputError for names that the file does not have.
-FileFields find_fields(const TextScanner& scanner, const std::filesystem::path& path, const PlyHeader& header,
-                       std::span<const std::string> names)
+FileFields find_fields(const PlyData& data, std::span<const std::string> names)
 {
-    const PlyElement& vertices = *header.element("vertex");
+    const PlyElement& vertices = *data.header.element("vertex");
     FileFields fields{
-        names_of_fields(path, names, [&](std::string_view name) { return vertices.property(name) != nullptr; })};
+        names_of_fields(data.path, names, [&](std::string_view name) { return vertices.property(name) != nullptr; })};
     for (const std::string& name : fields.names) {
-        if (const PlyElement* const faces = header.element("face");
+        if (const PlyElement* const faces = data.header.element("face");
             vertices.property(name) == nullptr && faces != nullptr && faces->property(name) != nullptr)
-            throw InputError(
-                path.string() + ": " + in_quotes(name) +
-                " is a property of the faces, but fields are of the vertices: give each vertex the mean of "
-                "its faces, or name a property of the vertices");
-        require_number(scanner, vertices, name);
+            throw InputError(fmt::format(
+                "{}: {} is a property of the faces, but fields are of the vertices: give each vertex the mean of "
+                "its faces, or name a property of the vertices",
+                data.path.string(), Quoted{name}));
+        require_number(data.after_header, vertices, name);
         const PlyType type = vertices.property(name)->type;
         fields.whole.push_back(whole_range_of(type));
-        fields.decimals.push_back(decimals_of(type, header.encoding));
+        fields.decimals.push_back(decimals_of(type, data.header.encoding));
     }
     return fields;
 }
@@ -85,10 +86,8 @@ Decimals decimals_of(PlyType type, Encoding encoding)
 FileFields read_ply_fields(const std::filesystem::path& path, std::string_view content,
                            std::span<const std::string> names, const Slicing& slicing)
 {
-    TextScanner scanner(path, content, ply_syntax);
-    const PlyHeader header = read_ply_header(scanner);
-    FileFields fields = find_fields(scanner, path, header, names);
-    const PlyData data{path, content, header, scanner};
+    const PlyData data = ply_data_of(path, content);
+    FileFields fields = find_fields(data, names);
     fields.values = read_in_slices_if_faultless([&] { return read_columns(data, fields, slicing); },
                                                 [&] {
                                                     return read_columns(data, fields, {run_serially, content.size()});

@@ -6,8 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "partition/errors.h"
-
 namespace seamflow {
 
 namespace {
@@ -42,27 +40,21 @@ PlyType read_type(TextScanner& scanner)
     const auto* const found =
         std::find_if(named_types.begin(), named_types.end(), [&](const NamedType& t) { return t.name == name; });
     if (found == named_types.end())
-        scanner.fail("expected a type (char, uchar, short, ushort, int, uint, float, double), but found " +
-                     in_quotes(name) + "; correct the header");
+        scanner.fail(
+            "expected a type (char, uchar, short, ushort, int, uint, float, double), but found {}; correct the header",
+            Quoted{name});
     return found->type;
 }
 
 /// Reads a name that is not yet in `declared`. @param what the word for the declared things.
-std::string read_new_name(TextScanner& scanner, const auto& declared, const std::string& what)
+std::string read_new_name(TextScanner& scanner, const auto& declared, const char* what)
 {
     std::string name(scanner.token());
     if (name.empty())
-        scanner.fail("expected the name of the " + what + ", but the line ends; correct the header");
+        scanner.fail("expected the name of the {}, but the line ends; correct the header", what);
     if (std::any_of(declared.begin(), declared.end(), [&](const auto& d) { return d.name == name; }))
-        scanner.fail("the " + what + " " + in_quotes(name) + " is declared twice; remove or rename one");
+        scanner.fail("the {} {} is declared twice; remove or rename one", what, Quoted{name});
     return name;
-}
-
-void read_magic(TextScanner& scanner)
-{
-    if (!scanner.next_line() || scanner.peek() != "ply")
-        scanner.fail("the file begins with " + in_quotes(scanner.peek()) +
-                     " and not with ply; if it has another format, give it that format's extension");
 }
 
 Encoding read_encoding(TextScanner& scanner)
@@ -70,8 +62,9 @@ Encoding read_encoding(TextScanner& scanner)
     const auto name = scanner.token();
     if (const auto* const found = std::ranges::find(ply_encodings, name); found != ply_encodings.end())
         return static_cast<Encoding>(found - ply_encodings.begin());
-    scanner.fail("expected the format ascii, binary_little_endian or binary_big_endian, but found " + in_quotes(name) +
-                 "; correct the header");
+    scanner.fail(
+        "expected the format ascii, binary_little_endian or binary_big_endian, but found {}; correct the header",
+        Quoted{name});
 }
 
 PlyElement read_element(TextScanner& scanner, const PlyHeader& header)
@@ -81,7 +74,7 @@ PlyElement read_element(TextScanner& scanner, const PlyHeader& header)
     element.line = scanner.line();
     const std::int64_t count = scanner.integer("the number of elements");
     if (count < 0)
-        scanner.fail(fmt::format("the number of elements is {}; correct the header", count));
+        scanner.fail("the number of elements is {}; correct the header", count);
     element.count = static_cast<std::uint64_t>(count);
     return element;
 }
@@ -119,13 +112,13 @@ void require_room(const TextScanner& scanner, const PlyHeader& header)
     for (const PlyElement& element : header.elements) {
         const std::uint64_t least = shortest(element, header.encoding);
         if (element.count > 0 && least == 0)
-            throw InputError(fmt::format("{}: the element {} has no properties; remove it or declare its properties",
-                                         scanner.position_of(element.line), in_quotes(element.name)));
+            scanner.fail_at(element.line, "the element {} has no properties; remove it or declare its properties",
+                            Quoted{element.name});
         if (element.count > 0 && element.count > room / least)
-            throw InputError(fmt::format(
-                "{}: announces {} elements {}, but the {} bytes after the header cannot hold so many; the "
-                "file has been cut off, or the header is wrong: export or copy the mesh again",
-                scanner.position_of(element.line), element.count, in_quotes(element.name), scanner.rest().size()));
+            scanner.fail_at(element.line,
+                            "announces {} elements {}, but the {} bytes after the header cannot hold so many; the "
+                            "file has been cut off, or the header is wrong: export or copy the mesh again",
+                            element.count, Quoted{element.name}, scanner.rest().size());
     }
 }
 
@@ -165,11 +158,17 @@ const PlyProperty* PlyElement::property(std::string_view wanted) const
     return found != properties.end() ? &*found : nullptr;
 }
 
+std::vector<Index> columns_of(const PlyElement& element, std::initializer_list<std::string_view> names)
+{
+    return columns_of(element, [&](const PlyProperty& property) {
+        const auto* const found = std::ranges::find(names, property.name);
+        return found != names.end() ? static_cast<Index>(found - names.begin()) : -1;
+    });
+}
+
 std::vector<Index> coordinates_in(const PlyElement& vertices)
 {
-    return columns_of(vertices, [](const PlyProperty& property) {
-        return property.name == "x" ? 0 : property.name == "y" ? 1 : property.name == "z" ? 2 : -1;
-    });
+    return columns_of(vertices, {"x", "y", "z"});
 }
 
 std::vector<Index> corners_in(const PlyElement& faces)
@@ -187,16 +186,18 @@ void require_number(const TextScanner& scanner, const PlyElement& vertices, std:
     std::string names;
     for (const PlyProperty& p : vertices.properties)
         names += (names.empty() ? "" : ", ") + p.name;
-    throw InputError(scanner.position_of(found == nullptr ? vertices.line : found->line) +
-                     ": the vertices have no number " + in_quotes(name) + ", but " + names +
-                     "; name the property to use");
+    scanner.fail_at(found == nullptr ? vertices.line : found->line,
+                    "the vertices have no number {}, but {}; name the property to use", Quoted{name}, names);
 }
 
 PlyHeader read_ply_header(TextScanner& scanner)
 {
     PlyHeader header;
     bool has_format = false;
-    read_magic(scanner);
+    if (!scanner.next_line() || scanner.peek() != "ply")
+        scanner.fail(
+            "the file begins with {} and not with ply; if it has another format, give it that format's extension",
+            Quoted{scanner.peek()});
     while (scanner.next_line()) {
         const auto keyword = scanner.token();
         if (keyword == "end_header") {
@@ -214,8 +215,8 @@ PlyHeader read_ply_header(TextScanner& scanner)
             auto property = read_property(scanner, header);
             header.elements.back().properties.push_back(std::move(property));
         } else if (keyword != "comment" && keyword != "obj_info") {
-            scanner.fail("the header line " + in_quotes(keyword) +
-                         " is unknown; remove it, or write 'comment' in front of it");
+            scanner.fail("the header line {} is unknown; remove it, or write 'comment' in front of it",
+                         Quoted{keyword});
         }
     }
     scanner.fail("the file ends within its header, before the line end_header; export or copy the mesh again");

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <initializer_list>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -96,6 +97,9 @@ std::vector<Index> columns_of(const PlyElement& element, const auto& column)
         columns.push_back(column(property));
     return columns;
 }
+
+/// As above: the column of a property is the place of its name among `names`.
+std::vector<Index> columns_of(const PlyElement& element, std::initializer_list<std::string_view> names);
 
 /// The columns of coordinates: 0 to 2 for x, y and z; -1 for other properties.
 std::vector<Index> coordinates_in(const PlyElement& vertices);

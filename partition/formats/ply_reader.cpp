@@ -21,34 +21,30 @@ namespace seamflow {
 
 namespace {
 
-/// Reports an error in a line of the header.
-[[noreturn]] void refuse(const TextScanner& scanner, std::size_t line, const std::string& complaint)
-{
-    throw InputError(scanner.position_of(line) + ": " + complaint);
-}
-
 /// Checks that the vertices have x, y and z, one number each.
-void require_coordinates(const TextScanner& scanner, const PlyHeader& header)
+void require_coordinates(const PlyData& data)
 {
-    const PlyElement* const vertices = header.element("vertex");
+    const TextScanner& scanner = data.after_header;
+    const PlyElement* const vertices = data.header.element("vertex");
     if (vertices == nullptr || vertices->count == 0)
         scanner.fail("the file has no vertices; export the mesh again");
     std::size_t n_found = 0;
     for (std::size_t p = 0; const Index column : coordinates_in(*vertices)) {
         const PlyProperty& property = vertices->properties[p++];
         if (column >= 0 && property.length_type)
-            refuse(scanner, property.line, "a coordinate must be one number, not a list; correct the header");
+            scanner.fail_at(property.line, "a coordinate must be one number, not a list; correct the header");
         n_found += column >= 0 ? 1 : 0;
     }
     if (n_found < 3)
-        refuse(scanner, vertices->line, "the vertices lack x, y or z; correct the header or export the mesh again");
+        scanner.fail_at(vertices->line, "the vertices lack x, y or z; correct the header or export the mesh again");
 }
 
 /// Checks that faces or strips, if there are any, have one list of corners, of whole numbers.
 /// @param name of the element.
-void require_corners(const TextScanner& scanner, const PlyHeader& header, std::string_view name)
+void require_corners(const PlyData& data, std::string_view name)
 {
-    const PlyElement* const faces = header.element(name);
+    const TextScanner& scanner = data.after_header;
+    const PlyElement* const faces = data.header.element(name);
     if (faces == nullptr || faces->count == 0)
         return;
     std::size_t n_found = 0;
@@ -57,17 +53,16 @@ void require_corners(const TextScanner& scanner, const PlyHeader& header, std::s
         if (column < 0)
             continue;
         if (!property.length_type || !is_integer(property.type))
-            refuse(
-                scanner, property.line,
+            scanner.fail_at(
+                property.line,
                 "the corners of a face must be a list of whole numbers; correct the header or export the mesh again");
         ++n_found;
     }
     if (n_found != 1)
-        refuse(
-            scanner, faces->line,
-            fmt::format("the faces must have one list named vertex_indices or vertex_index, but have {}; correct the "
+        scanner.fail_at(faces->line,
+                        "the faces must have one list named vertex_indices or vertex_index, but have {}; correct the "
                         "header or export the mesh again",
-                        n_found));
+                        n_found);
 }
 
 /// Stands in a list of corners for the end of a triangle strip.
@@ -162,9 +157,7 @@ PolygonMesh read_slices(const PlyData& data, std::span<const PlySlice> slices, c
     const std::uint64_t n_vertices = data.header.element("vertex")->count;
     constexpr std::uint64_t most = std::numeric_limits<Index>::max();
     if (n_vertices > most)
-        data.source(slices.front())
-            .position()
-            .fail(fmt::format("more than {} vertices; divide the mesh into several files", most));
+        data.source(slices.front()).position().fail("more than {} vertices; divide the mesh into several files", most);
     PolygonMesh mesh;
     mesh.vertices = uninitialised_points(static_cast<Index>(n_vertices));
     const PlyElement* const faces_of_file = data.header.element("face");
@@ -227,12 +220,11 @@ PolygonMesh read_ply_elements(const PlyData& data, const Slicing& slicing, Fault
 
 MeshFile read_ply(const std::filesystem::path& path, std::string_view file, const Slicing& slicing, FaultLog* faults)
 {
-    TextScanner scanner(path, file, ply_syntax);
-    const PlyHeader header = read_ply_header(scanner);
-    require_coordinates(scanner, header);
+    const PlyData data = ply_data_of(path, file);
+    require_coordinates(data);
     for (const char* const name : {"face", "tristrips"})
-        require_corners(scanner, header, name);
-    return {read_ply_elements({path, file, header, scanner}, slicing, faults), {FileFormat::Ply, header.encoding}};
+        require_corners(data, name);
+    return {read_ply_elements(data, slicing, faults), {FileFormat::Ply, data.header.encoding}};
 }
 
 }  // namespace seamflow

@@ -11,6 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "partition/errors.h"
 #include "partition/formats/ply.h"
 #include "partition/formats/ply_data.h"
@@ -85,8 +87,8 @@ Change change_of_field(const PlyProperty& property, Index column, const FileFiel
                        const std::filesystem::path& target, std::vector<std::string>& remarks)
 {
     const auto refuse = [&](const char* why) {
-        throw OutputError(target.string() + ": cannot be written: the property " + in_quotes(property.name) + " is " +
-                          why);
+        throw OutputError(
+            fmt::format("{}: cannot be written: the property {} is {}", target.string(), Quoted{property.name}, why));
     };
     const auto values = fields.values.col(column);
     const bool is_whole = is_integer(property.type);
@@ -118,7 +120,7 @@ std::vector<std::string> add_fields(std::vector<Change>& changes, const PlyEleme
         changes[property - vertices.properties.data()] = change_of_field(*property, column, fields, target, remarks);
         const auto values = fields.values.col(column);
         if (is_integer(property->type) && (values.array() != values.array().round()).any())
-            rounded += (rounded.empty() ? "" : ", ") + in_quotes(property->name);
+            rounded += fmt::format("{}{}", rounded.empty() ? "" : ", ", Quoted{property->name});
     }
     if (!rounded.empty())
         remarks.push_back("the values of " + rounded +
@@ -303,9 +305,8 @@ std::vector<std::string> rewrite_ply(OutputFile& file, const std::filesystem::pa
                                      const PolygonMesh& mesh, const Slicing& slicing, const FileFields& fields,
                                      double seam_distance)
 {
-    TextScanner scanner(path, content, ply_syntax);
-    const PlyHeader header = read_ply_header(scanner);
-    const PlyElement& vertices = *header.element("vertex");
+    const PlyData data = ply_data_of(path, content);
+    const PlyElement& vertices = *data.header.element("vertex");
     const bool are_given = std::any_of(names_of_columns.begin() + 3, names_of_columns.end(),
                                        [&](std::string_view name) { return fields.column(name) >= 0; });
     const Normals kind = are_given ? Normals::None : normals_of(vertices);
@@ -317,11 +318,10 @@ std::vector<std::string> rewrite_ply(OutputFile& file, const std::filesystem::pa
     if (kind == Normals::Usable)
         normals.emplace(mesh, read_ply(path, content, slicing, &known_faults).mesh.vertices, slicing.exec,
                         seam_distance);
-    const std::string_view before_elements = content.substr(0, content.size() - scanner.rest().size());
+    const std::string_view before_elements = content.substr(0, content.size() - data.bytes.size());
     for (std::string& remark : rewrite_header(file, path, before_elements, vertices, changes, fields))
         remarks.push_back(std::move(remark));
-    const bool rounded = rewrite_elements(file, {path, content, header, scanner}, changes,
-                                          {mesh.vertices, normals, fields.values}, slicing);
+    const bool rounded = rewrite_elements(file, data, changes, {mesh.vertices, normals, fields.values}, slicing);
     if (kind == Normals::Other)
         remarks.push_back("the normals of " + path.string() +
                           " are written as they were: they are not three floating-point numbers nx, ny, nz");

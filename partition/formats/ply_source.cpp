@@ -56,9 +56,9 @@ void PlySource::pass_over(const PlyElement& element, std::uint64_t begin, std::u
 void PlySource::begin_line(const PlyElement& element, std::uint64_t i)
 {
     if (!text().next_line())
-        text().fail(fmt::format("the file ends after {} of {} elements {}; it has been cut off, or the header is "
-                                "wrong: export or copy the mesh again",
-                                i, element.count, in_quotes(element.name)));
+        text().fail("the file ends after {} of {} elements {}; it has been cut off, or the header is wrong: export or "
+                    "copy the mesh again",
+                    i, element.count, Quoted{element.name});
 }
 
 /// Checks that the line ends; further words are a harmless fault, and are passed over.
@@ -66,8 +66,9 @@ void PlySource::end_line()
 {
     if (text().crosses_lines() || !text().has_token())
         return;
-    text().harmless_fault("the line continues with " + in_quotes(text().peek()) +
-                          " after all the properties that the header declares; correct the header or the line");
+    text().harmless_fault(fmt::format(
+        "the line continues with {} after all the properties that the header declares; correct the header or the line",
+        Quoted{text().peek()}));
     text().pass_over_rest();
 }
 
@@ -86,7 +87,7 @@ double PlySource::field(PlyType type, const char* name)
         return text().real_or_nan(name);
     const double value = number(type);
     if (std::isinf(value))
-        bytes().fail(fmt::format("{} is infinite; write a finite number, or NaN where there is none", name));
+        bytes().fail("{} is infinite; write a finite number, or NaN where there is none", name);
     return value;
 }
 
@@ -105,15 +106,14 @@ std::string_view PlySource::behind()
 
 void PlySource::refuse_length(const PlyProperty& list, std::int64_t n) const
 {
-    position().fail("the length of the list " + in_quotes(list.name) + " is " + std::to_string(n) + "; export the " +
-                    what_ + " again");
+    position().fail("the length of the list {} is {}; export the {} again", Quoted{list.name}, n, what_);
 }
 
 void PlySource::refuse_room(std::int64_t n) const
 {
-    position().fail(fmt::format("a list of {} numbers goes past the end of the file; it has been cut off, or the "
-                                "length is wrong: export or copy the mesh again",
-                                n));
+    position().fail("a list of {} numbers goes past the end of the file; it has been cut off, or the "
+                    "length is wrong: export or copy the mesh again",
+                    n);
 }
 
 }  // namespace seamflow

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "partition/formats/mesh_file.h"
 
 namespace seamflow {
@@ -122,8 +124,8 @@ std::string changed_since_read(const std::filesystem::path& source)
 
 std::string clamping_remark(std::string_view name, std::string_view range)
 {
-    return "some values of " + in_quotes(name) + " are beyond the range " + std::string(range) +
-           " and are written as its least or largest number";
+    return fmt::format("some values of {} are beyond the range {} and are written as its least or largest number",
+                       Quoted{name}, range);
 }
 
 std::string rounding_remark(const std::filesystem::path& source)

@@ -77,10 +77,9 @@ void require_room_for_facets(ByteScanner& scanner, std::string_view file)
                      "84 bytes; export the mesh again");
     const std::uint64_t n = declared_facets(file);
     if (n > (file.size() - header_bytes) / facet_bytes)
-        scanner.fail(fmt::format("the file announces {}, but its {} bytes hold only {}; it has been cut off or is not "
-                                 "an STL file: export or copy the mesh again",
-                                 counted(n, "facet", "facets"), file.size(),
-                                 (file.size() - header_bytes) / facet_bytes));
+        scanner.fail("the file announces {}, but its {} bytes hold only {}; it has been cut off or is not "
+                     "an STL file: export or copy the mesh again",
+                     counted(n, "facet", "facets"), file.size(), (file.size() - header_bytes) / facet_bytes);
 }
 
 /// Reads the facets begin to end - 1.

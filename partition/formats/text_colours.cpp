@@ -61,14 +61,14 @@ void ColourReader::colour(Index v, TextScanner& scanner, std::size_t n_behind) c
 {
     const WrittenColour colour = read_colour(scanner, n_behind);
     if (colour.count < usize(n_components) || colour.count > colour_names.size())
-        scanner.fail(fmt::format("vertex {} (numbered from 0) has {} where the {} numbers of a colour should be; "
-                                 "give each vertex a colour, or name no colours",
-                                 v, counted(colour.count, "number", "numbers"), n_components));
+        scanner.fail("vertex {} (numbered from 0) has {} where the {} numbers of a colour should be; "
+                     "give each vertex a colour, or name no colours",
+                     v, counted(colour.count, "number", "numbers"), n_components);
     colours.row(v).setZero();
     for (std::size_t k = 0; k < colour.count; ++k) {
         if (std::isnan(colour.numbers[k].value))
-            scanner.fail("expected a colour, but found " + in_quotes(colour.numbers[k].part) +
-                         "; write a finite number such as 0.5 or 128");
+            scanner.fail("expected a colour, but found {}; write a finite number such as 0.5 or 128",
+                         Quoted{colour.numbers[k].part});
         colours(v, static_cast<Index>(k)) = colour.numbers[k].value;
     }
 }
@@ -79,9 +79,9 @@ FileFields fields_of_colours(const std::filesystem::path& path, std::span<const 
     FileFields fields{names_of_fields(path, names, is_colour)};
     for (const std::string& name : fields.names)
         if (!is_colour(name))
-            throw InputError(path.string() + ": the vertices have no number " + in_quotes(name) +
-                             ", but at most the colours red, green, blue and alpha; name one of these, or convert the "
-                             "mesh and its data to PLY");
+            throw InputError(fmt::format("{}: the vertices have no number {}, but at most the colours red, green, blue "
+                                         "and alpha; name one of these, or convert the mesh and its data to PLY",
+                                         path.string(), Quoted{name}));
     const TextColours colours = read(fields.column(colour_names.back()) >= 0 ? 4 : 3);
     fields.values.resize(colours.rows(), static_cast<Index>(fields.names.size()));
     for (std::size_t k = 0; k < colour_names.size(); ++k)
@@ -100,8 +100,9 @@ NewColours::NewColours(const std::filesystem::path& target, const FileFields& fi
 {
     for (const std::string& name : fields.names)
         if (!is_colour(name))
-            throw OutputError(target.string() + ": cannot be written: the format has no place for the field " +
-                              in_quotes(name) + "; write a .ply file, which holds any");
+            throw OutputError(fmt::format(
+                "{}: cannot be written: the format has no place for the field {}; write a .ply file, which holds any",
+                target.string(), Quoted{name}));
     if (fields.values.hasNaN())
         throw OutputError(target.string() + ": cannot be written: a colour is not a number; give each vertex a colour");
     std::ranges::transform(colour_names, columns_.begin(), [&](auto name) { return fields.column(name); });

@@ -56,6 +56,11 @@ std::size_t read_some(const std::filesystem::path& path, int descriptor, std::sp
 
 }  // namespace
 
+bool is_standard_stream(const std::filesystem::path& path)
+{
+    return path == "-";
+}
+
 bool is_input_stream(const std::filesystem::path& path)
 {
     const std::string& name = path.native();
@@ -66,13 +71,14 @@ bool is_input_stream(const std::filesystem::path& path)
 OpenFile::OpenFile(const std::filesystem::path& path, Packing packing)
     : path_(is_standard_stream(path) ? "standard input" : path)
 {
-    if (!is_input_stream(path))
+    const bool is_stream = is_input_stream(path);
+    if (!is_stream)
         require_regular(path);
     descriptor_ = is_standard_stream(path) ? ::fcntl(STDIN_FILENO, F_DUPFD_CLOEXEC, 0)
                                            : ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
     if (descriptor_ < 0)
         fail(path_, errno);
-    if (is_input_stream(path))
+    if (is_stream)
         collect();
     std::array<char, 2> begin{};
     if (packing == Packing::Unpack && is_gzip({begin.data(), read(begin.data(), begin.size(), 0)}))

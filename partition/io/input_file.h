@@ -9,10 +9,7 @@
 namespace seamflow {
 
 /// Whether a path is `-`, which stands for standard input or output.
-inline bool is_standard_stream(const std::filesystem::path& path)
-{
-    return path == "-";
-}
+bool is_standard_stream(const std::filesystem::path& path);
 
 /// Whether a path names something already open, perhaps a pipe: `-`, /dev/stdin, or a shell's substitute for
 /// <(command). It has no name that could determine the format, and can be read only once.

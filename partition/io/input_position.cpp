@@ -43,7 +43,7 @@ std::string printable(std::string_view text)
     return text.size() > longest ? result + "…" : result;
 }
 
-std::string in_quotes(std::string_view text)
+Quoted::operator std::string() const
 {
     return fmt::format("'{}'", printable(text));
 }

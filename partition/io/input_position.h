@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "partition/io/fault_log.h"
 
 namespace seamflow {
@@ -18,6 +20,12 @@ class InputPosition {
     /// @param complaint the fault, a semicolon, and a remedy.
     /// @throws InputError "path:line: complaint" for text, "path: element, byte: complaint" for binary data.
     [[noreturn]] void fail(const std::string& complaint) const;
+    /// @param complaint with {} for each of `parts`.
+    template <class... Parts>
+    [[noreturn]] void fail(fmt::format_string<const Parts&...> complaint, const Parts&... parts) const
+    {
+        fail(fmt::format(complaint, parts...));
+    }
 
     /// Reports a fault after which reading can continue: collects it, or throws.
     /// @throws InputError as `fail` does, unless faults are collected.
@@ -47,8 +55,13 @@ class InputPosition {
 /// A piece of a file for a message: shortened, and with '?' for unprintable bytes.
 std::string printable(std::string_view text);
 
-/// A piece of a file for a message, as by `printable`, in quotation marks.
-std::string in_quotes(std::string_view text);
+/// A piece of a file for a message, which fmt::format writes as `printable` does, in quotation marks.
+struct Quoted {
+    std::string_view text;
+
+    /// The piece as it is written.
+    operator std::string() const;
+};
 
 /// A count and the word for the counted things: "1 vertex", "3 vertices".
 std::string counted(std::uint64_t count, const std::string& singular, const std::string& plural);
@@ -60,3 +73,12 @@ std::string lower_case(std::string_view text);
 void add_once(std::vector<std::string>& list, std::string_view what);
 
 }  // namespace seamflow
+
+namespace fmt {
+
+/// See Quoted.
+template <>
+struct formatter<seamflow::Quoted> : formatter<std::string> {
+};
+
+}  // namespace fmt

@@ -86,8 +86,7 @@ void MeshBuilder::add_face(std::span<const Index> corners)
     }
     constexpr std::size_t most = std::numeric_limits<Index>::max();
     if (corners.size() > most - mesh_.face_vertices.size())
-        position_.fail(
-            fmt::format("the faces have more than {} corners in total; divide the mesh into several files", most));
+        position_.fail("the faces have more than {} corners in total; divide the mesh into several files", most);
     mesh_.add_face(corners);
 }
 

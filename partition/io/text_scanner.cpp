@@ -102,11 +102,6 @@ std::vector<std::string_view> TextScanner::slices(std::size_t bytes) const
     return result;
 }
 
-std::string TextScanner::position_of(std::size_t line) const
-{
-    return line > 0 ? fmt::format("{}:{}", path_, line) : path_;
-}
-
 void TextScanner::load_line()
 {
     ++line_;
@@ -301,7 +296,7 @@ std::string TextScanner::complaint_at_number(const char* what, const char* form)
     const auto found = peek();
     if (found.empty())
         return fmt::format("expected {}, but the line ends; add what is missing or export the mesh again", what);
-    return fmt::format("expected {}, but found {}; write {}", what, in_quotes(found), form);
+    return fmt::format("expected {}, but found {}; write {}", what, Quoted{found}, form);
 }
 
 }  // namespace seamflow

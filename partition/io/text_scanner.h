@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "partition/errors.h"
 #include "partition/io/input_position.h"
 #include "partition/io/plain_line.h"
 
@@ -114,11 +115,21 @@ class TextScanner final : public InputPosition {
     /// The number of the present line, from 1.
     [[nodiscard]] std::size_t line() const { return line_; }
 
-    /// "path:line" of any line; "path" for 0.
-    [[nodiscard]] std::string position_of(std::size_t line) const;
+    /// As `fail`, about any line; 0: the whole file.
+    template <class... Parts>
+    [[noreturn]] void fail_at(std::size_t line, fmt::format_string<const Parts&...> complaint,
+                              const Parts&... parts) const
+    {
+        throw InputError(position_of(line) + ": " + fmt::format(complaint, parts...));
+    }
 
   private:
     [[nodiscard]] std::string position() const override { return position_of(line_); }
+    /// "path:line"; "path" for 0.
+    [[nodiscard]] std::string position_of(std::size_t line) const
+    {
+        return line > 0 ? fmt::format("{}:{}", path_, line) : path_;
+    }
     [[nodiscard]] const char* end_of_line(const char* from) const;
     [[nodiscard]] bool ends_token(const char* c) const;
     void load_line();

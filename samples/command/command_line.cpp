@@ -81,7 +81,7 @@ std::string complaint_of_surplus(const CLI::App& app)
     if (left.empty())
         return {};
     if (option == left.end())
-        return in_quotes(left.front()) + " is one argument too many" +
+        return fmt::format("{} is one argument too many", Quoted{left.front()}) +
                (app.get_option_no_throw("--out-dir") != nullptr
                     ? ": meshes that are tiles of one surface need --out-dir, for their results"
                     : "");

@@ -1,12 +1,12 @@
 #include "samples/files/mesh_results.h"
 
 #include <algorithm>
+#include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "partition/errors.h"
-#include "partition/formats/index_files.h"
 #include "partition/io/input_position.h"
 #include "samples/files/output_files.h"
 
@@ -93,6 +93,18 @@ std::string MeshOutput::remark_on_faces(const FaultLog& faults, bool joined) con
                        stays ? "keeps all this unchanged" : "leaves all this out", faults.messages.front());
 }
 
+std::vector<std::string> MeshOutput::remarks_on_input(const std::filesystem::path& input, const FaultLog& left_out,
+                                                      bool joined, const Executor& exec) const
+{
+    std::vector<std::string> remarks = remarks_on_losses(joined, exec);
+    if (left_out.count > 0)
+        remarks.push_back(remark_on_faces(left_out, joined));
+    std::error_code ignored;
+    if (std::filesystem::equivalent(input, path_, ignored))
+        remarks.push_back("The result has replaced the input, in one go when it was complete.");
+    return remarks;
+}
+
 void require_faces(const std::filesystem::path& path, std::int64_t n_faces, const FaultLog& left_out)
 {
     if (n_faces > 0)
@@ -103,20 +115,6 @@ void require_faces(const std::filesystem::path& path, std::int64_t n_faces, cons
             : fmt::format("{} cannot be used (the first: {})", counted(left_out.faces_left_out.size(), "face", "faces"),
                           left_out.messages.front());
     throw InputError(fmt::format("{}: has no faces: {}", path.string(), reason));
-}
-
-std::vector<Index> labels_of_faces(const std::filesystem::path& path, Index n_faces, const std::vector<Index>& left_out)
-{
-    std::vector<Index> labels = read_labels(path, n_faces + static_cast<Index>(left_out.size()));
-    auto next = left_out.begin();
-    Index f = 0;
-    std::erase_if(labels, [&](Index) {
-        const bool is_left_out = next != left_out.end() && *next == f;
-        next += is_left_out ? 1 : 0;
-        ++f;
-        return is_left_out;
-    });
-    return labels;
 }
 
 }  // namespace seamflow

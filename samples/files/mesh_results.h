@@ -49,6 +49,12 @@ class MeshOutput {
     /// @param joined see remarks_on_losses.
     [[nodiscard]] std::string remark_on_faces(const FaultLog& faults, bool joined) const;
 
+    /// Remarks on what of the input is not in the file, or is replaced by it.
+    /// @param input the path of the input. @param left_out see remark_on_faces. @param joined see remarks_on_losses.
+    [[nodiscard]] std::vector<std::string> remarks_on_input(const std::filesystem::path& input,
+                                                            const FaultLog& left_out, bool joined,
+                                                            const Executor& exec = run_serially) const;
+
   private:
     [[nodiscard]] FileFields colours(const Executor& exec) const;
 
@@ -61,11 +67,5 @@ class MeshOutput {
 /// @param left_out what of the file is not among the faces.
 /// @throws InputError
 void require_faces(const std::filesystem::path& path, std::int64_t n_faces, const FaultLog& left_out = {});
-
-/// The labels of the faces that flow.
-/// @param left_out ascending: the numbers in the file of the other faces, which have labels, too.
-/// @throws InputError (see read_labels).
-std::vector<Index> labels_of_faces(const std::filesystem::path& path, Index n_faces,
-                                   const std::vector<Index>& left_out);
 
 }  // namespace seamflow

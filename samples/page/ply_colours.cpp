@@ -208,19 +208,17 @@ FileColours PlyColourReader::finish(const std::filesystem::path& path)
 FileColours read_ply_colours(const std::filesystem::path& path, std::string_view file, const PolygonMesh& mesh,
                              std::span<const Index> left_out)
 {
-    TextScanner scanner(path, file, ply_syntax);
-    const PlyHeader header = read_ply_header(scanner);
-    const std::string name = texture_file(file.substr(0, file.size() - scanner.rest().size()));
+    const PlyData data = ply_data_of(path, file, PlyUse::OtherData);
+    const std::string name = texture_file(file.substr(0, file.size() - data.bytes.size()));
     PlyColourReader reader(mesh, left_out, !name.empty());
-    const PlyData data{path, file, header, scanner, scanner.rest(), PlyUse::OtherData};
-    reader.read(data.source(data.whole()), header);
+    reader.read(data.source(data.whole()), data.header);
     FileColours colours = reader.finish(path);
     if (colours.place_of_corner.empty())
         return colours;
     TextureImages images(path);
     if (const std::string image = images.data_url(name); !image.empty()) {
         colours.materials.push_back({.image = image});
-        colours.material_of_face.assign(usize(mesh.n_faces()), 0);
+        colours.material_of_face.assign(mesh.n_faces(), 0);
     } else {
         colours.places.clear();
         colours.place_of_corner.clear();

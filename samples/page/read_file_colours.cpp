@@ -4,24 +4,22 @@
 #include <functional>
 
 #include "partition/errors.h"
-#include "partition/formats/mesh_io.h"
 #include "partition/io/input_file.h"
 #include "samples/page/obj_colours.h"
 #include "samples/page/ply_colours.h"
 
 namespace seamflow {
 
-FileColours read_file_colours(const std::filesystem::path& path, const PolygonMesh& mesh,
-                              std::span<const Index> left_out)
+FileColours read_file_colours(const std::filesystem::path& path, const MeshFile& read, std::span<const Index> left_out)
 {
     // Standard input is consumed when the mesh has been read.
-    const auto format = is_input_stream(path) ? std::nullopt : format_of(path);
-    if (format != FileFormat::Obj && format != FileFormat::Ply)
+    const bool is_obj = read.kind.format == FileFormat::Obj;
+    if (is_input_stream(path) || (!is_obj && read.kind.format != FileFormat::Ply))
         return {};
     try {
         const InputFile file{OpenFile(path)};
-        FileColours colours = format == FileFormat::Obj ? read_obj_colours(path, file.content(), mesh, left_out)
-                                                        : read_ply_colours(path, file.content(), mesh, left_out);
+        FileColours colours = is_obj ? read_obj_colours(path, file.content(), read.mesh, left_out)
+                                     : read_ply_colours(path, file.content(), read.mesh, left_out);
         // A single colour carries no information.
         if (std::adjacent_find(colours.of_vertices.begin(), colours.of_vertices.end(), std::not_equal_to<>()) ==
             colours.of_vertices.end())

@@ -24,7 +24,7 @@
 #include "partition/formats/index_files.h"
 #include "partition/formats/mesh_io.h"
 #include "partition/formats/ply.h"
-#include "partition/formats/ply_header.h"
+#include "partition/formats/ply_data.h"
 #include "partition/io/input_file.h"
 #include "partition/io/input_position.h"
 #include "samples/files/about_file.h"
@@ -83,18 +83,6 @@ void resolve_field_amount(SmoothCommand& command, const PolygonMesh& mesh, const
         of_flow.time_step = time_for_fwhm(options.fwhm->value) / std::max(of_flow.steps, 1);
 }
 
-/// Completes options that the command line leaves to the mesh.
-void complete_options(SmoothCommand& command, const MeshFile& file, const FaultLog& left_out, const Executor& exec,
-                      RunRecord& run)
-{
-    if (!command.labels.empty())
-        command.options.cut.labels = labels_of_faces(command.labels, file.mesh.n_faces(), left_out.faces_left_out);
-    if (!command.fix.empty())
-        command.options.motion.fixed_vertices =
-            read_vertex_set(command.fix, file.mesh.n_vertices(), command.fix_property);
-    about_file(command.input, [&] { resolve_field_amount(command, file.mesh, exec, run); });
-}
-
 /// A sentence on numbers that may be names of things: few different whole ones, whatever their type. Of two neighbours
 /// rounding makes no third, and 0 and 1 may be shares.
 void remark_on_labels(const FileFields& fields, std::vector<Remark>& remarks)
@@ -120,7 +108,7 @@ void remark_on_labels(const FileFields& fields, std::vector<Remark>& remarks)
                 fmt::format("{} has {} different whole numbers: if they are labels, they are averaged like "
                             "measurements, which makes numbers between them; smooth a property of each "
                             "label, 1 on it and 0 elsewhere.",
-                            in_quotes(name), n));
+                            Quoted{name}, n));
     }
 }
 
@@ -170,8 +158,7 @@ Decimals decimals_of_distances(const MeshFile& file, const std::filesystem::path
     if (file.kind.format != FileFormat::Ply || is_input_stream(input))
         return Decimals::Double;
     const InputFile read{OpenFile(input)};
-    TextScanner scanner(input, read.content(), ply_syntax);
-    const PlyHeader header = read_ply_header(scanner);
+    const PlyHeader header = ply_data_of(input, read.content()).header;
     const PlyProperty* const property = header.element("vertex")->property(name_of_distance);
     if (property == nullptr)
         return Decimals::Double;
@@ -247,10 +234,11 @@ ExitStatus run_fields(SmoothCommand& command, RunRecord& run, RankGroup* ranks)
     FileColours colours;
     if (!command.html.empty()) {
         require_showable(file.mesh, command.html);
-        colours = read_file_colours(command.input, file.mesh, left_out.faces_left_out);
+        colours = read_file_colours(command.input, file, left_out.faces_left_out);
     }
     FieldSummary summary{.n_vertices = file.mesh.n_vertices()};
-    complete_options(command, file, left_out, exec, run);
+    read_named_files(command, file.mesh, left_out.faces_left_out);
+    about_file(command.input, [&] { resolve_field_amount(command, file.mesh, exec, run); });
     run.read_seconds = whole.seconds();
     print_input(out, run, file.mesh.n_vertices(), file.mesh.n_faces());
     if (!command.fields.names.empty())

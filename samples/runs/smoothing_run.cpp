@@ -12,7 +12,6 @@
 #include "engine/setup/presets.h"
 #include "engine/setup/resolved_options.h"
 #include "partition/errors.h"
-#include "partition/formats/index_files.h"
 #include "partition/io/input_file.h"
 #include "partition/io/input_position.h"
 #include "partition/metrics/bounding_box.h"

@@ -31,7 +31,7 @@ struct ColouredFile {
         static_cast<void>(folder.with(path.filename().string(), content));
         FaultLog faults{.of_faces_alone = true};
         const MeshFile file = read_faulty_mesh(path, faults);
-        return read_file_colours(path, file.mesh, faults.faces_left_out);
+        return read_file_colours(path, file, faults.faces_left_out);
     }
 
     test::TemporaryDirectory folder;
@@ -207,11 +207,12 @@ TEST_CASE("PLY: places of corners stay with them where the file repeats a corner
 TEST_CASE("a file that is not that of the mesh, and formats without colours, have none")
 {
     const ColouredFile file("a.obj");
-    const PolygonMesh other = read_mesh(file.folder.with("b.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")).mesh;
+    MeshFile other = read_mesh(file.folder.with("b.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"));
     file.beside("a.obj", square + "f 1 2 3 4\n");
     const FileColours colours = read_file_colours(file.path, other, {});
     CHECK(colours.remarks.at(0).find("the face is not that of the mesh") != std::string::npos);
     CHECK(read_file_colours("-", other, {}).remarks.empty());
+    other.kind.format = FileFormat::Stl;
     CHECK(read_file_colours("a.stl", other, {}).remarks.empty());
 }
 
