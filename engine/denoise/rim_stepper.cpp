@@ -13,8 +13,8 @@ namespace seamflow {
 
 namespace {
 
-/// The radius R of one of n steps. A step leaves 1 / (1 + (r/R)⁴) of bumps of radius r; all steps together leave ½ of
-/// bumps of the radius that the options give.
+/// The radius R of one of n equal steps. A step leaves 1 / (1 + (R/r)⁴) of the height of bumps of radius r (see
+/// smooth_curve); all steps together leave ½ where r is smoothed_radius.
 double radius_of_step(double time_step, int steps)
 {
     const int n = std::max(steps, 1);

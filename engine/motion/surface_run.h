@@ -60,8 +60,8 @@ class SurfaceRun {
     /// @throws InputError if the positions of a state do not fit the mesh.
     void require_positions(const StepMemory& memory) const;
 
-    /// Adds remarks on what the constraints have done.
-    /// @param on_components a remark on components that holds unless they were limited.
+    /// Adds the remarks of the limits of components and of rescaling, if any step was taken.
+    /// @param on_components the remark on components where they have no limits (see ComponentLimits).
     void remark_on_constraints(RunReport& report, const std::optional<Remark>& on_components = {}) const;
     /// Adds the measurements over all steps.
     void report_measures(RunReport& report) const;

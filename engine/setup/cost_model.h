@@ -67,7 +67,7 @@ struct CostConstant {
     double serial = 0.0;
 };
 
-/// All cost constants.
+/// All constants that are times.
 std::vector<CostConstant> cost_constants();
 
 }  // namespace seamflow

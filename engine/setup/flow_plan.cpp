@@ -80,11 +80,12 @@ WayOfSteps way_of(const ApproachChoice& choice, const FlowOptions& options, Inde
         return ExplicitSteps{};
     const int most_iterations = options.accuracy.converge_iterations;
     if (choice.approach == Approach::ConjugateGradients)
+        // Chosen by cost, and without a filter, steps may begin with a factorisation later (see SwitchingStepper).
         return GradientSteps{.stop = {choice.tolerance.value(), most_iterations},
                              .costs = choice.costs.empty() || !filter_of(options).is_plain()
                                           ? std::nullopt
                                           : std::optional(choice.size)};
-    // A single sub-mesh is solved exactly, whatever the approach.
+    // A single sub-mesh is solved exactly. An approach that the options ask for, which has no reason, is kept.
     if (choice.approach == Approach::Converged && n_sub_meshes == 1 && !choice.reason.empty())
         return UndecomposedSteps{};
     if (choice.approach == Approach::Undecomposed)
@@ -131,7 +132,7 @@ FlowPlan decide(const Surface& surface, const FlowOptions& options, std::optiona
 
 void leave_factors(FlowPlan& plan, const PolygonMesh& mesh, const Topology& topology, const Executor& exec)
 {
-    // No factors are to be made in later steps either: the way has no costs.
+    // This way has no GradientSteps::costs, so that no SwitchingStepper factorises in a later step either.
     plan.way = plan.without_factors->way;
     plan.cut = cut_into(mesh, topology, 1, exec);
     plan.choices = std::move(plan.without_factors->choices);

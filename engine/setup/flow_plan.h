@@ -48,7 +48,7 @@ double fraction_of_setup(const FlowOptions& options, int n_taken = 0);
 FlowPlan decide(const Surface& surface, const FlowOptions& options, std::optional<Approach> earlier, Sharing sharing,
                 Progress& progress, const std::function<void(Approach)>& measure);
 
-/// Changes the plan to its way without factors, on the whole mesh.
+/// Replaces the plan's way by `without_factors`, which must exist, and the cut by the whole mesh. To be called once.
 void leave_factors(FlowPlan& plan, const PolygonMesh& mesh, const Topology& topology, const Executor& exec);
 
 /// The sweep that the options ask for, if there are this many sub-meshes.

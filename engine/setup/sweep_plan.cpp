@@ -30,7 +30,7 @@ std::vector<InterfaceRole> list_roles(const SubMeshInterface& interface, Index s
     roles.reserve(interface.vertices.size());
     for (Index i = 0; i < interface.size(); ++i) {
         assert(std::ranges::none_of(interface.sharing[i], [&](Index t) { return t != s && stage[t] == stage[s]; }) &&
-               "adjacent sub-meshes have different ranks");
+               "adjacent sub-meshes have different stages");
         const bool leads = std::ranges::none_of(interface.sharing[i], [&](Index t) { return stage[t] < stage[s]; });
         roles.push_back(leads ? InterfaceRole::Leads : InterfaceRole::Follows);
     }
@@ -121,6 +121,7 @@ void plan_predictions(const Decomposition& decomposition, Index s, SweepPlan& pl
     plan.predictions[s] = transfers_to(s, std::move(senders));
 }
 
+/// The transfers to sub-mesh s of the other sub-meshes' copies of its Γ (see SweepPlan::copies).
 std::vector<Transfer> list_copies(const Decomposition& decomposition, Index s)
 {
     const auto& interface = decomposition.sub_meshes[s].interface;

@@ -148,8 +148,10 @@ void ErrorEstimate::note_correction(const std::vector<SubMeshState>& states, Ind
     }
 }
 
-/// Carries the errors of earlier steps over to this one: keeps the tangential remainders (see Carried), and adds the
-/// normal ones, with the displacements of single vertices that this step spreads, to the right-hand side.
+/// Carries the differences of earlier steps over this step. Their tangential parts, times the fractions in Carried,
+/// stay at their vertices: in corrected_ (displacements by corrections) and swept_ (errors of sweeps). The rest of
+/// corrected_, which the step spreads, and the normal part of swept_, times its fraction, go to the right-hand side of
+/// this step. Then the correction of this step is added to corrected_.
 void ErrorEstimate::carry_over()
 {
     const Carried carried = carried_by(laplacian_);

@@ -127,12 +127,12 @@ void SweepStepper::take_filtered(std::size_t root, const std::function<void()>& 
                 action(s, states_[s]);
         });
     };
-    set_solution(SubMeshState::Solution::First);
+    begin_solution(SubMeshState::Solution::First);
     run_sweep(root);
     PointBlocks rest(states_.size(), Points(0, 3));
     PointBlocks solution = rest;
     for_each_own([&](Index s, const SubMeshState& state) { rest[s] = state.position - state.solved; });
-    set_solution(SubMeshState::Solution::OfData);
+    begin_solution(SubMeshState::Solution::OfData);
     apply_filter(
         filter_, rest,
         [&](const PointBlocks& data) -> const PointBlocks& {
@@ -152,7 +152,9 @@ void SweepStepper::take_filtered(std::size_t root, const std::function<void()>& 
     end();
 }
 
-void SweepStepper::set_solution(SubMeshState::Solution solution)
+/// Tells all sub-meshes which solution of the step the next sweep computes: the first, from Vᵏ, or a further one, from
+/// SubMeshState::data.
+void SweepStepper::begin_solution(SubMeshState::Solution solution)
 {
     for (SubMeshState& state : states_)
         state.solution = solution;

@@ -83,7 +83,7 @@ class SweepStepper final : public Stepper {
     Points& rows_of(MessageKind kind, Index s);
     void accept_solution(Index s);
     void take_filtered(std::size_t root, const std::function<void()>& end);
-    void set_solution(SubMeshState::Solution solution);
+    void begin_solution(SubMeshState::Solution solution);
     void fetch_positions(SubMeshState& state);
     void join();
     /// Whether the positions of a vertex differ between sub-meshes: with copies of Γ, and if sub-meshes overlap.

@@ -177,6 +177,7 @@ FaceGraph make_face_graph(const PolygonMesh& mesh, const Topology& topology, con
     }
     graph.arc_weights = arc_weights(lengths);
     const double total = mesh.n_corners();
+    // Weights are at least 1 after rounding: the factor of 2 leaves room for that.
     const auto unit = std::max(Index{1}, static_cast<Index>(std::ceil(2 * total / max_weight_sum)));
     graph.node_weights.resize(graph.n_nodes());
     for_each(exec, graph.n_nodes(),

@@ -81,8 +81,10 @@ class FacetCollector {
     Index n_facets_ = 0;
 };
 
-/// Reads slices, several at a time. Points are numbered within each slice, and then for all slices.
-/// @param read called with a slice, and with a MeshSlice for its faces; returns its points.
+/// Reads a file of facets in slices, several at a time, and joins these to one mesh. Points with the same coordinates
+/// become one vertex, also across slices.
+/// @param read adds the faces of a slice to the MeshSlice, with the numbers of points in that slice; returns these
+///        points in the order of their numbers.
 template <class Real>
 PolygonMesh
 join_facets(Index n_slices, const Executor& exec,

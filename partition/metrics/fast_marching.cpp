@@ -16,8 +16,8 @@ namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
 
-/// The time when a front that is straight in the triangle, and reaches u and v at given distances, reaches w; infinite
-/// if it does not come from between u and v.
+/// The distance at which a front, straight within the triangle u v w, reaches w if it reaches u and v at the given
+/// distances; infinite if its path to w does not cross the edge u v.
 double reach_across(const Point& u, double at_u, const Point& v, double at_v, const Point& w)
 {
     const double edge = (v - u).norm();

@@ -27,7 +27,7 @@ double volume_of_cones(const PolygonMesh& mesh, const Points& positions, const P
 /// its faces are not oriented alike. False without faces.
 bool encloses_volume(const PolygonMesh& mesh, const Executor& exec);
 
-/// Whether some of the faces, taken alone, enclose a volume.
+/// The same for a part of the mesh: whether these faces, without the others, enclose a volume.
 bool encloses_volume(const PolygonMesh& mesh, std::span<const Index> faces);
 
 }  // namespace seamflow

@@ -119,6 +119,7 @@ Points MeshDenoiser::denoise(const Points& before, std::span<const double> stren
         return positions;
     for (const Spike& spike : spikes_)
         positions.row(spike.vertex) = before.row(spike.vertex);
+    // Spikes that are put back can fold the faces around them. No normals are wanted (0): only folded faces matter.
     keep_all_facing(before, Points::Zero(mesh_->n_faces(), 3), positions, exec);
     return positions;
 }
@@ -205,20 +206,25 @@ std::optional<Points> MeshDenoiser::without_correlated_noise(const Points& befor
         return {};
     const Components& components = places_.components();
     using Correlation = NoisyPlaces::Correlation;
-    std::vector<Correlation> wanted(places.correlated.size(), Correlation::None);
+    // For thinned meshes; nothing in small components.
+    std::vector<Correlation> left_to_do(places.correlated.size(), Correlation::None);
     for (Index c = 0; c < components.count(); ++c)
         if (components.nodes[c].size() >= usize(fewest_to_thin))
             for (const Index f : components.nodes[c])
                 for (const Index v : mesh_->face(f))
-                    wanted[v] = places.correlated[v];
-    if (std::ranges::all_of(wanted, [](Correlation one) { return one == Correlation::None; }))
+                    left_to_do[v] = places.correlated[v];
+    if (std::ranges::all_of(left_to_do, [](Correlation one) { return one == Correlation::None; }))
         return {};
     Points result = before;
-    // Local fits are tried at vertices that have other noise as well.
-    std::vector<std::uint8_t> is_fitted(wanted.size(), 0);
-    for (std::size_t v = 0; v < wanted.size() && n_thinned_ == 0; ++v)
+    // Local fits are tried first, on a mesh that is not thinned, at vertices that have other noise as well. Doubtful: a
+    // fit is taken only if it is clearly noise, otherwise the vertex stays. Found: it is taken if the noise is
+    // plausible.
+    std::vector<std::uint8_t> is_fitted(left_to_do.size(), 0);
+    for (std::size_t v = 0; v < left_to_do.size() && n_thinned_ == 0; ++v)
         is_fitted[v] =
-            (wanted[v] == Correlation::Found || wanted[v] == Correlation::Doubtful) && places.shares[v] > 0.0 ? 1 : 0;
+            (left_to_do[v] == Correlation::Found || left_to_do[v] == Correlation::Doubtful) && places.shares[v] > 0.0
+                ? 1
+                : 0;
     if (std::ranges::find(is_fitted, 1) != is_fitted.end()) {
         const CorrelatedNoise noise(*mesh_, *topology_, averages_, signs_, before, exec);
         const std::optional<Points> without = noise.is_plausible() ? std::optional(noise.without(exec)) : std::nullopt;
@@ -226,15 +232,15 @@ std::optional<Points> MeshDenoiser::without_correlated_noise(const Points& befor
         for_each(exec, mesh_->n_vertices(), [&](Index v) {
             if (is_fitted[v] == 0)
                 return;
-            const bool is_doubtful = wanted[v] == Correlation::Doubtful;
+            const bool is_doubtful = left_to_do[v] == Correlation::Doubtful;
             if (is_doubtful ? is_clear : without.has_value())
                 result.row(v) = without->row(v);
-            // If the noise is not plausible, thinned meshes have to prove it.
-            wanted[v] = is_doubtful || without ? Correlation::None : Correlation::Possible;
+            // If noise that was found is not plausible, thinned meshes have to prove it.
+            left_to_do[v] = is_doubtful || without ? Correlation::None : Correlation::Possible;
         });
     }
-    remove_on_thinned(before, wanted, Correlation::Found, result, exec);
-    remove_on_thinned(before, wanted, Correlation::Possible, result, exec);
+    remove_on_thinned(before, left_to_do, Correlation::Found, result, exec);
+    remove_on_thinned(before, left_to_do, Correlation::Possible, result, exec);
     return result == before ? std::nullopt : std::optional(result);
 }
 

@@ -66,7 +66,7 @@ class MeshDenoiser {
 
     /// @param before #V by 3. @param strengths #V: the fraction of its displacement that each vertex moves by; empty:
     /// 1.
-    /// @returns #V by 3.
+    /// @returns #V by 3: the positions without noise. Spikes keep their positions (see spikes()).
     Points denoise(const Points& before, std::span<const double> strengths = {}, const Executor& exec = run_serially);
 
     /// Measures the displacements around some places, by which noise and shape are distinguished: for the training of

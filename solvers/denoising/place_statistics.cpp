@@ -121,7 +121,7 @@ class Autocorrelation {
     std::array<Cell, static_cast<std::size_t>(width) * width> cells_{};
 };
 
-/// A place: a vertex and the vertices around it.
+/// The surroundings of a place: the vertices around its middle, with their data.
 class Place {
   public:
     Place(const TakenAway& taken, Index middle)
@@ -174,12 +174,12 @@ class Place {
     void collect(double edge)
     {
         vertices_.push_back(middle_);
-        place_of_.emplace(middle_, 0);
+        index_of_.emplace(middle_, 0);
         const double squared = far_radius * far_radius * edge * edge;
         for (std::size_t i = 0; i < vertices_.size() && vertices_.size() < most_of_place; ++i)
             for (const Index w : taken_.neighbours[vertices_[i]])
                 if ((taken_.positions.row(w) - taken_.positions.row(middle_)).squaredNorm() <= squared &&
-                    place_of_.emplace(w, static_cast<Index>(vertices_.size())).second)
+                    index_of_.emplace(w, static_cast<Index>(vertices_.size())).second)
                     vertices_.push_back(w);
     }
 
@@ -219,8 +219,8 @@ class Place {
             if (counts_[i] == 0 || is_near_[i] == 0)
                 continue;
             for (const Index w : taken_.neighbours[vertices_[i]]) {
-                const auto found = place_of_.find(w);
-                if (found == place_of_.end() || counts_[found->second] == 0)
+                const auto found = index_of_.find(w);
+                if (found == index_of_.end() || counts_[found->second] == 0)
                     continue;
                 const float there = heights[found->second];
                 products += heights[i] * there;
@@ -335,7 +335,7 @@ class Place {
     /// The middle, then the vertices around it.
     std::vector<Index> vertices_;
     /// The index in vertices_ of each vertex of the place.
-    std::unordered_map<Index, Index> place_of_;
+    std::unordered_map<Index, Index> index_of_;
     /// One per vertex of vertices_, as in the following members: its position in the plane of the frame, in edge
     /// lengths.
     std::vector<Eigen::Vector2f> plane_;

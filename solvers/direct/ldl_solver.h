@@ -168,8 +168,9 @@ class LdlFactor {
     /// the right-hand sides for the last unknowns.
     void forward_substitute();
 
-    /// Solves for all unknowns except the last, in units of 1 / scale(). rows() in: the result of `forward_substitute`,
-    /// with the solution in the last rows; out: the solution.
+    /// Solves for all unknowns except the last, after `forward_substitute`.
+    /// @pre The caller has replaced the last rows of rows() by the solution there, in units of 1 / scale(). Afterwards
+    ///      all rows hold the solution, in the same unit.
     void back_substitute();
 
   private:

@@ -39,7 +39,7 @@ struct SimdVectorOf {
 template <class Number, Index Lanes>
 using SimdVector = typename detail::SimdVectorOf<Number, Lanes>::Type;
 
-/// Loads numbers of another type, converted.
+/// Loads consecutive numbers, which need not be aligned, and converts them to the type of the vector's elements.
 template <class Number, class Vector>
 [[gnu::always_inline]] inline void load(const Number* from, Vector& vector)
 {
