@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "engine/tasks/workers.h"
-#include "partition/io/input_file.h"
 #include "samples/command/command_line.h"
 #include "samples/files/output_files.h"
 #include "samples/training/denoiser_training.h"
@@ -43,28 +42,26 @@ ExitStatus train(int argc, char** argv)
     int n_surfaces = 2'700;
     int seed = 1;
     DenoiserTraining training;
-    app.add_option("FILE", file, "solvers/denoising/mixing_weights.cpp or a copy, whose weights are replaced")
+    app.add_option("FILE", file, "the file to write: solvers/denoising/mixing_weights.txt, or another")
         ->required()
         ->type_name("");
     add_integer(app, "--surfaces", n_surfaces, 1, "how many to try to make [2700]");
     add_integer(app, "--samples", training.samples_per_surface, 1, "faces of each surface for each stage [800]");
     add_integer(app, "--epochs", training.epochs, 1, "how often a stage sees each of them [9]");
     add_integer(app, "--seed", seed, 0, "of everything drawn at random [1]");
-    app.footer("train_denoiser solvers/denoising/mixing_weights.cpp     an hour\n"
-               "train_denoiser copy.cpp --surfaces 30 --epochs 1        a trial: half a minute\n");
+    app.footer("train_denoiser solvers/denoising/mixing_weights.txt     an hour\n"
+               "train_denoiser trial.txt --surfaces 30 --epochs 1       a trial: half a minute\n");
     if (const auto end = parse_command_line(app, argc, argv))
         return *end;
     training.seed = static_cast<std::uint32_t>(seed);
     training.n_stages = static_cast<int>(mixing_weights().size());
-    const std::string source(InputFile(OpenFile(file)).content());
-    replace_weights(source, {});
     require_writable(file);
 
     Workers workers(0);
     std::vector<PolygonMesh> surfaces = make_surfaces(training.seed, n_surfaces, workers.exec());
     std::cout << surfaces.size() << " surfaces" << std::endl;
     const TrainedDenoiser trained = train_denoiser(std::move(surfaces), training, std::cout, workers.exec());
-    write_text(file, replace_weights(source, trained));
+    write_text(file, text_of_weights(trained));
     return ExitStatus::Success;
 }
 

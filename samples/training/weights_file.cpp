@@ -1,42 +1,35 @@
 #include "samples/training/weights_file.h"
 
 #include <cstddef>
+#include <string_view>
 
-#include <fmt/format.h>
-
-#include "partition/errors.h"
 #include "partition/formats/gltf_text.h"
 
 namespace seamflow {
 
 namespace {
 
-constexpr std::string_view begin_of_weights = "// clang-format off\n";
-constexpr std::string_view end_of_weights = "// clang-format on\n";
 constexpr std::size_t line_width = 112;
 
-std::string definition(std::string_view name, std::string_view bytes)
+/// The weights of a network as a paragraph of text.
+std::string paragraph(std::string_view bytes)
 {
     std::string text;
     append_base64(bytes, text);
-    std::string lines = fmt::format("constexpr std::string_view weights_of_{} =", name);
+    std::string lines;
     for (std::size_t i = 0; i < text.size(); i += line_width)
-        lines += fmt::format("\n    \"{}\"", text.substr(i, line_width));
-    return lines + ";\n";
+        lines.append(text, i, line_width) += '\n';
+    return lines;
 }
 
 }  // namespace
 
-std::string replace_weights(std::string_view source, const TrainedDenoiser& trained)
+std::string text_of_weights(const TrainedDenoiser& trained)
 {
-    const std::size_t begin = source.find(begin_of_weights);
-    const std::size_t end = source.find(end_of_weights);
-    if (begin == std::string_view::npos || end == std::string_view::npos || end < begin)
-        throw InputError("the file is not mixing_weights.cpp: no lines say where the weights begin and end");
-    std::string text(source.substr(0, begin + begin_of_weights.size()));
-    for (std::size_t stage = 0; stage < trained.stages.size(); ++stage)
-        text += definition(fmt::format("stage_{}", stage + 1), trained.stages[stage]) + "\n";
-    return text + definition("noise", trained.noise) + std::string(source.substr(end));
+    std::string text;
+    for (const std::string& stage : trained.stages)
+        text += paragraph(stage) + "\n";
+    return text + paragraph(trained.noise);
 }
 
 }  // namespace seamflow

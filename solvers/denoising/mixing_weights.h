@@ -5,8 +5,9 @@
 
 namespace seamflow {
 
-/// The weights of each network of the cascade (see denoised_normals). mixing_weights.cpp is the output of
-/// samples/training, not to be changed by hand.
+/// The weights of each network of the cascade (see denoised_normals). They stand in mixing_weights.txt, in base 64: a
+/// paragraph for each network, and one for noise_weights. That file is the output of samples/training, not to be
+/// changed by hand.
 ///
 /// Layer by layer: the numbers of its inputs and outputs; a scale for each input, a scale and a bias for each output;
 /// then an integer for each pair of input and output, all outputs of an input together, whose product with both scales
