@@ -41,6 +41,7 @@ set(SEAMFLOW_HEADERS
     partition/openmesh.h
     partition/polygon_mesh.h
     partition/remark.h
+    partition/vector_area.h
     partition/version.h
     solvers/conditions/robin_edge.h
     solvers/direct/factorisation.h

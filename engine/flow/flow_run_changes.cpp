@@ -82,7 +82,7 @@ void FlowRun::move_vertices(std::span<const Index> vertices, const Points& to)
                                       vertices.size(), to.rows()));
     const Points there = mesh_.to_flowing(to);
     require_rows(flowing, there);
-    mesh_.move_isolated(vertices, to);
+    mesh_.set_isolated_positions(vertices, to);
     stepper_->set_vertices(flowing, there);
     if (ChangeableEquations* const equations = stepper_->equations())
         equations->set_reference_vertices(flowing, there);

@@ -10,12 +10,12 @@
 
 namespace seamflow {
 
-/// Options whose lengths are in units of length, with w in place of MotionOptions::attachment_radius, and with the
-/// strengths that MotionOptions::feather makes.
+/// The options with all lengths in units of length, with MotionOptions::attachment = 1/R² in place of the radius R in
+/// attachment_radius, and with strengths that already rise over the distance MotionOptions::feather.
 /// @param scale of the mesh, or of a larger surface that it is part of.
 /// @param remarks gets a sentence if a region is less deep than it is feathered.
-/// @throws InputError for a mesh that is not valid, or that has no size to measure by;
-///         OptionError for a radius whose w no double can hold.
+/// @throws InputError if there is a feather or a length relative to the mesh, and the mesh is not valid or has no size
+///         to measure by; OptionError for a radius R whose 1/R² no double can hold.
 MotionOptions resolved(MotionOptions motion, const PolygonMesh& mesh, LengthScale& scale, const Executor& exec,
                        std::vector<Remark>& remarks);
 

@@ -100,16 +100,20 @@ std::vector<Index> reversed(const std::vector<Index>& stage)
 std::vector<Index> order_by_need(const SweepPlan& plan, const std::vector<Index>& order)
 {
     const std::vector<Index> indices = inverse(order);
-    // Per sub-mesh, the lowest index of a sub-mesh whose solve waits for its solve; and for its factor.
-    std::vector<Index> solve = indices;
+    // For each sub-mesh s, the lowest index in `order` among s and all sub-meshes that wait, directly or through
+    // others, for the solution of s; and then also among those that use a prediction by the factor of s.
+    std::vector<Index> first_after_solution = indices;
     std::vector<Index> sweep = by_stage(plan);
     for (auto s = sweep.rbegin(); s != sweep.rend(); ++s)
-        for_each_leader(plan, *s, [&](Index leader) { solve[leader] = std::min(solve[leader], solve[*s]); });
-    std::vector<Index> factor = solve;
+        for_each_leader(plan, *s, [&](Index leader) {
+            first_after_solution[leader] = std::min(first_after_solution[leader], first_after_solution[*s]);
+        });
+    std::vector<Index> first_after_factor = first_after_solution;
     for (const Index s : sweep)
         for (const Transfer& prediction : plan.predictions[s])
-            factor[prediction.from] = std::min(factor[prediction.from], solve[s]);
-    std::ranges::stable_sort(sweep, {}, [&](Index s) { return factor[s]; });
+            first_after_factor[prediction.from] =
+                std::min(first_after_factor[prediction.from], first_after_solution[s]);
+    std::ranges::stable_sort(sweep, {}, [&](Index s) { return first_after_factor[s]; });
     return sweep;
 }
 

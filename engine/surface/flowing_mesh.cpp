@@ -79,7 +79,7 @@ void FlowingMesh::weld_seams(Topology& topology, MotionOptions& motion, const Ex
     copy_ = std::move(welded->mesh);
 }
 
-void FlowingMesh::move_isolated(std::span<const Index> vertices, const Points& to)
+void FlowingMesh::set_isolated_positions(std::span<const Index> vertices, const Points& to)
 {
     for (std::size_t i = 0; i < vertices.size(); ++i)
         if (const auto found = std::ranges::lower_bound(isolated_, vertices[i]);

@@ -46,9 +46,10 @@ class FlowingMesh {
     /// Converts positions of the given mesh to those of mesh().
     [[nodiscard]] Points to_flowing(const Points& positions) const { return positions.rowwise() - offset_; }
 
-    /// Moves vertices without faces to given positions, which move_to does not do.
-    /// @param vertices of the given mesh; others are ignored. @param to #vertices by 3.
-    void move_isolated(std::span<const Index> vertices, const Points& to);
+    /// Sets the positions that move_to and bring_back give to vertices without faces, if mesh() has an offset. Without
+    /// one these vertices get the positions of mesh(), as all others do.
+    /// @param vertices of the given mesh; those with faces are ignored. @param to #vertices by 3.
+    void set_isolated_positions(std::span<const Index> vertices, const Points& to);
 
     /// Leaves out the faces on which no row of a moving vertex depends. To be called before all other functions.
     /// Replaces mesh().
@@ -77,8 +78,8 @@ class FlowingMesh {
     /// joined.
     [[nodiscard]] bool is_elsewhere() const { return is_shifted() || !copies_.empty(); }
 
-    /// Converts positions of mesh() to those of the given mesh. Vertices without faces, which never move, get their
-    /// initial positions, bit for bit.
+    /// Converts positions of mesh() to those of the given mesh. Vertices without faces get their initial positions, bit
+    /// for bit, or those that set_isolated_positions has set.
     /// @param positions #V by 3, and any number of further rows.
     void bring_back(Points& positions) const;
 

@@ -98,6 +98,8 @@ class BoundaryShortener {
             return is_outermost(f, label);
         if (shared_[label] != shared_[other])
             return shared_[label] > shared_[other];
+        // As many edges: the part is better that is lighter with f in it. The weight of its own part includes f
+        // already.
         const Index weight = other == labels_[f] ? face_weight(mesh_, f) : 0;
         return weight_[label] + weight < weight_[other];
     }

@@ -60,6 +60,8 @@ class ObjReader {
     std::int64_t highest_missing_ = 0;
 };
 
+/// scan_vertex calls this for the numbers after the coordinates, which are not needed here. More than a weight, red,
+/// green, blue and alpha mean that a line has several vertices.
 void ObjReader::colour(Index /*v*/, TextScanner& scanner, std::size_t /*n_behind*/)
 {
     constexpr std::size_t most_further_numbers = 5;

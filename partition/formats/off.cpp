@@ -103,7 +103,10 @@ void OffReader::face(TextScanner& scanner)
 /// Reads the mesh from the slices of a file.
 /// @param slices after the header.
 /// @param lines_before see count_lines.
-/// @throws InputError if there is any fault; naming it if there is one slice.
+/// @param faults see read_off; null if there are several slices.
+/// @throws InputError for a fault that `faults` does not collect; it is named only if there is one slice, because
+/// several
+///         do not know the numbers of their lines.
 PolygonMesh read_slices(const TextScanner& after_header, const OffHeader& header,
                         std::span<const std::string_view> slices, std::span<const std::int64_t> lines_before,
                         const Executor& exec, FaultLog* faults)
@@ -194,8 +197,8 @@ PolygonMesh read_by_lines(const std::filesystem::path& path, std::string_view te
     return read_in_slices_if_faultless(in_slices, in_one_go);
 }
 
-/// Whether a file does not have one line per vertex and face, or has a header that is valid only if line breaks count
-/// as blanks. A file with one line each is only ever read line by line, so that it is written line by line, too.
+/// Whether line breaks count as blanks in a file: its number of lines is not that of its vertices and faces, or its
+/// header cannot be read line by line. All other files are read only line by line, because rewriting keeps their lines.
 bool breaks_lines_freely(const std::filesystem::path& path, std::string_view text, const Slicing& slicing)
 {
     TextScanner scanner(path, text);

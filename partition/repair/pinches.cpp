@@ -11,7 +11,8 @@ namespace seamflow {
 
 namespace {
 
-/// The number of excess runs at an interior vertex.
+/// The number of runs minus the number of labels at an interior vertex.
+/// @pre Faces of at least two labels meet at v (see is_mixed).
 Index excess_runs_at_interior(const PolygonMesh& mesh, const Topology& topology, const std::vector<Index>& labels,
                               Index v)
 {

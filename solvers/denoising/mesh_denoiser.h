@@ -92,7 +92,7 @@ class MeshDenoiser {
         DenoisedNormals normals;
         /// #V by 3: the denoised positions.
         Points fitted;
-        /// #V: see flat_vertices.
+        /// #V: 1 for vertices whose faces lie in one plane up to rounding, which have no noise (see flat_vertices).
         std::vector<std::uint8_t> is_flat;
         NoisyPlaces::Found places;
     };

@@ -103,6 +103,7 @@ FaceVectors MixingNetwork::mix(const NormalEstimates& estimates, const EstimateF
         for (Index group = begin; group < end; ++group) {
             numbers.clear();
             for (Index k = 0; k < faces_at_once; ++k) {
+                // The last group is filled up with the last face, whose further results are not used.
                 const Index f = std::min(group * faces_at_once + k, n - 1);
                 append_mixing_inputs(estimates, features, f,
                                      std::span(units).subspan(usize(k * n_estimates), usize(n_estimates)), numbers);
@@ -134,6 +135,7 @@ std::vector<float> MixingNetwork::apply(const EstimateFeatures& features, const 
         for (Index group = begin; group < end; ++group) {
             numbers.clear();
             for (Index k = 0; k < faces_at_once; ++k) {
+                // The last group is filled up with the last face, whose further results are not used.
                 const Index f = std::min(group * faces_at_once + k, n - 1);
                 for (Index i = 0; i < static_cast<Index>(features.around.cols()); ++i)
                     numbers.push_back(features.around(f, i));

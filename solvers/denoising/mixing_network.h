@@ -20,7 +20,8 @@ class MixingNetwork {
     /// @param bytes the weights of the network (see mixing_weights.h).
     explicit MixingNetwork(std::string_view bytes);
 
-    /// The weighted mean of the estimates at each face: scaled to length 1, or 0 where the first estimate is 0.
+    /// The weighted sum of the estimates at each face, scaled to length 1. Where the sum is 0: the first estimate,
+    /// scaled to length 1, or 0 if it is 0.
     [[nodiscard]] FaceVectors mix(const NormalEstimates& estimates, const EstimateFeatures& features,
                                   const Executor& exec = run_serially) const;
 

@@ -50,7 +50,7 @@ class NoisyPlaces {
         const Points& after;
         /// The estimated normals and noise.
         const DenoisedNormals& found;
-        /// #V: see flat_vertices.
+        /// #V: 1 for vertices whose faces lie in one plane up to rounding, which have no noise (see flat_vertices).
         std::span<const std::uint8_t> is_flat;
     };
 

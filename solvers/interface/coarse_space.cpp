@@ -268,16 +268,16 @@ void CoarseSpace::prepare(std::span<const DenseFactor> complements, std::span<co
     set_functions(weights, exec);
     for_each(exec, copies_.n_sub_meshes(), [&](Index s) {
         if (ranks_.is_own(s))
-            multiply_functions(s, complements[s]);
+            compute_share(s, complements[s]);
     });
     assemble();
     energy_.factor.reset();
     energy_.factor = energy_.solver->factorise<double>(energy_.values, energy_.memory, energy_.workspace);
 }
 
-/// Computes the Share of a sub-mesh. With S = R Rᵀ, the share of E is (Rᵀ Z)ᵀ (Rᵀ Z), which rounding cannot make
-/// indefinite.
-void CoarseSpace::multiply_functions(Index s, const DenseFactor& schur)
+/// Computes the Share of a sub-mesh: S Z, and its term of E. With S = R Rᵀ that term is (Rᵀ Z)ᵀ (Rᵀ Z), which rounding
+/// cannot make indefinite.
+void CoarseSpace::compute_share(Index s, const DenseFactor& schur)
 {
     const auto functions = functions_at_[ranks_.global_numbers()[s]];
     Share& share = shares_[s];
@@ -291,6 +291,7 @@ void CoarseSpace::multiply_functions(Index s, const DenseFactor& schur)
             columns.data()[column * room + usize(i)] += static_cast<float>(values_at_[copy]);
         }
     share.product.assign(n_columns * room);
+    // Each product overwrites three columns of Z by those of Rᵀ Z.
     for (std::size_t c = 0; c < n_columns; c += 3)
         schur.multiply(columns_at(columns.data() + c * room, room), columns_at(share.product.data() + c * room, room));
     const Eigen::MatrixXd roots = Eigen::Map<const Eigen::MatrixXf>(columns.data(), static_cast<Eigen::Index>(room),

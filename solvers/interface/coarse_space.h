@@ -93,7 +93,7 @@ class CoarseSpace {
     void analyse();
     [[nodiscard]] std::vector<MatrixEntry> entries() const;
     void set_functions(std::span<const double> weights, const Executor& exec);
-    void multiply_functions(Index s, const DenseFactor& schur);
+    void compute_share(Index s, const DenseFactor& schur);
     void multiply_transposed(Index s, const Points& y);
     void assemble();
     void subtract_terms(Index f);

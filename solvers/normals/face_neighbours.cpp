@@ -61,7 +61,7 @@ class CrowdedFans {
     std::vector<FanCorner> fan_corners_;
 };
 
-/// The neighbours of face f, until the next call with the same list.
+/// Replaces `list` by the neighbours of face f (see FaceNeighbours): ascending, distinct, without f.
 void list_neighbours(const PolygonMesh& mesh, const Topology& topology, const CrowdedFans& crowded, Index f,
                      std::vector<Index>& list)
 {

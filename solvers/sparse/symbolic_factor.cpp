@@ -81,18 +81,19 @@ Index end_of_relaxed_supernode(const EliminationTree& tree, Index first, Index l
     const auto n = static_cast<Index>(tree.parent.size());
     double entries_before = 0.0;
     Index furthest_parent = first;
-    Index n_seen = first;
+    Index next_column = first;
     for (Index top = last; top >= 0 && top < std::min(n - n_last, first + most_relaxed_columns);
          top = tree.parent[top]) {
-        for (; n_seen < top; ++n_seen) {
-            const Index parent = tree.parent[n_seen];
+        for (; next_column < top; ++next_column) {
+            const Index parent = tree.parent[next_column];
             furthest_parent = parent < 0 ? n : std::max(furthest_parent, parent);
-            entries_before += tree.count[n_seen] + 1.0;
+            entries_before += tree.count[next_column] + 1.0;
         }
         const Index width = top + 1 - first;
         const Index n_rows = tree.count[top];
         // The entries of the columns before `top` if these had all its rows, less the entries that they have.
         const double zeros = 0.5 * (width - 1.0) * width + (width - 1.0) * (n_rows + 1.0) - entries_before;
+        // Only whole supernodes are merged.
         const bool is_end = top + 1 == n - n_last || !belong_together(tree, top);
         if (is_end && furthest_parent <= top && is_worth(zeros, width, n_rows))
             last = top;

@@ -25,7 +25,7 @@ SymmetricSystem::SymmetricSystem(const SystemParts& parts, SymmetricRows rows, S
     const std::vector<VertexPair> pairs = matrix_.laplacian->pairs();
     std::vector<Index> unknown_of = matrix_.number_unknowns(pairs, is_known);
     EliminationTree tree;
-    SparsePattern upper = list_entries(pairs, unknown_of, tree);
+    SparsePattern upper = order_unknowns(pairs, unknown_of, tree);
     matrix_.column_offsets = upper.column_offsets;
     list_couplings(pairs, unknown_of);
     if (rows == SymmetricRows::Transmission)
@@ -34,11 +34,11 @@ SymmetricSystem::SymmetricSystem(const SystemParts& parts, SymmetricRows rows, S
         make_symmetric_solver(std::move(upper), parts.factorisation, workspace, tree, parts.exec, matrix_.pivots());
 }
 
-/// Renumbers the unknowns in the elimination ordering.
+/// Renumbers the unknowns in the elimination ordering, also those of matrix_, and sets matrix_.slots.
 /// @param unknown_of renumbered. @param tree receives the elimination tree.
 /// @returns the pattern of the upper triangle.
-SparsePattern SymmetricSystem::list_entries(const std::vector<VertexPair>& pairs, std::vector<Index>& unknown_of,
-                                            EliminationTree& tree)
+SparsePattern SymmetricSystem::order_unknowns(const std::vector<VertexPair>& pairs, std::vector<Index>& unknown_of,
+                                              EliminationTree& tree)
 {
     const PairsOfUnknowns pairs_of = pairs_of_unknowns(pairs, unknown_of, matrix_.n());
     EliminationOrdering elimination = order_elimination(neighbours_of(pairs_of));

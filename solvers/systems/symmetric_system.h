@@ -68,8 +68,8 @@ class SymmetricSystem final : public SubMeshSystem {
         Point beyond = Point::Zero();
     };
 
-    SparsePattern list_entries(const std::vector<VertexPair>& pairs, std::vector<Index>& unknown_of,
-                               EliminationTree& tree);
+    SparsePattern order_unknowns(const std::vector<VertexPair>& pairs, std::vector<Index>& unknown_of,
+                                 EliminationTree& tree);
     void list_couplings(const std::vector<VertexPair>& pairs, const std::vector<Index>& unknown_of);
     void list_interface(const SparsePattern& upper, const std::vector<Index>& unknown_of);
     void make_dirichlet_row(std::size_t i, std::span<double> values);
