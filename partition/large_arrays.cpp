@@ -13,8 +13,8 @@ void prefer_large_pages(void* memory, std::size_t n_bytes)
     constexpr std::size_t large_page = std::size_t{1} << 21;
     if (n_bytes < large_page)
         return;
-    // The array includes the whole of the small pages that it shares with its neighbours, so that no large page is lost
-    // between two arrays.
+    // The range is rounded outwards to small pages: otherwise a page that two arrays share would have no advice, and
+    // the large page around it would be lost.
     const auto page = static_cast<std::uintptr_t>(::sysconf(_SC_PAGESIZE));
     const std::uintptr_t begin = reinterpret_cast<std::uintptr_t>(memory) / page * page;
     const std::uintptr_t end = (reinterpret_cast<std::uintptr_t>(memory) + n_bytes + page - 1) / page * page;

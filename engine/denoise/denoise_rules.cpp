@@ -92,7 +92,7 @@ void require_valid(const DenoiseOptions& options)
             if (!row.limits.text.empty())
                 require_within(row, *row.value);
     });
-    require_valid_vertices(options.motion);
+    require_valid_vertex_values(options.motion);
     const AskedOptions asked = changed_options(options.motion);
     require_compatible(options.motion, asked);
     require_none_broken<DenoiseOptions>(of_methods, options, asked, fill_other);

@@ -191,19 +191,21 @@ Eigen::VectorXd HeatSolver::solve(const Eigen::VectorXd& data, double time_step,
     Points local = Points::Zero(positions_.rows(), 3);
     for (std::size_t v = 0; v < vertices_.size(); ++v)
         local(static_cast<Eigen::Index>(v), 0) = data[vertices_[v]];
-    Points increments = Points::Zero(positions_.rows(), 3);
-    const NeumannSystem::Assembled equations = system_->assemble(positions_, increments, time_step, workspace_, &local);
+    // The system computes corrections of X. The X before is 0, so that the residual is M D, and the correction is X.
+    Points x = Points::Zero(positions_.rows(), 3);
+    const NeumannSystem::Assembled equations = system_->assemble(positions_, x, time_step, workspace_, &local);
     auto kept = std::ranges::find(factors_, time_step, &KeptFactor::time_step);
+    // In double precision, factorise returns a factor or throws.
     if (kept == factors_.end())
         kept = factors_.insert(
             kept, {time_step, std::move(*system_->factorise(equations, Precision::Double,
                                                             *std::pmr::new_delete_resource(), workspace_.ldl))});
     Points on_interface(0, 3);
     system_->condense(equations, kept->factor, on_interface);
-    system_->back_substitute(kept->factor, on_interface, increments);
+    system_->back_substitute(kept->factor, on_interface, x);
     Eigen::VectorXd result = Eigen::VectorXd::Zero(n_vertices_);
     for (std::size_t v = 0; v < vertices_.size(); ++v)
-        result[vertices_[v]] = increments(static_cast<Eigen::Index>(v), 0);
+        result[vertices_[v]] = x(static_cast<Eigen::Index>(v), 0);
     return result;
 }
 

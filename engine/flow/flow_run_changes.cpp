@@ -75,6 +75,8 @@ void FlowRun::attach(std::span<const Index> vertices, std::span<const double> we
 
 void FlowRun::move_vertices(std::span<const Index> vertices, const Points& to)
 {
+    // Mean curvature flow assembles its equations anew in each step. All other flows keep matrices of V⁰, which have to
+    // change, too.
     const std::vector<Index> flowing =
         require_changeable("move", vertices, options().flow != FlowEquation::MeanCurvature);
     if (to.rows() != std::ssize(vertices) || !to.allFinite())
@@ -88,6 +90,7 @@ void FlowRun::move_vertices(std::span<const Index> vertices, const Points& to)
         equations->set_reference_vertices(flowing, there);
     vanishing_->set_reference_vertices(flowing, there);
     mesh_.move_to(stepper_->positions());
+    // The limit is relative to the diagonal of the mesh, which may have become another.
     constraints_->limit.emplace(mesh_.mesh(), options().accuracy.largest_update);
     was_changed_ = true;
 }

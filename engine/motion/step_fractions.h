@@ -11,6 +11,7 @@ class StepFractions {
   public:
     /// @param begin the fraction of the whole that is done before the first step.
     /// @param steps the expected number of steps.
+    /// The first step is divided by guesses.
     StepFractions(double begin, int steps, bool with_reference)
         : begin_(begin)
         , length_((1.0 - begin) / steps)

@@ -55,6 +55,8 @@ void SurfaceRun::require_positions(const StepMemory& memory) const
 
 FlowState SurfaceRun::capture() const
 {
+    // Without the time for the cut and the analysis: a run that resumes does both again, and its total begins with
+    // them.
     FlowState state{.steps = report_.steps,
                     .seconds = {.step = report_.seconds.step,
                                 .total = report_.seconds.total - report_.seconds.cut - report_.seconds.analyse},

@@ -76,7 +76,7 @@ void require_compatible(const MotionOptions& motion, const AskedOptions& asked)
     require_none_broken<MotionOptions>(of_motion, motion, asked, fill_other);
 }
 
-void require_valid_vertices(const MotionOptions& motion)
+void require_valid_vertex_values(const MotionOptions& motion)
 {
     const std::vector<double>& weights = motion.attachment_weights;
     const auto heavy = std::ranges::find_if_not(weights, [](double w) { return w >= 0.0 && std::isfinite(w); });

@@ -11,6 +11,6 @@ void require_compatible(const MotionOptions& motion, const AskedOptions& asked);
 
 /// Checks the numbers of each vertex.
 /// @throws InputError naming the vertex.
-void require_valid_vertices(const MotionOptions& motion);
+void require_valid_vertex_values(const MotionOptions& motion);
 
 }  // namespace seamflow

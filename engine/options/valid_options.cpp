@@ -41,7 +41,7 @@ void require_valid_filter(const FlowOptions& options)
 void require_valid(const FlowOptions& options)
 {
     require_limits(options);
-    require_valid_vertices(options.motion);
+    require_valid_vertex_values(options.motion);
     require_valid_filter(options);
     require_compatible(options, changed_options(options));
     if (!options.motion.feature_edges.empty())

@@ -132,7 +132,7 @@ std::vector<Index> RankPart::make_sweep_stepper(const SweepSteps& sweeps, RankSu
     SweepSubMeshes own{.own = std::move(sub_meshes), .remote = &*exchange_};
     const auto adjacency = gather_adjacency(comm_, dealt_, own.own.decomposition);
     const auto curvatures = gather_curvatures(comm_, dealt_, own.own.decomposition);
-    const std::vector<Index> stage_of_all = assign_stages(adjacency, sweeps.colours_are_labels, curvatures);
+    const std::vector<Index> stage_of_all = assign_stages(adjacency, sweeps.solves_in_order_of_numbers, curvatures);
     for (const Index number : dealt_.known)
         own.stage.push_back(stage_of_all[number]);
     // The own sub-meshes among those of all ranks, by their local numbers.

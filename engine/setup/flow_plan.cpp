@@ -144,7 +144,7 @@ SweepSteps sweeps_of(const FlowOptions& options, Index n_sub_meshes)
     const bool may_alternate = interface.conditions != Conditions::Schwarz;
     const bool is_adapted = may_alternate && !is_classical(interface.conditions);
     return {.conditions = conditions_of(options),
-            .colours_are_labels = interface.colouring == Colouring::Label,
+            .solves_in_order_of_numbers = interface.colouring == Colouring::Label,
             .alternates = may_alternate && (interface.sweep == Sweep::Alternating ||
                                             (interface.sweep == Sweep::Automatic && n_sub_meshes > 2)),
             .corrects = interface.correction == Correction::Centroid ||

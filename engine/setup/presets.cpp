@@ -13,6 +13,7 @@
 #include "engine/measure/smoothed_radius.h"
 #include "engine/options/option_names.h"
 #include "engine/options/option_rules.h"
+#include "engine/options/option_traits.h"
 #include "partition/errors.h"
 #include "partition/metrics/bounding_box.h"
 #include "partition/metrics/spikes.h"
@@ -174,7 +175,7 @@ std::vector<Setting> settings_of_denoise(const PresetTraits& preset)
     return list;
 }
 
-/// Those of the equation.
+/// The settings of a preset that takes steps of a flow: those that differ from the defaults, and the Laplacian.
 std::vector<Setting> settings_of_flow(const PresetTraits& preset)
 {
     const PresetTraits defaults{};
@@ -236,7 +237,7 @@ bool is_said(const FlowOptions& given, const AskedOptions& asked, std::string_vi
     return option == "order" && asked.has("filter");
 }
 
-/// Those of denoise(), from those of a flow.
+/// The options of denoise() that correspond to those of a flow.
 DenoiseOptions denoise_options_of(const FlowOptions& options)
 {
     return {.steps = options.steps,

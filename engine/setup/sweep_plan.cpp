@@ -37,9 +37,12 @@ std::vector<InterfaceRole> list_roles(const SubMeshInterface& interface, Index s
     return roles;
 }
 
-/// The sub-mesh, other than s, that sends the vertex `halo_vertex` beyond Γ: the lowest of the sub-meshes at a vertex
-/// of Γ in which all faces of both vertices are.
-TransferRow sender_of(const Decomposition& decomposition, std::span<const Index> sharing, Index s, Index halo_vertex)
+/// The row by which the position of a vertex of the halo reaches s: from the lowest of the sub-meshes `sharing`, s
+/// excluded, that has this vertex among its own.
+/// @param sharing the sub-meshes at a vertex of Γ that has a face beyond Γ in common with the vertex of the halo.
+/// @param halo_vertex its local number in s.
+TransferRow row_from_sender(const Decomposition& decomposition, std::span<const Index> sharing, Index s,
+                            Index halo_vertex)
 {
     const Index vertex = decomposition.sub_meshes[s].local_to_global[halo_vertex];
     for (const Index t : sharing)
@@ -111,7 +114,7 @@ void plan_predictions(const Decomposition& decomposition, Index s, SweepPlan& pl
                 TransferRow& sender = senders[v - sub_mesh.n_vertices];
                 if (sender.from >= 0 && sender.from <= lowest_but(s, interface.sharing[i]))
                     continue;
-                if (const TransferRow found = sender_of(decomposition, interface.sharing[i], s, v);
+                if (const TransferRow found = row_from_sender(decomposition, interface.sharing[i], s, v);
                     sender.from < 0 || (found.from >= 0 && found.from < sender.from))
                     sender = found;
             }

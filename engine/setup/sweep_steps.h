@@ -49,8 +49,9 @@ using InterfaceConditions =
 /// One sweep over the colours of the sub-meshes.
 struct SweepSteps {
     InterfaceConditions conditions;
-    /// Whether labels are colours (see Colouring::Label).
-    bool colours_are_labels = false;
+    /// Whether each sub-mesh has its own number as its colour, so that they solve one after another, 0 first; otherwise
+    /// colours are chosen.
+    bool solves_in_order_of_numbers = false;
     /// Whether every other sweep goes backward.
     bool alternates = false;
     /// Whether vertices of Γ move to the centroids of their neighbours after a step.

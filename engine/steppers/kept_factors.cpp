@@ -37,8 +37,8 @@ KeptFactors keep_first(std::span<const std::size_t> factors, std::span<const Ind
     return kept;
 }
 
-/// The largest number of whole factors that fits into the limit together with this number of slots; -1 if not even zero
-/// does.
+/// The largest number of whole factors, but not all, that fits into the limit together with this number of slots; -1 if
+/// the slots alone do not. A slot has the size of the largest factor that is not kept.
 Index most_kept_within(std::span<const std::size_t> factors, std::span<const Index> order, Index n_slots,
                        std::size_t limit)
 {

@@ -30,8 +30,8 @@ struct SubMeshState {
     Points solved;
     /// #local by 3: at own vertices, the result with Γ fixed at Vᵏ; empty if sub-meshes do not predict.
     Points predicted = Points(0, 3);
-    /// The solution of the step that is being computed. With a filter that has several solutions it is the first, or
-    /// the result for `data`; otherwise the only one.
+    /// Which solution of the present step the present sweep computes: Only if the step has one; with a filter that
+    /// needs several, First from Vᵏ, then OfData from `data`.
     enum class Solution { Only, First, OfData } solution = Solution::Only;
     /// #local by 3: the input of further solutions, in place of Vᵏ.
     Points data = Points(0, 3);

@@ -71,11 +71,11 @@ std::vector<double> total_curvatures(const Decomposition& decomposition, const s
     return totals;
 }
 
-std::vector<Index> assign_stages(const std::vector<std::vector<Index>>& adjacency, bool colours_are_labels,
+std::vector<Index> assign_stages(const std::vector<std::vector<Index>>& adjacency, bool solves_in_order_of_numbers,
                                  const std::vector<double>& totals)
 {
     std::vector<Index> stage = ascending(adjacency.size());
-    if (colours_are_labels)
+    if (solves_in_order_of_numbers)
         return stage;
 
     const std::vector<Index> colours = colour(adjacency);

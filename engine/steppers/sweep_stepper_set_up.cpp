@@ -36,7 +36,7 @@ SweepSubMeshes all_sub_meshes(const PolygonMesh& mesh, const Topology& topology,
 {
     SweepSubMeshes all{.own = alone(decompose(mesh, topology, cut.labels, cut.n_parts, progress.exec()))};
     Decomposition& decomposition = all.own.decomposition;
-    all.stage = assign_stages(decomposition.adjacency, sweeps.colours_are_labels,
+    all.stage = assign_stages(decomposition.adjacency, sweeps.solves_in_order_of_numbers,
                               total_curvatures(decomposition, std::exchange(curvature, {})));
     if (const auto* const schwarz = std::get_if<SchwarzConditions>(&sweeps.conditions))
         decomposition = overlap_sub_meshes(mesh, topology, cut, all.stage, schwarz->overlap);

@@ -83,7 +83,9 @@ class FlowingMesh {
     /// @param positions #V by 3, and any number of further rows.
     void bring_back(Points& positions) const;
 
-    /// Converts separated sub-meshes (see FlowReport::separated) to the given mesh.
+    /// Converts a mesh of separated sub-meshes (see FlowReport::separated), whose first vertices are those of mesh(),
+    /// and whose further ones are copies of those on Γ: its positions and the vertices of its faces become those of the
+    /// given mesh.
     void bring_back(PolygonMesh& separated) const;
 
     /// Gives the representative of joined vertices the mean of their rows.

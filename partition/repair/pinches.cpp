@@ -57,7 +57,7 @@ PinchMender::PinchMender(const PolygonMesh& mesh, const Topology& topology, std:
     , topology_(topology)
     , labels_(labels)
     , n_faces_(n_labels)
-    , met_in_count_(n_labels, 0)
+    , last_call_with_label_(n_labels, 0)
 {
 }
 
@@ -88,14 +88,14 @@ void PinchMender::find_runs(const Fan& fan)
 /// Returns the number of runs minus the number of labels; sets pinched_label_ if that is not zero.
 Index PinchMender::count_excess_runs()
 {
-    ++count_;
+    ++call_;
     Index excess = 0;
     for (const Run& run : runs_) {
-        if (met_in_count_[run.label] == count_) {
+        if (last_call_with_label_[run.label] == call_) {
             ++excess;
             pinched_label_ = run.label;
         }
-        met_in_count_[run.label] = count_;
+        last_call_with_label_[run.label] = call_;
     }
     return excess;
 }

@@ -78,9 +78,10 @@ class PinchMender {
     std::vector<Index>& labels_;
     /// One entry per label: its number of faces.
     std::vector<std::int64_t> n_faces_;
-    /// One entry per label: the number of the last count_excess_runs that met it; and the number of the present one.
-    std::vector<std::size_t> met_in_count_;
-    std::size_t count_ = 0;
+    /// One entry per label: the number of the last call of count_excess_runs in which a run had it. And the number of
+    /// the present call.
+    std::vector<std::size_t> last_call_with_label_;
+    std::size_t call_ = 0;
     /// The runs of the fan examined last, in order; and the label that occurs in several runs.
     std::vector<Run> runs_;
     Index pinched_label_ = -1;

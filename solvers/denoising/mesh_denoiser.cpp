@@ -44,8 +44,9 @@ constexpr int rounds_of_thinning = 6;
 /// The evidence on a mesh thinned once that proves noise where the whole mesh has Correlation::Possible. No clean
 /// surface with this had more than 2.5 (thinned twice: 0.9, see NoisyPlaces).
 constexpr float proof_by_thinned = 3.0F;
-/// Where places are doubtful, local fits are taken if their risk is below the first number and the deviation of the
-/// noise above the second, in edges. Reliefs under white noise with so little risk had a deviation of 0.1 at most.
+/// At doubtful vertices (Correlation::Doubtful), local fits are used only if CorrelatedNoise::least_risk, relative to
+/// the risk of leaving the surface as it is, is below the first number, and the standard deviation of the noise above
+/// the second, in edges. Reliefs under white noise with so little risk had a deviation of 0.1 at most.
 constexpr double clear_risk = 0.45;
 constexpr double clear_deviation = 0.15;
 

@@ -1,5 +1,6 @@
 #include "solvers/denoising/mixing_weights.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
@@ -9,10 +10,10 @@ namespace seamflow {
 
 namespace {
 
-/// mixing_weights.txt, which the build embeds.
-constexpr std::string_view text_of_weights =
+/// The paragraphs of mixing_weights.txt, which the build embeds.
+constexpr auto paragraphs = std::to_array<std::string_view>({
 #include "mixing_weights_text.inc"
-    ;
+});
 
 /// The bytes that a text in base 64 encodes (RFC 4648). Line ends are passed over.
 std::string decode(std::string_view text)
@@ -37,18 +38,13 @@ std::string decode(std::string_view text)
     return bytes;
 }
 
-/// The weights of all networks, in the order of the file: paragraphs, which blank lines separate.
+/// The weights of all networks, in the order of the file.
 const std::vector<std::string>& all_weights()
 {
     static const std::vector<std::string> all = [] {
-        constexpr std::string_view blank_line = "\n\n";
         std::vector<std::string> weights;
-        std::string_view rest = text_of_weights;
-        for (auto end = rest.find(blank_line); end != std::string_view::npos; end = rest.find(blank_line)) {
-            weights.push_back(decode(rest.substr(0, end)));
-            rest.remove_prefix(end + blank_line.size());
-        }
-        weights.push_back(decode(rest));
+        for (const std::string_view paragraph : paragraphs)
+            weights.push_back(decode(paragraph));
         return weights;
     }();
     return all;

@@ -29,7 +29,8 @@ constexpr float evidence_of_half = 1.0F;
 constexpr float evidence_against_of_quarter = -2.5F;
 /// The evidence that correlated noise needs where there is no other noise, because it looks more like shape there.
 constexpr float evidence_of_correlated_noise_alone = 1.0F;
-/// Beside other noise, places with more evidence than this are doubtful: fits must show that the noise is no shape.
+/// Beside other noise, places with evidence of at least 0 have correlated noise. From this number to 0 they are
+/// doubtful (Correlation::Doubtful): local fits must show that the noise is no shape.
 constexpr float evidence_of_doubtful_noise = -1.0F;
 /// The evidence at a place that outweighs the evidence of its component. For noise: the median of the component plus
 /// this difference, but at least clear evidence and at most this limit, which is above the 5.1 that places of clean

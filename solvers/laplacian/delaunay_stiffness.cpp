@@ -107,18 +107,19 @@ Lists<Index> edges_by_length(const IntrinsicTriangles& triangles)
     return sorted;
 }
 
-/// Moves the weight of one half-edge of an obtuse triangle, opposite to the obtuse angle, towards 0. With the weights w
-/// of this edge and x, y of the others, 4 (x y + w x + w y) = 1, K of the triangle is the sum of K of the slope along
-/// this edge, 1 / 4 (x + y), and of the bend across it: w = 1 / 4 (x + y) - b x y / (x + y) with b = 1.
+/// Moves the weight of half-edge h, which is opposite to an obtuse angle, towards 0. The energy of a linear function on
+/// a triangle is that of its derivative along h and that of its derivative across h. With the weight w of h and x, y of
+/// the others, 4 (x y + w x + w y) = 1, so that w = 1 / (4 (x + y)) - b x y / (x + y), where b = 1 is the factor of the
+/// second energy. b becomes the number that gives the new weight, at least 0, and x and y become b x and b y.
 /// @param weight the new weight of half-edge h. @param weights per half-edge; changed in the triangle of h.
 void soften(Index h, double weight, std::vector<double>& weights)
 {
     double& x = weights[IntrinsicTriangles::next(h)];
     double& y = weights[IntrinsicTriangles::previous(h)];
-    const double bend = std::max(0.25 - weight * (x + y), 0.0) / (x * y);
+    const double across = std::max(0.25 - weight * (x + y), 0.0) / (x * y);
     weights[h] = weight;
-    x *= bend;
-    y *= bend;
+    x *= across;
+    y *= across;
 }
 
 /// The weights of edges, none below 0. A triangle is softened across its longest edge, which changes the other two

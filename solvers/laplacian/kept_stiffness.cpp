@@ -75,6 +75,10 @@ class KeptStiffness final : public SymmetricLaplacian {
         laplacian_->for_each_element(action);
     }
 
+    /// Divides K of each element, a face or an edge, by 1 + the largest squared difference of two of its vertices. K of
+    /// a face with auxiliary unknowns is S - C D⁻¹ Cᵀ (see SymmetricLaplacian). The pairs of an element are first those
+    /// of S, of two vertices, then those of C, of a vertex and an auxiliary unknown, one unknown after another.
+    /// Diagonals follow from rows that sum to zero.
     void weigh(const SquaredDifference& squared_difference) override
     {
         if (unweighted_.empty()) {
@@ -95,13 +99,14 @@ class KeptStiffness final : public SymmetricLaplacian {
             for (std::size_t end = i; i < begin + n; i = end) {
                 const Index auxiliary = pairs_[i].second;
                 const double d = unweighted_auxiliary_[auxiliary - n_vertices_];
-                double total = 0.0;
+                // -Σ C / D of the unknown.
+                double sum_of_column = 0.0;
                 for (; end < begin + n && pairs_[end].second == auxiliary; ++end)
-                    total -= unweighted_[end] / d;
+                    sum_of_column -= unweighted_[end] / d;
                 diagonal_[auxiliary] = d / (1.0 + largest);
                 for (std::size_t k = i; k < end; ++k) {
                     entries_[k] = unweighted_[k] / (1.0 + largest);
-                    diagonal_[pairs_[k].first] -= total * entries_[k];
+                    diagonal_[pairs_[k].first] -= sum_of_column * entries_[k];
                 }
             }
             begin += n;

@@ -114,10 +114,10 @@ void BlockRowMatrix::keep_exact()
     make_room(outer_);
 }
 
-/// If entries are not positive, the fill of the factors is dropped and partly subtracted from the diagonal, as in a
-/// modified factorisation (Gustafsson, A class of first order factorization methods, 1978), which preserves the sums of
-/// rows; no pivot is too small for bounded solutions. Blocks with positive entries that count keep the diagonal:
-/// symmetric Gauss–Seidel.
+/// In a block whose positive off-diagonal entries are negligible (see most_positive): a modified incomplete
+/// factorisation (Gustafsson, A class of first order factorization methods, 1978). The fill is dropped, and part of it
+/// is subtracted from the diagonal; all of it would preserve the sums of rows. Pivots are so large that back
+/// substitution does not amplify. In other blocks the pivots are the diagonal itself: symmetric Gauss–Seidel.
 void BlockRowMatrix::factorise(const Executor& exec)
 {
     for_each_block(exec, [&](Index, Index begin, Index end) {

@@ -125,8 +125,8 @@ TEST_CASE("adjacent sub-meshes have different ranks, and ranks have no gaps")
 {
     for (const Index k : {2, 3, 8, 20}) {
         const Decomposition decomposition = cut_up(make_triangles(3000), k);
-        for (const bool colours_are_labels : {false, true}) {
-            const auto stage = assign_stages(decomposition.adjacency, colours_are_labels,
+        for (const bool solves_in_order_of_numbers : {false, true}) {
+            const auto stage = assign_stages(decomposition.adjacency, solves_in_order_of_numbers,
                                              total_curvatures(decomposition, std::vector<double>(4000, 1.0)));
             std::vector<int> used(stage.size(), 0);
             for (std::size_t s = 0; s < stage.size(); ++s) {
