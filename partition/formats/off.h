@@ -61,7 +61,8 @@ std::vector<std::string> extras_of_off(const std::filesystem::path& path, std::s
 PolygonMesh read_binary_off(const std::filesystem::path& path, std::string_view file, std::size_t offset,
                             const Slicing& slicing, FaultLog* faults);
 
-/// Rewrites a binary OFF file with the positions of `mesh`, rounded to floats; every other byte stays.
+/// Rewrites a binary OFF file, read by read_binary_off, with the positions of `mesh`, rounded to floats; every other
+/// byte stays.
 /// @param mesh with the faces of the file.
 /// @returns whether rounding changed any coordinate.
 /// @throws OutputError; also for coordinates beyond single precision.

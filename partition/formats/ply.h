@@ -55,7 +55,8 @@ void write_ply(OutputFile& file, const PolygonMesh& mesh, Encoding encoding, con
 void write_ply(OutputFile& file, const PolygonMesh& mesh, Encoding encoding, const Slicing& slicing,
                const FileFields& fields);
 
-/// The precision in which a property of the vertices holds numbers. @param type not of whole numbers.
+/// The precision in which a property of the vertices holds numbers. Double for whole numbers, whose precision does not
+/// matter.
 Decimals decimals_of(PlyType type, Encoding encoding);
 
 /// Reads properties of the vertices of a file read by `read_ply`; see read_fields.

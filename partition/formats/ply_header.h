@@ -107,6 +107,7 @@ std::vector<Index> coordinates_in(const PlyElement& vertices);
 /// The columns of corners: 0 for the list of corners; -1 for other properties.
 std::vector<Index> corners_in(const PlyElement& faces);
 
+/// The header of a PLY file: its encoding and the kinds of its elements.
 struct PlyHeader {
     Encoding encoding = Encoding::Ascii;
     /// The kinds of elements, in the order of their data.

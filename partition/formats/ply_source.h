@@ -26,7 +26,7 @@ inline std::endian order_of(Encoding encoding)
 struct PlySlot {
     /// The skipped properties, which are numbers, not lists.
     std::span<const PlyProperty> passed_over;
-    /// The bytes of the skipped properties in a binary file.
+    /// The number of bytes of the skipped properties in a binary file.
     std::size_t n_bytes = 0;
     /// The property; null at the end of the element.
     const PlyProperty* property = nullptr;

@@ -22,7 +22,7 @@ struct PlyContent {
     const PolygonMesh& mesh;
     Encoding encoding;
     const PlyExtras& extras;
-    /// See has_long_face.
+    /// Whether a face has more than 255 sides (see has_long_face).
     bool long_faces;
 };
 

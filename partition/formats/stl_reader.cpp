@@ -105,7 +105,7 @@ void read_facets(ByteScanner& scanner, std::uint64_t begin, std::uint64_t end, B
 
 /// Reads a binary file.
 /// @param per_slice the number of facets of a slice. @param faults see read_stl.
-/// @throws InputError if there is any fault; the message names it if all facets are in one slice.
+/// @throws InputError for a fault that `faults` does not collect; the message names it if all facets are in one slice.
 PolygonMesh read_binary(const std::filesystem::path& path, std::string_view file, std::uint64_t per_slice,
                         const Executor& exec, FaultLog* faults)
 {

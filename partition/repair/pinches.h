@@ -25,7 +25,8 @@ class PinchMender {
     /// of labels.
     void count_faces(const Executor& exec = run_serially);
 
-    /// The number of excess runs at v.
+    /// The number of excess runs at v: the number of runs minus the number of labels, summed over the fans of the mesh
+    /// at v.
     Index pinches_at(Index v);
 
     /// Moves faces at v to other parts until v is not pinched, in small steps. Each step is the best of a few
@@ -56,6 +57,7 @@ class PinchMender {
         Index parts_used_up;
         /// The change of the number of pinches at the vertices of the moved faces.
         Index pinches;
+        /// The number of moved faces.
         std::size_t faces;
         /// The change of the length of the edges between parts.
         double cut_length;
@@ -78,10 +80,11 @@ class PinchMender {
     std::vector<Index>& labels_;
     /// One entry per label: its number of faces.
     std::vector<std::int64_t> n_faces_;
-    /// One entry per label: the number of the last count_excess_runs that met it; and the number of the present one.
+    /// Calls of count_excess_runs are numbered. One entry per label: the number of the last call that met a run of the
+    /// label; and the number of the last call of all.
     std::vector<std::size_t> met_in_count_;
     std::size_t count_ = 0;
-    /// The runs of the fan examined last, in order; and the label that occurs in several runs.
+    /// The runs of the fan examined last, in order; and a label that occurs in several of them.
     std::vector<Run> runs_;
     Index pinched_label_ = -1;
     /// The candidates for the present step.
