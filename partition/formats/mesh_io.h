@@ -82,8 +82,8 @@ std::vector<std::string> write_mesh_like(const MeshSource& source, const std::fi
 FileFields read_fields(const MeshSource& source, std::span<const std::string> names,
                        const Executor& exec = run_serially);
 
-/// As above, with other numbers besides the positions. A field replaces that of its name; every number that is equal,
-/// and all else, stays byte for byte.
+/// Writes the file that was read with other positions, as above, and with other numbers of the vertices. A field
+/// replaces that of its name; every number that is equal, and all else, stays byte for byte.
 ///
 /// - In a PLY file types stay. Whole numbers are rounded to the nearest, and those beyond the range of their type
 ///   become its least or largest number. Only floats that single precision cannot hold become doubles. Fields that the

@@ -55,7 +55,8 @@ struct StayingNormals {
 /// The normals of a file for the current surface.
 class NormalUpdate {
   public:
-    /// @param normals see corners_of_obj_normals. @param before #V by 3: the positions in the file.
+    /// @param normals for each normal of the file, the corners that name it. @param before #V by 3: the positions in
+    /// the file.
     NormalUpdate(IndexLists normals, const PolygonMesh& mesh, Points before, const Executor& exec, double seam_distance)
         : normals_(std::move(normals))
         , mesh_(mesh)

@@ -103,8 +103,8 @@ void OffReader::face(TextScanner& scanner)
 
 /// Reads the mesh from the slices of a file.
 /// @param slices after the header.
-/// @param lines_before see count_lines.
-/// @param faults see read_off; null if there are several slices.
+/// @param lines_before the number of lines with a token before each slice, and in all slices.
+/// @param faults if not null, collects faults instead of throwing; null if there are several slices.
 /// @throws InputError for a fault that `faults` does not collect; the message names it only if there is one slice,
 /// because slices of several do not know the numbers of their lines.
 PolygonMesh read_slices(const TextScanner& after_header, const OffHeader& header,
@@ -126,7 +126,7 @@ PolygonMesh read_slices(const TextScanner& after_header, const OffHeader& header
 }
 
 /// Reads the mesh as one slice.
-/// @param faults see read_off.
+/// @param faults if not null, collects faults instead of throwing.
 PolygonMesh read_in_one_go(const TextScanner& after_header, const OffHeader& header, FaultLog* faults)
 {
     return read_slices(after_header, header, std::array{after_header.rest()},

@@ -98,7 +98,7 @@ std::vector<Index> columns_of(const PlyElement& element, const auto& column)
     return columns;
 }
 
-/// As above: the column of a property is the place of its name among `names`.
+/// For each property of an element, in order: the index of its name in `names`; -1 if it is not among them.
 std::vector<Index> columns_of(const PlyElement& element, std::initializer_list<std::string_view> names);
 
 /// The columns of coordinates: 0 to 2 for x, y and z; -1 for other properties.

@@ -77,7 +77,7 @@ void add_once(std::vector<std::string>& list, std::string_view what);
 
 namespace fmt {
 
-/// See Quoted.
+/// Lets fmt::format write a Quoted as its text in quotation marks.
 template <>
 struct formatter<seamflow::Quoted> : formatter<std::string> {
 };

@@ -38,6 +38,7 @@ void add_fans(Crowd crowd, std::vector<bool>& is_in_fan, std::vector<CrowdedFan>
 /// A bound of the rounding error of a unit vector.
 constexpr double direction_rounding = 32.0 * std::numeric_limits<double>::epsilon();
 
+/// A box that contains every unit vector: nothing is known about the direction.
 Box all_directions()
 {
     return {Point::Constant(-1.0), Point::Constant(1.0)};

@@ -140,6 +140,7 @@ void EarClipper::run(std::vector<Triangle>& triangles)
     triangles.push_back({vertex(0), vertex(1), vertex(2)});
 }
 
+/// The mean of the corners of a face.
 Point centre_of(std::span<const Index> face, const Points& positions)
 {
     Point sum = Point::Zero();
