@@ -38,7 +38,8 @@ double median_boundary_edge(const PolygonMesh& mesh, const Topology& topology, c
     return *middle;
 }
 
-/// For each point the distance to the nearest point at another position; infinite if that is beyond `reach`.
+/// For each point the distance to the nearest point at another position; infinite if that is beyond `reach`, or if the
+/// cells around the point have too many points to compare.
 std::vector<double> distances_of_nearest(const std::vector<Point>& points, double reach, const Executor& exec)
 {
     // Points in a cell of more points than this are too many to be corners of one point: they are not compared.
@@ -71,7 +72,7 @@ std::vector<double> distances_of_nearest(const std::vector<Point>& points, doubl
     return nearest;
 }
 
-/// Rounds up to one digit.
+/// Rounds a positive number up to one significant digit.
 double rounded_up(double value)
 {
     const double unit = std::pow(10.0, std::floor(std::log10(value)));

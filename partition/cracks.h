@@ -12,8 +12,9 @@ namespace seamflow {
 /// Gaps of a small fraction of an edge in a surface, as between facets that were each transformed and rounded
 /// separately.
 struct Cracks {
-    /// The number of boundary vertices that are near another boundary vertex at a different position, and the largest
-    /// distance of such a vertex from its nearest neighbour of this kind.
+    /// The number of boundary vertices that are within a hundredth of the median boundary edge of another boundary
+    /// vertex, at a different position; and the largest distance of such a vertex from its nearest neighbour of this
+    /// kind.
     Index n_vertices = 0;
     double width = 0.0;
     /// A distance for weld that closes the gaps, and the number of pairs of boundary edges that it joins.
@@ -22,7 +23,8 @@ struct Cracks {
 };
 
 /// Finds gaps.
-/// @param topology of `mesh`. @returns nothing if no boundary vertices are near others, or if no distance joins them.
+/// @param topology of `mesh`. @returns nothing if no boundary vertices are near others, or if welding at weld_distance
+/// joins no edges.
 std::optional<Cracks> find_cracks(const PolygonMesh& mesh, const Topology& topology,
                                   const Executor& exec = run_serially);
 

@@ -8,6 +8,7 @@ namespace seamflow {
 
 namespace {
 
+/// The largest number of vertices, and of corners.
 constexpr Eigen::Index most = std::numeric_limits<Index>::max();
 
 std::string shape(Eigen::Index rows, Eigen::Index columns)

@@ -12,10 +12,11 @@
 
 namespace seamflow {
 
-/// Throws an InputError unless `vertices` has three columns and no more rows than fit an Index.
+/// Throws an InputError unless a matrix of vertices of this shape has three columns and no more rows than fit an Index.
 void require_vertex_shape(Eigen::Index rows, Eigen::Index columns);
 
-/// Throws an InputError unless `faces` has at least three columns, or no rows, and no more corners than fit an Index.
+/// Throws an InputError unless a matrix of faces of this shape has at least three columns, or no rows, and no more
+/// corners than fit an Index.
 void require_face_shape(Eigen::Index rows, Eigen::Index columns);
 
 /// Makes a mesh from a matrix of positions and flat arrays of faces.

@@ -51,6 +51,8 @@ void for_each_block(const Executor& exec, Index n, Body&& body)
 
 /// Calls add(total, i) for each i from 0 to n - 1, beginning with an empty total for each block, and join(total, part)
 /// to combine the totals of blocks, always in the same order.
+/// @param empty the total of no indices: joining it must change nothing.
+/// @returns the total of all indices.
 template <class Total, class Add, class Join>
 Total reduce(const Executor& exec, Index n, const Total& empty, Add&& add, Join&& join)
 {
@@ -81,7 +83,7 @@ std::vector<Index> select(const Executor& exec, Index n, Predicate&& holds)
 }
 
 /// The sum of value(i) over 0 … n - 1. Always added up in the same order.
-/// @param zero the initial value.
+/// @param zero the sum of no values: each block begins with it, so that adding it must change nothing.
 template <class Value, class Sum = double>
 Sum sum(const Executor& exec, Index n, Value&& value, const Sum& zero = 0.0)
 {
@@ -96,8 +98,9 @@ struct IndexRange {
     Index end = 0;
 };
 
-/// 0 … n - 1 in a few long ranges that depend only on n and n_values, for loops that make a table of n_values per
-/// range: all tables together are no larger than a fraction of n.
+/// 0 … n - 1 in at most 16 long ranges that depend only on n and n_values, for loops that make a table of n_values per
+/// range. If n_values is at most n / 16, all tables together have n / 8 entries at most; otherwise there is a single
+/// range.
 inline std::vector<IndexRange> long_ranges(Index n, Index n_values)
 {
     constexpr Index most = 16;

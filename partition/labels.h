@@ -13,7 +13,7 @@ namespace seamflow {
 /// @returns the number of different labels.
 Index compact_labels(std::vector<Index>& labels);
 
-/// Lists the labels of the faces around vertex v, ascending, each once.
+/// Lists the labels of the faces around vertex v, ascending, each once: replaces the content of `found`.
 /// @param labels #F.
 void labels_around(const Topology& topology, std::span<const Index> labels, Index v, std::vector<Index>& found);
 

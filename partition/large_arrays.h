@@ -31,7 +31,8 @@ std::vector<Value> large_vector(std::size_t n, const Value& value = Value())
     return values;
 }
 
-/// Resizes a matrix of Eigen, in large pages where the system has them; no entry is initialised.
+/// Resizes a matrix of Eigen, in large pages where the system has them; no entry is initialised. A matrix that has this
+/// size already stays as it is.
 template <class Matrix>
 void resize_large(Matrix& matrix, std::ptrdiff_t rows, std::ptrdiff_t columns)
 {

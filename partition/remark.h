@@ -37,12 +37,12 @@ struct Remark {
 
     Remark(std::string kind_of_remark, Numbers numbers_of_it, Wording wording_of_it);
 
-    /// Of kind "other", without numbers and marks.
+    /// A remark of kind "other", without numbers and marks.
     Remark(const std::string& text);
 
     /// One or two words, like "collapse" or "missed tolerance"; the same kind has the same numbers.
     std::string kind;
-    /// By name, in the order of the message.
+    /// The numbers of the message, each with its name, in the order of the message.
     Numbers numbers;
     Wording wording;
 

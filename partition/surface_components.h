@@ -25,7 +25,8 @@ struct SurfaceComponents {
 /// @pre every vertex named by a face exists.
 SurfaceComponents surface_components(const PolygonMesh& mesh, const Executor& exec = run_serially);
 
-/// Finds the components; returns none if all vertices are in one, which is faster than listing its vertices.
+/// Finds the components; returns none (count() is 0) if all vertices are in one component, which is faster than listing
+/// its vertices and faces. A vertex without faces is not in that component.
 SurfaceComponents surface_components_if_several(const PolygonMesh& mesh, const Executor& exec = run_serially);
 
 /// The largest diagonal of the bounding boxes of the components, in length: the size of the bodies, however far apart

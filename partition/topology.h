@@ -132,9 +132,9 @@ inline double edge_length(const PolygonMesh& mesh, const Topology& topology, Ind
 void free_boundary(Topology& topology);
 
 /// Lets vertices at junctions, the edges of three faces or more, move: they become of kind Junction, or, where such an
-/// edge ends on the boundary, of kind Boundary. Vertices at which several fans merely touch stay fixed, because these
-/// are usually a defect. Faces at junctions become connected (see Topology::junctions). To be called before
-/// free_boundary.
+/// edge ends on the boundary, of kind Boundary, which only free_boundary lets move. Vertices at which several fans
+/// merely touch stay fixed, because these are usually a defect. Faces at junctions become connected (see
+/// Topology::junctions). To be called before free_boundary.
 void free_junctions(const PolygonMesh& mesh, Topology& topology, const Executor& exec = run_serially);
 
 /// The vertices that share an edge with v, ascending.
@@ -159,8 +159,8 @@ struct Fan {
     bool closed = false;
 };
 
-/// Fan::first and Fan::last, without the list, of the fan at v that contains corner `start`, made of faces with the
-/// label of that corner's face.
+/// The neighbours Fan::first and Fan::last, without the list of corners, of the fan at v that contains corner `start`,
+/// made of faces with the label of that corner's face.
 /// @param start the lowest corner of the fan. @param labels #F.
 std::pair<Index, Index> ends_of_fan(const PolygonMesh& mesh, const Topology& topology, Index start,
                                     std::span<const Index> labels);

@@ -31,12 +31,13 @@ inline Point vector_area(std::span<const Index> corners, const Points& positions
 
 /// The length of the vector area, in length²; 0 if it is no more than rounding, or not a normal double.
 ///
-/// A face has an area if it exceeds 16 ε n Σ|e|² over its n edges e, with ε = 2⁻⁵²: 1.6 to 2.2e-14 of the squared
-/// longest edge of a triangle. Differences and products in the vector area round to less than ε (Σ|e|)² ≤ ε n Σ|e|²,
-/// and coordinates of up to some ten edges round to as much. Moreover, the stiffness matrix K of a face without area
-/// would be rounding: its entries grow with Σ|e|² / area, and their rounding errors move vertices by up to ε times
-/// that, in edges, which is a hundredth here. The distance from the origin does not matter: far away, corners in a row
-/// rarely stay in a row when they are rounded, and the resulting triangles are exact and thick enough for K.
+/// A face has an area if it exceeds 16 ε n Σ|e|² over its n edges e, with ε = 2⁻⁵²: 1.6 to 2.1e-14 of the squared
+/// longest edge of a triangle whose corners are nearly in a row. Differences and products in the vector area round to
+/// less than ε (Σ|e|)² ≤ ε n Σ|e|², and coordinates of up to some ten edges round to as much. Moreover, the stiffness
+/// matrix K of a face without area would be rounding: its entries grow with Σ|e|² / area, and their rounding errors
+/// move vertices by up to ε times that, in edges, which is 1 / (16 n) or less here: 0.02 for a triangle. The distance
+/// from the origin does not matter: far away, corners in a row rarely stay in a row when they are rounded, and the
+/// resulting triangles are exact and thick enough for K.
 inline double area_above_rounding(std::span<const Index> corners, const Points& positions)
 {
     constexpr double rounding = 16.0 * std::numeric_limits<double>::epsilon();

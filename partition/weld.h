@@ -19,7 +19,7 @@ struct Weld {
     PolygonMesh mesh;
     /// The topology of `mesh`.
     Topology topology;
-    /// #V: the lowest of the vertices that a vertex was merged with; its own number if it was not merged.
+    /// #V: the lowest vertex of the group into which a vertex was merged; its own number if it was not merged.
     std::vector<Index> representative;
     /// The number of vertices that were merged with others.
     Index n_vertices = 0;
@@ -41,7 +41,8 @@ std::optional<Weld> weld(const PolygonMesh& mesh, const Topology& topology, doub
 /// A sentence for the user about seams, joined or not; nothing if none are joined and positions had to be equal. If the
 /// joined vertices were further apart than cracks are, and are a tenth of all vertices or more, it is a warning: the
 /// distance may be too large.
-/// @param n_vertices, n_edges see Weld. @param n_of_mesh all vertices. @param distance see weld. @param apart the
+/// @param n_vertices, n_edges the numbers of merged vertices and of joined pairs of edges (see Weld). @param n_of_mesh
+/// the number of all vertices. @param distance as for weld: within which positions counted as equal. @param apart the
 /// largest distance by which vertices moved to be joined, in mean edge lengths.
 std::optional<Remark> remark_on_seams(Index n_vertices, Index n_edges, std::int64_t n_of_mesh, double distance,
                                       double apart);

@@ -38,6 +38,7 @@ class Tree {
         split(1, sample, positions);
     }
 
+    /// The number of the box, a leaf of the tree, that contains a point.
     [[nodiscard]] Index box_of(const Eigen::RowVector3d& point) const
     {
         Index k = 1;

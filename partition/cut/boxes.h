@@ -10,7 +10,8 @@ namespace seamflow {
 /// Search Trees, 1975) with the medians of a sample. Boxes and orders do not depend on how loops are run.
 /// @param positions #points by 3, all finite.
 /// @param n_boxes a power of two, at most 65,536.
-/// @returns the points in each box, along its longest side. Coincident points share a box, so boxes may be empty.
+/// @returns the points in each box, sorted along the longest side of their bounding box. Coincident points share a box,
+/// so boxes may be empty.
 IndexLists divide_into_boxes(const Points& positions, Index n_boxes, const Executor& exec);
 
 }  // namespace seamflow

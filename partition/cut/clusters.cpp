@@ -188,13 +188,13 @@ class ClusterGrower {
     std::vector<Index> outer_;
 };
 
-/// The fraction of the edges of a sample that lead from one chunk of `size` faces to another.
+/// The fraction of the edges of a sample of faces that lead from one chunk of `size` faces to another.
 double fraction_across(const PolygonMesh& mesh, const Topology& topology, Index size)
 {
-    constexpr Index sampled = 64;
+    constexpr Index faces_per_sample = 64;
     Index inner = 0;
     Index across = 0;
-    for (Index f = 0; f < mesh.n_faces(); f += std::min(sampled, mesh.n_faces() - f))
+    for (Index f = 0; f < mesh.n_faces(); f += std::min(faces_per_sample, mesh.n_faces() - f))
         for_each_neighbour(mesh, topology, f, [&](Index, Index neighbour) {
             ++inner;
             across += neighbour / size != f / size ? 1 : 0;
@@ -206,11 +206,11 @@ double fraction_across(const PolygonMesh& mesh, const Topology& topology, Index 
 /// @param size of the smallest chunks.
 std::vector<Chunk> chunks_of(const PolygonMesh& mesh, const Topology& topology, Index weight, Index size)
 {
-    // The largest fraction of edges across chunks: a cluster is about as wide as the square root of its weight, so that
-    // about a tenth of all clusters is grown again.
-    constexpr double most_edges_across = 0.025;
+    // The largest product of the fraction of edges across chunks and the width of a cluster, which is about the square
+    // root of its weight. About four times this product is the fraction of clusters that are grown again: a tenth.
+    constexpr double most_widths_across = 0.025;
     const double width = std::sqrt(weight);
-    while (size < mesh.n_faces() && width * fraction_across(mesh, topology, size) > most_edges_across)
+    while (size < mesh.n_faces() && width * fraction_across(mesh, topology, size) > most_widths_across)
         size = size <= mesh.n_faces() / 2 ? 2 * size : mesh.n_faces();
     std::vector<Chunk> chunks;
     for (Index begin = 0; begin < mesh.n_faces(); begin = chunks.back().end)

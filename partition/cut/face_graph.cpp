@@ -13,7 +13,8 @@ namespace {
 
 constexpr double mean_arc_weight = 64;
 
-/// Integers proportional to the lengths, each at least 1, whose sum does not exceed max_weight_sum.
+/// Integers proportional to the lengths, each at least 1, whose sum does not exceed max_weight_sum; all are 1 if the
+/// sum of the lengths is 0 or not finite.
 std::vector<Index> arc_weights(const std::vector<double>& lengths)
 {
     double total = 0;

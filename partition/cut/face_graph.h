@@ -20,8 +20,8 @@ struct FaceGraph {
     std::vector<Index> offsets{0};
     /// #arcs: the node to which an arc leads.
     std::vector<Index> targets;
-    /// #arcs, at least 1: the length or number of all shared edges, in a unit in which the mean is about 64. Equal both
-    /// ways.
+    /// #arcs, at least 1: the length or number of all shared edges, in a unit in which the mean is about 64, or less in
+    /// the largest graphs (see max_weight_sum). Equal both ways.
     std::vector<Index> arc_weights;
     /// #nodes, at least 1: the weight of its faces (see face_weight), in larger units for the largest meshes.
     std::vector<Index> node_weights;

@@ -11,7 +11,8 @@ namespace seamflow {
 /// between parts.
 inline constexpr double balance_tolerance = 0.04;
 
-/// The weights of parts between which nodes or faces move, and their limits (see balance_tolerance).
+/// The weights of parts between which nodes or faces move. A part is too heavy if its weight exceeds the mean of all
+/// parts times 1 + balance_tolerance, too light if its weight is less than the mean divided by 1 + balance_tolerance.
 class PartWeights {
   public:
     /// @param weights one entry per part.
@@ -19,8 +20,8 @@ class PartWeights {
 
     std::int64_t operator[](Index part) const { return weights_[part]; }
 
-    /// Whether a part that is too heavy would give this weight to a lighter part, or a part that is too light would
-    /// receive it.
+    /// Whether the giving part is too heavy or the receiving part too light, and the receiving part with this weight
+    /// would still be lighter than the giving part is now.
     [[nodiscard]] bool relieves(Index weight, Index from, Index to) const
     {
         return (weights_[from] > heaviest_ || weights_[to] < lightest_) && weights_[to] + weight < weights_[from];

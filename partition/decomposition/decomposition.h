@@ -35,8 +35,8 @@ struct Decomposition {
     std::vector<SubMesh> sub_meshes;
     /// For each sub-mesh: the sub-meshes with which it shares a vertex of Γ, in ascending order.
     std::vector<std::vector<Index>> adjacency;
-    /// For each sub-mesh: the transfers into its halo, of Vᵏ before step k + 1, and of Vᵏ⁺¹ before the correction of Γ.
-    /// Senders are adjacent to the receiver, in ascending order.
+    /// For each sub-mesh: the transfers into its halo: of Vᵏ, the positions after k steps, before step k + 1, and of
+    /// Vᵏ⁺¹ before the correction of Γ. Senders are adjacent to the receiver, in ascending order.
     std::vector<std::vector<Transfer>> halo;
     /// Number of vertices on Γ, each counted once.
     Index n_interface_vertices = 0;

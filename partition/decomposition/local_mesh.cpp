@@ -35,9 +35,9 @@ void copy_twins(const PolygonMesh& mesh, const Topology& topology, SubMeshDraft&
 {
     SubMesh& sub_mesh = draft.sub_mesh;
     sub_mesh.twin.assign(sub_mesh.face_vertices.values.size(), -1);
-    Index own = 0;
+    Index own_halfedge = 0;
     for (const Index f : sub_mesh.faces)
-        for (Index h = mesh.face_offsets[f]; h < mesh.face_offsets[f + 1]; ++h, ++own) {
+        for (Index h = mesh.face_offsets[f]; h < mesh.face_offsets[f + 1]; ++h, ++own_halfedge) {
             const Index twin = topology.twin[h];
             if (twin < h)
                 continue;
@@ -46,8 +46,8 @@ void copy_twins(const PolygonMesh& mesh, const Topology& topology, SubMeshDraft&
             if (face < 0)
                 continue;
             const Index other = sub_mesh.face_vertices.offsets[face] + twin - mesh.face_offsets[other_face];
-            sub_mesh.twin[own] = other;
-            sub_mesh.twin[other] = own;
+            sub_mesh.twin[own_halfedge] = other;
+            sub_mesh.twin[other] = own_halfedge;
         }
 }
 

@@ -36,7 +36,8 @@ std::vector<Index> list_shared(const Topology& topology, const SubMesh& sub_mesh
     return shared;
 }
 
-/// Marks the vertices that the sub-mesh owns. A vertex is owned by the sub-mesh of the lowest label among its faces.
+/// Marks the vertices that the sub-mesh owns. A vertex that may move is owned by the sub-mesh of the lowest label among
+/// its faces.
 void mark_owned(const Whole& whole, std::span<const Index> shared, SubMesh& sub_mesh)
 {
     sub_mesh.owned.resize(sub_mesh.n_vertices);

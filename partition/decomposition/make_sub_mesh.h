@@ -12,7 +12,8 @@ namespace seamflow {
 /// Cuts out the sub-mesh of the given faces. `interface.sharing` and `index_in_sharing` are left empty, because they
 /// depend on all sub-meshes (see decompose). May be called for several sub-meshes at once.
 /// @param labels #F, the sub-mesh of every face.
-/// @param faces the faces of one sub-mesh in ascending order. They must form one fan around each vertex of Γ.
+/// @param faces the faces of one sub-mesh in ascending order. They must form one fan around each vertex of Γ that is an
+/// interior vertex of the mesh.
 SubMesh make_sub_mesh(const PolygonMesh& mesh, const Topology& topology, std::span<const Index> labels,
                       std::vector<Index> faces);
 

@@ -7,8 +7,10 @@ namespace seamflow {
 
 namespace {
 
-/// Numbers the copies of a sub-mesh's vertices. A vertex that is `taken` already gets a new number, and is appended to
-/// `originals`.
+/// Numbers the copies of a sub-mesh's vertices. A vertex whose own number the copy in an earlier sub-mesh has gets a
+/// new number, and is appended to `originals`.
+/// @param taken one entry per vertex of the whole mesh: 1 if a copy has its number; updated.
+/// @param originals for each number, the vertex of the whole mesh.
 std::vector<Index> number_vertices(const SubMesh& sub_mesh, std::vector<std::uint8_t>& taken,
                                    std::vector<Index>& originals)
 {

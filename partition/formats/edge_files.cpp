@@ -26,7 +26,7 @@ class EdgeReader {
     {
     }
 
-    /// Reads a polyline of an OBJ file; see scan_obj.
+    /// Reads a polyline of an OBJ file: scan_obj calls this.
     void line(TextScanner& scanner, const ObjCounts& before)
     {
         const std::int64_t n_vertices = before.n_vertices;

@@ -22,7 +22,8 @@ struct GltfSpan {
     std::size_t stride = 0;
     std::size_t size = 0;
     std::size_t count = 0;
-    /// The type of the numbers, as in the file: see gltf_byte.
+    /// The type of the numbers, as in the file: gltf_byte, gltf_short, gltf_int or gltf_float, or 5120 or 5122
+    /// (signed).
     std::uint64_t component = 0;
     std::size_t n_components = 0;
 
@@ -63,8 +64,8 @@ inline Point float_vector(std::string_view bytes, const GltfSpan& span, std::siz
     return {number(0), number(1), number(2)};
 }
 
-/// Checks the type of indices.
-/// @throws InputError naming `name` if they are of any other type.
+/// Checks that indices are single unsigned integers of 1, 2 or 4 bytes.
+/// @throws InputError naming `name` if they are not.
 void require_gltf_indices(const GltfSpan& span, const GltfValue& name);
 
 /// The elements of an accessor.

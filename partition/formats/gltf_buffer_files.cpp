@@ -41,7 +41,7 @@ std::vector<std::filesystem::path> paths_of_gltf_buffers(const std::filesystem::
 {
     const std::filesystem::path file = file_behind(output);
     std::error_code ignored;
-    // Names are used again if the file that is replaced names them, and no other file does.
+    // A name that the replaced file gives to a buffer is used again, unless it is also that of a buffer of the input.
     std::set<std::string> replaced = names_of_buffers(output);
     for (const std::string& of_input : names_of_buffers(input))
         std::erase_if(replaced, [&](const std::string& name) {

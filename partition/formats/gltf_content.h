@@ -43,7 +43,7 @@ class GltfValue final : public InputPosition {
     /// The names of the members; none for a missing value.
     [[nodiscard]] std::vector<std::string> keys() const;
 
-    /// A whole number of at least 0 that a double can hold.
+    /// A whole number from 0 to 2^53.
     /// @throws InputError for any other value, and for a missing one.
     [[nodiscard]] std::uint64_t number() const;
     [[nodiscard]] std::uint64_t number_or(std::uint64_t otherwise) const { return is_there() ? number() : otherwise; }
@@ -71,7 +71,8 @@ class GltfValue final : public InputPosition {
 /// The pieces of a glTF file.
 class GltfContent {
   public:
-    /// @param path for messages; must outlive this object, as must `content`: see with_gltf_buffers.
+    /// @param path for messages; must outlive this object, as must `content`.
+    /// @param content of the file, or of the result of with_gltf_buffers if there is one.
     /// @throws InputError if it is not glTF 2.0.
     GltfContent(const std::filesystem::path& path, std::string_view content);
 

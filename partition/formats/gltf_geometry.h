@@ -68,7 +68,8 @@ struct GltfGeometry {
     std::vector<Index> vertex_of_normal;
     /// The sparse accessors of positions, normals and indices.
     std::vector<GltfSparse> sparse;
-    /// Whether a primitive has normals that are not floats, or not one for each vertex.
+    /// Whether a primitive has normals that are not updated: they are not floats, not one for each vertex, have no
+    /// data, or are the positions themselves.
     bool has_other_normals = false;
     bool has_tangents = false;
     bool has_morph_targets = false;

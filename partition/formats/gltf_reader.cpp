@@ -109,8 +109,9 @@ void read_gltf_faces(const GltfContent& content, const GltfGeometry& geometry, s
 }
 
 /// Reads the vertices, and the faces slice by slice.
-/// @param per_slice the number of faces of a slice. @param faults see read_gltf.
-/// @throws InputError if there is any fault; the message names it if all faces are in one slice.
+/// @param per_slice the number of faces of a slice. @param faults if not null, collects faults instead of throwing.
+/// @throws InputError for a fault that `faults` does not collect; the message names the fault if all faces are in one
+/// slice.
 PolygonMesh read_gltf_slices(const GltfContent& content, const GltfGeometry& geometry, std::int64_t per_slice,
                              const Executor& exec, FaultLog* faults)
 {

@@ -110,6 +110,7 @@ struct Bounds {
 /// @param bytes of the buffer.
 Bounds bounds_in(std::string_view bytes, const GltfSpan& span, const Executor& exec)
 {
+    // Too many to count: with equal bounds before and after, edit_bound changes nothing.
     if (span.count > usize(std::numeric_limits<Index>::max()))
         return {};
     return reduce(
@@ -177,6 +178,7 @@ void edit_bounds(JsonEdits& edits, const GltfContent& content, const GltfGeometr
 void edit_sparse(JsonEdits& edits, const GltfValue& accessor, std::size_t view)
 {
     const std::vector<const JsonNode*> members = accessor.nodes();
+    // Whether member i is removed.
     const auto goes = [&](std::size_t i) {
         const std::string key = text_of_json(members[i]->key);
         return key == "sparse" || key == "bufferView" || key == "byteOffset";
@@ -276,6 +278,7 @@ void write_binary_gltf(OutputFile& file, const GltfContent& content, std::string
     std::string_view behind = content.file().substr(glb_header_bytes + glb_chunk_header_bytes + content.text().size());
     const auto length =
         from_bytes<std::uint32_t>(content.file().data() + 2 * sizeof(std::uint32_t), std::endian::little);
+    // Bytes after the length that the header announces.
     const std::size_t n_padding = content.file().size() - length;
     const bool has_changed = !now.bytes.empty() && now.bytes[0] && content.buffer(0).data() == content.chunk().data();
     const std::size_t n_more = has_changed ? now.bytes[0]->size() - content.chunk().size() : 0;

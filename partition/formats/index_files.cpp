@@ -156,7 +156,7 @@ std::vector<Index> read_list(const std::filesystem::path& path, Index n_vertices
 
 /// Reads a property of the vertices of a .ply file.
 /// @param complaint gives the fault of a number and a remedy, to follow the name of the property; empty: none.
-/// @returns n_vertices; nothing for any other file.
+/// @returns n_vertices numbers; nothing for any other file.
 std::optional<std::vector<double>> read_column(const std::filesystem::path& path, Index n_vertices,
                                                std::string_view property, std::string (*complaint)(double number))
 {
@@ -177,8 +177,8 @@ std::optional<std::vector<double>> read_column(const std::filesystem::path& path
     numbers.reserve(vertices->count);
     data.scan(
         data.whole(), *vertices, columns_of(*vertices, {property}),
-        [&](PlySource& source, Index, Index, const PlyProperty& wanted) {
-            const double number = numbers.emplace_back(source.number(wanted.type));
+        [&](PlySource& source, Index, Index, const PlyProperty& declared) {
+            const double number = numbers.emplace_back(source.number(declared.type));
             if (const std::string why = complaint(number); !why.empty())
                 source.position().fail("{} {}", Quoted{property}, why);
         },

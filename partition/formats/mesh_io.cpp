@@ -47,6 +47,7 @@ std::uint64_t checksum_of_faces(const PolygonMesh& mesh, const Executor& exec)
     const auto of = [&](const std::vector<Index>& list) {
         return checksum({reinterpret_cast<const char*>(list.data()), list.size() * sizeof(Index)}, exec);
     };
+    // The factor keeps equal differences in the two lists from cancelling each other.
     return of(mesh.face_offsets) + 3 * of(mesh.face_vertices);
 }
 
@@ -126,14 +127,15 @@ struct Format {
     std::vector<std::string> (*require_fits)(const std::filesystem::path& path, const PolygonMesh& mesh,
                                              Encoding encoding);
     void (*write)(OutputFile& file, const PolygonMesh& mesh, Encoding encoding, const Slicing& slicing);
-    /// See write_mesh_like.
+    /// Writes the file that was read with other positions and fields (see write_mesh_like), and returns remarks for the
+    /// user.
     std::vector<std::string> (*rewrite)(OutputFile& file, const std::filesystem::path& path, std::string_view content,
                                         const PolygonMesh& mesh, const Slicing& slicing, const FileFields& fields,
                                         double seam_distance);
-    /// See read_fields; null if the format has no fields.
+    /// Reads numbers of the vertices besides positions (see mesh_io.h); null if the format has no fields.
     FileFields (*read_fields)(const std::filesystem::path& path, std::string_view content,
                               std::span<const std::string> names, const Slicing& slicing);
-    /// See extras_of.
+    /// Names the content besides the surface (see extras_of).
     std::vector<std::string> (*extras)(const std::filesystem::path& path, std::string_view content,
                                        const Slicing& slicing);
     /// The file together with other files that belong to it, or nothing if there are none; null if the format has no
@@ -229,7 +231,8 @@ const Format& functions_of(FileFormat format)
     return all_formats[static_cast<std::size_t>(format)];
 }
 
-/// @param open with all files that belong to it.
+/// Reads the mesh from the content of a file.
+/// @param open the file, with all files that belong to it. @param input its content.
 /// @param faults null: faults are thrown. With faults other than those of faces, the file is not a source for others.
 MeshFile read_whole(OpenFile open, const InputFile& input, FileFormat format, const Executor& exec, FaultLog* faults)
 {

@@ -41,12 +41,13 @@ MeshFile read_mesh(const std::filesystem::path& path, const Executor& exec = run
 MeshFile read_faulty_mesh(const std::filesystem::path& path, FaultLog& faults, const Executor& exec = run_serially);
 
 /// Writes a mesh. Text formats use the fewest digits (at most 17) that read back to the same double; binary PLY stores
-/// doubles; binary STL stores floats, as its format demands. The file appears whole or not at all: it is written under
-/// a temporary name beside `path` and renamed. It is compressed where `.gz` follows the extension. `-` is standard
+/// doubles; binary STL stores floats, as its format demands. The file appears whole or not at all: it gets its name
+/// only when it is complete (see OutputFile). It is compressed where `.gz` follows the extension. `-` is standard
 /// output.
 /// @param mesh valid (see require_valid), with vertices.
 /// @throws OutputError naming the file; also for a mesh that is not valid or that the format cannot hold (STL: faces of
-///         more than three sides, vertices without faces, and in binary files coordinates beyond single precision).
+///         more than three sides, vertices without faces, and in binary files coordinates beyond single precision;
+///         glTF: faces of more than three sides, no faces, coordinates beyond single precision, and more than 4 GiB).
 /// @throws OptionError for an encoding that the format does not have.
 /// @returns remarks for the user, in sentences: facets of STL that have become lines.
 std::vector<std::string> write_mesh(const std::filesystem::path& path, const PolygonMesh& mesh, const FileKind& kind,
@@ -81,8 +82,8 @@ std::vector<std::string> write_mesh_like(const MeshSource& source, const std::fi
 FileFields read_fields(const MeshSource& source, std::span<const std::string> names,
                        const Executor& exec = run_serially);
 
-/// As above, with other numbers besides the positions. A field replaces that of its name; every number that is equal,
-/// and all else, stays byte for byte.
+/// Writes the file that was read with other positions, as above, and with other numbers of the vertices. A field
+/// replaces that of its name; every number that is equal, and all else, stays byte for byte.
 ///
 /// - In a PLY file types stay. Whole numbers are rounded to the nearest, and those beyond the range of their type
 ///   become its least or largest number. Only floats that single precision cannot hold become doubles. Fields that the

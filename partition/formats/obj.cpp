@@ -38,7 +38,7 @@ class ObjReader {
         require_vertices(scanner_, n_vertices_);
     }
 
-    /// See scan_obj.
+    /// scan_obj calls these functions for vertices and faces.
     void plain_vertex(Index /*v*/, const WrittenNumbers& p)
     {
         builder_.add_vertex({p.values[0], p.values[1], p.values[2]});
@@ -128,7 +128,8 @@ void ObjReader::require_attributes(std::string_view attributes)
 }
 
 /// Reads the mesh from the slices of a file.
-/// @param faults see read_obj. @throws InputError naming the line if there is one slice.
+/// @param faults if not null, collects faults instead of throwing; null if there are several slices.
+/// @throws InputError for a fault that `faults` does not collect; the message names the line if there is one slice.
 PolygonMesh read_slices(const TextScanner& whole, std::span<const std::string_view> slices, const Executor& exec,
                         FaultLog* faults)
 {
@@ -143,7 +144,7 @@ PolygonMesh read_slices(const TextScanner& whole, std::span<const std::string_vi
     return mesh;
 }
 
-/// Collects the content of a file besides the surface; see scan_obj.
+/// A visitor for scan_obj that collects the content of a file besides the surface.
 struct ExtrasVisitor {
     std::vector<std::string> extras = {};
 

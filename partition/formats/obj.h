@@ -31,8 +31,8 @@ void write_obj(OutputFile& file, const PolygonMesh& mesh, const Slicing& slicing
 /// equal and everything else keep their characters. Normals (`vn`) that only one vertex or one face uses become those
 /// of its faces that name them; others stay.
 /// @param path of the text, for messages only. @param mesh with the faces of the file.
-/// @param fields colours, see NewColours.
-/// @param seam_distance see write_mesh_like.
+/// @param fields the new colours of the vertices, by the names red, green, blue and alpha.
+/// @param seam_distance across seams of this width (see weld), in length, shading that was continuous stays so.
 /// @returns remarks for the user, in sentences.
 /// @throws OutputError
 std::vector<std::string> rewrite_obj(OutputFile& file, const std::filesystem::path& path, std::string_view text,

@@ -28,7 +28,8 @@ Index counted_from_0(std::int64_t number, std::int64_t n)
     return static_cast<Index>(number > 0 ? number - 1 : number < 0 ? number + n : none);
 }
 
-/// The normal that the attributes of a corner such as //2 or /1/-2 refer to, counted from 0; it need not exist.
+/// The normal that the attributes of a corner such as //2 or /1/-2 refer to, counted from 0; it need not exist. `none`
+/// if they refer to no normal.
 /// @param n number of normals before this line.
 Index normal_of(std::string_view attributes, std::int64_t n)
 {
@@ -54,7 +55,8 @@ struct StayingNormals {
 /// The normals of a file for the current surface.
 class NormalUpdate {
   public:
-    /// @param normals see corners_of_obj_normals. @param before #V by 3: the positions in the file.
+    /// @param normals for each normal of the file, the corners that name it. @param before #V by 3: the positions in
+    /// the file.
     NormalUpdate(IndexLists normals, const PolygonMesh& mesh, Points before, const Executor& exec, double seam_distance)
         : normals_(std::move(normals))
         , mesh_(mesh)
@@ -112,8 +114,8 @@ std::vector<std::string> NormalUpdate::remarks(const std::filesystem::path& path
                         all.n_shared + all.n_unused, reasons)};
 }
 
-/// Collects the normal that each corner of a slice names, or `none`, without faces that are left out of the mesh. See
-/// scan_obj.
+/// A visitor for scan_obj that collects the normal that each corner of a slice names, or `none`, without faces that are
+/// left out of the mesh.
 struct CornerNormals {
     std::vector<Index> normals = {};
 
@@ -146,7 +148,7 @@ void CornerNormals::face(TextScanner& scanner, const ObjCounts& before)
 }
 
 /// The colours of the vertices.
-/// @param n_components see read_text_colours.
+/// @param n_components 4: all colours must have alpha; 3: alpha may be missing.
 TextColours read_obj_colours(const std::filesystem::path& path, std::string_view text, Index n_components,
                              const Slicing& slicing)
 {

@@ -64,14 +64,15 @@ class OffReader {
         scanner_.note_faults_in(faults);
     }
 
-    /// Reads vertices and faces, which are counted together.
+    /// Reads the lines begin to end - 1: vertices, then faces, counted together from 0.
     void read(std::int64_t begin, std::int64_t end) { scan_off(scanner_, header_, begin, end, *this); }
 
     /// Checks that nothing follows.
     void require_end();
 
-    /// See scan_off.
+    /// scan_off calls this for the coordinates of a vertex.
     void position(Index /*v*/, TextScanner& scanner) { builder_.add_vertex(scanner.coordinates()); }
+    /// scan_off calls this for a face.
     void face(TextScanner& scanner);
 
   private:
@@ -102,11 +103,10 @@ void OffReader::face(TextScanner& scanner)
 
 /// Reads the mesh from the slices of a file.
 /// @param slices after the header.
-/// @param lines_before see count_lines.
-/// @param faults see read_off; null if there are several slices.
-/// @throws InputError for a fault that `faults` does not collect; it is named only if there is one slice, because
-/// several
-///         do not know the numbers of their lines.
+/// @param lines_before the number of lines with a token before each slice, and in all slices.
+/// @param faults if not null, collects faults instead of throwing; null if there are several slices.
+/// @throws InputError for a fault that `faults` does not collect; the message names it only if there is one slice,
+/// because slices of several do not know the numbers of their lines.
 PolygonMesh read_slices(const TextScanner& after_header, const OffHeader& header,
                         std::span<const std::string_view> slices, std::span<const std::int64_t> lines_before,
                         const Executor& exec, FaultLog* faults)
@@ -126,7 +126,7 @@ PolygonMesh read_slices(const TextScanner& after_header, const OffHeader& header
 }
 
 /// Reads the mesh as one slice.
-/// @param faults see read_off.
+/// @param faults if not null, collects faults instead of throwing.
 PolygonMesh read_in_one_go(const TextScanner& after_header, const OffHeader& header, FaultLog* faults)
 {
     return read_slices(after_header, header, std::array{after_header.rest()},
@@ -161,7 +161,7 @@ TextColours read_off_colours(const std::filesystem::path& path, std::string_view
     });
 }
 
-/// Collects the content of a file besides the surface; see scan_off.
+/// A visitor for scan_off that collects the content of a file besides the surface.
 struct OffExtrasVisitor {
     const OffHeader& header;
     std::vector<std::string>& extras;
@@ -212,7 +212,7 @@ bool breaks_lines_freely(const std::filesystem::path& path, std::string_view tex
 }
 
 /// Reads a file in which line breaks count as blanks; nothing if that fails or is ambiguous: all vertices must have
-/// equally many numbers, and faces only corners.
+/// equally many numbers, which excludes colours, and faces only corners.
 std::optional<PolygonMesh> read_across_lines(const std::filesystem::path& path, std::string_view text,
                                              const Slicing& slicing)
 {
@@ -234,6 +234,7 @@ PolygonMesh read_off(const std::filesystem::path& path, std::string_view text, c
 {
     if (const auto data = start_of_binary_off(text))
         return read_binary_off(path, text, *data, slicing, faults);
+    // If the file can only be read across lines, the faults of the first attempt do not count.
     const FaultLog before = faults != nullptr ? *faults : FaultLog();
     try {
         return read_by_lines(path, text, slicing, faults);
@@ -278,6 +279,7 @@ std::vector<std::string> rewrite_off(OutputFile& file, const std::filesystem::pa
         scanner.cross_lines();
     const OffHeader header = read_off_header(scanner);
     std::optional<MovedNormals> normals;
+    // The file has been read: the faults of faces that were accepted then are not reported again.
     FaultLog known_faults{.of_faces_alone = true};
     if (header.has_normals())
         normals.emplace(mesh, read_off(path, content, slicing, &known_faults).vertices, slicing.exec, seam_distance);

@@ -33,8 +33,8 @@ void write_off(OutputFile& file, const PolygonMesh& mesh, const Slicing& slicing
 /// Rewrites a file read by `read_off`, with the positions of `mesh`: in text, coordinates that are bitwise equal and
 /// everything else except normals keep their characters; binary files hold floats.
 /// @param path of the content, for messages only. @param mesh with the faces of the file.
-/// @param fields colours, see NewColours; none for a binary file.
-/// @param seam_distance see write_mesh_like.
+/// @param fields the new colours of the vertices, by the names red, green, blue and alpha; none for a binary file.
+/// @param seam_distance across seams of this width (see weld), in length, shading that was continuous stays so.
 /// @returns remarks for the user, in sentences.
 /// @throws OutputError; also for coordinates beyond single precision in a binary file.
 std::vector<std::string> rewrite_off(OutputFile& file, const std::filesystem::path& path, std::string_view content,
@@ -54,14 +54,15 @@ std::vector<std::string> extras_of_off(const std::filesystem::path& path, std::s
 /// Reads the binary data after the line `OFF BINARY`: 32-bit integers and floats. Geomview writes the most significant
 /// byte first and a number of colour components after each face; other programs write the least significant byte first,
 /// or no colours. Of the four layouts, the one that fits the length of the file is used.
-/// @param path for messages only. @param faults see read_off.
+/// @param path for messages only. @param faults if not null, collects faults instead of throwing.
 /// @param file the whole file.
 /// @param offset of the first binary data.
 /// @throws InputError naming the byte.
 PolygonMesh read_binary_off(const std::filesystem::path& path, std::string_view file, std::size_t offset,
                             const Slicing& slicing, FaultLog* faults);
 
-/// Rewrites a binary OFF file with the positions of `mesh`, rounded to floats; every other byte stays.
+/// Rewrites a binary OFF file, read by read_binary_off, with the positions of `mesh`, rounded to floats; every other
+/// byte stays.
 /// @param mesh with the faces of the file.
 /// @returns whether rounding changed any coordinate.
 /// @throws OutputError; also for coordinates beyond single precision.

@@ -97,6 +97,7 @@ bool rewrite_binary_off(OutputFile& output, std::string_view file, std::size_t o
                         const Slicing& slicing)
 {
     const auto layout = layout_of(file, offset);
+    // The file has been read, so that a layout fits; the other order is never used.
     const std::endian order = order_of(layout ? layout->encoding : Encoding::BinaryBigEndian);
     require_floats(output.path(), mesh.vertices, slicing.exec, "binary OFF", "write another format");
     constexpr std::size_t vertex_bytes = 3 * word_size;

@@ -94,6 +94,7 @@ OffHeader read_off_header(TextScanner& scanner)
     header.prefix = read_keyword(scanner);
     if (!scanner.has_token() && !scanner.next_line())
         scanner.fail("the file ends before the numbers of vertices and faces; export the mesh again");
+    // The shortest lines are "0 0 0" for a vertex and "1 0" for a face, each with a line end.
     header.n_vertices = read_count(scanner, size, "the number of vertices", 6);
     header.n_faces = read_count(scanner, size, "the number of faces", 4);
     if (scanner.has_token())

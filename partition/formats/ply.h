@@ -55,7 +55,8 @@ void write_ply(OutputFile& file, const PolygonMesh& mesh, Encoding encoding, con
 void write_ply(OutputFile& file, const PolygonMesh& mesh, Encoding encoding, const Slicing& slicing,
                const FileFields& fields);
 
-/// The precision in which a property of the vertices holds numbers. @param type not of whole numbers.
+/// The precision in which a property of the vertices holds numbers. Double for whole numbers, whose precision does not
+/// matter.
 Decimals decimals_of(PlyType type, Encoding encoding);
 
 /// Reads properties of the vertices of a file read by `read_ply`; see read_fields.
@@ -70,7 +71,7 @@ FileFields read_ply_fields(const std::filesystem::path& path, std::string_view c
 /// numbers in text. Coordinates keep their type, which may mean rounding to float; where it cannot hold the results
 /// (whole numbers, or beyond single precision) it becomes double.
 /// @param path of the content, for messages only. @param mesh with the faces of the file.
-/// @param seam_distance see write_mesh_like.
+/// @param seam_distance across seams of this width (see weld), in length, shading that was continuous stays so.
 /// @returns remarks for the user, in sentences.
 /// @throws OutputError
 std::vector<std::string> rewrite_ply(OutputFile& file, const std::filesystem::path& path, std::string_view content,

@@ -46,7 +46,8 @@ struct PlyData {
     /// All elements, as one slice.
     [[nodiscard]] PlySlice whole() const;
 
-    /// Divides the first kinds of elements into slices; in a text file the last slice extends to the end.
+    /// Divides the elements of some kinds into slices; in a text file the last slice extends to the end.
+    /// @param kinds the first kinds of elements in the file.
     /// @returns at least one slice, an empty one if there are no elements.
     /// @throws InputError, without a useful message, if a binary file lacks some of them.
     [[nodiscard]] std::vector<PlySlice> slices(std::span<const PlyElement> kinds, const Slicing& slicing) const;
@@ -76,17 +77,20 @@ struct PlyData {
 
     /// Reads the elements of one kind in a slice. Skips the elements before them and, in data of a mesh, faults that
     /// the reader of the mesh has accepted.
-    /// @param columns, read, act see PlySource::scan; both functions get the source as an additional first argument,
-    /// and end_element is called after `act`.
-    void scan(const PlySlice& slice, const PlyElement& wanted, const std::vector<Index>& columns, const auto& read,
+    /// @param kind the kind of elements. @param columns the column of each of its properties (see columns_of).
+    /// @param read called with the source, the number of the element, the column of a property and its declaration, to
+    /// read it from the source.
+    /// @param act called with the source and the number of the element after its last property; end_element is called
+    /// after it.
+    void scan(const PlySlice& slice, const PlyElement& kind, const std::vector<Index>& columns, const auto& read,
               const auto& act) const
     {
         PlySource numbers = source(slice);
         FaultLog known_faults{.of_faces_alone = true};
         if (use == PlyUse::Mesh)
             numbers.note_faults_in(&known_faults);
-        for_each_kind(up_to(wanted), slice, [&](const PlyElement& element, std::uint64_t begin, std::uint64_t end) {
-            if (&element != &wanted)
+        for_each_kind(up_to(kind), slice, [&](const PlyElement& element, std::uint64_t begin, std::uint64_t end) {
+            if (&element != &kind)
                 return numbers.pass_over(element, begin, end);
             numbers.scan(
                 element, begin, end, columns,

@@ -19,7 +19,7 @@ namespace seamflow {
 
 namespace {
 
-/// The values of the fields, see FileFields::values.
+/// Reads the values of the fields: #V by names, NaN where a vertex has no data.
 Eigen::MatrixXd read_columns(const PlyData& data, const FileFields& fields, const Slicing& slicing)
 {
     const PlyElement& vertices = *data.header.element("vertex");

@@ -97,7 +97,7 @@ PlyProperty read_property(TextScanner& scanner, PlyHeader& header)
     return property;
 }
 
-/// The fewest bytes of one element.
+/// The fewest bytes of one element. In text a number takes two: a digit, and a blank or line end.
 std::uint64_t shortest(const PlyElement& element, Encoding encoding)
 {
     std::uint64_t result = 0;
@@ -106,6 +106,7 @@ std::uint64_t shortest(const PlyElement& element, Encoding encoding)
     return result;
 }
 
+/// Checks that each kind of elements can fit into the rest of the file.
 void require_room(const TextScanner& scanner, const PlyHeader& header)
 {
     const std::uint64_t room = scanner.rest().size() + (header.encoding == Encoding::Ascii ? 1 : 0);

@@ -98,7 +98,7 @@ std::vector<Index> columns_of(const PlyElement& element, const auto& column)
     return columns;
 }
 
-/// As above: the column of a property is the place of its name among `names`.
+/// For each property of an element, in order: the index of its name in `names`; -1 if it is not among them.
 std::vector<Index> columns_of(const PlyElement& element, std::initializer_list<std::string_view> names);
 
 /// The columns of coordinates: 0 to 2 for x, y and z; -1 for other properties.
@@ -107,6 +107,7 @@ std::vector<Index> coordinates_in(const PlyElement& vertices);
 /// The columns of corners: 0 for the list of corners; -1 for other properties.
 std::vector<Index> corners_in(const PlyElement& faces);
 
+/// The header of a PLY file: its encoding and the kinds of its elements.
 struct PlyHeader {
     Encoding encoding = Encoding::Ascii;
     /// The kinds of elements, in the order of their data.

@@ -32,7 +32,8 @@ void read_plain_vertices(const std::vector<PlySlot>& slots, const PlySlice& slic
     }
 }
 
-/// Reads faces.
+/// Reads faces. Nothing is checked against the end of the slice, which is known to hold whole elements (see
+/// PlyData::slices).
 /// @tparam Length, Number the types in the list of corners. @param slots the list and the end.
 template <class Length, class Number>
 void read_plain_faces(const std::vector<PlySlot>& slots, std::string_view bytes, std::endian order,

@@ -151,7 +151,8 @@ std::uint64_t vertices_before(std::uint64_t end, const PlyHeader& header)
 }
 
 /// Reads the mesh from the slices of a file.
-/// @param faults see read_ply. @throws InputError if there is any fault; the message names it if there is one slice.
+/// @param faults if not null, collects faults instead of throwing; null if there are several slices.
+/// @throws InputError for a fault that `faults` does not collect; the message names it if there is one slice.
 PolygonMesh read_slices(const PlyData& data, std::span<const PlySlice> slices, const Executor& exec, FaultLog* faults)
 {
     const std::uint64_t n_vertices = data.header.element("vertex")->count;
@@ -165,6 +166,7 @@ PolygonMesh read_slices(const PlyData& data, std::span<const PlySlice> slices, c
     append_faces(mesh, static_cast<Index>(slices.size()), exec, [&](Index i, PolygonMesh& faces) {
         const auto first = static_cast<Index>(vertices_before(slices[i].begin, data.header));
         const MeshSlice mesh_slice{mesh.vertices, first, faces};
+        // Messages of read_plain_slice need not name faults: a single slice is not read by it.
         const bool may_be_plain = data.header.encoding != Encoding::Ascii && slices.size() > 1;
         if (may_be_plain && read_plain_slice(data.header, slices[i], mesh_slice))
             return;

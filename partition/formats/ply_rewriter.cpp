@@ -62,7 +62,7 @@ Normals normals_of(const PlyElement& vertices)
 }
 
 /// The change of each property of the vertices to new positions and normals.
-/// @param fits see coordinates_fit.
+/// @param fits whether the types of x, y and z in the file can hold the new coordinates; if not, they become double.
 std::vector<Change> changes_of(const PlyElement& vertices, const std::array<bool, 3>& fits, bool with_normals)
 {
     const auto n_columns = with_normals ? names_of_columns.end() : names_of_columns.begin() + 3;
@@ -105,7 +105,8 @@ Change change_of_field(const PlyProperty& property, Index column, const FileFiel
 }
 
 /// Adds the changes of fields: of properties with their names, or of new properties.
-/// @param target, and the returned remarks: see change_of_field.
+/// @param changes one per property of the vertices; new properties are appended. @param target the file to write.
+/// @returns remarks for the user, in sentences. @throws OutputError as change_of_field does.
 std::vector<std::string> add_fields(std::vector<Change>& changes, const PlyElement& vertices, const FileFields& fields,
                                     const std::filesystem::path& target)
 {
@@ -133,7 +134,7 @@ struct NewVertices {
     const Points& positions;
     /// Nothing: normals do not change.
     const std::optional<MovedNormals>& normals;
-    /// See FileFields::values.
+    /// #V by columns of FileFields: the new values of the fields.
     const Eigen::MatrixXd& fields;
 };
 
@@ -314,6 +315,7 @@ std::vector<std::string> rewrite_ply(OutputFile& file, const std::filesystem::pa
         changes_of(vertices, coordinates_fit(vertices, mesh.vertices), kind == Normals::Usable);
     std::vector<std::string> remarks = add_fields(changes, vertices, fields, file.path());
     std::optional<MovedNormals> normals;
+    // The file has been read: the faults of faces that were accepted then are not reported again.
     FaultLog known_faults{.of_faces_alone = true};
     if (kind == Normals::Usable)
         normals.emplace(mesh, read_ply(path, content, slicing, &known_faults).mesh.vertices, slicing.exec,

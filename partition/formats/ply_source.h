@@ -26,7 +26,7 @@ inline std::endian order_of(Encoding encoding)
 struct PlySlot {
     /// The skipped properties, which are numbers, not lists.
     std::span<const PlyProperty> passed_over;
-    /// The bytes of the skipped properties in a binary file.
+    /// The number of bytes of the skipped properties in a binary file.
     std::size_t n_bytes = 0;
     /// The property; null at the end of the element.
     const PlyProperty* property = nullptr;
@@ -34,7 +34,8 @@ struct PlySlot {
     Index column = -1;
 };
 
-/// The slots of an element, in order. @param columns see columns_of.
+/// The slots of an element, in order.
+/// @param columns one per property: its column; -1 if it is skipped (see columns_of).
 std::vector<PlySlot> slots_of(const PlyElement& element, const std::vector<Index>& columns);
 
 /// The numbers of a PLY file, one after another. In text an element is a line, unless line ends count as blanks, and
@@ -63,8 +64,8 @@ class PlySource {
     void note_faults_in(FaultLog* log);
 
     /// Reads the elements begin to end - 1 of a kind, numbered from 0.
-    /// @param columns the column of each property, see columns_of. @param read called with the number of the element,
-    ///        the column of a property and its declaration, to read it.
+    /// @param columns one per property: its column; -1 if it is skipped (see columns_of). @param read called with the
+    ///        number of the element, the column of a property and its declaration, to read it.
     /// @param act called with the number of the element after its last property; it calls end_element.
     void scan(const PlyElement& element, std::uint64_t begin, std::uint64_t end, const std::vector<Index>& columns,
               const auto& read, const auto& act)

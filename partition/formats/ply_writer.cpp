@@ -22,7 +22,7 @@ struct PlyContent {
     const PolygonMesh& mesh;
     Encoding encoding;
     const PlyExtras& extras;
-    /// See has_long_face.
+    /// Whether a face has more than 255 sides (see has_long_face).
     bool long_faces;
 };
 
@@ -181,7 +181,7 @@ std::optional<std::array<Index, 3>> columns_of_colours(const FileFields& fields)
 }
 
 /// The colours of the vertices, scaled to 0 to 255.
-/// @param columns see columns_of_colours. @returns #V.
+/// @param columns of red, green and blue. @returns #V.
 std::vector<Colour> colours_in(const FileFields& fields, const std::array<Index, 3>& columns)
 {
     std::vector<Colour> colours(static_cast<std::size_t>(fields.values.rows()));

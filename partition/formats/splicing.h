@@ -59,7 +59,8 @@ void exchange_normal(Splicer& splicer, const WrittenNumbers& before, const Point
 class MovedNormals {
   public:
     /// @param mesh with the new positions; must outlive this object.
-    /// @param before #V by 3, the positions in the file. @param seam_distance see weld.
+    /// @param before #V by 3, the positions in the file. @param seam_distance within which vertices along a seam are
+    /// joined (see weld); 0: at equal positions.
     MovedNormals(const PolygonMesh& mesh, Points before, const Executor& exec = run_serially,
                  double seam_distance = 0.0);
     MovedNormals(const MovedNormals&) = delete;

@@ -47,10 +47,10 @@ bool is_text_stl(std::string_view file);
 bool is_stl(std::string_view file);
 
 /// Checks that STL can hold the mesh: triangles only, no vertex without faces, and for the binary encoding all
-/// coordinates within single precision. Facets with coinciding corners are also written: they are lines, which readers
-/// skip. Vertices that coincide without having a face in common become one vertex when the file is read again, because
-/// STL has points without numbers.
-/// @returns a remark on such vertices.
+/// coordinates within single precision. Facets with coinciding corners are also written: they are lines, which read_stl
+/// refuses or, if `faults` collects them, leaves out. Vertices that coincide without having a face in common become one
+/// vertex when the file is read again, because STL has points without numbers.
+/// @returns a remark on facets that become lines; none if there are no such facets.
 /// @throws OutputError naming the face or vertex, and the remedy.
 std::vector<std::string> require_fits_stl(const std::filesystem::path& path, const PolygonMesh& mesh,
                                           Encoding encoding);
@@ -78,15 +78,15 @@ void write_stl(OutputFile& file, const PolygonMesh& mesh, Encoding encoding, con
 /// Rewrites a file read by read_stl with the positions of `mesh`: coordinates, and normals of facets that have moved.
 /// All else stays byte for byte: names of solids, title, attributes, facets that are lines.
 /// @param path for messages only. @param mesh with the faces of the file.
-/// @returns see remarks_on_lines.
+/// @returns a remark on facets that have become lines; none if there are no such facets.
 /// @throws OutputError also for coordinates beyond single precision in a binary file.
 std::vector<std::string> rewrite_stl(OutputFile& file, const std::filesystem::path& path, std::string_view content,
                                      const PolygonMesh& mesh, const Slicing& slicing);
 
-/// A sentence, if there are any, on triangles that have become lines.
+/// A sentence for the user on n triangles that have become lines; none if n is 0.
 std::vector<std::string> remarks_on_lines(const std::filesystem::path& path, std::int64_t n);
 
-/// See extras_of.
+/// Content besides the surface, in a few words each: names of solids, colours of the header, attributes of facets.
 std::vector<std::string> extras_of_stl(const std::filesystem::path& path, std::string_view content,
                                        const Slicing& slicing);
 

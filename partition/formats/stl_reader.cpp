@@ -37,6 +37,7 @@ std::uint64_t declared_facets(std::string_view file)
     return from_bytes<std::uint32_t>(file.data() + title_bytes, std::endian::little);
 }
 
+/// Reads a coordinate. One that is not finite is a fault, and is returned if faults are collected.
 float read_coordinate(ByteScanner& scanner)
 {
     const auto value = scanner.read<float>();
@@ -104,9 +105,8 @@ void read_facets(ByteScanner& scanner, std::uint64_t begin, std::uint64_t end, B
 }
 
 /// Reads a binary file.
-/// @param per_slice the number of facets of a slice. @param faults see read_stl.
-/// @throws InputError for a fault that `faults` does not collect; the message names it only if all facets are in one
-///         slice.
+/// @param per_slice the number of facets of a slice. @param faults if not null, collects faults instead of throwing.
+/// @throws InputError for a fault that `faults` does not collect; the message names it if all facets are in one slice.
 PolygonMesh read_binary(const std::filesystem::path& path, std::string_view file, std::uint64_t per_slice,
                         const Executor& exec, FaultLog* faults)
 {

@@ -39,7 +39,7 @@ WrittenNumbers floats_at(std::string_view bytes)
     return floats;
 }
 
-/// See scan_text_stl.
+/// A visitor for scan_text_stl that reads each facet with its normal and calls `visit` with it.
 template <class Visit>
 struct TextFacetVisitor {
     Visit& visit;
@@ -55,7 +55,7 @@ struct TextFacetVisitor {
     void facet() { visit(facet_so_far); }
 };
 
-/// Finds solids with names; see scan_text_stl.
+/// A visitor for scan_text_stl that finds solids with names.
 struct NameFinder {
     bool has_name = false;
 

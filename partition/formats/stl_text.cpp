@@ -95,7 +95,7 @@ std::vector<std::string_view> stl_slices_at_facets(const TextScanner& whole, std
 
 namespace {
 
-/// See scan_text_stl.
+/// A visitor for scan_text_stl that adds each facet to a collector.
 struct TextFacetReader {
     FacetCollector<double>& collector;
     std::array<FacetCollector<double>::Corner, 3> corners = {};
@@ -105,7 +105,8 @@ struct TextFacetReader {
 };
 
 /// Reads the mesh from the slices of a text.
-/// @param faults see read_stl. @throws InputError if there is any fault; the message names it if there is one slice.
+/// @param faults if not null, collects faults instead of throwing; null if there are several slices.
+/// @throws InputError for a fault that `faults` does not collect; the message names it if there is one slice.
 PolygonMesh read_text_slices(const TextScanner& whole, std::span<const std::string_view> slices, const Executor& exec,
                              FaultLog* faults)
 {
@@ -118,6 +119,7 @@ PolygonMesh read_text_slices(const TextScanner& whole, std::span<const std::stri
         const bool is_open = scan_text_stl(scanner, i > 0, reader);
         if (is_open && i + 1 == n)
             next_stl_line(scanner, "facet or endsolid");
+        // The next slice is read as if it began within a solid.
         if (!is_open && i + 1 < n)
             throw InputError("a solid ends too early");
         return collector.take_points(n == 1);

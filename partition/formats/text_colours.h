@@ -22,14 +22,15 @@ inline constexpr std::array<std::string_view, 4> colour_names = {"red", "green",
 /// #V by 4: red, green, blue, alpha. The alpha of a colour without alpha is 0.
 using TextColours = Eigen::Matrix<double, Eigen::Dynamic, colour_names.size()>;
 
-/// Reads the colours of vertices; see scan_vertex. Several threads may use one reader.
+/// A visitor for scan_vertex that reads the colours of vertices. Several threads may use one reader.
 struct ColourReader {
     /// One row per vertex.
     TextColours& colours;
     /// 3; or 4 if all colours must have alpha.
     Index n_components;
 
-    /// @throws InputError for a vertex without colour.
+    /// @throws InputError for a vertex with fewer than n_components numbers of a colour, or more than four, or one that
+    /// is not finite.
     void colour(Index v, TextScanner& scanner, std::size_t n_behind) const;
 };
 
@@ -71,11 +72,11 @@ class NewColours {
     const FileFields& fields_;
     std::array<Index, colour_names.size()> columns_ = no_columns;
     /// The largest value of a colour if colours are whole numbers: all colours of the file are whole and some exceed 1.
-    /// It is 255, or the largest value in the file. Nothing if colours are not whole.
+    /// It is 255, or the largest value in the file if that is larger. Nothing if colours are not whole.
     std::optional<double> largest_;
 };
 
-/// Writes the vertices of a file, or a slice of it, with new data; see scan_vertex.
+/// A visitor for scan_vertex that writes the vertices of a file, or a slice of it, with new data.
 struct VertexRewriter {
     Splicer splicer;
     const Points& positions;

@@ -36,6 +36,7 @@ void scan_vertex(TextScanner& scanner, Index v, const VertexLayout& layout, Visi
     {
         visitor.colour(v, scanner, std::size_t{});
     };
+    // Numbers are passed over only if something after them is read.
     const bool goes_on = visits_colour || scanner.crosses_lines();
     const auto pass_over = [&](Index n) {
         for (; goes_on && n > 0; --n)

@@ -111,6 +111,7 @@ void measure_box(const PolygonMesh& mesh, const Executor& exec, MeshInspection& 
         found.bits_for_detail = std::max(0, 53 - (std::ilogb(farthest) - std::ilogb(found.edge_lengths.mean)));
 }
 
+/// Whether a face has no area, although its positions are finite.
 bool lacks_area(const PolygonMesh& mesh, Index f)
 {
     const auto is_finite = [&](Index v) { return mesh.vertices.row(v).allFinite(); };

@@ -20,7 +20,7 @@ struct ElementCounts {
     Index edges = 0;
     /// The numbers of faces with 3, 4, 5, 6, and more sides.
     std::array<Index, 5> faces_by_sides{};
-    /// The number of components, connected through edges of two faces; faces that lie on each other count once.
+    /// The number of components, connected through edges of two faces; faces with the same vertices count once.
     Index components = 0;
     /// The number of edges with one face.
     Index boundary_edges = 0;
@@ -50,7 +50,8 @@ struct MeshDefects {
     std::vector<Index> vertices_not_finite;
     /// Edges of three faces or more.
     std::vector<Edge> non_manifold_edges;
-    /// Vertices on such edges, and vertices whose faces form several fans.
+    /// Vertices on such edges, and vertices whose faces form several fans, none of them open (see
+    /// VertexKind::NonManifold).
     std::vector<Index> non_manifold_vertices;
     /// Edges whose two faces run along them in the same direction, which means that the faces are oriented against each
     /// other.
@@ -71,7 +72,7 @@ struct MeshDefects {
     std::vector<Index> far_vertices;
     /// Vertices far from all of their neighbours (see find_spikes).
     std::vector<Index> spikes;
-    /// Pairs of faces that cross each other (see self_intersections); of faces that lie on each other, only the first
+    /// Pairs of faces that cross each other (see self_intersections); of faces with the same vertices, only the first
     /// counts.
     std::vector<FacePair> self_intersections;
 };
@@ -82,7 +83,8 @@ struct MeshInspection {
     EdgeLengths edge_lengths;
     MeshBox box;
     MeshDefects defects;
-    /// Gaps of a small fraction of an edge in the surface.
+    /// Gaps of a small fraction of an edge in the surface; nothing if there are none, or if welding does not close them
+    /// (see find_cracks).
     std::optional<Cracks> cracks;
     /// Whether the faces can be oriented consistently, unlike those of a Möbius band.
     bool orientable = true;

@@ -31,6 +31,7 @@ class ByteScanner final : public InputPosition {
         i_ = i;
     }
 
+    /// Reads the next number.
     /// @throws InputError if the file ends first.
     template <class Number>
     Number read()

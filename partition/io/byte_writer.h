@@ -86,6 +86,7 @@ class ByteWriter {
 
     /// The bytes that have been written, as far as they are still in memory.
     [[nodiscard]] std::string_view kept() const { return {bytes_.get(), used_}; }
+    /// Forgets the bytes that are in memory.
     void give_up() { used_ = 0; }
 
     /// Reserves memory for n more bytes.

@@ -23,7 +23,7 @@ struct FaultLog {
     /// The number of those faults that are collected even with of_faces_alone.
     std::uint64_t n_harmless = 0;
     /// The faces that were left out because they had fewer than three corners or one of them twice: their numbers in
-    /// the file, from 0, ascending.
+    /// the file, from 0, ascending; triangles without area that join strips are not counted.
     std::vector<Index> faces_left_out = {};
 
     void add(std::string message)

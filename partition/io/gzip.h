@@ -27,7 +27,7 @@ void unpack_gzip(const std::filesystem::path& path, std::string_view packed,
 /// A piece of a gzip file, packed independently of other pieces.
 struct PackedPiece {
     std::string bytes;
-    /// The checksum of the unpacked bytes.
+    /// The checksum and the number of the unpacked bytes.
     std::uint32_t checksum = 0;
     std::size_t size = 0;
 };

@@ -129,6 +129,7 @@ void OpenFile::unpack()
     take_content(unpacked);
 }
 
+/// Exchanges the content for that of another file. @throws InputError if the new content is empty.
 void OpenFile::take_content(OpenFile& other)
 {
     std::swap(descriptor_, other.descriptor_);

@@ -39,6 +39,7 @@ class InputPosition {
 
     /// Collects faults in `log` from now on; it must outlive the reading.
     void note_faults_in(FaultLog* log) { log_ = log; }
+    /// Whether all faults are collected, not only harmless ones.
     [[nodiscard]] bool notes_faults() const { return log_ != nullptr && !log_->of_faces_alone; }
 
   protected:
@@ -76,7 +77,7 @@ void add_once(std::vector<std::string>& list, std::string_view what);
 
 namespace fmt {
 
-/// See Quoted.
+/// Lets fmt::format write a Quoted as its text in quotation marks.
 template <>
 struct formatter<seamflow::Quoted> : formatter<std::string> {
 };

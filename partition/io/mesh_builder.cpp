@@ -71,6 +71,7 @@ void MeshBuilder::refuse_face(std::span<const Index> corners)
 void MeshBuilder::add_face(std::span<const Index> corners)
 {
     const Index number = n_faces_++;
+    // The fault of a corner without a vertex has been collected already, by refuse_vertex.
     if (position_.notes_faults() && std::find(corners.begin(), corners.end(), -1) != corners.end())
         return;
     if (!are_corners_of_face(corners, sorted_)) {

@@ -34,6 +34,8 @@ struct Shares {
     std::unique_ptr<Index[]> origins;
 };
 
+/// Divides the points of all lists into shares.
+/// @param begin for each list the number of points before it; then the number of all points.
 template <class Real>
 Shares<Real> divide(std::span<const std::vector<std::array<Real, 3>>> lists, const std::vector<Index>& begin,
                     const Executor& exec)

@@ -53,7 +53,8 @@ int open_unnamed(const std::filesystem::path& folder)
     return -1;
 }
 
-/// A file system that does not support this is no reason to fail.
+/// Has the system write all data of a file to the disk. A file system that does not support this is no reason to fail.
+/// @returns 0, or the error of the system.
 int synchronise(int descriptor)
 {
     const bool done = ::fsync(descriptor) == 0 || errno == EINVAL || errno == ENOTSUP || errno == EROFS;
@@ -162,6 +163,7 @@ void OutputFile::flush()
     give_up();
 }
 
+/// Appends bytes to the file, packed if its extension is `.gz`.
 void OutputFile::put(std::string_view bytes)
 {
     if (gzip_ == nullptr)
@@ -175,12 +177,14 @@ void OutputFile::put(std::string_view bytes)
     }
 }
 
+/// Appends bytes to the file as they are.
 void OutputFile::put_unpacked(std::string_view bytes)
 {
     write(bytes, n_written_);
     n_written_ += bytes.size();
 }
 
+/// Writes bytes at an offset; at the end, whatever the offset, if the file is standard output.
 void OutputFile::write(std::string_view bytes, std::size_t offset) const
 {
     while (!bytes.empty()) {
@@ -254,7 +258,8 @@ void OutputFile::give_temporary_name()
     temporary_ = std::move(name);
 }
 
-/// Does everything that may fail.
+/// Writes the rest of the file to the disk and closes it under a temporary name: does everything that may fail, except
+/// for renaming the file.
 void OutputFile::finish()
 {
     flush();
@@ -270,7 +275,8 @@ void OutputFile::finish()
         fail(errno);
 }
 
-/// Renames the file. After that the file exists and nothing may fail any more: this allocates no memory.
+/// Renames the file, which may fail. After that the file exists and nothing may fail any more: this allocates no
+/// memory.
 void OutputFile::take_name()
 {
     if (::rename(temporary_.c_str(), target_.c_str()) != 0)

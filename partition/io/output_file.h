@@ -14,7 +14,7 @@
 namespace seamflow {
 
 /// The file to which a path leads: symbolic links are followed, even to files that do not exist.
-/// @returns the path of a link only if links form a cycle.
+/// @returns the path itself if links form a cycle, or more than 40 links follow each other.
 std::filesystem::path file_behind(const std::filesystem::path& path);
 
 /// Reports why a file could not be written.

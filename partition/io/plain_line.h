@@ -12,7 +12,7 @@ namespace seamflow {
 /// function returns false if its kind of token does not come next; then nothing more can be read.
 class PlainLine {
   public:
-    /// @param begin of the line. @param end of the text.
+    /// @param begin of the line. @param end of the text. @param line_break the last character of each line.
     PlainLine(const char* begin, const char* end, char line_break)
         : next_(begin)
         , end_(end)
@@ -20,7 +20,7 @@ class PlainLine {
     {
     }
 
-    /// Reads a word of one letter at the beginning of the line.
+    /// Reads a word of one letter at the beginning of the line, with a space after it.
     bool keyword(char letter)
     {
         const bool is_here = end_ - next_ > 1 && next_[0] == letter && next_[1] == ' ';
@@ -59,7 +59,7 @@ class PlainLine {
         return ends_token();
     }
 
-    /// Whether the line ends here; if it does, skips its line break.
+    /// Whether the line ends here with a line break, which is skipped then; false at the end of the text.
     bool ends()
     {
         skip_spaces();

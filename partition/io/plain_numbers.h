@@ -37,13 +37,15 @@ inline std::uint64_t joined_digits(std::uint64_t digits)
 /// Reads digits, if there are any.
 /// @param end of the text, not of the digits.
 /// @param number receives the digits, appended to it.
-/// @returns the end of the digits; null if the number gets more than 18 digits or the text ends soon.
+/// @returns the end of the digits; null if the number gets more than 18 digits, or if fewer than eight bytes of the
+/// text are left where digits are read.
 inline const char* read_plain_digits(const char* first, const char* end, std::uint64_t& number)
 {
     constexpr std::size_t most_digits = 18;
     constexpr auto& powers = powers_of_ten<std::uint64_t, most_digits + 1>;
     while (end - first >= 8) {
-        // Digits become 0 to 9. In the other bytes the lowest one gets its upper bits set.
+        // Digits become 0 to 9. The first byte that is no digit gets its highest bit set in `others`, those of the
+        // digits before it do not.
         const std::uint64_t digits = from_bytes<std::uint64_t>(first, std::endian::little) ^ 0x3030303030303030U;
         const std::uint64_t others = ((digits + 0x7676767676767676U) | digits) & 0x8080808080808080U;
         const auto n = static_cast<unsigned>(std::countr_zero(others)) / 8U;
@@ -61,7 +63,7 @@ inline const char* read_plain_digits(const char* first, const char* end, std::ui
 /// Reads a number such as -12 or 0.125, correctly rounded.
 /// @param end of the text, not of the number.
 /// @returns the end of the number, after which an exponent may follow; null if the number has another form or too many
-///          digits, or if the text ends soon.
+///          digits, or if the text ends soon after it (see read_plain_digits).
 inline const char* read_plain_real(const char* first, const char* end, double& value)
 {
     // Digits and power of ten are exact, so that only the quotient is rounded: directly to a double, or to a wider

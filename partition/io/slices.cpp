@@ -13,8 +13,8 @@ namespace seamflow {
 
 namespace {
 
-/// Reserves memory for the parts, and for as much in each of the following slices, up to a multiple of the current
-/// size.
+/// Reserves memory for the parts and for those that follow, each as long as the longest of these, but for no more than
+/// nine times the values and parts so far.
 template <class Value>
 void make_room(std::vector<Value>& values, std::span<const PolygonMesh> parts, Index n_to_follow,
                std::vector<Value> PolygonMesh::*member)
@@ -31,6 +31,7 @@ void make_room(std::vector<Value>& values, std::span<const PolygonMesh> parts, I
     reserve_large(values, sum + std::min(usize(n_to_follow) * largest, most_growth * sum));
 }
 
+/// Appends the faces of parts to those of the mesh.
 /// @param n_to_follow the number of parts that will be appended afterwards.
 void append(PolygonMesh& mesh, std::span<const PolygonMesh> parts, Index n_to_follow)
 {

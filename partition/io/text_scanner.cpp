@@ -36,7 +36,8 @@ const char* after_plus(const char* first, const char* last)
     return last - first > 1 && *first == '+' && first[1] != '-' ? first + 1 : first;
 }
 
-/// from_chars, but correctly rounded to a zero where from_chars only reports "out of range".
+/// from_chars, but a number that is too small for a double, and not for a long double, becomes zero; from_chars only
+/// reports "out of range" for it.
 std::from_chars_result parse(const char* first, const char* last, double& value)
 {
     auto result = std::from_chars(first, last, value);
@@ -102,6 +103,7 @@ std::vector<std::string_view> TextScanner::slices(std::size_t bytes) const
     return result;
 }
 
+/// Makes the next line the present one, without blanks at its ends, its comment, and a backslash that continues it.
 void TextScanner::load_line()
 {
     ++line_;
@@ -123,6 +125,7 @@ void TextScanner::load_line()
         --line_end_;
 }
 
+/// Goes to the next token, also in further lines if the line is continued or line ends count as blanks.
 void TextScanner::skip_blanks()
 {
     while (true) {

@@ -85,9 +85,12 @@ class TextScanner final : public InputPosition {
     /// Skips n characters of the token that `peek` or `rest_of_token` returns.
     void skip(std::size_t n) { cursor_ += n; }
 
-    /// Reads the next token as a finite number, correctly rounded. A number too small to represent is zero.
+    /// Reads the next token as a finite number, correctly rounded. A number too small for a double is zero, unless it
+    /// is too small for a long double, too: that counts as not finite.
     /// @param what the expected thing ("a coordinate"), for the message.
-    /// @throws InputError if no token is left or it is not a finite number.
+    /// @returns NaN for a token that is not a finite number if faults are collected (see InputPosition::fault).
+    /// @throws InputError if no token is left; also for a token that is not a finite number if faults are not
+    /// collected.
     double real(const char* what);
 
     /// The next three tokens as the coordinates x, y and z.

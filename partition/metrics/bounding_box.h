@@ -18,8 +18,8 @@ struct BoundingBox {
     [[nodiscard]] double diagonal() const { return (high - low).norm(); }
 };
 
-/// The bounding box of the vertices that faces use. Positions that are not finite are ignored. A point if no position
-/// is left.
+/// The bounding box of the vertices that faces use. Positions that are not finite are ignored. If no position is left,
+/// the box is the origin.
 /// @param positions #V by 3. @pre every vertex named by a face exists.
 BoundingBox box_of_faces(const PolygonMesh& mesh, const Points& positions, const Executor& exec = run_serially);
 

@@ -15,7 +15,8 @@
 namespace seamflow {
 
 /// The numbers of points in an order that keeps neighbours together: halved again and again across the longest side of
-/// their box, at the beginnings of the nodes of a BoxTree (Bentley, Multidimensional Binary Search Trees, 1975).
+/// their box, where a node of a BoxTree over the points in this order begins (Bentley, Multidimensional Binary Search
+/// Trees, 1975).
 /// @param points finite.
 std::vector<Index> order_of_neighbours(std::span<const Point> points, const Executor& exec = run_serially);
 
@@ -74,7 +75,7 @@ class BoxTree {
     }
 
     /// Calls visit(i) for the leaves i of a node whose squared distance from p is less than a bound, near leaves first.
-    /// @param bound visits may lower it.
+    /// @param from the node. @param bound of the squared distance; visits may lower it.
     template <class Visit>
     void for_each_nearer(const Point& p, Node from, const double& bound, Visit&& visit) const
     {

@@ -12,7 +12,7 @@ namespace seamflow {
 
 namespace {
 
-/// Edges, or vertices twice for a vertex, each with one of their triangles.
+/// Edges, or single vertices written as an edge from the vertex to itself, each with one of its triangles.
 using Crowd = std::vector<std::pair<Edge, Index>>;
 
 /// Makes fans of the triangles of a crowd that are in no fan yet, where they are enough for a crowded fan.
@@ -38,6 +38,7 @@ void add_fans(Crowd crowd, std::vector<bool>& is_in_fan, std::vector<CrowdedFan>
 /// A bound of the rounding error of a unit vector.
 constexpr double direction_rounding = 32.0 * std::numeric_limits<double>::epsilon();
 
+/// A box that contains every unit vector: nothing is known about the direction.
 Box all_directions()
 {
     return {Point::Constant(-1.0), Point::Constant(1.0)};
@@ -64,6 +65,7 @@ Box directions_from(const Point& vertex, const std::array<Point, 2>& edge)
 {
     const Point one = Point(edge[0] - vertex).stableNormalized();
     const Point other = Point(edge[1] - vertex).stableNormalized();
+    // The height of the arc above its chord: 1 - cos(angle / 2), where half the chord is sin(angle / 2).
     const double bulge = 1.0 - std::sqrt(std::max(0.0, 1.0 - 0.25 * (one - other).squaredNorm())) + direction_rounding;
     const bool have_length = one.squaredNorm() > 0.5 && other.squaredNorm() > 0.5;
     // The condition is also true if the bulge is NaN.

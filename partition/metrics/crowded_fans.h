@@ -28,7 +28,8 @@ std::vector<CrowdedFan> crowded_fans_of(std::span<const Triangle> triangles, Ind
 /// Calls visit(i, j) for all pairs of triangles of a fan that may cross: around an edge, triangles in one plane on the
 /// same side of the edge; around a vertex, triangles in the same direction from it; and a few other pairs. For n
 /// triangles this takes n log n operations, if there are few such pairs.
-/// @param corners of each triangle, finite.
+/// @param corners the corners of each triangle of the fan, in any order; i and j are indices in this list, not numbers
+/// of CrowdedFan::triangles. @param positions #V by 3, finite at these corners.
 /// @param visit returns whether to continue.
 void for_each_pair_in_one_direction(const CrowdedFan& fan, std::span<const Triangle> corners, const Points& positions,
                                     const std::function<bool(Index i, Index j)>& visit);

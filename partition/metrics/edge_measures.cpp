@@ -17,7 +17,7 @@ struct LengthsOfEdges {
     double longest = 0.0;
     /// The number of half-edges.
     Index n = 0;
-    /// See has_needle.
+    /// Whether a face has edges of very different lengths (see has_needle).
     bool has_needles = false;
 };
 
@@ -44,7 +44,8 @@ LengthsOfEdges add_up_edges(const PolygonMesh& mesh, const Points& positions, st
         }
         lengths.total += around;
         lengths.longest = std::max(lengths.longest, longest);
-        // Only faces whose edges have a larger ratio than this, which are few, are tested for needles.
+        // Only faces whose edges have a larger ratio than this, which are few, are tested for needles, whose ratio
+        // exceeds 10.
         constexpr double much = 5.0;
         if (is_left_out.empty() && longest > much * shortest)
             lengths.has_needles = lengths.has_needles || has_needle(corners, positions);

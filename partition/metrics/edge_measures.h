@@ -10,9 +10,9 @@ namespace seamflow {
 
 /// The measures of edges that need all edges to be visited, once.
 struct EdgeMeasures {
-    /// See mean_edge_length.
+    /// The mean length of the half-edges, without those of spikes if these change it much (see mean_edge_length).
     double mean = 0.0;
-    /// See find_spikes.
+    /// The vertices far from all of their neighbours (see find_spikes).
     std::vector<Spike> spikes;
 };
 

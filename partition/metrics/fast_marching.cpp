@@ -27,6 +27,7 @@ double reach_across(const Point& u, double at_u, const Point& v, double at_v, co
         return never;
     const double x = (w - u).dot(v - u) / edge;
     const double y = std::sqrt(std::max((w - u).squaredNorm() - x * x, 0.0));
+    // Where the path to w crosses the edge u v, measured from u.
     const double comes_from = x - y * cosine / sine;
     return comes_from >= 0.0 && comes_from <= edge ? at_u + x * cosine + y * sine : never;
 }

@@ -17,7 +17,7 @@ std::vector<Index> flipped_faces(const PolygonMesh& mesh, const Points& before, 
 /// The flipped faces that oppose the faces around their vertices in the state `after`, and did not in the state
 /// `before`: the surface has folded there. Other flipped faces had been turned by noise before, or belong to regions
 /// that turned as a whole. Where faces are not oriented alike, folded faces may be missed.
-/// @param flipped see flipped_faces.
+/// @param flipped the result of flipped_faces for the same positions.
 std::vector<Index> folded_faces(const PolygonMesh& mesh, const Points& before, const Points& after,
                                 const std::vector<Index>& flipped);
 

@@ -109,10 +109,11 @@ std::vector<SheetSpoke> SheetOrder::around(Index h) const
         spokes.push_back(spoke_of(other, axis, first));
     std::ranges::sort(spokes, {}, [](const SheetSpoke& s) { return std::tuple(s.angle, s.halfedge); });
     begin_behind_gap(spokes);
-    // Across -π, where angles begin again, the gap is also small.
+    // After begin_behind_gap an angle near -π may follow one near π: their difference, about -2π, is also no gap.
     const auto lies_on = [](const SheetSpoke& one, const SheetSpoke& next) {
         return next.angle - one.angle <= smallest_angle;
     };
+    // Faces with the same corners have the same rate, bit for bit (see spoke_of).
     const auto have_same_corners = [](const SheetSpoke& one, const SheetSpoke& next) { return one.rate == next.rate; };
     for_each_run(std::span(spokes), lies_on, [&](std::span<SheetSpoke> together) {
         std::ranges::sort(together, {}, [](const SheetSpoke& s) { return std::tuple(s.rate, s.halfedge); });

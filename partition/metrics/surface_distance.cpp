@@ -179,9 +179,9 @@ class SurfaceDistance::Tree {
         /// point is further from the surface than the sum of distance and radius.
         [[nodiscard]] double reach() const { return distance + 2.0 * radius; }
 
-        /// The same for triangles in a plane in this direction from the centre. Seen from the point at p from the
-        /// centre, the foot is at most distance - p·foot/distance + p²/(2 distance) away, and the plane nearer by
-        /// p·direction than from the centre.
+        /// The same for triangles in a plane with this unit normal, which points from the centre to the plane. Seen
+        /// from the point at p from the centre, the foot is at most distance - p·foot/distance + p²/(2 distance) away,
+        /// and the plane nearer by p·direction than from the centre.
         [[nodiscard]] double reach(const Point& direction) const
         {
             const double bound =
@@ -228,6 +228,7 @@ SurfaceDistance::Tree::Answer SurfaceDistance::Tree::distance(const Point& p, co
 {
     const double offset = (p - candidates.group.centre).norm();
     double squared = foot_on(relative_to(p, triangles_[closest])).squared;
+    // The distance from the centre of the group beyond which a node is farther from p than the closest triangle so far.
     double reach = std::sqrt(squared) + offset;
     std::size_t n_examined = candidates.nodes.size();
     const auto examine = [&](Index i) {
@@ -287,6 +288,7 @@ SurfaceDistance::Tree::Candidates SurfaceDistance::Tree::narrowed(std::span<cons
         found.group.radius = std::max(found.group.radius, (points[v] - found.group.centre).norm());
     found.group.distance = distance(found.group.centre, candidates, closest).distance;
     found.group.foot = foot_on(relative_to(found.group.centre, triangles_[closest])).point;
+    // The distances of the candidates are from the centre of the larger group.
     const double reach = found.group.reach() + (found.group.centre - candidates.group.centre).norm();
     for (const Candidate& candidate : candidates.nodes)
         if (candidate.distance <= reach)

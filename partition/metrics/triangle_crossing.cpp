@@ -141,6 +141,7 @@ TriangleCorners seen_from(const Point& origin, const TriangleCorners& t)
     return {t[0] - origin, t[1] - origin, t[2] - origin};
 }
 
+/// Whether neither triangle has all its corners on one line, decided exactly.
 bool have_area(const TriangleCorners& a, const TriangleCorners& b)
 {
     return !exact::is_flat(a) && !exact::is_flat(b);

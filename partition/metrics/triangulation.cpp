@@ -58,7 +58,7 @@ class EarClipper {
 
     std::span<const Index> corners_;
     const Points& positions_;
-    /// One point per corner of the polygon.
+    /// For each corner of the polygon, its projection onto a plane normal to the vector area.
     std::vector<Point2> flat_;
     /// The remaining corners, as indices in `corners_`; and the ear at each.
     std::vector<std::size_t> left_;
@@ -140,6 +140,7 @@ void EarClipper::run(std::vector<Triangle>& triangles)
     triangles.push_back({vertex(0), vertex(1), vertex(2)});
 }
 
+/// The mean of the corners of a face.
 Point centre_of(std::span<const Index> face, const Points& positions)
 {
     Point sum = Point::Zero();

@@ -8,7 +8,8 @@
 
 namespace seamflow {
 
-/// The volume of the cone from an origin to a face, in length³; see volume_of_cones.
+/// The volume of the cone from an origin to a face, in length³, negative if the face is turned towards the origin. A
+/// polygon that is not planar is a fan around the mean of its corners.
 inline double cone_volume(std::span<const Index> corners, const Points& positions, const Point& origin)
 {
     Point mean = Point::Zero();
@@ -27,7 +28,8 @@ double volume_of_cones(const PolygonMesh& mesh, const Points& positions, const P
 /// its faces are not oriented alike. False without faces.
 bool encloses_volume(const PolygonMesh& mesh, const Executor& exec);
 
-/// The same for a part of the mesh: whether these faces, without the others, enclose a volume.
+/// Whether these faces of the mesh, without the others, enclose a volume: run along each edge as often in one direction
+/// as in the other. False without faces.
 bool encloses_volume(const PolygonMesh& mesh, std::span<const Index> faces);
 
 }  // namespace seamflow

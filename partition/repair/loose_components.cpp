@@ -68,7 +68,7 @@ void LooseComponents::collect_component(Index f, IndexLists& components)
     components.close();
 }
 
-/// Keeps all components of a part except the largest.
+/// Adds all components of a part except the largest to the loose components (components_).
 void LooseComponents::keep_loose_components(const IndexLists& components)
 {
     Index largest = 0;
@@ -86,7 +86,7 @@ void LooseComponents::keep_loose_components(const IndexLists& components)
     }
 }
 
-/// Finds the components of each suspect part, and keeps all but its largest as loose.
+/// Finds the components of each suspect part; all but its largest are loose.
 void LooseComponents::find(const std::vector<bool>& suspects, const Executor& exec)
 {
     component_of_.assign(labels_.size(), settled);

@@ -85,7 +85,8 @@ void PinchMender::find_runs(const Fan& fan)
     }
 }
 
-/// Returns the number of runs minus the number of labels; sets pinched_label_ if that is not zero.
+/// Returns the number of runs minus the number of labels in runs_; if that is not zero, sets pinched_label_ to a label
+/// with several runs.
 Index PinchMender::count_excess_runs()
 {
     ++call_;

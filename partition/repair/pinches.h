@@ -25,7 +25,8 @@ class PinchMender {
     /// of labels.
     void count_faces(const Executor& exec = run_serially);
 
-    /// The number of excess runs at v.
+    /// The number of excess runs at v: the number of runs minus the number of labels, summed over the fans of the mesh
+    /// at v.
     Index pinches_at(Index v);
 
     /// Moves faces at v to other parts until v is not pinched, in small steps. Each step is the best of a few
@@ -56,6 +57,7 @@ class PinchMender {
         Index parts_used_up;
         /// The change of the number of pinches at the vertices of the moved faces.
         Index pinches;
+        /// The number of moved faces.
         std::size_t faces;
         /// The change of the length of the edges between parts.
         double cut_length;

@@ -56,7 +56,7 @@ class VertexQueue {
 
 /// The parts and vertices to examine first.
 struct Suspects {
-    /// See join_loose_components.
+    /// One entry per label: whether the part may not be connected.
     std::vector<bool> parts;
     /// The vertices that are pinched, and perhaps others, ascending.
     std::vector<Index> vertices;
