@@ -101,6 +101,7 @@ DenoisedNormals denoise_at_once(const PolygonMesh& mesh, const Topology& topolog
         features.measure(estimates, estimator.vertex_averages(), exec);
         if (stage == 0) {
             found.noise = MixingNetwork(noise_weights()).apply(features, exec);
+            // The output of this network is the logarithm of the noise.
             for_each(exec, mesh.n_faces(), [&](Index f) { found.noise[f] = std::exp(found.noise[f]); });
         }
         normals = MixingNetwork(mixing_weights()[stage]).mix(estimates, features, exec);

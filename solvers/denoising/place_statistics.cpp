@@ -197,7 +197,8 @@ class Place {
         }
     }
 
-    /// @param column of TakenAway::displacements: 0 for the denoiser, 1 for the low-pass filter.
+    /// The statistics of one column of displacements. @param column of TakenAway::displacements: 0 for the denoiser, 1
+    /// for the low-pass filter.
     [[nodiscard]] TakenStatistics statistics_of(int column) const
     {
         std::vector<float> heights;
@@ -302,6 +303,7 @@ class Place {
         if (n < fewest_of_fit)
             return -1.0;
         const double rest = squares - right.dot(normal.ldlt().solve(right));
+        // Six of the n degrees of freedom are those of the fitted coefficients.
         return radius * std::sqrt(std::max(rest, 0.0) / (n - 6));
     }
 
@@ -310,6 +312,7 @@ class Place {
     {
         constexpr double rounding = 1e-9;
         std::vector<std::array<double, 2>> found;
+        // About a quarter of the vertices are near the middle and have fits.
         const std::size_t stride = std::max<std::size_t>(1, vertices_.size() / (4 * n_fits));
         for (std::size_t i = 0; i < vertices_.size() && found.size() < n_fits; i += stride) {
             if (counts_[i] == 0 || is_near_[i] == 0)

@@ -27,7 +27,8 @@ constexpr std::array<double, 2> edge_keeping_amounts{8.0, 32.0};
 
 /// The smoothing that is tried on surfaces of one size.
 struct Trial {
-    /// The amounts, ascending. A larger one is used only at places where the smaller one was better than none.
+    /// The amounts, ascending. A larger one is tried only in components in which the smaller one replaced some place,
+    /// and used only at places that it makes smoother still.
     std::span<const double> amounts;
     /// The mean squared motion around a place, in squares of edge lengths, up to which the place may be replaced.
     float replaced_up_to;

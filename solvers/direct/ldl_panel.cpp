@@ -85,7 +85,7 @@ template <class Vector, class Number, class Use>
     }
 }
 
-/// The number of the first columns, of some ascending columns, that lie within `width` consecutive columns.
+/// How many of some ascending columns, from the first on, lie within `width` consecutive columns.
 [[gnu::always_inline]] inline Index count_neighbours(const Index* columns, Index n, Index width)
 {
     Index count = 1;

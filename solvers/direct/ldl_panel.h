@@ -46,7 +46,7 @@ template <Index Length, class Number>
 void forward_substitute_panel(const LdlPanel<Number>& panel, Number* x);
 
 /// Solves for the unknowns of a panel's columns, given the unknowns of its other rows.
-/// @tparam Length see forward_substitute_panel. @param x see forward_substitute_panel.
+/// @tparam Length as for forward_substitute_panel. @param x all unknowns by Length, row by row.
 template <Index Length, class Number>
 void back_substitute_panel(const LdlPanel<Number>& panel, Number* x);
 

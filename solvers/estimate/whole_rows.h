@@ -38,7 +38,8 @@ class WholeRows {
     /// A face of the mesh, and the data of a step in it.
     struct Face {
         Index index;
-        /// See PtackovaVelho::flux_map, with b and |f| at Vᵏ, and x = Vᵏ⁺¹.
+        /// The map from the edge vectors of the face to the fluxes across its edges (see PtackovaVelho::flux_map), with
+        /// the bisectors b and the area |f| at Vᵏ, and x = Vᵏ⁺¹.
         Eigen::Matrix3d flux;
         double area;
         /// The face's share in M_v ΔV at each of its corners.

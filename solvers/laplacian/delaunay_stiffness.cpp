@@ -109,9 +109,10 @@ Lists<Index> edges_by_length(const IntrinsicTriangles& triangles)
 
 /// Moves the weight of one half-edge of an obtuse triangle, opposite to the obtuse angle, towards 0. With the weights w
 /// of this edge and x, y of the others, 4 (x y + w x + w y) = 1, K of the triangle is the sum of K of the slope along
-/// this edge, 1 / 4 (x + y), and of the bend across it: w = 1 / 4 (x + y) - b x y / (x + y) with b = 1.
+/// this edge, with the weight 1 / (4 (x + y)), and of the bend across it: w = 1 / (4 (x + y)) - b x y / (x + y) with b
+/// = 1. A smaller b gives the new weight; x and y are multiplied by it.
 /// @param weight the new weight of half-edge h. @param weights per half-edge; changed in the triangle of h.
-void soften(Index h, double weight, std::vector<double>& weights)
+void reduce_bend_term(Index h, double weight, std::vector<double>& weights)
 {
     double& x = weights[IntrinsicTriangles::next(h)];
     double& y = weights[IntrinsicTriangles::previous(h)];
@@ -140,7 +141,8 @@ std::vector<double> softened_weights(const IntrinsicTriangles& triangles, const 
         if (above + below < 0.0 && (topology.moves(v) || topology.moves(w)))
             for (const Index h : edges[e])
                 if (weights[h] < 0.0)
-                    soften(h, above / -below * weights[h], weights);
+                    // Afterwards the weights of the half-edges of this edge add up to 0.
+                    reduce_bend_term(h, above / -below * weights[h], weights);
         double sum = 0.0;
         for (const Index h : edges[e])
             sum += weights[h];

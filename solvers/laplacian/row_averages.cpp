@@ -12,6 +12,7 @@ namespace seamflow {
 
 namespace {
 
+/// About as many vertices are looked at.
 constexpr Index sample_size = 512;
 
 }  // namespace

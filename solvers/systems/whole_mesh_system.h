@@ -49,7 +49,8 @@ class WholeMeshSystem {
     /// @param before #V by 3: Vᵏ. @param time_step dt, in length².
     /// @param stop relative to the residual at Vᵏ⁺¹ = Vᵏ, in the norm of the inverse of the diagonal.
     /// @param after #V by 3, in other memory than Vᵏ: receives Vᵏ⁺¹; fixed vertices keep their positions.
-    /// @param guess #V by 3: iterations begin with it if its residual is smaller than that of Vᵏ; may be null.
+    /// @param guess #V by 3: iterations begin with it if its residual is smaller than that of Vᵏ; may be null. Not used
+    /// in flows that keep M.
     Result step(const Points& before, double time_step, const IterationStop& stop, Points& after, const Executor& exec,
                 const Points* guess = nullptr);
 
