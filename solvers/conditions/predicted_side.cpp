@@ -23,7 +23,7 @@ enum class RowKind : std::uint8_t {
     Robin,
 };
 
-/// See make_predicted_side.
+/// The condition that make_predicted_side describes.
 class PredictedSide final : public TransmissionCondition {
   public:
     PredictedSide(const SubMesh& sub_mesh, const ScaledLaplacian& laplacian, const Points* stiffness_at)

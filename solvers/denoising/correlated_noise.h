@@ -28,8 +28,9 @@ namespace seamflow {
 /// are run.
 class CorrelatedNoise {
   public:
-    /// @param topology twins are not used. @param averages of the mesh. @param signs #F: see face_signs. All of these
-    /// must outlive the object. @param before #V by 3.
+    /// @param topology twins are not used. @param averages of the mesh. @param signs #F: 1 or -1, by which vector areas
+    /// are multiplied so that they point to one side (see face_signs); or empty. All of these must outlive the object.
+    /// @param before #V by 3.
     CorrelatedNoise(const PolygonMesh& mesh, const Topology& topology, const VertexAverages& averages,
                     std::span<const std::int8_t> signs, const Points& before, const Executor& exec = run_serially);
 

@@ -55,7 +55,8 @@ class MeshDenoiser {
     /// @param mesh, topology must outlive the object; the twins of the topology are not needed later.
     /// @param edge_angle between the normals of faces, in degrees: the angle of the edges that take_smoother_places
     /// keeps; empty: that is not called. @param as_one whether all components together have noise or none.
-    /// @param n_thinned how often the mesh has been thinned. @param least_evidence see NoisyPlaces.
+    /// @param n_thinned how often the mesh has been thinned. @param least_evidence the evidence of noise that a
+    /// component needs (see NoisyPlaces).
     MeshDenoiser(const PolygonMesh& mesh, const Topology& topology, const Executor& exec = run_serially,
                  std::optional<double> edge_angle = default_edge_angle, bool as_one = false, int n_thinned = 0,
                  float least_evidence = 0.0F);

@@ -68,7 +68,7 @@ class Autocorrelation {
             }
     }
 
-    /// See TakenStatistics::revival.
+    /// The largest rise of the autocorrelation after it has fallen (see TakenStatistics::revival).
     [[nodiscard]] float revival() const
     {
         float most = 0.0F;
@@ -137,7 +137,7 @@ class Place {
         locate();
     }
 
-    /// See measure_place.
+    /// The statistics of the vertices that count (see counts_).
     [[nodiscard]] PlaceStatistics statistics() const
     {
         PlaceStatistics found;
@@ -211,7 +211,8 @@ class Place {
         return {median_of(sizes), correlation(heights), revival(heights), kurtosis(heights)};
     }
 
-    /// See TakenStatistics. @param heights displacements to one side of the surface, one per vertex of vertices_.
+    /// The correlation at the two ends of edges (see TakenStatistics). @param heights displacements to one side of the
+    /// surface, one per vertex of vertices_.
     [[nodiscard]] float correlation(std::span<const float> heights) const
     {
         float products = 0.0F;
@@ -231,7 +232,7 @@ class Place {
         return squares > 0.0F ? products / squares : 0.0F;
     }
 
-    /// See TakenStatistics, and `correlation`.
+    /// The revival of the heights at vertices that face the middle (see TakenStatistics).
     [[nodiscard]] float revival(std::span<const float> heights) const
     {
         std::vector<Eigen::Vector2f> points;
@@ -256,7 +257,7 @@ class Place {
         return Autocorrelation(points, numbers).revival();
     }
 
-    /// See TakenStatistics, and `correlation`.
+    /// The kurtosis of the heights (see TakenStatistics).
     [[nodiscard]] float kurtosis(std::span<const float> heights) const
     {
         double n = 0.0;
@@ -307,7 +308,7 @@ class Place {
         return radius * std::sqrt(std::max(rest, 0.0) / (n - 6));
     }
 
-    /// See PlaceStatistics::smoothness.
+    /// The power of the radius with which the least residuals grow (see PlaceStatistics::smoothness).
     [[nodiscard]] float smoothness() const
     {
         constexpr double rounding = 1e-9;

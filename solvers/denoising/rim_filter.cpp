@@ -84,7 +84,8 @@ struct Distances {
 };
 
 /// Whether a curve has noise or stairs, and not a shape that was made to look like that.
-/// @param smoothness see SmoothCurve. @param is_on_noise whether the surface around the curve has noise.
+/// @param smoothness one per vertex: near 0 at corners, near 1 elsewhere. @param is_on_noise whether the surface around
+/// the curve has noise.
 bool is_noisy(const Distances& distances, const std::vector<double>& smoothness, bool is_on_noise)
 {
     double corners = 0.0;

@@ -36,8 +36,8 @@ struct Trial {
 constexpr Trial of_small_surfaces{edge_keeping_amounts, 0.15F * 0.15F};
 /// A large surface has wide bends; and with more noise, smoothing takes too long for the little that is gained.
 constexpr Trial of_large_surfaces{std::span(edge_keeping_amounts).last(1), 0.08F * 0.08F};
-/// A place may not be replaced if the mean motion is more than this multiple of the limit; between the limit and this,
-/// results are blended.
+/// A place may not be replaced if the mean squared motion is more than this multiple of replaced_up_to; between that
+/// limit and this multiple of it, results are blended.
 constexpr float replaced_below = 1.7F;
 /// The largest mean motion around a place, over the mean motion of the denoised surface. That surface keeps some noise,
 /// relatively more where there is less noise: below little_motion, in edge lengths, the factor is larger.

@@ -15,7 +15,7 @@ struct DenoisedSurface {
     const Topology& topology;
     /// #V by 3: the noisy positions.
     const Points& before;
-    /// #F by 3: the wanted normals, to which the vertices were fitted.
+    /// #F by 3: the estimated normals, to which the vertices were fitted.
     const Points& normals;
     /// #V: the share of its displacement that each vertex moves by, from 0 to 1.
     std::span<const double> shares;

@@ -99,7 +99,7 @@ struct Settings {
     Settings& operator=(const Settings&) = delete;
 };
 
-/// See make_cholmod_llt.
+/// CHOLMOD's L Lᵀ behind the interface of direct solvers (see make_cholmod_llt).
 /// @tparam Interface CholmodInt or CholmodLong.
 template <class Interface>
 class CholmodLlt final : public DirectSolver {

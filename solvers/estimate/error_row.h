@@ -26,8 +26,8 @@ struct ErrorRow {
     /// The response of the vertices beyond Γ, in the unit of T: the sum of their couplings, each times e^-θ.
     double response = 0.0;
     Point residual = Point::Zero();
-    /// The unit normal of the surface at Vᵏ, with Δ_F the normal of the sub-mesh's own side; zero where the surface has
-    /// none.
+    /// The unit normal of the surface at Vᵏ, with Δ_F and Δ_U (Laplacian::Uniform) the normal of the sub-mesh's own
+    /// side; zero where the surface has none.
     Point normal = Point::Zero();
 };
 

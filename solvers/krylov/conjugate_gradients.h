@@ -86,7 +86,7 @@ inline double largest_ratio(const Point& norms, const Point& first)
 }
 
 /// Moves x along p to the least energy, and updates r.
-/// @param multiply see PreconditionedEquations.
+/// @param multiply multiply(p, q) makes q = A p.
 inline void advance(const MapPoints& multiply, Points& x, ConjugateGradientVectors& v, const Executor& exec)
 {
     // q = A p

@@ -19,7 +19,8 @@ namespace {
 constexpr double negligible_weight = 1e-8;
 
 /// Whether an off-diagonal entry K_vw of a row is positive, which means that the weight -K_vw is negative.
-/// @param entries of the row, in any order; sorted. @param in_faces see make_delaunay.
+/// @param entries of the row, one per face and other vertex, in any order; sorted. @param in_faces whether the entries
+/// of each single face count, too.
 bool has_negative_weight(std::vector<std::pair<Index, double>>& entries, bool in_faces)
 {
     if (in_faces && std::ranges::any_of(entries, [](const auto& e) { return e.second > negligible_weight; }))

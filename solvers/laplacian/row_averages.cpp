@@ -12,7 +12,7 @@ namespace seamflow {
 
 namespace {
 
-/// About as many vertices are looked at.
+/// About this many vertices, evenly spread, are averaged over.
 constexpr Index sample_size = 512;
 
 }  // namespace
