@@ -25,6 +25,8 @@ bool is_in_proportion(std::span<const Index> fan, const IndexLists& faces, const
     double diagonal = 0.0;
     for (const Index f : fan)
         diagonal += 1.0 - 1.0 / static_cast<double>(faces[f].size());
+    // A neighbour along Γ has ±α and, for each of its faces in the fan, -1/p with p at least 3: rarely more than |α| +
+    // 1.
     const double largest = std::max(diagonal, std::abs(conormal.alpha) + 1.0) * edge / conormal.norm;
     return diagonal * edge / conormal.norm > least_diagonal && largest < largest_coefficient;
 }

@@ -22,8 +22,8 @@ enum class RightSide {
 /// \f[ (I + dt\, (p\, \partial_{n_A} + q\, \partial_t))\, V_A^{k+1} = (I - dt\, p\, \partial_{n_B})\, V_B , \f]
 ///
 /// with A the sub-mesh and B the complement fan, each with its own outward conormal, α and ‖N‖ from Vᵏ. In the paper
-/// V_B is V_B^k. Where one of the two conormals does not exist, p counts as 0 and the vertex does not move. With
-/// RightSide::OthersCopy, these are the classical conditions (see make_ventcell).
+/// V_B is V_B^k. Where one of the two conormals does not exist, p counts as 0; with q = 0 and RightSide::Own, the
+/// vertex then does not move. With RightSide::OthersCopy, these are the classical conditions (see make_ventcell).
 class AdaptedRobin final : public TransmissionCondition {
   public:
     /// @param sub_mesh must outlive the condition. @param q at least 0, without dimension.
@@ -37,9 +37,9 @@ class AdaptedRobin final : public TransmissionCondition {
     /// The stencils of the derivatives, whose columns are the condition's.
     [[nodiscard]] const DerivativeStencils& stencils() const { return stencils_; }
 
-    /// Whether the condition can be used at the i-th vertex: the two conormals exist, point away from each other, and
-    /// have derivatives whose coefficients are in proportion to the edges around. Otherwise the condition would let the
-    /// vertex jump.
+    /// Whether the condition can be used at the i-th vertex: the two conormals exist and point away from each other,
+    /// the two neighbours along Γ are not too near each other, and both sides have derivatives whose coefficients are
+    /// in proportion to the edges around. Otherwise the condition would let the vertex jump.
     [[nodiscard]] bool is_well_defined(Index i, const Points& positions) const;
 
   private:

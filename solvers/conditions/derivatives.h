@@ -25,7 +25,7 @@ struct DerivativeStencils {
 DerivativeStencils make_derivative_stencils(const SubMesh& sub_mesh);
 
 /// The outward conormal N / ‖N‖ of a fan of faces at the i-th vertex of Γ (paper, Definition newNormalDerivative), with
-/// N = S - ατ, S = Σ_f (v - c_f), τ = v_after - v_before, α = ⟨S, τ⟩ / ⟨τ, τ⟩.
+/// N = S - ατ, S = Σ_f (v - c_f), c_f being the centroid of face f, τ = v_after - v_before, α = ⟨S, τ⟩ / ⟨τ, τ⟩.
 struct Conormal {
     double alpha = 0.0;
     /// ‖N‖, in length.
@@ -42,8 +42,8 @@ std::optional<Conormal> own_conormal(const SubMesh& sub_mesh, Index i, const Poi
 std::optional<Conormal> complement_conormal(const SubMesh& sub_mesh, Index i, const Points& positions);
 
 /// The row of ∂n at the i-th vertex of Γ, linear in the positions because α and ‖N‖ are constants: (Σ_f (e_i - Σ_{k∈f}
-/// e_k / p_f) - α (e_after - e_before)) / ‖N‖, in 1/length. Applied to the positions from which the conormal was
-/// computed, the row gives the conormal.
+/// e_k / p_f) - α (e_after - e_before)) / ‖N‖, in 1/length, with e_i the unit row of vertex i and p_f the number of
+/// corners of f. Applied to the positions from which the conormal was computed, the row gives the conormal.
 /// @param row receives one coefficient per vertex of the stencil.
 void normal_derivative_row(const SubMesh& sub_mesh, const DerivativeStencils& stencils, Index i,
                            const Conormal& conormal, std::span<double> row);

@@ -19,10 +19,11 @@ enum class RowKind : std::uint8_t {
     Responding,
     /// The row of the undecomposed step, in which the other side has the predicted positions.
     Fixed,
+    /// The row of AdaptedRobin.
     Robin,
 };
 
-/// See make_predicted_side.
+/// The condition that make_predicted_side describes.
 class PredictedSide final : public TransmissionCondition {
   public:
     PredictedSide(const SubMesh& sub_mesh, const ScaledLaplacian& laplacian, const Points* stiffness_at)
@@ -49,7 +50,7 @@ class PredictedSide final : public TransmissionCondition {
         robin_.begin_step(positions, other_side, time_step, p);
         for (Index i = 0; i < sub_mesh_->interface.size(); ++i)
             kinds_[i] = choose_kind(i, positions);
-        keep_responses(positions);
+        compute_responses(positions);
     }
 
     void left_hand_side(Index i, const Points& positions, std::span<double> row) const override
@@ -95,8 +96,9 @@ class PredictedSide final : public TransmissionCondition {
         columns_.close();
     }
 
-    /// The kind of row i for the geometry of this step: with a response of the other side wherever the Laplacian allows
-    /// it and its diagonal stays at least 0.
+    /// The kind of row i for the geometry of this step: Responding wherever the Laplacian allows it and its diagonal
+    /// stays at least 0, Fixed where the diagonal would not; elsewhere Robin where it is well defined, and otherwise
+    /// Fixed.
     [[nodiscard]] RowKind choose_kind(Index i, const Points& positions) const
     {
         if (!responds_[i])
@@ -120,7 +122,7 @@ class PredictedSide final : public TransmissionCondition {
     }
 
     /// Fills responses_: ρ of the vertices beyond Γ in all rows where the other side responds, 0 elsewhere.
-    void keep_responses(const Points& positions)
+    void compute_responses(const Points& positions)
     {
         responses_.assign(star_.columns().values.size(), 0.0);
         for (Index i = 0; i < sub_mesh_->interface.size(); ++i) {

@@ -18,14 +18,16 @@ bool responds_at(const SubMesh& sub_mesh, Laplacian laplacian, Index i);
 ///
 /// Where the Laplacian allows (it reaches along edges alone: Δ_F, Laplacian::Fujiwara, and Δ_U, Laplacian::Uniform;
 /// Δ_A, Laplacian::AlexaWardetzky, and Δ_B, Laplacian::VirtualRefinement, where all faces at the vertex are triangles)
-/// the row is that of the undecomposed step, V_v + dt Σⱼ aⱼ Vⱼ = V_v^k, with each vertex w beyond Γ replaced by Ŵ_w +
-/// ρ_w (V_v - V_v^k), its response to Γ. ρ = e^{-θ}, cosh θ = 1 + d² / 2dt, is the fraction of a disturbance that is
-/// left at distance d (see remainder_between). Such a row is a Robin condition with the coefficient 1/√dt, whose
-/// derivative has the form of the Laplacian itself. Elsewhere the row is that of AdaptedRobin, and where this is not
-/// well defined, the row of the undecomposed step with Ŵ as it is (with the rows of Δ_A for Δ_P,
-/// Laplacian::PtackovaVelho).
+/// the row is that of the undecomposed step, V_v + dt Σⱼ aⱼ Vⱼ = V_v^k, a being the row of the Laplacian, with each
+/// vertex w beyond Γ replaced by Ŵ_w + ρ_w (V_v - V_v^k), its response to Γ. ρ = e^{-θ}, cosh θ = 1 + d² / (2 dt), is
+/// the fraction of a disturbance that is left at distance d (see remainder_between). Such a row is a Robin condition
+/// with the coefficient 1/√dt, whose derivative has the form of the Laplacian itself. Where the responses would make
+/// the diagonal of the Laplacian negative (obtuse triangles), there are none: Ŵ stays as it is. Elsewhere the row is
+/// that of AdaptedRobin, and where this is not well defined, the row of the undecomposed step with Ŵ as it is (with the
+/// rows of Δ_A for Δ_P, Laplacian::PtackovaVelho).
 /// @param sub_mesh must outlive the condition.
-/// @param stiffness_at see StarLaplacian; needed only during the call.
+/// @param stiffness_at #local by 3, the halo included: positions whose K is kept; nullptr: K follows the mesh. Needed
+/// only during the call.
 std::unique_ptr<TransmissionCondition> make_predicted_side(const SubMesh& sub_mesh, const ScaledLaplacian& laplacian,
                                                            const Points* stiffness_at = nullptr);
 

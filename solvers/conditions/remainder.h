@@ -7,7 +7,7 @@
 namespace seamflow {
 
 /// The fraction of a disturbance at one point that reaches another point in one backward Euler step of diffusion on a
-/// line: e^-θ with cosh θ = 1 + d² / 2 dt, d being the distance of the points.
+/// line: e^-θ with cosh θ = 1 + d² / (2 dt), d being the distance of the points.
 /// @param time_step dt, in length².
 inline double remainder_between(const Points& positions, Index from, Index to, double time_step)
 {

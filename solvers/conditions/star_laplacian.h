@@ -16,7 +16,8 @@ class StarLaplacian {
   public:
     /// @param sub_mesh needed only during construction.
     /// @param laplacian one that reaches no further than the faces of a vertex (see Reach).
-    /// @param stiffness_at #local by 3, the halo included: positions whose K is kept; nullptr: K follows the mesh.
+    /// @param stiffness_at #local by 3, the halo included: positions whose stiffness matrix K is kept; nullptr: K
+    /// follows the mesh.
     StarLaplacian(const SubMesh& sub_mesh, const ScaledLaplacian& laplacian, const Points* stiffness_at = nullptr);
 
     /// The vertices (local, the halo included) on which each row depends, ascending; one list per vertex of Γ.

@@ -46,7 +46,7 @@ void visit_chebyshev_basis(const FilterSample& sample, const Signals& signals, I
     Signals term = signals;
     visit(0, term);
     for (Index j = 1; j < n_terms; ++j) {
-        // T₁ = x T₀, Tⱼ = 2 x Tⱼ₋₁ - Tⱼ₋₂, stored in place of Tⱼ₋₂.
+        // With x = L - 1: T₁ = x T₀, Tⱼ = 2 x Tⱼ₋₁ - Tⱼ₋₂, stored in place of Tⱼ₋₂.
         for_each(exec, sample.neighbours.size(), [&](Index i) {
             const Eigen::RowVector4d next = shifted_laplacian(sample, term, i);
             if (j == 1)

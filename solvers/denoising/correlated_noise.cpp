@@ -16,6 +16,7 @@ namespace {
 constexpr int rounds_of_vertex_normals = 3;
 constexpr int rounds_of_edges = 4;
 constexpr int rounds_of_places = 30;
+/// The difference of two neighbouring lags, in edges.
 constexpr double width_of_lags = 0.5;
 /// The lengths that are tried for correlated noise, in edges: at this distance the correlation is exp(-1/4).
 constexpr std::array<double, 7> correlation_lengths{0.35, 0.5, 0.7, 1.0, 1.4, 2.0, 2.8};
@@ -66,7 +67,7 @@ double gaussian_at(double distance, double length)
     return std::exp(-distance * distance / (4.0 * length * length));
 }
 
-/// The correlation of white noise at a distance in edges: 1 within the first lag, 0 beyond.
+/// The correlation of white noise at a distance in edges: 1 below half the difference of two lags, 0 beyond.
 double white_at(double distance)
 {
     return distance < 0.5 * width_of_lags ? 1.0 : 0.0;
@@ -101,6 +102,7 @@ TwoNoises fitted_noise(const LocalFits::Kernel& kernel, std::span<const double> 
         const std::vector<double> of_correlated =
             residual_covariances(kernel, lags, [&](double d) { return gaussian_at(d, length); });
         const Column a(of_correlated.data(), size);
+        // The normal equations of y = white w + correlated a, solved by Cramer's rule.
         const double ww = (w * w).sum();
         const double aa = (a * a).sum();
         const double wa = (w * a).sum();
@@ -276,7 +278,8 @@ Points CorrelatedNoise::without(const Executor& exec) const
     if (!(variance > 0.0))
         return before_;
     Points result = before_;
-    std::vector<double> of_vertices(edges_.size(), radii.front());
+    // #V: the mean of the radii by their weights, with which the result is fitted once more.
+    std::vector<double> mean_radii(edges_.size(), radii.front());
     for_each(exec, mesh_.n_vertices(), [&](Index v) {
         const auto corners = topology_.corners_at(v);
         if (corners.empty())
@@ -286,18 +289,20 @@ Points CorrelatedNoise::without(const Executor& exec) const
             squares += squares_.row(topology_.face_of[corner]).cast<double>().array();
         squares /= static_cast<double>(corners.size());
         const double share = std::clamp(squares[0] / calm_squares_[0], least_share_of_noise, most_share_of_noise);
+        // Squares at the place are divided by its share of noise, so that all risks are those at the noise of the
+        // calmer half.
         const OfRadii risks =
             (1.0 - part_of_calm) / share * squares + part_of_calm * calm_squares_ + 2.0 * shared_ - variance;
         // Radii with nearly the least risk are mixed, so that the result does not jump from one radius to another.
         OfRadii weights = ((risks.minCoeff() - risks) / (risk_temperature * variance)).exp();
         weights /= weights.sum();
-        of_vertices[v] = (weights * Eigen::Map<const OfRadii>(radii.data())).sum();
+        mean_radii[v] = (weights * Eigen::Map<const OfRadii>(radii.data())).sum();
         if (topology_.fixed[v] == 0)
             result.row(v) += edge_at(v) * (weights * heights_.row(v).array()).sum() * normals_.row(v);
     });
     const Points normals = normals_of(result, 0, exec);
     const std::vector<double> heights =
-        LocalFits(averages_.neighbours(), result, normals).heights_within(of_vertices, exec);
+        LocalFits(averages_.neighbours(), result, normals).heights_within(mean_radii, exec);
     for_each(exec, mesh_.n_vertices(), [&](Index v) {
         if (topology_.fixed[v] == 0)
             result.row(v) += heights[v] * normals.row(v);

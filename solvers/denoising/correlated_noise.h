@@ -28,21 +28,23 @@ namespace seamflow {
 /// are run.
 class CorrelatedNoise {
   public:
-    /// @param topology twins are not used. @param averages of the mesh. @param signs #F: see face_signs. All of these
-    /// must outlive the object. @param before #V by 3.
+    /// @param topology twins are not used. @param averages of the mesh. @param signs #F: 1 or -1, by which vector areas
+    /// are multiplied so that they point to one side (see face_signs); or empty. All of these must outlive the object.
+    /// @param before #V by 3.
     CorrelatedNoise(const PolygonMesh& mesh, const Topology& topology, const VertexAverages& averages,
                     std::span<const std::int8_t> signs, const Points& before, const Executor& exec = run_serially);
 
-    /// The standard deviation of the correlated noise along the normals, in lengths of the edges at each vertex. On
-    /// surfaces with white noise alone, it was found up to twice too large.
+    /// The standard deviation of the noise along the normals, white and correlated noise together, in lengths of the
+    /// edges at each vertex. On surfaces with white noise alone, it was found up to twice too large.
     [[nodiscard]] double deviation() const { return std::sqrt(covariances_[0]); }
 
     /// Whether the surface has as much correlated noise, beside white noise, as scanners leave. Hardly any, far more
-    /// than white noise, or the largest length tried is rather shape than noise.
+    /// than white noise, or the largest length tried is rather shape than noise. False also if fits would reduce the
+    /// risk by hardly anything (see least_risk).
     [[nodiscard]] bool is_plausible() const;
 
     /// The risk of the best fits over the risk of leaving the surface as it is: above 1 if fits would remove more than
-    /// noise.
+    /// noise; infinite if there is no noise.
     [[nodiscard]] double least_risk() const;
 
     /// #V by 3: the positions without the correlated noise. Fixed vertices keep their positions.

@@ -26,7 +26,8 @@ constexpr int rings_near_rims = 3;
 constexpr float sigma_near_rims = 0.4F;
 
 /// The normals, scaled to length 1, each turned to the side of its face's vector area.
-/// @param signs see face_signs; empty: 1 for all.
+/// @param signs #F: -1 for faces whose vector areas point to the other side than the normals (see face_signs),
+/// otherwise 1; empty: 1 for all.
 Points own_sides(const FaceVectors& normals, const std::vector<std::int8_t>& signs, const Executor& exec)
 {
     Points result(normals.rows(), 3);
@@ -101,6 +102,7 @@ DenoisedNormals denoise_at_once(const PolygonMesh& mesh, const Topology& topolog
         features.measure(estimates, estimator.vertex_averages(), exec);
         if (stage == 0) {
             found.noise = MixingNetwork(noise_weights()).apply(features, exec);
+            // The output of this network is the logarithm of the noise.
             for_each(exec, mesh.n_faces(), [&](Index f) { found.noise[f] = std::exp(found.noise[f]); });
         }
         normals = MixingNetwork(mixing_weights()[stage]).mix(estimates, features, exec);

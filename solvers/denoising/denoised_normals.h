@@ -11,8 +11,8 @@ namespace seamflow {
 
 /// Estimates of the true surface of a noisy mesh.
 struct DenoisedNormals {
-    /// #F by 3: estimated normals, of length 1, on the side of the face's own normal in oriented meshes; 0 for faces
-    /// without area.
+    /// #F by 3: estimated normals, of length 1, on the side of the face's own normal in oriented meshes; 0 where
+    /// neither the face nor the faces around it have an area.
     Points normals;
     /// #F: the standard deviation of the noise along the normals around each face, in lengths of the edges there.
     std::vector<float> noise;
@@ -33,7 +33,7 @@ struct DenoisedNormals {
 /// A large mesh is denoised in pieces, one after the other. The pieces overlap so far that the result hardly changes.
 /// @param mesh its vertices are not used. @param topology twins are not used; vertices that it fixes keep their
 /// positions.
-/// @param positions #V by 3. @param most_faces see PieceSizes.
+/// @param positions #V by 3. @param most_faces the approximate number of faces of a piece (see PieceSizes).
 DenoisedNormals denoise_normals(const PolygonMesh& mesh, const Topology& topology, const Points& positions,
                                 const Executor& exec = run_serially, Index most_faces = PieceSizes().most_faces);
 

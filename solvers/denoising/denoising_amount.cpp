@@ -80,6 +80,7 @@ class Risks {
     /// Chebyshev coefficients of the filters.
     Risks(const Eigen::MatrixXd& products, const Eigen::VectorXd& traces, const Eigen::MatrixXd& filters)
     {
+        // Filters leave constants unchanged: H X - X = Σ cⱼ (Tⱼ X - (-1)ʲ X), and tr(H) = #V + Σ cⱼ tr(Tⱼ - (-1)ʲ).
         squared_moves_ = filters.cwiseProduct(products * filters).colwise().sum().cwiseMax(0.0);
         traces_ = (traces.transpose() * filters).array() + 1.0;
     }
@@ -88,7 +89,7 @@ class Risks {
     /// @param place a position in the list of amounts, which need not be whole.
     [[nodiscard]] double squared_move(double place) const { return interpolate(squared_moves_, place); }
 
-    /// The risk at such a position, in length².
+    /// The risk at a position in the list of amounts, in length².
     [[nodiscard]] double risk(double place, double noise) const
     {
         return squared_move(place) + noise * noise * (2.0 * interpolate(traces_, place) - 1.0);
@@ -234,6 +235,7 @@ DenoisingAmount best_amount(const Risks& risks, double noise)
 {
     const double nearest = risks.place_of_least_regret(least_noise * noise, most_noise * noise);
     const double ratio = largest_amount / smallest_amount;
+    // The number of positions over which the amount grows by the factor for_normals.
     const double more = std::log(for_normals) / std::log(ratio) * (n_amounts - 1);
     const double place = risks.last_place_within(noise, std::min<double>(nearest + more, n_amounts - 1));
     return {amount_at(place), std::max(risks.risk(place, noise), 0.0), std::sqrt(risks.squared_move(place))};

@@ -62,7 +62,7 @@ void append_mixing_inputs(const NormalEstimates& estimates, const EstimateFeatur
         numbers.push_back(features.near(f, i));
         numbers.push_back(features.around(f, i));
     }
-    // The mean chord between the first two estimates is the unit of the noise.
+    // The mean chord between the first two estimates is the unit of the noise. It is recovered from its logarithm.
     const float chord = std::exp(features.around(f, n_estimates)) - least_feature;
     const float scale = 1.0F / (chord + least_chord);
     for (Index i = 0; i < n_estimates; ++i) {

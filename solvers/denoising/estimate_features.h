@@ -10,13 +10,14 @@
 namespace seamflow {
 
 /// Features by which a network weighs the estimates of the normal of a face: how much shorter than 1 each estimate is,
-/// and the chords between estimates; and the means of both over the faces around the face, near by and further off, by
-/// which noise and shape differ. No feature depends on the orientation or scale of the surface, or on the numbering of
-/// its faces.
+/// and the chord between each estimate and the next one; and the means of both over the faces around the face, near by
+/// and further off, by which noise and shape differ. No feature depends on the orientation or scale of the surface, or
+/// on the numbering of its faces.
 struct EstimateFeatures {
     using Rows = VertexAverages::Rows;
 
-    /// #F by 2 K - 1, for K estimates: logarithms of means over 5 rounds of VertexAverages::spread, and over 23 rounds.
+    /// #F by 2 K - 1, for K estimates: K columns of shortness, then K - 1 columns of chords. Logarithms of means over 5
+    /// rounds of VertexAverages::spread, and over 23 rounds.
     Rows near;
     Rows around;
 

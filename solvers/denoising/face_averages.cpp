@@ -166,6 +166,7 @@ void FaceAverages::average_far(const AverageWeights& weights, const FaceVectors&
     // the matrix lie between d - c and d + c.
     // t of the equation, in which `last` is the largest eigenvalue and 1 the least.
     constexpr float reach = 40.0F;
+    // The eigenvalues of P are taken to lie between this and 1.
     constexpr float least_eigenvalue_of_means = -0.5F;
     constexpr int rounds = 16;
     constexpr float last = 1.0F + reach * (1.0F - least_eigenvalue_of_means);

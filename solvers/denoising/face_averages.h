@@ -69,9 +69,9 @@ class FaceAverages {
     void average(float sigma, const FaceVectors& vectors, FaceVectors& means,
                  const Executor& exec = run_serially) const;
 
-    /// Means over a wider neighbourhood, with weights that fall with distance: the solution X of (1 + t) X - t P X = N,
-    /// N being the vectors and P X the means around each face. Takes a fixed number of rounds of the Chebyshev
-    /// iteration.
+    /// Means over a wider neighbourhood, with weights that fall with distance: the solution X of (1 + t) X - t P X = N
+    /// with t = 40, N being the vectors and P X the means around each face. Takes a fixed number of rounds of the
+    /// Chebyshev iteration.
     void average_far(const AverageWeights& weights, const FaceVectors& vectors, FaceVectors& means,
                      std::array<FaceVectors, 2>& scratch, const Executor& exec = run_serially) const;
 
@@ -80,7 +80,7 @@ class FaceAverages {
     void average_best_patch(const FaceVectors& vectors, FaceVectors& means, const Executor& exec = run_serially) const;
 
     /// #F: the roughness of the surface around each face: the mean squared chord between its vector and those of its
-    /// neighbours, each chord counting as at most `largest`.
+    /// neighbours, each squared chord counting as at most `largest`. The mean has the weights without a guide.
     /// @param normals of length 1 or 0.
     [[nodiscard]] std::vector<float> roughness(const FaceVectors& normals, float largest,
                                                const Executor& exec = run_serially) const;

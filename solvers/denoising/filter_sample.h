@@ -16,7 +16,8 @@ struct FilterSample {
     /// For each vertex of the sample, its neighbours along edges, as indices in `vertices`. Vertices that do not move,
     /// such as vertices at rims of patches, have no neighbours.
     IndexLists neighbours;
-    /// The indices in `vertices` of vertices that move and are too far from rims of patches to be affected by them.
+    /// The indices in `vertices` of vertices that move and are too far from rims of patches to be affected by them: at
+    /// these, results of filters are measured.
     std::vector<Index> measured;
 };
 

@@ -132,6 +132,7 @@ FaceRows comparison(const NoisySurface& surface, const Points& estimated, const 
     const Index n_faces = surface.mesh.n_faces();
     const auto noisy_area = [&](Index f) { return vector_area(surface.mesh.face(f), surface.positions); };
     const double total = sum(exec, n_faces, [&](Index f) { return noisy_area(f).norm(); });
+    // Areas are in mean face areas, which single precision represents in any unit of length.
     const double scale = total > 0.0 ? n_faces / total : 0.0;
     const auto with = [&](const Points& normals) {
         return areas_of_patches(
@@ -169,6 +170,7 @@ bool take_flatter_normals(const NoisySurface& surface, DenoisedNormals& estimate
     const FlatterNormals flatter = flatter_normals_of(surface, normals, exec);
     const FaceRows around = comparison(surface, normals, flatter, exec);
     for_each(exec, n_faces, [&](Index f) {
+        // Estimates without any misfit stay.
         const float misfit = around(f, 1) > 0.0F ? around(f, 2) / around(f, 1) : by_misfit.zero_at;
         weights[f] *= by_bends(around(f, 0)) * by_misfit(misfit);
         if (weights[f] > 0.0F)

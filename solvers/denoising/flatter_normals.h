@@ -17,7 +17,7 @@ struct NoisySurface {
     /// Twins are not used.
     const Topology& topology;
     const VertexAverages& averages;
-    /// #F: see face_signs; or empty.
+    /// #F: 1 or -1, by which vector areas are multiplied so that they point to one side (see face_signs); or empty.
     std::span<const std::int8_t> signs;
     /// #V by 3: the noisy positions.
     const Points& positions;

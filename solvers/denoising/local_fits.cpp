@@ -128,6 +128,7 @@ LocalFits::Kernel LocalFits::kernel(double radius)
     QuadraticProducts products = QuadraticProducts::Zero();
     for (const Eigen::Vector2d& offset : kernel.offsets)
         products += weight_of(offset) * terms_of(offset) * terms_of(offset).transpose();
+    // The fitted height at the middle is the constant coefficient: it takes the first row of the inverse matrix.
     const QuadraticTerms row = products.ldlt().solve(QuadraticTerms::Unit(0));
     for (const Eigen::Vector2d& offset : kernel.offsets)
         kernel.weights.push_back(weight_of(offset) * row.dot(terms_of(offset)));

@@ -32,12 +32,12 @@ class LocalFits {
     using Heights = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
     /// #V by number of radii: the heights of the fits above the vertices, in length; 0 where there are too few
-    /// vertices.
+    /// vertices, or no normal.
     /// @param radii ascending, in edges of a regular mesh: a fit has as many vertices as a regular mesh has within the
     /// radius.
     [[nodiscard]] Heights heights(std::span<const double> radii, const Executor& exec = run_serially) const;
 
-    /// #V: the heights of fits with a radius of its own for each vertex.
+    /// #V: the heights of fits with a radius of its own for each vertex, as in `heights`. @param radii #V.
     [[nodiscard]] std::vector<double> heights_within(std::span<const double> radii,
                                                      const Executor& exec = run_serially) const;
 

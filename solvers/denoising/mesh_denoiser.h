@@ -23,7 +23,7 @@ struct KeptStructure {
     /// The number of vertices that have structure.
     double vertices = 0.0;
     /// The largest displacement that would have been removed there, in units of length; and the position of the vertex
-    /// that looks most like structure.
+    /// that looks most like structure, in the last of the components with structure.
     double height = 0.0;
     Point place = Point::Zero();
 };
@@ -32,9 +32,10 @@ struct KeptStructure {
 struct SurfaceNoise {
     /// The standard deviation of the noise along the normals, over the vertices that have noise, in units of length.
     double deviation = 0.0;
-    /// The root mean square length of the edges at these vertices, in the result.
+    /// The root mean square length of the edges at these vertices, after the vertices were fitted to the estimated
+    /// normals.
     double edge = 0.0;
-    /// The fraction of vertices that have noise.
+    /// The fraction of the vertices with faces that have noise.
     double part = 0.0;
     /// The number of vertices of the boundary that leave noise or stairs of their rim (see RimFilter).
     double rim_vertices = 0.0;
@@ -54,14 +55,16 @@ class MeshDenoiser {
     /// @param mesh, topology must outlive the object; the twins of the topology are not needed later.
     /// @param edge_angle between the normals of faces, in degrees: the angle of the edges that take_smoother_places
     /// keeps; empty: that is not called. @param as_one whether all components together have noise or none.
-    /// @param n_thinned how often the mesh has been thinned. @param least_evidence see NoisyPlaces.
+    /// @param n_thinned how often the mesh has been thinned. @param least_evidence the evidence of noise that a
+    /// component needs (see NoisyPlaces).
     MeshDenoiser(const PolygonMesh& mesh, const Topology& topology, const Executor& exec = run_serially,
                  std::optional<double> edge_angle = default_edge_angle, bool as_one = false, int n_thinned = 0,
                  float least_evidence = 0.0F);
 
     static constexpr double default_edge_angle = 30.0;
 
-    /// Leaves the noise of rims, for flows in which vertices move only in given directions.
+    /// From now on, `denoise` leaves the noise of rims as it is: for flows in which vertices move only in given
+    /// directions.
     void keep_rims() { keeps_rims_ = true; }
 
     /// @param before #V by 3. @param strengths #V: the fraction of its displacement that each vertex moves by; empty:
@@ -110,8 +113,8 @@ class MeshDenoiser {
     [[nodiscard]] std::optional<Points> without_correlated_noise(const Points& before, const NoisyPlaces::Found& places,
                                                                  const Executor& exec) const;
     /// Removes correlated noise on thinned meshes.
-    /// @param correlated #V. @param which the vertices with this value of `correlated` are wanted. @param result #V by
-    /// 3: receives positions without noise where thinned meshes have noise.
+    /// @param correlated #V. @param which only vertices with this value of `correlated` move. @param result #V by 3:
+    /// receives positions without noise where thinned meshes have noise.
     void remove_on_thinned(const Points& before, std::span<const NoisyPlaces::Correlation> correlated,
                            NoisyPlaces::Correlation which, Points& result, const Executor& exec) const;
     /// Moves vertices to fit normals.
@@ -124,15 +127,17 @@ class MeshDenoiser {
     void improve_fit(const Points& before, Findings& found, const Executor& exec) const;
     /// Puts back structure: at its vertices, `begun` becomes `before` again, and the shares of the further
     /// displacements become 0.
-    /// @param begun #V by 3: without correlated noise.
+    /// @param begun #V by 3: the positions without correlated noise. @returns what was put back.
     [[nodiscard]] KeptStructure put_back_structure(const Points& before, Points& begun, Findings& found,
                                                    const Executor& exec) const;
     /// Applies keep_facing, with faces oriented to one side.
-    /// @param before #V by 3. @param wanted #F by 3: the wanted normals. @param positions #V by 3; replaced.
+    /// @param before #V by 3. @param wanted #F by 3: the normals that the faces should have; 0: any. @param positions
+    /// #V by 3; replaced.
     void keep_all_facing(const Points& before, Points wanted, Points& positions, const Executor& exec) const;
     /// Measures the noise for noise().
-    /// @param motions #V by 3, to the positions after. @param shares #V: 0 for vertices without noise. @param is_flat
-    /// #V: see flat_vertices. @param normals #F by 3.
+    /// @param motions #V by 3. @param shares #V: 0 for vertices without noise. @param is_flat #V: 1 for vertices whose
+    /// faces lie in one plane, which have no noise. @param normals #F by 3. @param after #V by 3: the positions after
+    /// the motions, at which edges are measured.
     void measure_noise(const Points& motions, std::span<const double> shares, std::span<const std::uint8_t> is_flat,
                        const Points& normals, const Points& after, const Executor& exec);
 

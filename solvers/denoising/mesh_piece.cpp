@@ -40,6 +40,7 @@ void for_each_piece(const PolygonMesh& mesh, const Topology& topology, const Poi
         action(cut_out(mesh, topology, positions, std::move(faces), exec), is_own);
         return;
     }
+    // A power of two, as divide_into_boxes requires.
     const auto n_boxes = static_cast<Index>(std::bit_ceil(usize((mesh.n_faces() - 1) / sizes.most_faces + 1)));
     const IndexLists boxes = divide_into_boxes(positions, n_boxes, exec);
     std::vector<Index> box_of(usize(mesh.n_vertices()));

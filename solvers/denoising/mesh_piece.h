@@ -29,8 +29,8 @@ MeshPiece cut_out(const PolygonMesh& mesh, const Topology& topology, const Point
 
 /// How faces are divided into pieces.
 struct PieceSizes {
-    /// The approximate number of faces of a piece before it grows. Fewer faces in all are one piece, which does not
-    /// grow.
+    /// The approximate number of faces of a piece before it grows. Up to so many faces in all are one piece, which does
+    /// not grow.
     Index most_faces = 1'000'000;
     /// The number of rings of faces by which a piece grows, so that pieces overlap. With 16, denoised normals of six
     /// meshes cut into three and six pieces differed from those of the whole mesh no more than if its faces came in

@@ -39,7 +39,7 @@ struct MultiplyKernel {
     }
 };
 
-/// Takes the next n numbers from bytes.
+/// Removes the first n numbers from bytes and returns them.
 template <class Number>
 std::vector<Number> take(std::string_view& bytes, std::size_t n)
 {

@@ -31,13 +31,16 @@ class MixingNetwork {
   private:
     struct Layer {
         int n_inputs = 0;
+        /// Rounded up to a multiple of 32; further outputs are 0 and not used. Layers before the last have such a
+        /// number.
         int n_outputs = 0;
         /// Row i has the weights of input i.
         std::vector<float> weights;
         std::vector<float> bias;
     };
 
-    /// Replaces the inputs of some faces, one face after the other, by the outputs.
+    /// Replaces the inputs of a few faces that are evaluated together, one face after the other, by the outputs of the
+    /// last layer.
     void evaluate(std::vector<float>& numbers) const;
 
     std::vector<Layer> layers_;

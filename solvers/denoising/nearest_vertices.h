@@ -30,9 +30,10 @@ class NearestVertices {
     std::vector<Index> found_;
     /// A hash table of the vertices found; -1 in empty slots.
     std::vector<Index> slots_;
-    /// The slots of found_.
+    /// The slots in use: one per vertex of found_.
     std::vector<std::size_t> used_;
-    /// The most vertices that a search finds: it does not depend on searches before.
+    /// The most vertices that the present search finds: four times the number asked for, whatever the size of the
+    /// table.
     std::size_t most_ = 0;
     std::vector<std::pair<double, Index>> nearest_;
 };

@@ -7,7 +7,8 @@
 
 namespace seamflow {
 
-/// The names of the features by which noise and shape are distinguished.
+/// The names of the features by which noise and shape are distinguished. Names with wide_ are those of
+/// PlaceStatistics::wide; median, correlation and revival are those of PlaceStatistics::fine.
 inline constexpr std::array<std::string_view, 8> noise_features{
     "median", "correlation", "revival", "noise", "smoothness", "wide_correlation", "wide_revival", "wide_kurtosis"};
 

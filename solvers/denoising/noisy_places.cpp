@@ -24,7 +24,8 @@ namespace {
 constexpr double part_with_evidence = 0.75;
 constexpr Index few_faces = 2500;
 /// A component also has noise if half of its places have this much evidence (of clean surfaces none had more than 0.8),
-/// and at most a quarter of its places this much evidence against it.
+/// and at most a quarter of its places this much evidence against it. This rule is only for noise that is independent,
+/// and for components that need no particular evidence.
 constexpr float evidence_of_half = 1.0F;
 constexpr float evidence_against_of_quarter = -2.5F;
 /// The evidence that correlated noise needs where there is no other noise, because it looks more like shape there.

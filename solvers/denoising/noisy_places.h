@@ -45,7 +45,7 @@ class NoisyPlaces {
         const PolygonMesh& mesh;
         const Topology& topology;
         const VertexAverages& averages;
-        /// #V by 3.
+        /// #V by 3: the positions before the denoiser, and after it.
         const Points& before;
         const Points& after;
         /// The estimated normals and noise.
@@ -56,11 +56,13 @@ class NoisyPlaces {
 
     /// Whether a vertex has correlated noise.
     enum class Correlation : std::uint8_t {
+        /// It has none.
         None,
         /// The surface looks as if it had correlated noise; a thinned mesh must prove it.
         Possible,
         /// There is other noise besides; local fits have to show that the correlated noise is not shape.
         Doubtful,
+        /// It has correlated noise, which is to be removed.
         Found
     };
 
@@ -68,7 +70,8 @@ class NoisyPlaces {
     struct Found {
         /// #V: the share of its displacement that each vertex moves by, from 0 to 1.
         std::vector<double> shares;
-        /// #V: whether there is correlated noise, which a denoiser alone cannot completely distinguish from shape.
+        /// #V: whether there is correlated noise (see Correlation), which a denoiser alone cannot completely
+        /// distinguish from shape.
         std::vector<Correlation> correlated;
     };
 
@@ -84,7 +87,7 @@ class NoisyPlaces {
 
     /// Judges the removed displacements once more: noise cannot be predicted, a pattern comes back (see
     /// TakenStatistics). Independent noise is averaged out first, so that a pattern beneath it is seen.
-    /// @param taken with the positions that would result. @returns by component.
+    /// @param taken with the positions that would result. @returns at most one per component, ascending by component.
     [[nodiscard]] std::vector<Structure> find_structure(const Denoised& taken,
                                                         const Executor& exec = run_serially) const;
 

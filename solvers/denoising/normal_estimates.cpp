@@ -74,16 +74,17 @@ void add_low_pass(int round, int rounds, const FaceVectors& mean, FaceVectors& t
 }
 
 /// Adds bilateral means: each round is guided by the result of the round before.
-/// @param vectors of length 1 or 0; replaced by the last result. @param wanted the rounds whose results are added,
-/// ascending. @param found receives these results.
+/// @param vectors of length 1 or 0; replaced by the last result. @param rounds_to_add the rounds whose results are
+/// added, ascending. @param found receives these results.
 void add_bilateral_means(const FaceAverages& averages, FaceVectors& vectors, float sigma,
-                         std::initializer_list<int> wanted, Writer& found, FaceVectors& scratch, const Executor& exec)
+                         std::initializer_list<int> rounds_to_add, Writer& found, FaceVectors& scratch,
+                         const Executor& exec)
 {
-    const int last = *(wanted.end() - 1);
+    const int last = *(rounds_to_add.end() - 1);
     for (int round = 1; round <= last; ++round) {
         averages.average(sigma, vectors, scratch, exec);
         vectors.swap(scratch);
-        if (std::ranges::find(wanted, round) != wanted.end())
+        if (std::ranges::find(rounds_to_add, round) != rounds_to_add.end())
             found.copy(vectors);
         normalise(vectors, exec);
     }
@@ -157,6 +158,7 @@ void NormalEstimator::first(NormalEstimates& found, const Executor& exec)
     normalise(once, exec);
     add_bilateral_means(averages_, once, 0.3F, {3, 10}, writer, scratch_[0], exec);
     writer.swap_in(of_positions_);
+    // The noisy normals, those of the positions after eight rounds, and the bilateral means after ten rounds.
     found.anchors = {0, writer.count() - 2, bilateral_anchor};
     averages_.average_best_patch(noisy_, writer.next(), exec);
     normalise(twice, exec);
@@ -196,6 +198,7 @@ void NormalEstimator::further(const FaceVectors& normals, NormalEstimates& found
     averages_.average_best_patch(normals, writer.next(), exec);
     FaceVectors bilateral = normals;
     add_bilateral_means(averages_, bilateral, 0.3F, {4}, writer, scratch_[0], exec);
+    // The earlier result, the noisy normals, and the bilateral means of the earlier result.
     found.anchors = {0, 1, writer.count() - 1};
     writer.copy(of_positions_further_);
     writer.copy(of_robust_positions_);

@@ -37,9 +37,9 @@ class NormalEstimator {
     void first(NormalEstimates& found, const Executor& exec = run_serially);
 
     /// Makes estimates with the help of an earlier result: means of the noisy normals over faces that belong together
-    /// according to this result, and further means of the result. Weights and areas come from the positions of the last
-    /// `refine`.
-    /// @param normals of length 1, or 0 for faces without area.
+    /// according to this result, further means of the result, and normals of filtered surfaces as in `first`. Weights
+    /// and areas come from the positions of the last `refine`.
+    /// @param normals of length 1, or 0 where neither the face nor the faces around it have an area.
     void further(const FaceVectors& normals, NormalEstimates& found, const Executor& exec = run_serially);
 
     /// Computes areas and centroids at these positions, #V by 3.
@@ -64,7 +64,8 @@ class NormalEstimator {
     VertexNormals vertex_normals_;
     /// The unit normals of the noisy surface.
     FaceVectors noisy_;
-    /// The normals of filtered surfaces: for `first`, which moves them to its result; for `further`; and for both.
+    /// The normals of filtered surfaces: for `first`, which swaps them into its result; for `further`; and those of
+    /// robust filters, for both.
     std::vector<FaceVectors> of_positions_;
     std::vector<FaceVectors> of_positions_further_;
     std::vector<FaceVectors> of_robust_positions_;

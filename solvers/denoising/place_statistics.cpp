@@ -68,7 +68,7 @@ class Autocorrelation {
             }
     }
 
-    /// See TakenStatistics::revival.
+    /// The largest rise of the autocorrelation after it has fallen (see TakenStatistics::revival).
     [[nodiscard]] float revival() const
     {
         float most = 0.0F;
@@ -137,7 +137,7 @@ class Place {
         locate();
     }
 
-    /// See measure_place.
+    /// The statistics of the vertices that count (see counts_).
     [[nodiscard]] PlaceStatistics statistics() const
     {
         PlaceStatistics found;
@@ -197,7 +197,8 @@ class Place {
         }
     }
 
-    /// @param column of TakenAway::displacements: 0 for the denoiser, 1 for the low-pass filter.
+    /// The statistics of one column of displacements. @param column of TakenAway::displacements: 0 for the denoiser, 1
+    /// for the low-pass filter.
     [[nodiscard]] TakenStatistics statistics_of(int column) const
     {
         std::vector<float> heights;
@@ -210,7 +211,8 @@ class Place {
         return {median_of(sizes), correlation(heights), revival(heights), kurtosis(heights)};
     }
 
-    /// See TakenStatistics. @param heights displacements to one side of the surface, one per vertex of vertices_.
+    /// The correlation at the two ends of edges (see TakenStatistics). @param heights displacements to one side of the
+    /// surface, one per vertex of vertices_.
     [[nodiscard]] float correlation(std::span<const float> heights) const
     {
         float products = 0.0F;
@@ -230,7 +232,7 @@ class Place {
         return squares > 0.0F ? products / squares : 0.0F;
     }
 
-    /// See TakenStatistics, and `correlation`.
+    /// The revival of the heights at vertices that face the middle (see TakenStatistics).
     [[nodiscard]] float revival(std::span<const float> heights) const
     {
         std::vector<Eigen::Vector2f> points;
@@ -255,7 +257,7 @@ class Place {
         return Autocorrelation(points, numbers).revival();
     }
 
-    /// See TakenStatistics, and `correlation`.
+    /// The kurtosis of the heights (see TakenStatistics).
     [[nodiscard]] float kurtosis(std::span<const float> heights) const
     {
         double n = 0.0;
@@ -302,14 +304,16 @@ class Place {
         if (n < fewest_of_fit)
             return -1.0;
         const double rest = squares - right.dot(normal.ldlt().solve(right));
+        // Six of the n degrees of freedom are those of the fitted coefficients.
         return radius * std::sqrt(std::max(rest, 0.0) / (n - 6));
     }
 
-    /// See PlaceStatistics::smoothness.
+    /// The power of the radius with which the least residuals grow (see PlaceStatistics::smoothness).
     [[nodiscard]] float smoothness() const
     {
         constexpr double rounding = 1e-9;
         std::vector<std::array<double, 2>> found;
+        // About a quarter of the vertices are near the middle and have fits.
         const std::size_t stride = std::max<std::size_t>(1, vertices_.size() / (4 * n_fits));
         for (std::size_t i = 0; i < vertices_.size() && found.size() < n_fits; i += stride) {
             if (counts_[i] == 0 || is_near_[i] == 0)

@@ -20,9 +20,9 @@ struct TakenStatistics {
     /// The correlation of displacements at the two ends of edges: 0 or less for noise that is independent at
     /// neighbours.
     float correlation = 0.0F;
-    /// How much the autocorrelation rises again: the most, over 24 directions and all distances of three edges and
-    /// more, by which it exceeds its least value at shorter distances in this direction. Noise cannot be predicted; a
-    /// pattern comes back.
+    /// How much the autocorrelation rises again: the most, over 24 directions and all distances of 3 to 18 edges, by
+    /// which it exceeds its least value at shorter distances in this direction. Noise cannot be predicted; a pattern
+    /// comes back.
     float revival = 0.0F;
     /// The mean fourth power over the square of the mean square: 3 for normal distributions, 1 for two values of equal
     /// frequency.

@@ -27,8 +27,8 @@ constexpr int rounds_for_corners = 6;
 constexpr double shortest_edge = 0.25;
 /// The width of a band, as a multiple of the largest motion: faces are squeezed by a quarter at most.
 constexpr double widths_of_band = 4.0;
-/// The fraction of its area that each face keeps; the factor by which motions are shortened at a time, and how often at
-/// most.
+/// The fraction of its area that each face is to keep; the factor by which motions are shortened at a time, and how
+/// often at most.
 constexpr double least_area = 0.1;
 constexpr double shortening = 0.9;
 constexpr int most_shortenings = 40;
@@ -232,6 +232,7 @@ SmoothCurve smooth_curve(const RimCurve& curve, const Points& positions, double 
         h[i] = (positions.row(next(i)) - positions.row(i)).norm();
     const double mean = h.head(n_edges).sum() / static_cast<double>(std::max(n_edges, Index{1}));
     SmoothCurve smooth{positions, std::vector<double>(usize(n), 1.0)};
+    // A vertex is coupled with two vertices on either side. Shorter curves stay as they are.
     constexpr Index fewest = 5;
     if (n < fewest || !(mean > 0.0))
         return smooth;

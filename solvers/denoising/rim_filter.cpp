@@ -28,8 +28,9 @@ constexpr double least_distance = 0.01;
 /// The most revival of noise or stairs: a pattern comes back (see Distances::revival). Noise had up to 0.7, stairs up
 /// to 1.2, teeth 1.4 and more.
 constexpr double most_revival = 1.3;
-/// The bounds of the kurtosis of the distances: it is 1 for teeth, 1.8 for stairs, 3 for noise, and large where most
-/// vertices lie on the curve.
+/// The bounds of the kurtosis of the distances: the least of stairs, the least of noise where the surface has none, and
+/// the most of both. The kurtosis is 1 for teeth, 1.8 for stairs, 3 for noise, and large where most vertices lie on the
+/// curve.
 constexpr double least_kurtosis = 1.6;
 constexpr double least_kurtosis_of_noise = 2.2;
 constexpr double most_kurtosis = 4.2;
@@ -83,7 +84,8 @@ struct Distances {
 };
 
 /// Whether a curve has noise or stairs, and not a shape that was made to look like that.
-/// @param smoothness see SmoothCurve. @param is_on_noise whether the surface around the curve has noise.
+/// @param smoothness one per vertex: near 0 at corners, near 1 elsewhere. @param is_on_noise whether the surface around
+/// the curve has noise.
 bool is_noisy(const Distances& distances, const std::vector<double>& smoothness, bool is_on_noise)
 {
     double corners = 0.0;

@@ -27,7 +27,8 @@ constexpr std::array<double, 2> edge_keeping_amounts{8.0, 32.0};
 
 /// The smoothing that is tried on surfaces of one size.
 struct Trial {
-    /// The amounts, ascending. A larger one is used only at places where the smaller one was better than none.
+    /// The amounts, ascending. A larger one is tried only in components in which the smaller one replaced some place,
+    /// and used only at places that it makes smoother still.
     std::span<const double> amounts;
     /// The mean squared motion around a place, in squares of edge lengths, up to which the place may be replaced.
     float replaced_up_to;
@@ -35,8 +36,8 @@ struct Trial {
 constexpr Trial of_small_surfaces{edge_keeping_amounts, 0.15F * 0.15F};
 /// A large surface has wide bends; and with more noise, smoothing takes too long for the little that is gained.
 constexpr Trial of_large_surfaces{std::span(edge_keeping_amounts).last(1), 0.08F * 0.08F};
-/// A place may not be replaced if the mean motion is more than this multiple of the limit; between the limit and this,
-/// results are blended.
+/// A place may not be replaced if the mean squared motion is more than this multiple of replaced_up_to; between that
+/// limit and this multiple of it, results are blended.
 constexpr float replaced_below = 1.7F;
 /// The largest mean motion around a place, over the mean motion of the denoised surface. That surface keeps some noise,
 /// relatively more where there is less noise: below little_motion, in edge lengths, the factor is larger.

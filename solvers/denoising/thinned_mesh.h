@@ -13,8 +13,8 @@ namespace seamflow {
 /// About a quarter of the vertices of a mesh, of which no two are neighbours, as a mesh of their own.
 struct ThinnedMesh {
     PolygonMesh mesh;
-    /// With twins. Rims may move. A vertex is fixed if it is at a rim of the thinned mesh alone, or is fixed in the
-    /// whole mesh.
+    /// With twins. Rims may move. A vertex is fixed if it does not move in the whole mesh, or if its kind differs from
+    /// its kind there, as at a rim of the thinned mesh alone.
     Topology topology;
     /// #V: the numbers of the vertices in the whole mesh, ascending.
     std::vector<Index> vertices;

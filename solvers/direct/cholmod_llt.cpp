@@ -21,6 +21,8 @@ struct CholmodWorkspace::State {
         cholmod_start(&common);
         cholmod_l_start(&long_common);
         for (cholmod_common* of : {&common, &long_common}) {
+            // One ordering, the given one, is tried; no messages; the factor stays L Lᵀ by dense blocks; a
+            // factorisation ends at the first pivot that is not positive.
             of->nmethods = 1;
             of->print = 0;
             of->final_asis = 1;
@@ -97,7 +99,7 @@ struct Settings {
     Settings& operator=(const Settings&) = delete;
 };
 
-/// See make_cholmod_llt.
+/// CHOLMOD's L Lᵀ behind the interface of direct solvers (see make_cholmod_llt).
 /// @tparam Interface CholmodInt or CholmodLong.
 template <class Interface>
 class CholmodLlt final : public DirectSolver {
@@ -111,6 +113,7 @@ class CholmodLlt final : public DirectSolver {
         matrix_.nzmax = upper_.rows.size();
         matrix_.p = const_cast<Integer*>(view_.offsets());
         matrix_.i = const_cast<Integer*>(view_.rows());
+        // The entries are those of the upper triangle.
         matrix_.stype = 1;
         matrix_.itype = std::is_same_v<Integer, int> ? CHOLMOD_INT : CHOLMOD_LONG;
         matrix_.xtype = CHOLMOD_PATTERN;

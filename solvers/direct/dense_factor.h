@@ -79,7 +79,7 @@ class DenseFactor {
     /// L without its diagonal in blocks of four columns. Each block begins at the eight rows that contain its diagonal:
     /// for every eight rows the four columns, one after the other, with zeros in the upper triangle.
     AlignedFloats lower_;
-    /// √D₁ and the inverse of D₁, padded with zeros.
+    /// √D₁ and the inverse of D₁, padded with zeros. D₁ is the D of S₁.
     std::vector<float> root_;
     std::vector<float> inverse_;
     std::vector<double> diagonal_;

@@ -47,7 +47,7 @@ class Factors : public Eigen::SparseLU<Matrix<Integer>, Eigen::COLAMDOrdering<In
     }
 };
 
-/// See make_eigen_lu.
+/// Eigen's L U behind the interface of direct solvers (see make_eigen_lu).
 template <class Integer>
 class EigenLu final : public DirectSolver {
   public:

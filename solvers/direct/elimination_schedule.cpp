@@ -12,7 +12,7 @@ constexpr double least_work = 2e7;
 /// The largest share of all work that a subtree or a group has.
 constexpr double largest_share = 1.0 / 32.0;
 
-/// Per supernode, the work of the subtree below it, in multiplications.
+/// Per supernode, the work of its subtree, its own included, in multiplications.
 std::vector<double> work_of_subtrees(const SymbolicFactor& pattern, const std::vector<Index>& parent)
 {
     std::vector<double> work(parent.size(), 0.0);

@@ -26,8 +26,8 @@ std::unique_ptr<DirectSolver> make_cholmod_llt(SparsePattern upper, CholmodWorks
 /// @throws ComputationError if UMFPACK fails (memory).
 std::unique_ptr<DirectSolver> make_umfpack_lu(const SparsePattern& pattern);
 
-/// LU by Eigen, with the largest pivot of each column; solutions are refined. A factor is nearly singular under the
-/// condition of make_umfpack_lu. Its size is known once there is a factor.
+/// LU by Eigen, with the largest pivot of each column; solutions are refined. A factor is nearly singular if the
+/// smallest pivot is below 1e-13 of the largest. Its size is known once there is a factor.
 /// @throws ComputationError if Eigen fails (memory).
 std::unique_ptr<DirectSolver> make_eigen_lu(const SparsePattern& pattern);
 

@@ -85,7 +85,7 @@ template <class Vector, class Number, class Use>
     }
 }
 
-/// The number of the first columns, of some ascending columns, that lie within `width` consecutive columns.
+/// How many of some ascending columns, from the first on, lie within `width` consecutive columns.
 [[gnu::always_inline]] inline Index count_neighbours(const Index* columns, Index n, Index width)
 {
     Index count = 1;
@@ -190,7 +190,7 @@ template <class Number>
     }
 }
 
-/// See subtract_update.
+/// The work of subtract_update, for one width of registers.
 struct SubtractUpdate {
     template <Index Width, class Number>
     void operator()(SimdWidth<Width>, const LdlPanel<Number>& earlier, Index row_index, Index n_columns,
@@ -214,7 +214,8 @@ struct SubtractUpdate {
     }
 };
 
-/// See factorise_panel. Columns are factorised in groups, and a group in two halves.
+/// The work of factorise_panel, for one width of registers. Columns are factorised in groups, and a group in two
+/// halves.
 struct FactorisePanel {
     template <Index Width, class Number>
     bool operator()(SimdWidth<Width>, const LdlPanel<Number>& panel) const

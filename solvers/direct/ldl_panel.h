@@ -23,13 +23,13 @@ struct LdlPanel {
 /// @param row_index the index of the first of the `n_columns` rows of the earlier panel that belong to columns of the
 /// later one.
 /// @param target_rows per unknown of the earlier panel from rows[row_index] on: the index of its row in the later one.
-/// @param width see with_simd_width: the result is the same with any.
+/// @param width of a register, in double-precision numbers: 2, 4 or 8. The result is the same with any.
 template <class Number>
 void subtract_update(const LdlPanel<Number>& earlier, Index row_index, Index n_columns, const Index* target_rows,
                      const LdlPanel<Number>& later, Index width = register_width());
 
 /// Factorises a panel from which the contributions of all earlier panels have been subtracted.
-/// @param width see with_simd_width: the result is the same with any.
+/// @param width of a register, in double-precision numbers: 2, 4 or 8. The result is the same with any.
 /// @returns whether D is finite and nowhere 0.
 template <class Number>
 bool factorise_panel(const LdlPanel<Number>& panel, Index width = register_width());
@@ -46,7 +46,7 @@ template <Index Length, class Number>
 void forward_substitute_panel(const LdlPanel<Number>& panel, Number* x);
 
 /// Solves for the unknowns of a panel's columns, given the unknowns of its other rows.
-/// @tparam Length see forward_substitute_panel. @param x see forward_substitute_panel.
+/// @tparam Length as for forward_substitute_panel. @param x all unknowns by Length, row by row.
 template <Index Length, class Number>
 void back_substitute_panel(const LdlPanel<Number>& panel, Number* x);
 

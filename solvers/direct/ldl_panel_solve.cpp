@@ -99,7 +99,7 @@ template <class Use>
         use(std::integral_constant<Index, 4>());
 }
 
-/// See forward_substitute_panel.
+/// The work of forward_substitute_panel, for one width of registers.
 template <Index Length>
 struct EliminatePanel {
     template <Index Width, class Number>
@@ -111,7 +111,7 @@ struct EliminatePanel {
     }
 };
 
-/// See back_substitute_panel.
+/// The work of back_substitute_panel, for one width of registers.
 template <Index Length>
 struct SubstitutePanel {
     template <Index Width, class Number>

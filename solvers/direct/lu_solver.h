@@ -26,7 +26,8 @@ class LuSolver {
     class Factor;
 
     /// Analyses the pattern, which is needed only during the call.
-    /// @throws ComputationError if CHOLMOD, which finds the elimination ordering, fails (memory).
+    /// @throws ComputationError if there is too little memory for the elimination ordering, or the pattern has too many
+    /// entries.
     explicit LuSolver(const SparsePattern& pattern);
 
     /// Size of a factor, in bytes.

@@ -49,7 +49,7 @@ void require_ok(long status, const char* task)
     throw_failure("UMFPACK", task, status);
 }
 
-/// See make_umfpack_lu.
+/// UMFPACK's L U behind the interface of direct solvers (see make_umfpack_lu).
 /// @tparam Interface UmfpackInt or UmfpackLong.
 template <class Interface>
 class UmfpackLu final : public DirectSolver {

@@ -40,18 +40,18 @@ class ErrorEquation {
 
     /// Fills in the rows at the vertices that sub-mesh s numbers. Different sub-meshes may do so at the same time.
     /// @param before, after #local by 3, the halo included: Vᵏ, and Vᵏ⁺¹ as solved.
-    /// @param stiffness_at see error_row.
+    /// @param stiffness_at #local by 3: the positions at which the step has K: Vᵏ, or V⁰ if K is kept.
     /// @param time_step dt, in length².
     void assemble(Index s, const Points& before, const Points& after, const Points& stiffness_at, double time_step);
 
     /// Replaces the right-hand side by the one of Δ_P (Laplacian::PtackovaVelho), whose rows reach further than the
     /// faces that one sub-mesh knows. All ranks call this together.
-    /// @param before, after see WholeRows::measure.
+    /// @param before, after #V by 3: Vᵏ, and Vᵏ⁺¹ as solved, where WholeRows::measure needs them.
     void measure_whole_rows(const PolygonMesh& mesh, const Topology& topology, const Points& before,
                             const Points& after, double time_step, const Executor& exec);
 
     /// Adds the term dt M w to row i, after `assemble`: it pulls the vertex back to V⁰ (see FlowTerms).
-    /// @param weight dt w. @param distance from V⁰ to Vᵏ⁺¹ as solved, in length.
+    /// @param weight dt w. @param distance the vector from V⁰ to Vᵏ⁺¹ as solved, in length.
     void attach(Index i, double weight, const Point& distance)
     {
         const double entry = weight * rows_.mass[i];
@@ -70,7 +70,8 @@ class ErrorEquation {
     /// The unit normal of the surface at Vᵏ; zero if the surface has none there.
     [[nodiscard]] Point normal(Index i) const { return rows_.normal.row(i); }
 
-    /// Solves to two digits; may be called once after the rows have been filled in. All ranks call this together.
+    /// Solves to two digits; at most 30 iterations. May be called once after the rows have been filled in, because it
+    /// changes them. All ranks call this together.
     void solve(const Executor& exec);
 
     /// #Γ by 3, in units of length. Not finite where the rows are not finite.
@@ -89,7 +90,7 @@ class ErrorEquation {
 
     /// The numbers of the vertices of Γ.
     struct Numbering {
-        /// #sub-meshes + 1: see first.
+        /// #sub-meshes + 1: the lowest number of a vertex that each sub-mesh numbers; then the number of all vertices.
         std::vector<Index> first{0};
         /// Per vertex, its index in the interface of the sub-mesh that numbers it, and its local_vertex.
         std::vector<Index> index_in_sub_mesh;
@@ -103,7 +104,8 @@ class ErrorEquation {
         /// neighbour.
         IndexLists neighbours;
         std::vector<double> couplings;
-        /// Per vertex of Γ: see error_row. No lists if all faces are oriented alike.
+        /// Per vertex of Γ, for each face around it: 1, or -1 if the face is oriented against the others. No lists if
+        /// all faces are oriented alike.
         Lists<std::int8_t> senses;
         /// Per vertex of Γ: M_v and T_vv (see ErrorRow), and the sum of the row of T.
         std::vector<double> mass;
@@ -112,7 +114,7 @@ class ErrorEquation {
         /// Per vertex of Γ, the vertices of other ranks included: the response of the vertices beyond Γ to each
         /// neighbour along Γ.
         std::vector<double> response;
-        /// #Γ by 3: see normal().
+        /// #Γ by 3: the unit normals of the surface at Vᵏ, or zero.
         Points normal;
     };
     /// The vectors of conjugate gradients, each #Γ by 3; the direction has also the rows of other ranks.

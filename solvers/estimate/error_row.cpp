@@ -96,8 +96,9 @@ void for_each_face(std::span<const Index> fan, const IndexLists& faces, Index v,
     }
 }
 
-/// The squared distance over which a disturbance spreads in a step: dt D, D = ΣK d² / 4M. D is 1 for a Laplacian that
-/// is exact on quadratic functions. It is clamped, because obtuse triangles can make it meaningless.
+/// The squared distance over which a disturbance spreads in a step: dt D, D = Σ k d² / (4 M) over the other vertices of
+/// the row, with k = -K and d their distances. D is 1 for a Laplacian that is exact on quadratic functions. It is
+/// clamped, because obtuse triangles can make it meaningless.
 double squared_spread(const Draft& draft, double time_step)
 {
     double squares = draft.far_squares;
@@ -107,7 +108,8 @@ double squared_spread(const Draft& draft, double time_step)
 }
 
 /// Computes the diagonal and the response, and drops the couplings to vertices that are not on Γ.
-/// @param kinds see error_row. @param spread_squared see `squared_spread`.
+/// @param kinds one per edge neighbour: its number on Γ, off_interface or fixed_vertex. @param spread_squared dt D, in
+/// length².
 void close_row(std::span<const Index> kinds, double spread_squared, Draft& draft)
 {
     double held = 0.0;
@@ -126,6 +128,7 @@ void close_row(std::span<const Index> kinds, double spread_squared, Draft& draft
     draft.row.diagonal = draft.row.mass + held;
     if (beyond <= 0.0)
         return;
+    // cosh θ - 1, with the mean squared distance across Γ of the vertices beyond it; and e^-θ.
     const double cosh_less_one = 0.5 * std::max(0.0, across / beyond) / spread_squared;
     const double left = 1.0 / (1.0 + cosh_less_one + std::sqrt(cosh_less_one * (cosh_less_one + 2.0)));
     draft.row.response = beyond * left;

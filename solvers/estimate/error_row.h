@@ -16,7 +16,7 @@ inline constexpr Index fixed_vertex = -2;
 /// One row of the equation T e = r for the error e that a decomposed step has on Γ. The rows of the undecomposed step
 /// in symmetric form are M (Vᵏ⁺¹ - Vᵏ) + dt K Vᵏ⁺¹ = 0; the residual r is their left-hand side at the result of the
 /// sweep. T is M + dt K on Γ, with a response of the vertices beyond Γ as in a half plane: at distance d from Γ, the
-/// fraction e^-θ of the error is left, cosh θ = 1 + d² / 2 dt D, D being the diffusivity of the row itself. T is
+/// fraction e^-θ of the error is left, cosh θ = 1 + d² / (2 dt D), D being the diffusivity of the row itself. T is
 /// positive definite: negative couplings count as 0.
 struct ErrorRow {
     /// M_v: in length for Δ_F (Laplacian::Fujiwara), in length² for the other Laplacians.
@@ -26,8 +26,8 @@ struct ErrorRow {
     /// The response of the vertices beyond Γ, in the unit of T: the sum of their couplings, each times e^-θ.
     double response = 0.0;
     Point residual = Point::Zero();
-    /// The unit normal of the surface at Vᵏ, with Δ_F the normal of the sub-mesh's own side; zero where the surface has
-    /// none.
+    /// The unit normal of the surface at Vᵏ, with Δ_F and Δ_U (Laplacian::Uniform) the normal of the sub-mesh's own
+    /// side; zero where the surface has none.
     Point normal = Point::Zero();
 };
 

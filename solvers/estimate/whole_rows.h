@@ -20,7 +20,8 @@ namespace seamflow {
 /// of its faces in the rows; the residual at a vertex of Γ is the sum over its copies.
 class WholeRows {
   public:
-    /// @param decomposition, ranks see ErrorEquation; both must outlive this.
+    /// @param decomposition without overlap, sub-meshes of other ranks being fragments. @param ranks must outlive this,
+    /// as must the decomposition.
     WholeRows(const Decomposition& decomposition, const PolygonMesh& mesh, const Topology& topology,
               InterfaceRanks& ranks);
 
@@ -38,7 +39,8 @@ class WholeRows {
     /// A face of the mesh, and the data of a step in it.
     struct Face {
         Index index;
-        /// See PtackovaVelho::flux_map, with b and |f| at Vᵏ, and x = Vᵏ⁺¹.
+        /// The map from the edge vectors of the face to the fluxes across its edges (see PtackovaVelho::flux_map), with
+        /// the bisectors b and the area |f| at Vᵏ, and x = Vᵏ⁺¹.
         Eigen::Matrix3d flux;
         double area;
         /// The face's share in M_v ΔV at each of its corners.
@@ -53,8 +55,8 @@ class WholeRows {
 
     InterfaceCopies copies_;
     SharedRows shared_;
-    /// The copy of each row at Γ. Per copy, the rows beside Γ that are distributed to it, numbered after the rows at Γ,
-    /// each with the number of copies that share it.
+    /// Per row at Γ: its copy, and the rows beside Γ that are distributed to it, numbered from 0; vertices_, faces_at_
+    /// and of_rows_ have them after the rows at Γ. Per row beside Γ: the number of rows at Γ that share it.
     std::vector<Index> copy_of_row_;
     IndexLists beside_;
     std::vector<Index> n_sharing_;

@@ -32,9 +32,10 @@ Polynomial fit_polynomial(int order, int degree)
         before = now;
         now = next;
     }
-    const Eigen::VectorXd wanted = weight * (1.0 / (1.0 - order * w) - 1.0);
-    const Eigen::VectorXd a = functions.colPivHouseholderQr().solve(wanted);
-    return {{a.begin(), a.end()}, (functions * a - wanted).cwiseAbs().maxCoeff()};
+    // The functions are uᵏ (g - 1), which must be near this.
+    const Eigen::VectorXd target = weight * (1.0 / (1.0 - order * w) - 1.0);
+    const Eigen::VectorXd a = functions.colPivHouseholderQr().solve(target);
+    return {{a.begin(), a.end()}, (functions * a - target).cwiseAbs().maxCoeff()};
 }
 
 /// The polynomial of least degree that is good enough.

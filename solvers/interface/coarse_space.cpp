@@ -406,7 +406,7 @@ void CoarseSpace::exchange_terms()
 void CoarseSpace::multiply_transposed(Index s, const Points& y)
 {
     const Index n = copies_.n_in(s);
-    const Index of_all = ranks_.global_numbers()[s];
+    const Index global_number = ranks_.global_numbers()[s];
     const auto room = static_cast<Eigen::Index>(DenseFactor::room(n));
     if (s + 1 < copies_.n_sub_meshes())
         for (std::size_t i = 0; i < std::min(shares_[s + 1].product.size(), products_ahead); i += cache_line)
@@ -416,7 +416,7 @@ void CoarseSpace::multiply_transposed(Index s, const Points& y)
     for (Index i = 0; i < n; ++i)
         local.row(i) = y.row(copies_.vertex[copies_.offsets[s] + i]);
     const float* product = shares_[s].product.data();
-    for (Index term = functions_at_.offsets[of_all]; term < functions_at_.offsets[of_all + 1]; ++term) {
+    for (Index term = functions_at_.offsets[global_number]; term < functions_at_.offsets[global_number + 1]; ++term) {
         Point share;
         multiply_column(product, local, share);
         products_with_y_.row(term) = shares_[s].scale * share;

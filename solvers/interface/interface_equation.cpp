@@ -91,7 +91,8 @@ double InterfaceEquation::estimate_distance(const Point& unit)
     return ranks_->largest({largest}).front();
 }
 
-/// Weighs the copies of a vertex by the diagonals of the Schur complements.
+/// Sets weights_: the weights of the copies of a vertex are in proportion to their diagonal entries of the Schur
+/// complements, and add up to 1.
 void InterfaceEquation::weigh_copies(std::span<const DenseFactor> complements, const Executor& exec)
 {
     for_each(exec, copies_.n_sub_meshes(), [&](Index s) {

@@ -62,11 +62,11 @@ class InterfaceEquation {
     /// @param are_known whether the complements are those of the last solution.
     /// @param right_hand_sides one row per copy: each own sub-mesh's share g_i. Receives the rows of remote sub-meshes.
     /// @param residuals recomputes the residual; called every few iterations.
-    /// @param stop residual relative to that of x = 0, in the Euclidean norm, for each of x, y and z.
+    /// @param stop residual relative to that of x = 0, in the Euclidean norm, for each coordinate.
     /// @param guess one row per vertex of Γ: a direction in which the solution may be expected; null if unknown.
     /// @param x receives the solution, one row per vertex of Γ.
-    /// @returns the largest residual of x, y and z; as distance the largest row of the preconditioned residual, scaled
-    ///          like the last iteration.
+    /// @returns the largest of the three coordinates' residuals; as distance the largest row of the preconditioned
+    ///          residual, scaled like the last iteration.
     /// @throws ComputationError if the right-hand side or the result is not finite.
     InterfaceResult solve(std::span<const DenseFactor> complements, bool are_known, Points& right_hand_sides,
                           const Residuals& residuals, const Points* guess, const IterationStop& stop, Points& x,
@@ -92,8 +92,8 @@ class InterfaceEquation {
     InterfaceCopies copies_;
     SharedRows shared_;
     std::optional<CoarseSpace> coarse_;
-    /// Per copy: its weight W_i; 0 for a fixed vertex: without weights and functions of the coarse space nothing moves
-    /// it, so that its neighbours have the residuals of the equations that are solved.
+    /// Per copy: its weight W_i; 0 for a fixed vertex, which neither the preconditioner nor the coarse space then
+    /// moves.
     std::vector<double> weights_;
     /// Per vertex of Γ: 1 if it is fixed; empty if none has ever been fixed.
     std::vector<std::uint8_t> is_fixed_;

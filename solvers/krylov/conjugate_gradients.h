@@ -86,7 +86,7 @@ inline double largest_ratio(const Point& norms, const Point& first)
 }
 
 /// Moves x along p to the least energy, and updates r.
-/// @param multiply see PreconditionedEquations.
+/// @param multiply multiply(p, q) makes q = A p.
 inline void advance(const MapPoints& multiply, Points& x, ConjugateGradientVectors& v, const Executor& exec)
 {
     // q = A p
@@ -134,12 +134,13 @@ inline IterationResult conjugate_gradients(const PreconditionedEquations& equati
     constexpr double least_drift = 1e-7;
     constexpr double safety = 10.0;
 
-    const Point wanted = stop.tolerance * v.b_norms;
+    // The norms of the residual that end the iteration.
+    const Point tolerances = stop.tolerance * v.b_norms;
     Point measured = v.b_norms;
     Point drift = Point::Constant(first_drift);
-    // The norms at which the residual is to be measured.
+    // The norms at which the residual is to be measured: below the tolerances by the drift that is allowed for.
     const auto goals = [&] {
-        return Point(((1.0 - 1.0 / safety) * wanted).cwiseMax(most_reduction_at_once * measured));
+        return Point(((1.0 - 1.0 / safety) * tolerances).cwiseMax(most_reduction_at_once * measured));
     };
     const auto is_below = [](const Point& norms, const Point& limits) {
         return (norms.array() <= limits.array()).all();
@@ -149,7 +150,7 @@ inline IterationResult conjugate_gradients(const PreconditionedEquations& equati
     const auto norms_as_measured = [&] {
         const Point norms = v.norms(v.r, exec);
         const Point doubt = safety * drift.cwiseProduct(measured);
-        if (!is_below(norms, goals()) || is_below(norms.cwiseMax(doubt), wanted))
+        if (!is_below(norms, goals()) || is_below(norms.cwiseMax(doubt), tolerances))
             return norms;
         equations.measure(x, v.z);
         for_each(exec, static_cast<Index>(x.rows()), [&](Index i) { v.r.row(i) -= v.z.row(i); });

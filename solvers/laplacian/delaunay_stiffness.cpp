@@ -19,7 +19,8 @@ namespace {
 constexpr double negligible_weight = 1e-8;
 
 /// Whether an off-diagonal entry K_vw of a row is positive, which means that the weight -K_vw is negative.
-/// @param entries of the row, in any order; sorted. @param in_faces see make_delaunay.
+/// @param entries of the row, one per face and other vertex, in any order; sorted. @param in_faces whether the entries
+/// of each single face count, too.
 bool has_negative_weight(std::vector<std::pair<Index, double>>& entries, bool in_faces)
 {
     if (in_faces && std::ranges::any_of(entries, [](const auto& e) { return e.second > negligible_weight; }))
@@ -107,12 +108,13 @@ Lists<Index> edges_by_length(const IntrinsicTriangles& triangles)
     return sorted;
 }
 
-/// Moves the weight of half-edge h, which is opposite to an obtuse angle, towards 0. The energy of a linear function on
-/// a triangle is that of its derivative along h and that of its derivative across h. With the weight w of h and x, y of
-/// the others, 4 (x y + w x + w y) = 1, so that w = 1 / (4 (x + y)) - b x y / (x + y), where b = 1 is the factor of the
-/// second energy. b becomes the number that gives the new weight, at least 0, and x and y become b x and b y.
+/// Moves the weight of half-edge h, which is opposite to an obtuse angle, towards 0. The energy of a linear function on a
+/// triangle is that of its derivative along h and that of its derivative across h, the term of the bend. With the weight
+/// w of h and x, y of the others, 4 (x y + w x + w y) = 1, so that w = 1 / (4 (x + y)) - b x y / (x + y), where b = 1 is
+/// the factor of the term of the bend. b becomes the number that gives the new weight, at least 0, and x and y become
+/// b x and b y.
 /// @param weight the new weight of half-edge h. @param weights per half-edge; changed in the triangle of h.
-void soften(Index h, double weight, std::vector<double>& weights)
+void reduce_bend_term(Index h, double weight, std::vector<double>& weights)
 {
     double& x = weights[IntrinsicTriangles::next(h)];
     double& y = weights[IntrinsicTriangles::previous(h)];
@@ -141,7 +143,8 @@ std::vector<double> softened_weights(const IntrinsicTriangles& triangles, const 
         if (above + below < 0.0 && (topology.moves(v) || topology.moves(w)))
             for (const Index h : edges[e])
                 if (weights[h] < 0.0)
-                    soften(h, above / -below * weights[h], weights);
+                    // Afterwards the weights of the half-edges of this edge add up to 0.
+                    reduce_bend_term(h, above / -below * weights[h], weights);
         double sum = 0.0;
         for (const Index h : edges[e])
             sum += weights[h];

@@ -27,7 +27,7 @@ enum class Contributions {
 struct FacesOnBothSides {
     IndexListsView own;
     IndexListsView beyond;
-    /// The twins of the own faces: see SubMesh::twin.
+    /// Per half-edge of an own face: its twin in an own face, or -1 (see SubMesh::twin).
     std::span<const Index> twin;
     /// The number of all local vertices.
     Index n_vertices;

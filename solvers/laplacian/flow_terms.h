@@ -16,7 +16,7 @@ struct FlowTerms {
     /// Whether M is also that of V⁰ in all steps: the linear flow, which keeps K, too. Not for sweeps.
     bool keeps_mass = false;
     /// The weight w of the attachment to V⁰, (M + dt K + dt M w) Vᵏ⁺¹ = M Vᵏ + dt M w V⁰, in 1/length²: one per vertex
-    /// (#V), or, if empty, `weight` for all.
+    /// (#V), or, if empty, `uniform_weight` for all.
     std::span<const double> weights = {};
     double uniform_weight = 0.0;
     /// The step scale s of each vertex (#V), from 0 to 1: M / s replaces M, and w s replaces w, so that the time step

@@ -30,7 +30,8 @@ class IntrinsicTriangles {
     [[nodiscard]] Index start(Index h) const { return corners_[h / 3][usize(h % 3)]; }
     [[nodiscard]] Index end(Index h) const { return start(next(h)); }
     [[nodiscard]] double length(Index h) const { return edge(h).norm(); }
-    /// Half the cotangent of the angle opposite to a half-edge; large, but finite, in a triangle without area.
+    /// Half the cotangent of the angle opposite to a half-edge; large, but finite, in a triangle without area; 0 if one
+    /// of the other two edges has no length.
     [[nodiscard]] double half_cotangent(Index h) const;
 
     /// Flips edges until they are Delaunay, as far as possible.

@@ -32,6 +32,7 @@ class KeptStiffness final : public SymmetricLaplacian {
     void set_reference(const Points& positions) override
     {
         if (is_given_)
+            // The given K and M depend on no positions: only the weighing is undone.
             return take_given(unweighted_.empty() ? std::move(entries_) : std::move(unweighted_));
         std::vector<Index> slots(pairs_.size());
         std::iota(slots.begin(), slots.end(), 0);
@@ -170,7 +171,7 @@ class KeptStiffness final : public SymmetricLaplacian {
         }
     }
 
-    /// The largest difference of any two vertices of the face or edge whose pairs are [begin, end).
+    /// The largest squared difference of any two vertices of the face or edge whose pairs are [begin, end).
     [[nodiscard]] double largest_difference(std::size_t begin, std::size_t end,
                                             const SquaredDifference& squared_difference) const
     {

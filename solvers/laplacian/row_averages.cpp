@@ -12,6 +12,7 @@ namespace seamflow {
 
 namespace {
 
+/// About this many vertices, evenly spread, are averaged over.
 constexpr Index sample_size = 512;
 
 }  // namespace

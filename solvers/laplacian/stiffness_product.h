@@ -40,8 +40,9 @@ void with_product(const StiffnessProduct* product, AssembleWith&& assemble_with)
         add_with([](const Point& difference, const Point& increment) -> Point { return difference + increment; });
 }
 
-/// Adds the share of an auxiliary unknown to the product: -c (cᵀ u) / d with u = V - V₀ + X - X₀, V₀ and X₀ being those
-/// of one corner, and the term by which the rows of S do not sum to zero.
+/// Adds the share of an auxiliary unknown to the product: -c (cᵀ u) / d, c being the column of C for the unknown and u
+/// = V - V₀ + X - X₀ (or X - X₀ for the product with X alone), V₀ and X₀ those of one corner; and the term by which the
+/// rows of S do not sum to zero.
 /// @param n the number of corners. @param vertex gives the i-th corner. @param entry gives its entry of c. @param d the
 /// entry of D.
 template <class VertexOf, class EntryOf>

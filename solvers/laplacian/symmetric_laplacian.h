@@ -77,8 +77,9 @@ class SymmetricLaplacian {
     /// Calls action(n) for each face, or edge, in order, n being the number of consecutive `pairs` that belong to it.
     virtual void for_each_element(const std::function<void(std::size_t n)>& action) const = 0;
 
-    /// Multiplies the kept K of every face, or edge, by 1 / (1 + the largest difference of two of its vertices): the
-    /// diffusivity of Perona and Malik (Scale-Space and Edge Detection Using Anisotropic Diffusion, 1990).
+    /// Multiplies the kept K of every face, or edge, by 1 / (1 + the largest squared difference of two of its
+    /// vertices): the diffusivity of Perona and Malik (Scale-Space and Edge Detection Using Anisotropic Diffusion,
+    /// 1990).
     virtual void weigh(const SquaredDifference&) {}
 };
 

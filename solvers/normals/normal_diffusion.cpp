@@ -321,9 +321,9 @@ void NormalDiffusion::diffuse(Points& normals, const Executor& exec)
         residual_.row(f) = -laplacian(normals, f);
         direction_.row(f) = preconditioned(f);
     });
-    const double wanted = diffusion_tolerance * diffusion_tolerance * sum_of_products(residual_, residual_, exec);
+    const double squared_goal = diffusion_tolerance * diffusion_tolerance * sum_of_products(residual_, residual_, exec);
     double before = energy();
-    for (int i = 0; i < most_diffusion_iterations && sum_of_products(residual_, residual_, exec) > wanted; ++i) {
+    for (int i = 0; i < most_diffusion_iterations && sum_of_products(residual_, residual_, exec) > squared_goal; ++i) {
         // q = (A + τ L) p, α = (r, z) / (p, q)
         for_each(exec, n, [&](Index f) { product_.row(f) = areas_[f] * direction_.row(f) + laplacian(direction_, f); });
         const double alpha = before / sum_of_products(direction_, product_, exec);

@@ -12,9 +12,9 @@ namespace seamflow {
 /// Smooths face normals by diffusion along the surface that stops at edges: (A + τ L) N ← A N, normalised, several
 /// times. A has the face areas, and L is the Laplacian of the graph of faces that share a vertex, with the weights
 ///
-///     w_ij = 4 √(a_i a_j / (m_i m_j)) γ_ij (1 - |n_i - n_j| |g_i - g_j| / 9σ²)², 0 where that is below 0
+///     w_ij = 4 √(a_i a_j / (m_i m_j)) γ_ij (1 - |n_i - n_j| |g_i - g_j| / (9σ²))², 0 where the bracket is negative
 ///
-/// m_i = Σ_j γ_ij |c_i - c_j|², γ_ij = exp(-2 |c_i - c_j|² / r_i r_j), with c the centroids and r_i the root mean
+/// m_i = Σ_j γ_ij |c_i - c_j|², γ_ij = exp(-2 |c_i - c_j|² / (r_i r_j)), with c the centroids and r_i the root mean
 /// square distance of the neighbours: where nothing stops them, normals diffuse as by the Laplacian of the surface, so
 /// that τ is in length². The factor at the end, Tukey's diffusivity (Black et al., Robust anisotropic diffusion, 1998),
 /// stops it at edges. It takes the geometric mean of two chords, between the normals n and between guides g, which
@@ -69,7 +69,8 @@ class NormalDiffusion {
     std::vector<double> areas_;
     /// #F by 3: the centroids.
     Points centroids_;
-    /// #F: r_i, in length, and 2 √(τ a_i / m_i) with the area in mean face areas.
+    /// #F: r_i, in length, and 2 √(τ a_i / m_i), with the areas in mean face areas: the products of two of these are 4
+    /// τ √(a_i a_j / (m_i m_j)).
     std::vector<double> reach_;
     std::vector<double> scale_;
     /// #F by 3: the guides; the mean normals of each face and its neighbours; and #F: their disagreement, 0 if all are

@@ -11,7 +11,7 @@ namespace seamflow {
 /// across edges, and vertices move to fit them.
 /// @param topology twins are not used. @param lines of the mesh. @param diffusion of the mesh, cut open along the
 /// lines.
-/// @param time_step in length². @param angle see NormalDiffusion::smoothed.
+/// @param time_step in length². @param angle between the normals of faces, in degrees: sharper edges stay.
 /// @param positions #V by 3.
 /// @returns #V by 3.
 Points smoothed_between_edges(const PolygonMesh& mesh, const Topology& topology, const FeatureLines& lines,

@@ -75,7 +75,7 @@ struct WantedFaces {
     const Topology& topology;
     const Points& normals;
     Points centroids;
-    /// See weights_of_corners.
+    /// Per corner: the weight of its face at the vertex, 1 or less (see weights_of_corners); empty: 1.
     std::vector<float> weights;
 };
 

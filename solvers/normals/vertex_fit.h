@@ -6,7 +6,7 @@
 
 namespace seamflow {
 
-/// The wanted normals of faces, from a noisy surface.
+/// The wanted normals of faces, which the faces are to get: smoothed normals of a noisy surface.
 struct NoisyNormals {
     /// #F by 3: of length 1, to either side; 0 for faces without a wanted normal.
     const Points& normals;

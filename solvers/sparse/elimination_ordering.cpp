@@ -53,6 +53,7 @@ AmdResult::AmdResult(SparsePattern neighbours)
     std::vector<Index> length(n);
     for (std::size_t i = 0; i < n; ++i)
         length[i] = neighbours.column_offsets[i + 1] - neighbours.column_offsets[i];
+    // In: the beginning of each list. Out: the parents.
     parent.assign(neighbours.column_offsets.begin(), neighbours.column_offsets.end() - 1);
     for (auto* result : {&position, &order, &width, &front})
         result->resize(n);

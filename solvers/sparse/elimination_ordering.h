@@ -11,6 +11,7 @@ namespace seamflow {
 /// are none. Entries that stay zero may count, if that gives columns the same rows; the parent may then be unrelated to
 /// the column: hardly ever in a mesh, but in graphs such as stars.
 struct EliminationTree {
+    /// The parent of each column; and the number of rows below the diagonal.
     std::vector<Index> parent;
     std::vector<Index> count;
 };

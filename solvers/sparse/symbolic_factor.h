@@ -38,7 +38,7 @@ struct SymbolicFactor {
 };
 
 /// Analyses a matrix of any pattern, in an elimination ordering of its own.
-/// @throws ComputationError if there is too little memory.
+/// @throws ComputationError if there is too little memory for the elimination ordering, or 2³¹ entries or more.
 SymbolicFactor make_symbolic_factor(const SparsePattern& pattern);
 
 /// Analyses a symmetric matrix whose unknowns are in the elimination ordering; without `position` and `updates`. Some

@@ -188,7 +188,7 @@ void BlockRowMatrix::solve_upper(const Row& alpha, const Row& beta, const Execut
     });
 }
 
-/// q = (D + L)⁻¹ A t = t + (D + L)⁻¹ (p + (A - L - D - D - Lᵀ) t).
+/// q = (D + L)⁻¹ A t = t + (D + L)⁻¹ (p + (A - L - 2 D - Lᵀ) t), because (D + Lᵀ) t = p.
 /// @returns Σ p q.
 Eigen::Array4d BlockRowMatrix::solve_lower(const Executor& exec)
 {

@@ -55,7 +55,8 @@ class BlockRowMatrix {
 
     /// @param blocks #blocks + 1: the first row of each block, then the number of rows.
     /// @param pattern called once for each block, from several threads at the same time.
-    /// @throws ComputationError if there are 2³¹ entries or more.
+    /// @throws ComputationError if there are 2³¹ entries or more below the diagonals of the blocks, above them, or
+    /// outside the blocks.
     BlockRowMatrix(std::vector<Index> blocks, const Pattern& pattern, const Executor& exec);
 
     [[nodiscard]] Index n_rows() const { return blocks_.back(); }

@@ -69,6 +69,7 @@ SubMeshSystem::Assembled GeneralSystem::assemble(const Points& positions, const 
     // (I + dt Δ + dt w) Vᵏ⁺¹ = Vᵏ + dt w V⁰, except on Γ and where vertices are fixed
     std::fill(values_.begin(), values_.end(), 0.0);
     laplacian_->add(positions, time_step, slots_, values_);
+    // A vertex with step scale s takes a step of s dt.
     for (std::size_t slot = 0; !screening_.strengths.empty() && slot < pattern_.rows.size(); ++slot)
         values_[slot] *= screening_.strengths[usize(pattern_.rows[slot])];
     for (Index v = 0; v < sub_mesh_->n_vertices; ++v) {

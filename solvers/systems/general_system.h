@@ -38,7 +38,7 @@ class GeneralSystem final : public SubMeshSystem {
     [[nodiscard]] Point pull(Index v) const;
 
     const SubMesh* sub_mesh_;
-    /// See SubMesh::twin.
+    /// Per half-edge of an own face, its twin (see SubMesh::twin).
     std::vector<Index> twin_;
     std::vector<Row> row_of_;
     std::unique_ptr<TransmissionCondition> condition_;

@@ -78,7 +78,7 @@ class NeumannSystem {
                                      SolverWorkspace& workspace, const Points* data = nullptr) const;
 
     /// Factorises the matrix of a step.
-    /// @param precision Automatic: single precision.
+    /// @param precision Automatic: single precision, if it loses few digits.
     /// @param memory must outlive the factor, as must the system.
     /// @returns nothing where the precision is Automatic, and single precision would lose too many digits.
     /// @throws ComputationError if the equations are singular or not finite.

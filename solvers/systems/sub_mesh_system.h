@@ -97,7 +97,7 @@ struct SystemParts {
     Executor exec = {};
 };
 
-/// The equations with a condition of any kind on Γ.
+/// The equations with a condition of any kind on Γ. The condition is not used if Γ is empty.
 /// @throws ComputationError if the analysis fails.
 std::unique_ptr<SubMeshSystem> make_system(SystemParts parts, std::unique_ptr<TransmissionCondition> condition,
                                            SolverWorkspace& workspace);

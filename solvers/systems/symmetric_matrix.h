@@ -92,7 +92,7 @@ struct SymmetricMatrix {
     /// Fills in the values; the workspace receives the diagonal of dt K, and M.
     /// @param positions at least #own by 3, the halo where the Laplacian reaches it: Vᵏ.
     /// @param n_further the number of further values.
-    /// @param product see SymmetricLaplacian::assemble.
+    /// @param product receives the product of dt K and positions; may be nullptr.
     /// @returns the entries and the further values, in the workspace.
     std::span<double> fill(const Points& positions, double time_step, std::size_t n_further, SolverWorkspace& workspace,
                            const StiffnessProduct* product = nullptr) const;

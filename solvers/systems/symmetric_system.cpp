@@ -145,7 +145,7 @@ void SymmetricSystem::make_dirichlet_row(std::size_t i, std::span<double> values
     values[matrix_.diagonal_slot(rows_[i].unknown)] = 1.0;
 }
 
-/// Adds the response of the other side to the diagonal, unless too little of the diagonal would remain.
+/// Adds the response of the other side to the diagonal, unless that would make the diagonal of dt K negative.
 /// @param diagonal dt K_vv.
 void SymmetricSystem::make_transmission_row(std::size_t i, const Points& positions, double time_step, double diagonal,
                                             std::span<double> values)

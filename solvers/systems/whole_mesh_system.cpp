@@ -240,7 +240,7 @@ double WholeMeshSystem::farthest_move(const Executor& exec) const
 /// The estimated largest distance of a vertex to its position in the exact step, in units of length, after a pass: the
 /// sum of the updates that are still to come, if they decrease at the mean rate of this pass (a geometric series),
 /// times the ratio of the recomputed residual to that at which the pass arrived. After a pass too short to show a rate:
-/// the previous estimate, scaled like the residual.
+/// the previous estimate, if there is one, scaled like the residual.
 /// @param length the unit of pass.last_update. @param before_pass, left the residuals before and after the pass, as
 ///        fractions of the first residual. @param distance_before the estimate after the previous pass; 0: none.
 double WholeMeshSystem::estimate_distance_after(const BlockRowMatrix::Result& pass, double length, double before_pass,
@@ -269,11 +269,12 @@ void WholeMeshSystem::take_units(double time_step)
     has_matrix_ &= time_step == time_step_;
     time_step_ = time_step;
     const double root = std::sqrt(time_step);
+    // M is in length for Laplacians that divide by lengths of edges, and in length² for the others.
     const double mass_unit = traits_of(laplacian_).divisor == Divisor::EdgeLengths ? root : time_step;
     units_ = {.stiffness = time_step / mass_unit, .mass = 1.0 / mass_unit, .length = 1.0 / root};
 }
 
-/// Takes a step in a flow that keeps the matrix of V⁰. Iterations begin with Vᵏ, or with the guess.
+/// Takes a step in a flow that keeps the matrix of V⁰. Iterations begin with Vᵏ; guesses are not used.
 WholeMeshSystem::Result WholeMeshSystem::step_with_kept_matrix(const Points& before, const IterationStop& stop,
                                                                Points& after, const Executor& exec)
 {

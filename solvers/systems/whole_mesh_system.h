@@ -29,7 +29,7 @@ class WholeMeshSystem {
     /// @param mesh, topology must outlive the system. Vertices that do not move have no row.
     /// @param terms keeping both M and K, or neither.
     /// @param is_applied_again whether `apply` will be called.
-    /// @throws ComputationError if there are 2³¹ coefficients or more; OptionError for an unsymmetric Laplacian.
+    /// @throws ComputationError if there are 2³¹ coefficients or more (see BlockRowMatrix).
     WholeMeshSystem(const PolygonMesh& mesh, const Topology& topology, const ScaledLaplacian& laplacian,
                     const FlowTerms& terms, const Executor& exec, bool is_applied_again = false);
     WholeMeshSystem(const WholeMeshSystem&) = delete;
@@ -47,9 +47,10 @@ class WholeMeshSystem {
 
     /// Takes a step.
     /// @param before #V by 3: Vᵏ. @param time_step dt, in length².
-    /// @param stop relative to the residual at Vᵏ⁺¹ = Vᵏ, in the norm of the inverse of the diagonal.
+    /// @param stop relative to the residual at Vᵏ⁺¹ = Vᵏ, in the norm of the inverse of the preconditioner.
     /// @param after #V by 3, in other memory than Vᵏ: receives Vᵏ⁺¹; fixed vertices keep their positions.
-    /// @param guess #V by 3: iterations begin with it if its residual is smaller than that of Vᵏ; may be null.
+    /// @param guess #V by 3: iterations begin with it if its residual is smaller than that of Vᵏ; may be null. Not used
+    /// in flows that keep M. @throws OptionError for an unsymmetric Laplacian.
     Result step(const Points& before, double time_step, const IterationStop& stop, Points& after, const Executor& exec,
                 const Points* guess = nullptr);
 
