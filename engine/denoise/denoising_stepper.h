@@ -42,6 +42,7 @@ class DenoisingStepper final : public WholeMeshStepper {
                                                    const std::vector<Edge>& feature_edges, const Executor& exec);
 
     const PolygonMesh* mesh_;
+    /// The mesh on which noise is removed; null without feature edges: then it is mesh_.
     std::unique_ptr<const CutOpen> open_;
     /// #V of the mesh that is cut open: the fraction of its displacement that each vertex moves by; empty: 1.
     std::vector<double> strengths_;

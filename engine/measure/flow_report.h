@@ -32,8 +32,8 @@ struct SubMeshReport {
 /// The report on the cut.
 struct CutReport {
     std::vector<SubMeshReport> sub_meshes;
-    /// #F: the sub-mesh of every face after repair. Faces in which no vertex of a region moves have the number of
-    /// sub-meshes.
+    /// #F: the sub-mesh of every face after repair. Faces that were left out because no vertex of them moves have the
+    /// label n_sub_meshes().
     std::vector<Index> labels;
     /// Number of vertices on the interface Γ.
     std::int64_t interface_vertices = 0;

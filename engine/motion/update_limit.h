@@ -30,7 +30,8 @@ class UpdateLimit {
         std::string what;
     };
 
-    /// The vertex with the largest displacement, if that is too large.
+    /// The first vertex whose position is not finite, or else the vertex with the largest displacement, if that is too
+    /// large; empty: the step is within the limit.
     [[nodiscard]] std::optional<Excess> find(const Points& before, const Points& after) const;
 
     const PolygonMesh& mesh_;

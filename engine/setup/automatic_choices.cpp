@@ -107,8 +107,8 @@ bool has_long_faces(const PolygonMesh& mesh)
     return false;
 }
 
-/// Whether most entries of the rows would belong to faces with so many corners that factorisations give them auxiliary
-/// unknowns.
+/// Whether the rows couple all corners of a face, and the faces with so many corners that factorisations give them
+/// auxiliary unknowns have more than 16 entries of the rows for each corner of the mesh: far more than all other faces.
 bool has_dense_rows(const PolygonMesh& mesh, Laplacian laplacian)
 {
     constexpr double most_entries_by_corners = 16.0;

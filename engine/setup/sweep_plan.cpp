@@ -50,7 +50,7 @@ TransferRow sender_of(const Decomposition& decomposition, std::span<const Index>
     return {-1, -1, -1};
 }
 
-/// The lowest sub-mesh at a vertex of Γ, s excluded.
+/// The lowest number of the sub-meshes at a vertex of Γ other than s.
 Index lowest_but(Index s, std::span<const Index> sharing)
 {
     return sharing[0] == s ? sharing[1] : sharing[0];
@@ -92,6 +92,9 @@ class LargeFaces {
     std::vector<Seen> seen_;
 };
 
+/// Sets the transfers of predictions to sub-mesh s: one sender for each vertex of its halo that shares a face with a
+/// vertex of Γ where s leads.
+/// @param plan has the roles of s.
 void plan_predictions(const Decomposition& decomposition, Index s, SweepPlan& plan)
 {
     const SubMesh& sub_mesh = decomposition.sub_meshes[s];
@@ -109,6 +112,7 @@ void plan_predictions(const Decomposition& decomposition, Index s, SweepPlan& pl
                     continue;
                 // The lowest sender is taken, so that the choice does not depend on the numbering of vertices.
                 TransferRow& sender = senders[v - sub_mesh.n_vertices];
+                // No sub-mesh at this vertex of Γ is lower than the sender found before.
                 if (sender.from >= 0 && sender.from <= lowest_but(s, interface.sharing[i]))
                     continue;
                 if (const TransferRow found = sender_of(decomposition, interface.sharing[i], s, v);

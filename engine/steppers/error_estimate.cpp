@@ -210,9 +210,11 @@ void ErrorEstimate::restore(StepMemoryReader& memory)
 std::optional<double> ErrorEstimate::find_largest() const
 {
     double squared = 0.0;
+    // 1 if a number is not finite: a double, so that it can be compared between ranks.
     double is_lost = 0.0;
     for (Eigen::Index i = 0; i < swept_.rows(); ++i) {
         const Point error = swept_.row(i);
+        // A correction may happen to cancel an error of sweeps: the larger of the two distances counts.
         const double here = std::max(error.squaredNorm(), (error + corrected_.row(i)).squaredNorm());
         if (std::isfinite(here))
             squared = std::max(squared, here);

@@ -52,7 +52,9 @@ class SchurStepper final : public ConvergedStepper, public ChangeableEquations {
 
     void set_data(const Points& data, DataSteps steps) override;
 
-    /// Whether take_columns can be called: after a step of a linear flow of the whole mesh.
+    /// Whether take_columns can be called: the whole mesh is one sub-mesh, the filter is plain, the last step of a
+    /// linear flow has left its factor, no equation has changed since, and NeumannSystem::can_take_columns returns
+    /// true.
     [[nodiscard]] bool can_take_columns() const;
 
     /// Takes n steps with many columns of other data at once; positions() do not change. Only if can_take_columns() is

@@ -43,6 +43,7 @@ void receive_other_side(const std::vector<SubMeshState>& states, const std::vect
         for (std::size_t i = 0; i < transfer.source.size(); ++i)
             other_side.row(transfer.target[i]) += source.row(transfer.source[i]);
     }
+    // `sharing` has this sub-mesh, too, whose own copy is not in the sum.
     for (Index i = 0; i < interface.size(); ++i)
         other_side.row(interface.vertices[i]) /= static_cast<double>(interface.sharing[i].size() - 1);
 }

@@ -21,13 +21,14 @@ std::vector<Index> assign_stages(const std::vector<std::vector<Index>>& adjacenc
 /// The stages of the sweep in the opposite direction.
 std::vector<Index> reversed(const std::vector<Index>& stage);
 
-/// The number of factors that live at once. Sub-meshes are factorised in a fixed order: order[i + size] waits until
+/// A limit on the factors that live at once. Sub-meshes are factorised in a fixed order: order[i + size] waits until
 /// freed[i] has been solved and its factor is freed.
 struct FactorWindow {
     /// The sub-meshes in the order of factorisation.
     std::vector<Index> order;
     /// The same sub-meshes in an order in which they can be solved meanwhile.
     std::vector<Index> freed;
+    /// The most factors that live at once.
     Index size = 0;
 };
 

@@ -86,7 +86,8 @@ class SweepStepper final : public Stepper {
     void begin_solution(SubMeshState::Solution solution);
     void fetch_positions(SubMeshState& state);
     void join();
-    /// Whether the positions of a vertex differ between sub-meshes: with copies of Γ, and if sub-meshes overlap.
+    /// Whether the positions of a vertex differ between sub-meshes: with copies of Γ, and if sub-meshes overlap, for
+    /// which there is no estimate of the error.
     [[nodiscard]] bool has_copies() const { return copies_ || (!error_ && remote_ == nullptr); }
 
     /// Made once the size of factors is known.

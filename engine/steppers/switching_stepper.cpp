@@ -36,7 +36,7 @@ void SwitchingStepper::make_factors()
     }
 }
 
-/// Frees the factors, and records that factorising failed in this step.
+/// Frees the factors, and records that making or using them failed in this step.
 void SwitchingStepper::leave_factors()
 {
     failed_ = n_taken_ + 1;

@@ -178,7 +178,8 @@ std::vector<Index> FlowingMesh::of_faces_left(const std::vector<Index>& labels) 
     if (number_.empty() || labels.size() != number_.size())
         return labels;
     std::vector<Index> left;
-    // After its first triangle, a polygon has further triangles.
+    // number_ has the first triangle of each polygon; the polygon's further triangles, up to the next first one, get
+    // its label, too.
     for (std::size_t f = 0; f < labels.size(); ++f)
         if (number_[f] >= std::ssize(left)) {
             left.resize(usize(number_[f]), left.empty() ? 0 : left.back());

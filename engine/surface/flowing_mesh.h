@@ -27,8 +27,8 @@ class FlowingMesh {
     /// Lets vertices along seams move as one. To be called at most once. Replaces mesh().
     /// @param topology of mesh(); becomes that of the mesh with vertices joined.
     /// @param motion with lengths in units of length; its settings for joined vertices then apply to their
-    /// representative: it is fixed, or attached by
-    ///        the largest of their weights.
+    /// representative: it is fixed if any of them is, attached by the largest of their weights, and moves with the
+    /// smallest of their strengths.
     void weld_seams(Topology& topology, MotionOptions& motion, const Executor& exec);
 
     /// The number of vertices of mesh() that were merged into others, and no longer have faces.

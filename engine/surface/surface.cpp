@@ -73,6 +73,7 @@ class SurfaceMaker {
                  {fmt::format("Only the {} faces around the region flow, and are measured.", mesh_.mesh().n_faces())}});
     }
 
+    /// Makes the topology and the sizes of the present mesh.
     void look()
     {
         // One thread makes part of the topology: another one measures the mesh meanwhile.
@@ -80,8 +81,10 @@ class SurfaceMaker {
                  [&] { surface_.size = size_of(mesh_.mesh()); });
     }
 
+    /// Decides which vertices of the present mesh move, after look().
     void constrain_vertices()
     {
+        // Remarks on the mesh before its faces were changed no longer hold.
         surface_.remarks.clear();
         Topology& topology = surface_.topology;
         // Vertices that are joined may have edges without length.

@@ -31,7 +31,7 @@ class Progress {
     /// @throws Cancelled if the flow is to stop.
     void enter(FlowPhase phase, int step, double begin, double end);
 
-    /// Sets the number of parts of the present phase.
+    /// Sets the number of parts of the present phase (less than 1 counts as 1), none of which is done.
     void expect(double parts);
 
     /// Counts parts as done.
@@ -84,6 +84,7 @@ class LoopCount {
   private:
     Progress* progress_;
     double parts_;
+    /// The parts that the present task has counted, and its loops so far.
     double counted_ = 0.0;
     int loops_ = 0;
     /// The number of loops in the last task; before the first task a guess.
