@@ -39,7 +39,7 @@ class DirectedMotion {
     [[nodiscard]] bool is_on_silhouette(Index v, const Points& positions) const;
 
     /// The shortest motion along the line to the planes through V̂ of the surface at a vertex, and of the faces there;
-    /// 0 at the boundary if all of these lead further from V̂ than its longest edge, and further than the line passes V̂.
+    /// 0 at the boundary if all of these lead further from V̂ than its longest edge, and than the distance of the line.
     [[nodiscard]] double least_way(Index v, const Point& way, const Points& moved) const;
 
     /// The length of the longest edge at a vertex, mapped by `seen`.

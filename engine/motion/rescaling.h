@@ -14,11 +14,10 @@
 namespace seamflow {
 
 /// Brings each component of a surface (see SurfaceComponents) back to the area or volume and to the centroid of area
-/// that it began with (see Rescale): components neither move apart nor compensate for each other. A component
-/// without an area or volume above rounding, or of which too little is left, is not scaled; if that holds for all
-/// components, it is an error. The area of a face is
-/// the length of its vector area; volume is measured under the triangles that join every face's edges to the mean of
-/// its corners.
+/// that it began with (see Rescale): components neither move apart nor compensate for each other. A component without
+/// an area or volume above rounding, or of which too little is left, is not scaled; if that holds for all components,
+/// it is an error. The area of a face is the length of its vector area; volume is measured under the triangles that
+/// join every face's edges to the mean of its corners.
 class Rescaling {
   public:
     /// Measures the surface as it is. The mesh and topology must outlive the object.

@@ -50,7 +50,7 @@ TransferRow sender_of(const Decomposition& decomposition, std::span<const Index>
     return {-1, -1, -1};
 }
 
-/// The lowest number of the sub-meshes at a vertex of Γ other than s.
+/// The lowest sub-mesh at a vertex of Γ, s excluded.
 Index lowest_but(Index s, std::span<const Index> sharing)
 {
     return sharing[0] == s ? sharing[1] : sharing[0];

@@ -187,6 +187,8 @@ VanishingComponents::Pose VanishingComponents::pose(std::span<const Index> verti
     Pose pose{.centre = mean_of(positions, vertices)};
     if (diagonal > point_in_coordinates * farthest) {
         pose.scale = std::max(pose_diagonal / diagonal, 1.0);
+        // About M / (dt K) is left of a shape. M / K grows with the square of the scale, or with the scale alone if K
+        // is kept; the shape itself grows with the scale.
         pose.rest = 1.0 / (pose.scale * pose.scale * (has_kept_lengths_ ? 1.0 : pose.scale));
     }
     for (std::size_t i = 0; i < vertices.size(); ++i) {
