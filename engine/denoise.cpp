@@ -109,7 +109,8 @@ class Denoising {
         return identity;
     }
 
-    /// Fills in the report on the mesh, and the remarks on its surface. @param need see need_of_junctions.
+    /// Fills in the report on the mesh, and the remarks on its surface. @param need the condition under which vertices
+    /// at junctions would move (see need_of_junctions).
     void begin_report(const Surface& surface, std::string_view need, DenoiseReport& report)
     {
         report.mesh = report_on(surface, options_.motion.strength);

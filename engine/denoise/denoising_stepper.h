@@ -18,7 +18,7 @@ namespace seamflow {
 class DenoisingStepper final : public WholeMeshStepper {
   public:
     /// @param mesh, topology, progress must outlive the stepper; the twins of the topology are not needed later.
-    /// @param edge_angle see RemoveNoise.
+    /// @param edge_angle edges at which normals differ by more stay where the noise is small, in degrees.
     DenoisingStepper(const PolygonMesh& mesh, const Topology& topology, const MotionOptions& motion, double edge_angle,
                      Progress& progress);
 

@@ -122,7 +122,7 @@ struct StepState {
     /// #V by 3, the positions after the step.
     const Points& positions;
     const StepReport& report;
-    /// See FlowReport::separated; null without ReportOptions::keep_gaps.
+    /// The sub-meshes after the step, each with its own copy of Γ; null without ReportOptions::keep_gaps.
     const PolygonMesh* separated = nullptr;
     /// #V by 3: the positions of the undecomposed flow, rescaled as well; null without ReportOptions::reference.
     const Points* reference_positions = nullptr;

@@ -37,8 +37,9 @@ class Rescaling {
   private:
     /// The size and the centroid of a component.
     struct Extent {
+        /// In length².
         double area;
-        /// Area in length², or volume in length³.
+        /// The area again, or the volume in length³: what Rescale keeps.
         double size;
         Point centroid;
     };

@@ -79,7 +79,9 @@ class SurfaceRun {
   private:
     void measure(const Points& after, StepReport& of_step);
 
+    /// The Laplacian with which mean curvature is measured.
     ScaledLaplacian laplacian_;
+    /// The largest mean curvature before the next step, in 1/length.
     double curvature_before_ = 0.0;
     /// The size of the surface before the first step (see box_of_faces).
     double extent_before_;

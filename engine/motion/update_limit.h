@@ -35,6 +35,7 @@ class UpdateLimit {
     [[nodiscard]] std::optional<Excess> find(const Points& before, const Points& after) const;
 
     const PolygonMesh& mesh_;
+    /// The diagonal of the bounding box of the faces when the limit was made.
     double diagonal_ = 0.0;
     /// The largest displacement, in units of length.
     double largest_ = 0.0;

@@ -38,7 +38,7 @@ class RankGroup final : public StepSharing {
     /// and steps are sweeps with one copy of Γ and without overlap, or converged steps. Rank 0 takes all other steps
     /// alone.
     [[nodiscard]] bool can_share(const FlowPlan& plan, const StepSettings& settings) const override;
-    /// See RankStepper.
+    /// Makes a RankStepper, which shares its steps among all ranks.
     std::unique_ptr<HeatStepper> make_stepper(const PolygonMesh& mesh, const Topology& topology, const FlowPlan& plan,
                                               const StepSettings& settings, std::vector<double> curvature,
                                               Progress& progress) override;

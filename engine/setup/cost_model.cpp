@@ -35,12 +35,14 @@ constexpr PerVertex setup_of_sweeps{300.0, 200.0, 0.22};
 constexpr PerVertex step_of_sweeps{80.0, 14.0, 0.03};
 constexpr PerVertex step_of_converged{100.0, 18.0, 0.05};
 constexpr PerVertex interface_iteration{10.0, 0.0, 0.05};
-/// The vertices above which a mesh is cut by clusters of faces.
+/// A mesh with at least this many vertices is cut by clusters of faces, which makes the set-up per vertex cheaper by
+/// this factor.
 constexpr Index large_mesh = 250'000;
 constexpr double part_of_setup_if_large = 0.6;
 
 constexpr PerVertex setup_of_undecomposed{400.0, 55.0, 0.6};
-/// For a mesh of `reference_vertices`; factors grow faster than meshes.
+/// For a mesh of `reference_vertices`. Factors grow faster than meshes: in larger ones the time per vertex grows by
+/// this power of their size.
 constexpr PerVertex step_of_undecomposed{0.0, 45.0, 0.45};
 constexpr double reference_vertices = 10'000.0;
 constexpr double growth_of_factors = 0.22;

@@ -33,6 +33,7 @@ struct PredictedCost {
     double setup = 0.0;
     double step = 0.0;
 
+    /// The seconds of that many steps, with the work before the first.
     [[nodiscard]] double of(int steps) const { return setup + steps * step; }
 };
 

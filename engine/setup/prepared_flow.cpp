@@ -31,8 +31,8 @@ std::uint64_t require_sound(const PolygonMesh& mesh, const FlowOptions& options,
     return identity;
 }
 
-/// Whether only the faces around a region need to flow: no option needs the whole surface, and no seam of a moving
-/// boundary could open.
+/// Whether only the faces around a region need to flow: there are strengths, no option needs the whole surface, and no
+/// seam of a moving boundary could open.
 bool flows_alone(const FlowOptions& options)
 {
     return !options.motion.strength.empty() && !options.motion.limits.exist() && !options.motion.strict &&

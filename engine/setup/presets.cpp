@@ -13,6 +13,7 @@
 #include "engine/measure/smoothed_radius.h"
 #include "engine/options/option_names.h"
 #include "engine/options/option_rules.h"
+#include "engine/options/option_traits.h"
 #include "partition/errors.h"
 #include "partition/metrics/bounding_box.h"
 #include "partition/metrics/spikes.h"

@@ -14,7 +14,8 @@ std::vector<double> total_curvatures(const Decomposition& decomposition, const s
 /// #sub-meshes: the stage of each sub-mesh in a forward sweep, from 0; sub-meshes of one stage have one colour. The
 /// colours are ordered by decreasing total curvature: the paper's authors let the side with the larger curvature begin.
 /// @param colours_are_labels whether the stage of a sub-mesh is its label instead.
-/// @param adjacency per sub-mesh: the others with which it shares a vertex of Γ. @param totals see total_curvatures.
+/// @param adjacency per sub-mesh: the others with which it shares a vertex of Γ. @param totals the total
+/// curvature of each sub-mesh (see total_curvatures).
 std::vector<Index> assign_stages(const std::vector<std::vector<Index>>& adjacency, bool colours_are_labels,
                                  const std::vector<double>& totals);
 

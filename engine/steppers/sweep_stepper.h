@@ -30,7 +30,7 @@ namespace seamflow {
 /// Sub-meshes, of a whole mesh or of one of several ranks, and their order in a sweep over all.
 struct SweepSubMeshes {
     RankSubMeshes own;
-    /// #sub-meshes: see SweepPlan::stage.
+    /// #sub-meshes: the turn of each in a sweep forward, from 0 (see SweepPlan::stage).
     std::vector<Index> stage = {};
     /// Only for ranks, for a sweep forward and one backward: this rank's part of orders that are common to all ranks,
     /// and the smallest size with which the sweep cannot deadlock. Empty: the windows follow from the plans.

@@ -51,12 +51,15 @@ class Progress {
 
     const FlowControl* control_;
     FlowProgress now_;
+    /// The fractions of the whole at the beginning and at the end of the present phase.
     double begin_ = 0.0;
     double end_ = 0.0;
+    /// The number of parts of the present phase, and of those that are done.
     double parts_ = 1.0;
     std::atomic<double> done_{0.0};
     /// Set while the observer is called.
     std::atomic_flag is_reporting_;
+    /// The fraction of the whole that was reported last, and the time since then.
     double reported_ = 0.0;
     Stopwatch since_report_;
 };
