@@ -91,6 +91,8 @@ void FlowRun::free_topology()
     topology.vertex_corners = std::vector<Index>();
 }
 
+/// Begins the measurements, and makes the stepper, without factors if these exceed the memory limit and the plan has
+/// such an alternative; and the stepper of the undecomposed flow, if it is asked for.
 void FlowRun::make_steppers()
 {
     const PolygonMesh& mesh = mesh_.mesh();

@@ -16,6 +16,7 @@ namespace seamflow {
 
 namespace {
 
+/// @throws InputError if a vertex with faces is fixed: rescaling would move it.
 void require_movable(const Topology& topology, Index n_vertices)
 {
     const auto held = select(run_in_parallel, n_vertices,
@@ -30,6 +31,7 @@ void require_movable(const Topology& topology, Index n_vertices)
                 : "where the mesh is not manifold or degenerate: mend it")});
 }
 
+/// @throws InputError if the surface has a boundary, junctions, or neighbouring faces that are not oriented alike.
 void require_closed(const PolygonMesh& mesh, const Topology& topology)
 {
     const auto starts_at = [&](Index h) { return mesh.face_vertices[h]; };
@@ -53,6 +55,7 @@ void require_closed(const PolygonMesh& mesh, const Topology& topology)
                                  edge));
 }
 
+/// The mean of the corners of a face, relative to `origin`.
 Point mean_of(std::span<const Index> corners, const Points& positions, const Point& origin)
 {
     Point sum = Point::Zero();

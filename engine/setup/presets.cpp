@@ -78,6 +78,7 @@ double rounded(double value)
     return std::stod(fmt::format("{:.3g}", value));
 }
 
+/// @returns the time step. @throws InputError if it is no normal number, as on a mesh without a size.
 double require_step(double time_step)
 {
     if (std::isnormal(time_step))
@@ -85,6 +86,7 @@ double require_step(double time_step)
     throw InputError(Wording{"the mesh has no size to measure noise by; use <time_step>"});
 }
 
+/// Chooses no steps, and any valid time step, because there must be one. Adds the remark why.
 void smooth_nothing(PresetChoice& choice, double mean_edge, std::string_view why)
 {
     choice.options.steps = 0;

@@ -54,7 +54,7 @@ ErrorEstimate::ErrorEstimate(const Decomposition& decomposition, const PolygonMe
         array->setZero(equation_.size(), 3);
     if (equation.terms.keeps_stiffness)
         initial_ = mesh.vertices;
-    note_attachment(equation.terms);
+    store_attachment(equation.terms);
     if (laplacian_ == Laplacian::PtackovaVelho) {
         solved_ = mesh.vertices;
         list_remote_rows();
@@ -81,8 +81,8 @@ void ErrorEstimate::list_remote_rows()
         sort_unique(rows);
 }
 
-/// Notes V⁰ and dt w at each vertex of Γ, if the flow pulls vertices back to V⁰ with weights w (see FlowTerms).
-void ErrorEstimate::note_attachment(const FlowTerms& terms)
+/// Stores V⁰ and dt w at each vertex of Γ, if the flow pulls vertices back to V⁰ with weights w (see FlowTerms).
+void ErrorEstimate::store_attachment(const FlowTerms& terms)
 {
     if (!terms.attaches())
         return;

@@ -124,7 +124,7 @@ void solve(std::vector<SubMeshState>& states, Index s, const std::vector<Transfe
         receive_other_side(states, halo, plan.copies[s], latest, state, workspace.other_side);
         state.system->use_other_side(state.position, workspace.other_side);
     }
-    // `solved` has Vᵏ⁺¹ where the sub-mesh follows.
+    // On Γ `solved` now has Vᵏ⁺¹ where the sub-mesh follows.
     state.system->solve(*state.factor, state.given(), state.solved, workspace);
     if (state.solution == SubMeshState::Solution::Only)
         state.factor.reset();

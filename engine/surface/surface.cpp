@@ -59,9 +59,11 @@ class SurfaceMaker {
     }
 
   private:
+    /// Leaves out the faces that the strengths hold, if this is requested.
     void leave_out_still_faces()
     {
         std::vector<double>& strength = motion_.strength;
+        // Strengths of 1 everywhere change nothing.
         if (std::ranges::all_of(strength, [](double s) { return s == 1.0; }))
             strength.clear();
         if (request_.leaves_out_still_faces && !strength.empty() &&
