@@ -19,7 +19,7 @@ struct SubMeshReport {
     Index faces = 0;
     /// The number of its vertices, including the interface, and the overlap of Conditions::Schwarz.
     Index vertices = 0;
-    /// Colour 0 solves first in even steps.
+    /// Its turn in a sweep forward: colour 0 solves first in the first step; in a sweep backward, last.
     Index colour = 0;
     /// Robin parameter, in 1/length; 0 without interface, and with conditions that have none.
     double p = 0.0;

@@ -81,12 +81,12 @@ enum class Transmission {
 
 /// The order in which the colours solve.
 enum class Sweep {
-    /// Fixed for two sub-meshes and with Conditions::Schwarz, else Alternating.
+    /// Fixed for at most two sub-meshes and with Conditions::Schwarz, else Alternating.
     Automatic,
     /// The same order in every step, as in the paper.
     Fixed,
-    /// First to last in even steps, last to first in odd steps. Not with Conditions::Schwarz, whose overlaps are made
-    /// for one order.
+    /// First to last in the first step, last to first in the second, and so on by turns. Not with Conditions::Schwarz,
+    /// whose overlaps are made for one order.
     Alternating,
 };
 

@@ -224,7 +224,7 @@ bool is_against(const FlowOptions& given, const AskedOptions& asked, std::string
     return is_further && asked.has("laplacian") && !is_symmetric(given.laplacian);
 }
 
-/// Whether an option of a preset was given, or does not go with those that were.
+/// Whether an option of a preset was given, or does not go with the given options.
 bool is_said(const FlowOptions& given, const AskedOptions& asked, std::string_view option)
 {
     if (asked.has(option) || is_against(given, asked, option))

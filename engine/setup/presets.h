@@ -106,7 +106,7 @@ struct PresetChoice {
 
 /// The options of a preset for a mesh, to be changed at will and given to mean_curvature_flow or denoise. A preset that
 /// denoises does so where no noise is given, and no option that needs the equation of a flow.
-/// @param further options of the caller; those that are not as by default replace those of the preset.
+/// @param further options of the caller; where they differ from their defaults, they replace the options of the preset.
 /// @param noise the standard deviation of the noise along the normals, where it is known; Preset::Cad and Preset::Fair
 /// ignore it.
 /// @throws InputError for a mesh that is not valid, or that has no size to measure by.
