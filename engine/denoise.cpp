@@ -19,7 +19,7 @@ namespace seamflow {
 
 namespace {
 
-/// The fraction of the call that setup takes: about as long as this many steps.
+/// The fraction of the call that setup takes: about as long as three steps.
 double fraction_of_setup(int steps_to_do)
 {
     constexpr double as_steps = 3.0;
@@ -75,6 +75,7 @@ class Denoising {
         const int n_taken = control_.resume != nullptr ? control_.resume->n_steps() : 0;
         const double setup = fraction_of_setup(options_.steps - n_taken);
         progress_.set_steps(options_.steps);
+        // An estimate: 0.6 of the setup comes before the stepper is made.
         progress_.enter(FlowPhase::Cut, 0, 0.0, 0.6 * setup);
         FlowingMesh flowing(mesh);
         require_valid(flowing.mesh(), progress_.exec());
@@ -108,7 +109,8 @@ class Denoising {
         return identity;
     }
 
-    /// Fills in the report on the mesh, and the remarks on its surface. @param need see need_of_junctions.
+    /// Fills in the report on the mesh, and the remarks on its surface. @param need the condition under which vertices
+    /// at junctions would move (see need_of_junctions).
     void begin_report(const Surface& surface, std::string_view need, DenoiseReport& report)
     {
         report.mesh = report_on(surface, options_.motion.strength);

@@ -36,9 +36,9 @@ constexpr double time_to_rest = 1e6;
 
 /// The fraction of the wanted width by which the width that was reached may differ without a remark.
 constexpr double most_missed_width = 0.25;
-/// Kernels narrower than this many edges are too narrow for a mesh; and with fewer steps than this a kernel is not like
-/// a Gaussian.
+/// Kernels narrower than this many mean edge lengths are too narrow for a mesh.
 constexpr double narrowest_width = 4.0;
+/// With fewer steps than this a kernel is not like a Gaussian.
 constexpr int enough_steps = 10;
 
 /// A mesh with the same vertices, and the faces whose vertices all have data, without unusable faces (see is_unusable).
@@ -58,8 +58,8 @@ PolygonMesh surface_of(const PolygonMesh& mesh, const FieldGroup& group, Laplaci
     return surface;
 }
 
-/// Gives vertices without data that are joined along seams (see weld) with vertices that have data the mean of these
-/// data.
+/// Treats vertices that are joined along seams (see weld) as one: a vertex without data that is joined with vertices
+/// that have data gets the mean of these data.
 class SeamsOfFields {
   public:
     SeamsOfFields(const PolygonMesh& mesh, const MotionOptions& motion)
@@ -182,7 +182,8 @@ Eigen::RowVectorXd means_of(const Eigen::MatrixXd& fields, const FieldGroup& gro
 }
 
 /// Computes the harmonic extension of the data by one long step.
-/// @param group its `lacks` becomes 0 at vertices that got data.
+/// @param group in: its `lacks` is 0 at vertices with data. Out: `lacks` is 0 only at vertices that the step gave data,
+/// and 1 at all others, also at those that had data.
 /// @param fields #V by n: the columns of the group receive the extension.
 /// @param filled #V: receives 1 at vertices that got data. @returns the report of that step.
 FlowReport extend(const PolygonMesh& mesh, FieldGroup& group, const FlowOptions& options, Weights weights,
@@ -197,6 +198,7 @@ FlowReport extend(const PolygonMesh& mesh, FieldGroup& group, const FlowOptions&
     FlowOptions own = options;
     own.filter = Filter::Diffusion;
     own.order.reset();
+    // The solver is chosen for this many steps of three columns each.
     own.steps = n_blocks(std::ssize(group.columns));
     own.accuracy.approach = Approach::Automatic;
     own.accuracy.tolerance = default_field_tolerance;

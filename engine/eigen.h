@@ -69,7 +69,7 @@ requires std::integral<typename Faces::Scalar> DenoiseReport denoise(Eigen::Matr
                        [&](PolygonMesh& mesh) { return denoise(mesh, options, on_step, control); });
 }
 
-/// The same for faces with any numbers of sides.
+/// Removes the noise of a mesh of faces with any numbers of sides: see denoise for a matrix of faces.
 template <class Vertices>
 requires std::floating_point<typename Vertices::Scalar>
     DenoiseReport denoise(Eigen::MatrixBase<Vertices>& vertices, std::span<const Index> face_offsets,

@@ -162,6 +162,7 @@ class Geodesics::Surface {
     [[nodiscard]] const PolygonMesh& surface() const { return flowing_.mesh(); }
 
     /// Measures the distances by the heat method, in each component of the surface that has sources.
+    /// @param distance #V: receives the distances at the vertices of these components.
     void measure_by_heat(std::span<const Index> sources, const Progress& progress, Eigen::VectorXd& distance)
     {
         std::vector<Index> with_sources;

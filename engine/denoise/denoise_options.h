@@ -54,7 +54,8 @@ struct DenoiseOptions {
     /// Measures mean curvature and displacements after each step. If false, they are 0 in the report.
     bool measures = true;
 
-    /// Boundaries are free, and no component loses more of its volume than ComponentLimits::most_volume_change.
+    /// Boundaries are free, and the volume of no component changes by a larger fraction than
+    /// ComponentLimits::most_volume_change.
     static MotionOptions default_motion()
     {
         return {.boundary = Boundary::Free, .limits = {.volume = ComponentLimits::most_volume_change}};

@@ -19,7 +19,8 @@ namespace seamflow {
 class DenoiseRun final : public SurfaceRun {
   public:
     /// @param surface, progress, report must outlive the run. @param options valid; their motion is that of the
-    /// surface. @param identity see identify. @param setup the fraction of the whole call that setup takes.
+    /// surface. @param identity the checksum for states (see identify); 0 if nobody asks for a state. @param setup the
+    /// fraction of the whole call that setup takes.
     /// @throws InputError for a state that does not fit.
     DenoiseRun(Surface& surface, const DenoiseOptions& options, std::uint64_t identity, double setup,
                Progress& progress, DenoiseReport& report, const FlowControl& control);

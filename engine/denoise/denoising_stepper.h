@@ -18,7 +18,7 @@ namespace seamflow {
 class DenoisingStepper final : public WholeMeshStepper {
   public:
     /// @param mesh, topology, progress must outlive the stepper; the twins of the topology are not needed later.
-    /// @param edge_angle see RemoveNoise.
+    /// @param edge_angle edges at which normals differ by more stay where the noise is small, in degrees.
     DenoisingStepper(const PolygonMesh& mesh, const Topology& topology, const MotionOptions& motion, double edge_angle,
                      Progress& progress);
 
@@ -42,6 +42,7 @@ class DenoisingStepper final : public WholeMeshStepper {
                                                    const std::vector<Edge>& feature_edges, const Executor& exec);
 
     const PolygonMesh* mesh_;
+    /// The mesh on which noise is removed; null without feature edges: then it is mesh_.
     std::unique_ptr<const CutOpen> open_;
     /// #V of the mesh that is cut open: the fraction of its displacement that each vertex moves by; empty: 1.
     std::vector<double> strengths_;

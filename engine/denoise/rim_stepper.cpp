@@ -41,7 +41,7 @@ void RimStepper::step(const Points& before)
     assert(&before != &positions_);
     const Executor exec = loops_.begin();
     Points normals(mesh_->n_faces(), 3);
-    // Faces without area get no normal: it would be rounding.
+    // Vector areas, whose lengths are the areas of faces. Faces without area get 0: a direction would be rounding.
     for_each(exec, mesh_->n_faces(), [&](Index f) {
         const std::span<const Index> face = mesh_->face(f);
         normals.row(f) = has_area(face, before) ? vector_area(face, before) : Point(Point::Zero());
@@ -49,7 +49,7 @@ void RimStepper::step(const Points& before)
     Points motions = Points::Zero(before.rows(), 3);
     for (const RimCurve& curve : curves_) {
         const Points from = before(curve.vertices, Eigen::all);
-        const Points smooth = smooth_curve(curve, from, radius_, false).positions;
+        const Points smooth = smooth_curve(curve, from, radius_, /* keeps_corners= */ false).positions;
         const Points across = across_curve(curve, smooth, normals);
         for (std::size_t i = 0; i < curve.vertices.size(); ++i) {
             const auto row = static_cast<Eigen::Index>(i);

@@ -25,8 +25,8 @@ EdgePaths paths_along_edges(const PolygonMesh& mesh, const Topology& topology, s
 std::vector<double> straight_within_faces(const PolygonMesh& mesh, const Topology& topology,
                                           std::span<const Index> from);
 
-/// #V: the straight distance of each vertex to the nearest source, which is a lower bound; 0 if there are very many
-/// sources.
+/// #V: the straight distance of each vertex to the nearest source, which is a lower bound; 0 if sources and vertices
+/// have more than 10⁹ pairs, for which it would take too long.
 /// @param from the source vertices.
 std::vector<double> straight_distances(const PolygonMesh& mesh, std::span<const Index> from);
 

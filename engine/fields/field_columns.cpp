@@ -139,7 +139,7 @@ int n_blocks(Eigen::Index n_columns)
 
 void add_up(const FlowReport& before, FlowReport& report)
 {
-    // The columns added before took the same steps.
+    // The columns added before took the same steps, so that their steps must not be counted twice.
     ConvergenceReport& all = report.convergence;
     all.steps_short_of_tolerance = std::max(all.steps_short_of_tolerance, before.convergence.steps_short_of_tolerance);
     all.steps_stagnated = std::max(all.steps_stagnated, before.convergence.steps_stagnated);

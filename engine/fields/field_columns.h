@@ -86,7 +86,8 @@ void add_up(const FlowReport& before, FlowReport& report);
 
 /// The remarks of all groups, each once, in their order. A remark that some groups do not have begins with the columns
 /// that it concerns.
-/// @param of_groups one list for each group. @param names see FieldOptions.
+/// @param of_groups one list for each group. @param names of the columns; empty: columns are called by their
+/// numbers.
 std::vector<Remark> remarks_on(std::span<const FieldGroup> groups, std::span<const std::vector<Remark>> of_groups,
                                std::span<const std::string> names);
 

@@ -51,8 +51,8 @@ struct FieldOptions {
     std::vector<std::string> names = {};
 };
 
-/// The time, in length², after which the Gaussian kernel has this full width at half maximum, in length: FWHM² / (16 ln
-/// 2).
+/// The time, in length², after which the Gaussian kernel has this full width at half maximum, in length:
+/// FWHM² / (16 ln 2).
 double time_for_fwhm(double fwhm);
 
 /// The full width at half maximum, in length, of the kernel after a time in length²: inverse of time_for_fwhm.

@@ -47,7 +47,8 @@ class HeatEquation {
     /// by 1 / (1 + (d / difference)²), where d is the largest distance between the rows of two of its vertices (Perona
     /// and Malik, Scale-Space and Edge Detection Using Anisotropic Diffusion, 1990). K is factorised anew.
     /// @param fields #V by any number of columns, finite. @param difference positive, in the unit of the fields.
-    /// @throws OptionError for conjugate gradients and for ranks that share the steps; InputError as take_steps.
+    /// @throws OptionError for a difference that is not above 0, for conjugate gradients, and for ranks that share the
+    ///         steps; InputError as take_steps.
     void keep_field_edges(const Eigen::Ref<const Eigen::MatrixXd>& fields, double difference);
 
     /// The report on all steps so far. Steps of different columns count once.

@@ -225,6 +225,7 @@ Eigen::VectorXd HeatMethod::logarithm_of_heat(std::span<const Index> from, const
     Eigen::VectorXd sources = Eigen::VectorXd::Zero(mesh_.n_vertices());
     for (const Index v : from)
         sources[v] = 1.0;
+    // The sum of both heats in place of their mean: a factor of the heat does not change the directions.
     Eigen::VectorXd heat = insulated_->solve(sources, length * length, progress);
     const auto is_on_boundary = [&](Index v) { return topology_.kind[v] == VertexKind::Boundary; };
     if (std::ranges::any_of(from, is_on_boundary)) {

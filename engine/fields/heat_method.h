@@ -59,9 +59,9 @@ class HeatMethod {
     Eigen::VectorXd distance(std::span<const Index> from, const Progress& progress);
 
   private:
-    /// #V: the logarithm of the heat, where there is any. The heat is the mean of that with an insulating boundary and
-    /// that with a boundary at temperature 0 except at sources, because the effects of the two boundaries nearly cancel
-    /// (section 3.4 of Crane and others).
+    /// #V: the logarithm of the heat, where there is any. The heat is the mean, up to a factor, of the heat with an
+    /// insulating boundary and of that with a boundary at temperature 0 except at sources, because the effects of the
+    /// two boundaries nearly cancel (section 3.4 of Crane and others).
     Eigen::VectorXd logarithm_of_heat(std::span<const Index> from, const Progress& progress);
 
     std::vector<Index> vertices_;

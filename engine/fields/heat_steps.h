@@ -37,7 +37,9 @@ class HeatSteps {
     /// @param fields #V by any number of columns, in the order of the given surface.
     void take(Eigen::Ref<Eigen::MatrixXd> fields, int n);
 
-    /// Weighs K by differences of data, from now on (see SchurStepper::weigh).
+    /// Multiplies the K of each face from now on by a weight that is small where data change fast (see
+    /// SchurStepper::weigh).
+    /// @param squared_difference the squared difference of the data at two vertices, without a unit.
     /// @throws OptionError if the steps do not support it.
     void weigh(const std::function<double(Index v, Index w)>& squared_difference);
 

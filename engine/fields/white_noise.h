@@ -17,7 +17,8 @@ Eigen::MatrixXd white_noise(Index n_vertices);
 /// and Sereno, Smoothing and Cluster Thresholding for Cortical Surface-Based Group Analysis, 2006). The mean over the
 /// columns.
 /// @param noise #V by any number of columns; vertices without faces do not count.
-/// @returns nothing without edges, or if values do not differ.
+/// @returns nothing unless, in each column, the correlation of values along edges is above 0 and below 1: so without
+/// edges, if values do not differ, or if neighbours are as independent as in white noise.
 std::optional<double> fwhm_of_noise(const PolygonMesh& mesh, const Eigen::MatrixXd& noise);
 
 }  // namespace seamflow

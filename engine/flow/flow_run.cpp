@@ -77,7 +77,7 @@ FlowRun::FlowRun(std::unique_ptr<PreparedFlow> prepared, Progress& progress, dou
 void FlowRun::free_topology()
 {
     Topology& topology = prepared_->surface.topology;
-    // Mean curvature needs twins, except that of Δ_P.
+    // Only Δ_P, which reaches two rings of faces, needs twins in later steps and measurements.
     if (traits_of(options().laplacian).reach == Reach::TwoRings)
         return;
     topology.twin = std::vector<Index>();
@@ -91,6 +91,8 @@ void FlowRun::free_topology()
     topology.vertex_corners = std::vector<Index>();
 }
 
+/// Begins the measurements, and makes the stepper, without factors if these exceed the memory limit and the plan has
+/// such an alternative; and the stepper of the undecomposed flow, if it is asked for.
 void FlowRun::make_steppers()
 {
     const PolygonMesh& mesh = mesh_.mesh();
@@ -100,6 +102,7 @@ void FlowRun::make_steppers()
                    prepared_->curvature.empty()
                        ? measure_largest_curvature(mesh, topology_, mesh.vertices, laplacian_of(options()))
                        : largest_curvature(prepared_->curvature));
+    // An estimate: making the steppers takes the last 0.4 of the set-up, half of it for the reference if there is one.
     progress_.enter(FlowPhase::Analyse, 0, 0.6 * setup_, options().report.reference ? 0.8 * setup_ : setup_);
     try {
         make_stepper_of_flow();

@@ -13,7 +13,10 @@
 namespace seamflow {
 
 /// Checks that vertices can be changed.
+/// @param what the change, as a verb for messages. @param needs_stepper whether the stepper must have equations that
+/// can be changed.
 /// @returns the vertices of the flowing mesh that these vertices move with.
+/// @throws OptionError if the flow does not allow the change; InputError for vertices that do not exist.
 std::vector<Index> FlowRun::require_changeable(std::string_view what, std::span<const Index> vertices,
                                                bool needs_stepper) const
 {
@@ -46,6 +49,7 @@ void FlowRun::set_fixed(std::span<const Index> vertices, bool is_fixed)
             throw OptionError(fmt::format("vertex {} was fixed when the flow began: only vertices held since then can "
                                           "be released; begin a new flow",
                                           v));
+    // Only vertices that move can be fixed, and only fixed ones released.
     std::erase_if(flowing, [&](Index v) { return topology.moves(v) != is_fixed; });
     stepper_->equations()->set_fixed(flowing, is_fixed);
     for (const Index v : flowing)

@@ -19,7 +19,7 @@ struct SubMeshReport {
     Index faces = 0;
     /// The number of its vertices, including the interface, and the overlap of Conditions::Schwarz.
     Index vertices = 0;
-    /// Colour 0 solves first in even steps.
+    /// Its turn in a sweep forward: colour 0 solves first in the first step; in a sweep backward, last.
     Index colour = 0;
     /// Robin parameter, in 1/length; 0 without interface, and with conditions that have none.
     double p = 0.0;
@@ -32,8 +32,8 @@ struct SubMeshReport {
 /// The report on the cut.
 struct CutReport {
     std::vector<SubMeshReport> sub_meshes;
-    /// #F: the sub-mesh of every face after repair. Faces in which no vertex of a region moves have the number of
-    /// sub-meshes.
+    /// #F: the sub-mesh of every face after repair. Faces that were left out because no vertex of them moves have the
+    /// label n_sub_meshes().
     std::vector<Index> labels;
     /// Number of vertices on the interface Γ.
     std::int64_t interface_vertices = 0;

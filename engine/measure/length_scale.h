@@ -18,7 +18,7 @@ class LengthScale {
     /// A scale of known sizes, in length.
     LengthScale(double mean_edge, double diagonal);
 
-    /// See mean_edge_length. @throws InputError for a mesh that is not valid.
+    /// The mean edge length (see mean_edge_length). @throws InputError for a mesh that is not valid.
     double mean_edge();
 
     /// The diagonal of the box around the faces. @throws InputError for a mesh that is not valid.

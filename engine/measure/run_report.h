@@ -86,7 +86,8 @@ struct MeshReport {
     std::int64_t faces = 0;
     /// Vertices that do not move, for whatever reason: boundary, not manifold, without faces, or named by the user.
     std::int64_t fixed_vertices = 0;
-    /// Vertices that are fixed because they lie on an edge of three or more faces, or where two fans of faces touch.
+    /// Vertices that are fixed because they lie on an edge of three or more faces that does not flow (see Junctions),
+    /// or where two fans of faces touch.
     std::int64_t non_manifold_vertices = 0;
     /// Vertices of kind Junction, which move unless they are fixed for another reason (see Junctions).
     std::int64_t junction_vertices = 0;
@@ -122,7 +123,7 @@ struct StepState {
     /// #V by 3, the positions after the step.
     const Points& positions;
     const StepReport& report;
-    /// See FlowReport::separated; null without ReportOptions::keep_gaps.
+    /// The sub-meshes after the step, each with its own copy of Γ; null without ReportOptions::keep_gaps.
     const PolygonMesh* separated = nullptr;
     /// #V by 3: the positions of the undecomposed flow, rescaled as well; null without ReportOptions::reference.
     const Points* reference_positions = nullptr;

@@ -10,7 +10,7 @@ namespace {
 /// dt / R² with which half of a bump is left after all steps.
 double step_per_squared_radius(int steps, const StepFilter& filter)
 {
-    // A step multiplies the height by transfer(λ), λ = dt π² / 2R². A plain filter has the transfer 1 / (1 + λ).
+    // A step multiplies the height by transfer(λ), λ = dt π² / (2 R²). A plain filter has the transfer 1 / (1 + λ).
     const double lambda = filter.is_plain() ? std::expm1(std::numbers::ln2 / steps)
                                             : lambda_of(filter, std::exp2(-1.0 / static_cast<double>(steps)));
     return 2.0 * lambda / (std::numbers::pi * std::numbers::pi);

@@ -13,7 +13,7 @@ namespace seamflow {
 
 namespace {
 
-/// Factors of a displacement below this count as zero.
+/// Factors of a displacement below this are replaced by 0.
 constexpr double smallest_factor = 0.1;
 /// The number of bisections that find a factor.
 constexpr int bisections = 20;
@@ -70,6 +70,8 @@ double LimitedComponents::volume_of(Index component, const Points& positions, do
     });
 }
 
+/// The largest factor with which the volume of a closed component stays within its limit; 1 for open components.
+/// Records the change of volume in losses_ if it is beyond the limit.
 double LimitedComponents::factor_by_volume(Index component, const Points& positions)
 {
     losses_[component] = {};
@@ -91,6 +93,8 @@ double LimitedComponents::factor_by_volume(Index component, const Points& positi
     return within;
 }
 
+/// The factor that brings the root mean square of the displacements along the normals down to its limit; 1 if it is
+/// within the limit.
 double LimitedComponents::factor_by_move(Index component, const Points& positions) const
 {
     const std::span<const Index> vertices = vertices_[component];
@@ -103,6 +107,7 @@ double LimitedComponents::factor_by_move(Index component, const Points& position
     return move > limits_.move ? limits_.move / move : 1.0;
 }
 
+/// The smaller of the factors by volume and by move; 0 if it is below smallest_factor.
 double LimitedComponents::factor_of(Index component, const Points& positions)
 {
     double factor = 1.0;

@@ -13,24 +13,25 @@
 
 namespace seamflow {
 
-/// Limits the losses of the components of a surface (see ComponentLimits): if a component would lose too much, its
-/// displacements are multiplied by the largest factor with which it does not. A blend of the surfaces before and after
-/// is the result of a filter that removes less of all features.
+/// Limits the changes of the components of a surface (see ComponentLimits): if a component would change too much, its
+/// displacements are multiplied by the largest factor with which it does not, or by 0 if this is below a tenth. A blend
+/// of the surfaces before and after is the result of a filter that removes less of all features.
 class LimitedComponents {
   public:
     /// Measures the surface as it is. The mesh and topology must outlive the object.
     /// @param topology with twins, which are not needed later.
     LimitedComponents(const PolygonMesh& mesh, const Topology& topology, const ComponentLimits& limits);
 
-    /// Moves the vertices of components that have lost too much back, on the straight lines to their initial positions.
+    /// Moves the vertices of components that have changed too much back, on the straight lines to their initial
+    /// positions.
     /// @param positions #V by 3.
     void apply(Points& positions);
 
-    /// A sentence about the last result; empty if no component had lost too much.
+    /// A sentence about the last result; empty if no component had changed too much.
     [[nodiscard]] std::optional<Remark> remark() const;
 
   private:
-    /// A loss of volume beyond the limit: in length³, and as a fraction of the volume. 0: within the limit.
+    /// A change of volume beyond the limit: in length³, and as a fraction of the volume. 0: within the limit.
     struct Loss {
         double volume = 0.0;
         double fraction = 0.0;
@@ -54,7 +55,7 @@ class LimitedComponents {
     Points initial_;
     /// Per component: the factor that its displacements were multiplied by in the last result.
     std::vector<double> factors_;
-    /// Per component: its loss in the last result without a factor.
+    /// Per component: the change of its volume that the last result would have without a factor.
     std::vector<Loss> losses_;
 };
 

@@ -96,6 +96,7 @@ void DirectedMotion::project(const Points& before, Points& after, const Executor
             return Point(shorter * direction_);
         const double whole = least_way(v, way, moved);
         const double relative = whole / (halved_at * distances[v]);
+        // On the silhouette the distance is 0: without a motion, `relative` is then 0 / 0.
         return Point((whole == 0.0 ? 0.0 : shorter + (whole - shorter) / (1.0 + relative * relative)) * direction_);
     });
 }

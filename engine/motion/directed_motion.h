@@ -34,11 +34,12 @@ class DirectedMotion {
     void straighten(const Points& before, Points& after, const Executor& exec) const;
 
   private:
-    /// Whether the faces at a vertex are seen from both sides along the lines, or one of them edgewise.
+    /// Whether the faces at a vertex are seen from both sides along the lines, or one of them edgewise. Vertices at
+    /// junctions, which have no normal, count as such.
     [[nodiscard]] bool is_on_silhouette(Index v, const Points& positions) const;
 
     /// The shortest motion along the line to the planes through V̂ of the surface at a vertex, and of the faces there;
-    /// 0 at the boundary if all of these lead further from V̂ than the lengths of its edges.
+    /// 0 at the boundary if all of these lead further from V̂ than its longest edge, and than the distance of the line.
     [[nodiscard]] double least_way(Index v, const Point& way, const Points& moved) const;
 
     /// The length of the longest edge at a vertex, mapped by `seen`.

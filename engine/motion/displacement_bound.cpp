@@ -49,6 +49,8 @@ void DisplacementBound::apply(Points& positions) const
     if (!is_beyond)
         return;
 
+    // Nesterov's method for a strongly convex function: each step begins ahead of the last correction, in the direction
+    // in which the correction has changed.
     const double root = std::sqrt(largest_eigenvalue);
     const double momentum = (root - 1.0) / (root + 1.0);
     const int n_steps = static_cast<int>(std::ceil(-root * std::log(accuracy)));
@@ -68,6 +70,7 @@ void DisplacementBound::apply(Points& positions) const
                 mean += ahead.row(w);
             mean /= static_cast<double>(neighbours_[v].size());
             const Point here = ahead.row(v);
+            // Multiplied by the inverse of D.
             const Point gradient = here + smoothness * (here - mean);
             const Point displacement = displacements.row(v);
             correction.row(v) = bounded(displacement + here - gradient / largest_eigenvalue) - displacement;

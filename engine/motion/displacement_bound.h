@@ -14,7 +14,7 @@ namespace seamflow {
 /// minimises tr Uᵀ (D + t K) U under |V - V⁰ + U| ≤ r at each vertex, with K the Laplacian of the graph with weights of
 /// one, and D its diagonal; vertices that have not moved have no correction. A fixed number of accelerated projected
 /// gradient steps (Nesterov, Lectures on Convex Optimization, 2018, 2.2) brings U within a ten-thousandth of the
-/// minimum; each step projects every vertex onto its sphere, so that the bound is exact.
+/// minimum; each step projects every vertex into the ball of radius r around V⁰, so that the bound is exact.
 class DisplacementBound {
   public:
     /// Takes the positions of the mesh as the initial ones.
@@ -26,11 +26,13 @@ class DisplacementBound {
     void apply(Points& positions) const;
 
   private:
+    /// The displacement, shortened to length r if it is longer.
     [[nodiscard]] Point bounded(const Point& displacement) const;
 
     double bound_;
     /// #V by 3: the initial positions.
     Points initial_;
+    /// Per vertex: the vertices that share an edge with it.
     IndexLists neighbours_;
 };
 

@@ -76,6 +76,7 @@ struct MotionConstraints {
     /// weights of the conformalized flow do not depend on the size of the surface: it becomes a sphere instead of
     /// vanishing.
     bool is_scaled;
+    /// Whether results are rescaled, and steps begin with the unscaled positions.
     bool is_scaled_apart;
     Rescaling rescaling;
     std::optional<LimitedComponents> limited;

@@ -16,6 +16,7 @@ namespace seamflow {
 
 namespace {
 
+/// @throws InputError if a vertex with faces is fixed: rescaling would move it.
 void require_movable(const Topology& topology, Index n_vertices)
 {
     const auto held = select(run_in_parallel, n_vertices,
@@ -30,6 +31,7 @@ void require_movable(const Topology& topology, Index n_vertices)
                 : "where the mesh is not manifold or degenerate: mend it")});
 }
 
+/// @throws InputError if the surface has a boundary, junctions, or neighbouring faces that are not oriented alike.
 void require_closed(const PolygonMesh& mesh, const Topology& topology)
 {
     const auto starts_at = [&](Index h) { return mesh.face_vertices[h]; };
@@ -53,6 +55,7 @@ void require_closed(const PolygonMesh& mesh, const Topology& topology)
                                  edge));
 }
 
+/// The mean of the corners of a face, relative to `origin`.
 Point mean_of(std::span<const Index> corners, const Points& positions, const Point& origin)
 {
     Point sum = Point::Zero();
@@ -85,8 +88,8 @@ Rescaling::Rescaling(const PolygonMesh& mesh, const Topology& topology, Rescale 
                                      kind_ == Rescale::Area ? "area" : "volume"));
 }
 
-/// Whether the area or volume of a component is more than rounding: regions that cancel each other leave an area that
-/// is small compared with their own.
+/// Whether the area or volume of a component is more than rounding: regions whose volumes cancel each other leave a
+/// volume that is small compared with the area to the power 3/2.
 bool Rescaling::has_size(const Extent& extent) const
 {
     const double least = kind_ == Rescale::Volume ? 1e-12 * extent.area * std::sqrt(extent.area) : 0.0;
@@ -98,7 +101,8 @@ Rescaling::Extent Rescaling::measure(Index component, const Points& positions) c
     const Point origin = positions.row(origins_[component]);
     const std::span<const Index> faces = components_.faces[component];
     const auto n = static_cast<Index>(faces.size());
-    // There can be very many small components: then they are measured in parallel.
+    // There can be very many small components: for each of them, sharing the work among threads would cost more than it
+    // saves.
     const Executor exec = n > block_size ? Executor(run_in_parallel) : Executor(run_serially);
     const auto add_up = [&](auto&& of_face) {
         return sum(exec, n, [&](Index i) {
@@ -121,12 +125,12 @@ Rescaling::Extent Rescaling::measure(Index component, const Points& positions) c
 Similarity Rescaling::back(const Extent& first, const Extent& now) const
 {
     const double ratio = first.size / now.size;
-    // The digits that a surface must have left, as a factor: below it, rounding errors would dominate.
-    constexpr double digits_wanted = 1e4;
+    // The size that a component must have left, in rounding errors of its coordinates: four digits.
+    constexpr double least_size_in_roundings = 1e4;
     const double farthest = now.centroid.cwiseAbs().maxCoeff() + std::sqrt(now.area);
     const double rounding = std::numeric_limits<double>::epsilon() * farthest;
     const bool sound = std::isnormal(ratio) && ratio > 0.0 && now.centroid.allFinite();
-    if (!sound || !has_size(first) || !(std::sqrt(now.area) > digits_wanted * rounding))
+    if (!sound || !has_size(first) || !(std::sqrt(now.area) > least_size_in_roundings * rounding))
         return {.scale = 0.0};
     return {now.centroid, kind_ == Rescale::Area ? std::sqrt(ratio) : std::cbrt(ratio), first.centroid};
 }

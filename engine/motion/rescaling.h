@@ -14,15 +14,15 @@
 namespace seamflow {
 
 /// Brings each component of a surface (see SurfaceComponents) back to the area or volume and to the centroid of area
-/// that it began with (see Rescale): components neither move apart nor compensate for each other. A component without a
-/// volume, or of which too little is left, is not scaled, unless that holds for all components. The area of a face is
-/// the length of its vector area; volume is measured under the triangles that join every face's edges to the mean of
-/// its corners.
+/// that it began with (see Rescale): components neither move apart nor compensate for each other. A component without
+/// an area or volume above rounding, or of which too little is left, is not scaled; if that holds for all components,
+/// it is an error. The area of a face is the length of its vector area; volume is measured under the triangles that
+/// join every face's edges to the mean of its corners.
 class Rescaling {
   public:
     /// Measures the surface as it is. The mesh and topology must outlive the object.
     /// @throws InputError if a vertex with faces is fixed; for the volume if the surface has a boundary, faces that are
-    ///         not oriented alike (naming an edge), or no volume in any component.
+    ///         not oriented alike (naming an edge); if no component has an area or volume above rounding.
     Rescaling(const PolygonMesh& mesh, const Topology& topology, Rescale kind);
 
     /// Scales positions of the flow; vertices without faces keep their positions. Does nothing without Rescale.
@@ -37,8 +37,9 @@ class Rescaling {
   private:
     /// The size and the centroid of a component.
     struct Extent {
+        /// In length².
         double area;
-        /// Area in length², or volume in length³.
+        /// The area again, or the volume in length³: what Rescale keeps.
         double size;
         Point centroid;
     };

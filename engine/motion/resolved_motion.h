@@ -19,7 +19,8 @@ namespace seamflow {
 MotionOptions resolved(MotionOptions motion, const PolygonMesh& mesh, LengthScale& scale, const Executor& exec,
                        std::vector<Remark>& remarks);
 
-/// The same without strengths, for a mesh that is not at hand.
+/// The same, except that strengths and MotionOptions::feather (in units of length) are left for later: for a mesh that
+/// is not at hand.
 MotionOptions with_lengths(MotionOptions motion, LengthScale& scale);
 
 }  // namespace seamflow

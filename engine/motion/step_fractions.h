@@ -10,8 +10,9 @@ namespace seamflow {
 class StepFractions {
   public:
     /// @param begin the fraction of the whole that is done before the first step.
-    /// @param steps the expected number of steps.
-    /// The first step is divided by guesses.
+    /// @param steps the expected number of steps. @param with_reference whether each step has a step of the
+    /// undecomposed flow. The first step is divided by a guess: 0.3 for its tasks and 0.6 for the reference, or 0.9 for
+    /// its tasks alone; the rest for measurements.
     StepFractions(double begin, int steps, bool with_reference)
         : begin_(begin)
         , length_((1.0 - begin) / steps)
@@ -43,7 +44,9 @@ class StepFractions {
 
   private:
     double begin_;
+    /// The fraction of the whole that one step takes.
     double length_;
+    /// The fractions of a step that its tasks and its reference step take.
     double tasks_;
     double reference_;
     int n_done_ = 0;

@@ -116,8 +116,9 @@ void SurfaceRun::take_step(const StepObserver& on_step)
     const Points& after = is_apart ? result_ : stepper().positions();
     double measuring = watch.lap();
     compare(step, of_step);
-    // Measurements are sums over steps: only complete steps are added.
+    // The time of the comparison does not count.
     watch.lap();
+    // Measurements are sums over steps: only complete steps are added.
     measure(after, of_step);
     measuring += watch.lap();
     fractions_->end_step(of_step.seconds, measuring, of_step.reference_seconds.value_or(0.0));

@@ -38,7 +38,7 @@ class SurfaceRun {
 
     /// Begins the steps, once there is a stepper.
     /// @param setup the fraction of the whole run that is done. @param steps the number of steps of the whole run.
-    /// @param compares whether each step is compared with another.
+    /// @param compares whether each step is also taken in another way, and compared (see compare).
     void begin(const MotionOptions& motion, bool continues_scaled, double largest_update, double setup, int steps,
                bool compares = false);
 
@@ -61,7 +61,8 @@ class SurfaceRun {
     void require_positions(const StepMemory& memory) const;
 
     /// Adds the remarks of the limits of components and of rescaling, if any step was taken.
-    /// @param on_components the remark on components where they have no limits (see ComponentLimits).
+    /// @param on_components the remark that takes the place of the remark of the limits if there are no limits (see
+    /// ComponentLimits).
     void remark_on_constraints(RunReport& report, const std::optional<Remark>& on_components = {}) const;
     /// Adds the measurements over all steps.
     void report_measures(RunReport& report) const;
@@ -78,12 +79,15 @@ class SurfaceRun {
   private:
     void measure(const Points& after, StepReport& of_step);
 
+    /// The Laplacian with which mean curvature is measured.
     ScaledLaplacian laplacian_;
+    /// The largest mean curvature before the next step, in 1/length.
     double curvature_before_ = 0.0;
     /// The size of the surface before the first step (see box_of_faces).
     double extent_before_;
     /// #V by 3: the positions from which the run continues; empty if they are also its results.
     Points of_run_ = Points(0, 3);
+    /// #V by 3: the result of the last step, if it differs from of_run_.
     Points result_ = Points(0, 3);
 };
 

@@ -30,10 +30,12 @@ class UpdateLimit {
         std::string what;
     };
 
-    /// The vertex with the largest displacement, if that is too large.
+    /// The first vertex whose position is not finite, or else the vertex with the largest displacement, if that is too
+    /// large; empty: the step is within the limit.
     [[nodiscard]] std::optional<Excess> find(const Points& before, const Points& after) const;
 
     const PolygonMesh& mesh_;
+    /// The diagonal of the bounding box of the faces when the limit was made.
     double diagonal_ = 0.0;
     /// The largest displacement, in units of length.
     double largest_ = 0.0;

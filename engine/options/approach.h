@@ -5,7 +5,8 @@ namespace seamflow {
 /// The solver of a backward Euler step.
 enum class Approach {
     /// The fastest of Decomposed, ConjugateGradients and Undecomposed, by a cost model. It is Decomposed if another
-    /// option concerns sub-meshes or sweeps, or if the Laplacian is not symmetric.
+    /// option concerns sub-meshes or sweeps, or if the Laplacian is not symmetric; but Undecomposed if such a Laplacian
+    /// has a tolerance, given or chosen.
     Automatic,
     /// Steps in sub-meshes: Converged if there is a tolerance, or if a loose one pays; otherwise Sweep.
     Decomposed,

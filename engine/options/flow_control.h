@@ -23,7 +23,7 @@ class StepSharing {
     StepSharing& operator=(const StepSharing&) = delete;
     virtual ~StepSharing() = default;
 
-    /// Whether they can share these steps.
+    /// Whether the processes or threads can share these steps.
     [[nodiscard]] virtual bool can_share(const FlowPlan& plan, const StepSettings& settings) const = 0;
 
     /// Makes a stepper that shares its steps.
@@ -59,8 +59,8 @@ struct FlowProgress {
 };
 
 /// Receives the progress of a flow, at the beginning of every phase and at every noticeable advance, also within a
-/// step: some hundred times, and a few times per second. Called in any thread of the flow, but never concurrently, nor
-/// together with a StepObserver. An exception from it ends the flow.
+/// step: up to 500 times, and up to ten more times per second. Called in any thread of the flow, but never
+/// concurrently, nor together with a StepObserver. An exception from it ends the flow.
 using ProgressObserver = std::function<void(const FlowProgress&)>;
 
 /// Observes and stops a flow; the result does not depend on it.

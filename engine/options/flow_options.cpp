@@ -31,6 +31,7 @@ StepFilter filter_of(const FlowOptions& options, Approach approach, std::optiona
     // A smaller tolerance was asked for: the filter must be as exact. Tolerances that are chosen are not smaller.
     constexpr double smallest_by_choice = 1e-4;
     StepFilter filter{.kind = options.filter, .order = options.order.value_or(orders_of(options.filter).first)};
+    // Undecomposed steps are exact, so that the filter must not spoil them.
     constexpr double of_undecomposed = 1e-6;
     if (tolerance && *tolerance < smallest_by_choice)
         filter.tolerance = std::max(*tolerance, 1e-12);

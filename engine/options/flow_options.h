@@ -81,12 +81,12 @@ enum class Transmission {
 
 /// The order in which the colours solve.
 enum class Sweep {
-    /// Fixed for two sub-meshes and with Conditions::Schwarz, else Alternating.
+    /// Fixed for at most two sub-meshes and with Conditions::Schwarz, else Alternating.
     Automatic,
     /// The same order in every step, as in the paper.
     Fixed,
-    /// First to last in even steps, last to first in odd steps. Not with Conditions::Schwarz, whose overlaps are made
-    /// for one order.
+    /// First to last in the first step, last to first in the second, and so on by turns. Not with Conditions::Schwarz,
+    /// whose overlaps are made for one order.
     Alternating,
 };
 
@@ -205,7 +205,8 @@ struct FlowOptions {
     /// Diffusion of order 2 and 3, to a hundredth, m for LowPass of order m. For symmetric Laplacians and backward
     /// Euler steps of any solver; sweeps need predicted transmission, and keep all factors.
     Filter filter = Filter::Diffusion;
-    /// That of the filter (see Filter). Empty: 1 for Diffusion, 2 for LowPass. Diffusion has 1 to 3, LowPass 2 to 8.
+    /// The order of the filter (see Filter). Empty: 1 for Diffusion, 2 for LowPass. Diffusion has 1 to 3, LowPass 2
+    /// to 8.
     std::optional<int> order = {};
     /// dt of one step, in length²; one step smooths over a distance of about √dt. Must be positive and finite, or 0 if
     /// one of the next two gives the amount. FlowReport::time_step has the resulting dt.
@@ -246,8 +247,9 @@ bool is_plain_flow(const FlowOptions& options);
 /// The Laplacian with its scale.
 ScaledLaplacian laplacian_of(const FlowOptions& options);
 
-/// The filter of each step, with the tolerance of the steps: as asked, or as decided.
+/// The filter of each step, as accurate as the steps of the approach and tolerance that the options ask for.
 StepFilter filter_of(const FlowOptions& options);
+/// The same for the approach and the tolerance with which steps are taken.
 StepFilter filter_of(const FlowOptions& options, Approach approach, std::optional<double> tolerance);
 
 /// Whether a sweep uses predictions of the other side of Γ.

@@ -39,12 +39,13 @@ void for_each_pair(const Table& one, const Table& other, Action&& action)
         one);
 }
 
-/// Limits of numbers that are above 0, or at least 0, and finite.
+/// The limits of a number that is to be above 0 and finite.
 constexpr Limits positive(std::string_view text)
 {
     return {0.0, std::numeric_limits<double>::infinity(), true, true, text};
 }
 
+/// The limits of a number that is to be at least 0 and finite.
 constexpr Limits not_negative(std::string_view text)
 {
     return {0.0, std::numeric_limits<double>::infinity(), false, true, text};

@@ -68,7 +68,8 @@ enum class Rescale {
     None,
     /// Scales each component of every result to its area in the input, and moves its centroid to that in the input.
     Area,
-    /// The same for the enclosed volume of closed, consistently oriented surfaces.
+    /// Scales each component of every result to its enclosed volume in the input, and moves its centroid to that in the
+    /// input. For closed, consistently oriented surfaces.
     Volume,
 };
 
@@ -140,8 +141,8 @@ struct MotionOptions {
     double attachment = 0.0;
     /// R in place of w = 1/R²: features larger than about R stay. Positive and finite.
     std::optional<LengthOnMesh> attachment_radius = {};
-    /// The same with a w for each vertex, #V, in place of `attachment`: soft constraints, beside fixed_vertices. Empty:
-    /// `attachment` applies.
+    /// #V: w of the screening term for each vertex, in place of `attachment`: soft constraints, beside fixed_vertices.
+    /// Empty: `attachment` applies.
     std::vector<double> attachment_weights = {};
     /// The strength of each step at each vertex, #V, from 0 to 1: dt there is the strength times time_step, so that 0
     /// holds a vertex bit for bit, and a mask of 0 and 1 smooths a region alone. Faces without a moving vertex cost

@@ -11,7 +11,7 @@
 
 namespace seamflow {
 
-/// Checks a number against the limits of its option; an empty one has none.
+/// Checks a number, a length or an optional value against the limits of its option. An empty value is not checked.
 /// @throws OptionError naming the option, its value and its limits.
 template <class Value>
 requires std::is_arithmetic_v<Value>

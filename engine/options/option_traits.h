@@ -63,8 +63,8 @@ struct Limits {
     /// Whether the limits themselves are refused.
     bool above_least = false;
     bool below_most = true;
-    /// For messages: what a number must be, and its unit. Empty: the limits depend on other options (see
-    /// require_valid).
+    /// For messages: what a number must be, and its unit. Empty: the option has no limits of its own; those of the
+    /// order depend on the filter (see require_valid).
     std::string_view text = {};
 
     [[nodiscard]] bool hold(double value) const

@@ -15,7 +15,8 @@ namespace seamflow {
 
 namespace {
 
-/// Checks all numbers against their limits, except time_step if another field gives the amount.
+/// Checks all numbers that have limits of their own, except time_step if another field gives the amount.
+/// @throws OptionError
 void require_limits(const FlowOptions& options)
 {
     for_each_option(options, [&](const auto& row) {

@@ -108,7 +108,7 @@ class Communicator {
     /// @param to another rank.
     void send(int to, Bytes bytes);
 
-    /// The next message that another rank has sent by `send`; empty if none arrives in time.
+    /// The next message that another rank has sent by `send`; empty if none arrives within the patience.
     std::optional<Message> next_arrival(std::chrono::microseconds patience);
 
     /// The number of messages sent so far, including those of collective functions.

@@ -12,7 +12,8 @@ namespace seamflow {
 class CommunicatorRanks final : public InterfaceRanks {
   public:
     /// @param comm must outlive this; nothing else may use its collective functions while the equation is solved.
-    /// @param holders, global_numbers see InterfaceRanks.
+    /// @param holders the rank of each sub-mesh of all ranks. @param global_numbers the numbers of the sub-meshes that
+    /// this rank knows, ascending.
     CommunicatorRanks(Communicator& comm, std::vector<Index> holders, std::vector<Index> global_numbers);
 
     Numbers gather(const std::vector<double>& own) override;

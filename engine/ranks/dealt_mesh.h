@@ -35,13 +35,13 @@ struct DealtMesh {
     std::vector<Index> holders;
     /// Sweeps or converged steps.
     WayOfSteps way;
-    /// The terms of the equation refer to nothing.
+    /// The settings, except FlowTerms::initial, weights and strengths, which are empty here: see settings().
     StepSettings settings_without_arrays;
     /// Each #V or empty: see FlowTerms::weights and strengths.
     std::vector<double> weights;
     std::vector<double> strengths;
 
-    /// The settings, which refer to data of this.
+    /// The complete settings, which refer to the vertices, weights and strengths of this object.
     [[nodiscard]] StepSettings settings() const;
 };
 
@@ -78,17 +78,17 @@ class Dealer {
     /// The faces of each sub-mesh.
     std::vector<std::vector<Index>> faces_;
     std::vector<Index> holders_;
-    /// #V: the rank that owns all faces of the vertex; negative if there is no such rank.
+    /// #V: the rank that owns all faces of the vertex; -1 without faces, -2 if they belong to several ranks.
     std::vector<std::int32_t> holder_at_;
     /// #V: the rank that sends the position of the vertex to rank 0; -1 if none has been chosen.
     std::vector<std::int32_t> sender_;
-    /// #F: the last rank so far that knows the face.
+    /// #F: a mark: the last rank that was dealt a part with the face; -1: none.
     std::vector<std::int32_t> knows_face_;
-    /// #V: the last rank so far for which known_faces has visited the faces around the vertex.
+    /// #V: a mark: the last rank for which known_faces has visited the faces around the vertex; -1: none.
     std::vector<std::int32_t> visits_vertex_;
-    /// #V: the last rank so far that knows the vertex.
+    /// #V: a mark: the last rank that was dealt a part with the vertex; -1: none.
     std::vector<std::int32_t> knows_vertex_;
-    /// #V: the index of the vertex among the vertices of that rank.
+    /// #V: the index of the vertex in the part that is being dealt, for vertices of this part.
     std::vector<Index> local_index_;
     std::vector<std::vector<Index>> known_vertices_;
     std::vector<std::vector<Index>> sent_vertices_;

@@ -41,7 +41,7 @@ class Packer {
         for (const Index row : rows)
             put_row(points.row(row).data());
     }
-    /// The same for all rows.
+    /// Appends the number of coordinates, then the coordinates of all rows.
     void put_points(const Points& points)
     {
         put_all(std::span<const double>(points.data(), static_cast<std::size_t>(points.size())));

@@ -47,7 +47,7 @@ Index RankExchange::known_index(Index number) const
 void RankExchange::find_own_interest(const Decomposition& decomposition, std::span<const SweepPlan> sweeps,
                                      std::span<const std::vector<Index>> further)
 {
-    const auto note = [&](const std::vector<Transfer>& transfers, std::initializer_list<MessageKind> kinds) {
+    const auto add_rows_of = [&](const std::vector<Transfer>& transfers, std::initializer_list<MessageKind> kinds) {
         for (const Transfer& transfer : transfers)
             for (const MessageKind kind : kinds)
                 if (is_remote(transfer.from)) {
@@ -58,14 +58,14 @@ void RankExchange::find_own_interest(const Decomposition& decomposition, std::sp
     for (Interest& interest : own_interest_)
         interest.predicts.assign(sweeps.size(), 0);
     for (const auto& halo : decomposition.halo)
-        note(halo, {MessageKind::Position, MessageKind::Solution});
+        add_rows_of(halo, {MessageKind::Position, MessageKind::Solution});
     for (std::size_t s = 0; s < further.size(); ++s)
-        note({{.from = static_cast<Index>(s), .to = -1, .source = further[s], .target = {}}},
-             {MessageKind::Position, MessageKind::Solution});
+        add_rows_of({{.from = static_cast<Index>(s), .to = -1, .source = further[s], .target = {}}},
+                    {MessageKind::Position, MessageKind::Solution});
     for (std::size_t sweep = 0; sweep < sweeps.size(); ++sweep)
         for (std::size_t s = 0; s < dealt_->known.size(); ++s) {
-            note(sweeps[sweep].traces[s], {MessageKind::Solution});
-            note(sweeps[sweep].predictions[s], {MessageKind::Prediction});
+            add_rows_of(sweeps[sweep].traces[s], {MessageKind::Solution});
+            add_rows_of(sweeps[sweep].predictions[s], {MessageKind::Prediction});
             for (const Transfer& prediction : sweeps[sweep].predictions[s])
                 own_interest_[prediction.from].predicts[sweep] = 1;
         }

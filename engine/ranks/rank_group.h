@@ -34,11 +34,11 @@ class RankGroup final : public StepSharing {
     void set_threads_of_each(int threads) { threads_of_each_ = threads; }
     [[nodiscard]] int threads_of_each() const { return threads_of_each_; }
 
-    /// Whether the ranks can share the steps: sweeps with one copy of Γ and without overlap, or converged steps of
-    /// symmetric Laplacians; with several sub-meshes, and without a recorded schedule. Rank 0 takes all other steps
+    /// Whether the ranks can share the steps: there are several ranks and several sub-meshes, no schedule is recorded,
+    /// and steps are sweeps with one copy of Γ and without overlap, or converged steps. Rank 0 takes all other steps
     /// alone.
     [[nodiscard]] bool can_share(const FlowPlan& plan, const StepSettings& settings) const override;
-    /// See RankStepper.
+    /// Makes a RankStepper, which shares its steps among all ranks.
     std::unique_ptr<HeatStepper> make_stepper(const PolygonMesh& mesh, const Topology& topology, const FlowPlan& plan,
                                               const StepSettings& settings, std::vector<double> curvature,
                                               Progress& progress) override;

@@ -45,8 +45,10 @@ class RankPart {
     std::uint64_t n_messages_ = 0;
     std::uint64_t n_bytes_ = 0;
     std::int64_t n_interface_vertices_ = 0;
+    /// The local numbers of the vertices whose positions rank 0 gets from this rank.
     std::vector<Index> sent_vertices_;
     std::vector<SavedRow> saved_;
+    /// Only for sweeps.
     std::optional<RankExchange> exchange_;
     std::unique_ptr<Stepper> stepper_;
     /// The same stepper, if its steps are converged; null if they are sweeps.

@@ -52,6 +52,7 @@ void RankStepper::deal(const PolygonMesh& mesh, const Topology& topology, const 
             Packer message = rank_message({.task = RankTask::Deal, .flow = flow_, .value = ranks_->threads_of_each()});
             dealer.deal(rank, message);
             comm.give(rank, message.take());
+            // The rank confirms its part, so that one part at a time takes memory here.
             comm.take(rank);
         }
         Packer of_first;

@@ -64,6 +64,7 @@ class RankStepper final : public HeatStepper {
     std::vector<std::vector<Index>> saved_rows_;
     /// Per rank and saved row: 1 if the row is taken from this rank, as several ranks may save it.
     std::vector<std::vector<std::uint8_t>> is_used_;
+    /// The number of different rows that the steppers of all ranks save.
     Index n_saved_ = 0;
     /// #V by 3: the positions; and whether they are those that the ranks have.
     mutable Points positions_;

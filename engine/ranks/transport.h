@@ -44,7 +44,7 @@ class Transport {
     /// @param to another rank.
     virtual void send(int to, int tag, Bytes bytes) = 0;
 
-    /// The next message, from any rank; empty if none arrives in time. One thread at a time may call this.
+    /// The next message, from any rank; empty if none arrives within the patience. One thread at a time may call this.
     [[nodiscard]] std::optional<Message> receive(std::chrono::microseconds patience)
     {
         if (put_back_.empty())

@@ -42,8 +42,8 @@ double width_in_diffusion_lengths(double area, Index k, double time_step)
 
 namespace {
 
-/// The tolerance that leaves a few hundredths of a mean edge length on most meshes. It took one to four iterations with
-/// Δ_F on regular meshes, up to 19 on a scan with slivers (measured: see engine/accuracy.md).
+/// The tolerance that leaves a few hundredths of a mean edge length on most meshes. It took one to seven iterations
+/// with Δ_F, up to 19 with Δ_A on a scan with slivers (measured: see engine/accuracy.md).
 constexpr double loose_tolerance = 1e-2;
 /// The tolerance of linear flows, whose steps cost little more than their iterations.
 constexpr double tolerance_of_linear_flow = 1e-4;
@@ -107,8 +107,8 @@ bool has_long_faces(const PolygonMesh& mesh)
     return false;
 }
 
-/// Whether most entries of the rows would belong to faces with so many corners that factorisations give them auxiliary
-/// unknowns.
+/// Whether the rows couple all corners of a face, and the faces with so many corners that factorisations give them
+/// auxiliary unknowns would have more than 16 entries of the rows for each corner of the mesh.
 bool has_dense_rows(const PolygonMesh& mesh, Laplacian laplacian)
 {
     constexpr double most_entries_by_corners = 16.0;

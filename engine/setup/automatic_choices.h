@@ -92,7 +92,7 @@ ApproachChoice choose_approach(const PolygonMesh& mesh, const Topology& topology
 /// The choice of conjugate gradients, which factorise nothing, for an automatic approach whose factors do not fit into
 /// the memory limit.
 /// @param options as given.
-/// @returns empty if the options exclude conjugate gradients.
+/// @returns empty if the options name an approach, or exclude conjugate gradients.
 std::optional<ApproachChoice> choose_without_factors(const MeshSize& size, const FlowOptions& options);
 
 }  // namespace seamflow

@@ -7,8 +7,8 @@ namespace seamflow {
 
 namespace {
 
-/// A time per vertex on two cores: a constant, and a time per off-diagonal coefficient of the row; and the fraction of
-/// the time in which one core works alone.
+/// A time per vertex on two cores, in nanoseconds: a constant, and a time per off-diagonal coefficient of the row; and
+/// the fraction of the time in which one core works alone.
 struct PerVertex {
     double constant;
     double per_coefficient;
@@ -35,12 +35,14 @@ constexpr PerVertex setup_of_sweeps{300.0, 200.0, 0.22};
 constexpr PerVertex step_of_sweeps{80.0, 14.0, 0.03};
 constexpr PerVertex step_of_converged{100.0, 18.0, 0.05};
 constexpr PerVertex interface_iteration{10.0, 0.0, 0.05};
-/// The vertices above which a mesh is cut by clusters of faces.
+/// A mesh with at least this many vertices is cut by clusters of faces, which makes the set-up per vertex cheaper by
+/// this factor.
 constexpr Index large_mesh = 250'000;
 constexpr double part_of_setup_if_large = 0.6;
 
 constexpr PerVertex setup_of_undecomposed{400.0, 55.0, 0.6};
-/// For a mesh of `reference_vertices`; factors grow faster than meshes.
+/// For a mesh of `reference_vertices`. Factors grow faster than meshes: in larger ones the time per vertex grows by
+/// this power of their size.
 constexpr PerVertex step_of_undecomposed{0.0, 45.0, 0.45};
 constexpr double reference_vertices = 10'000.0;
 constexpr double growth_of_factors = 0.22;
@@ -48,8 +50,8 @@ constexpr double growth_of_factors = 0.22;
 /// The cost of a further solution with the same factor, as a fraction of a step.
 constexpr double part_of_solution = 0.3;
 
-/// The factor of the root of the condition number, which bounds the number of iterations with the diagonal as
-/// preconditioner. The observed numbers grow slightly more slowly.
+/// The number of iterations for each factor of e in the residual is this factor times a power of the condition number,
+/// with the diagonal as preconditioner. Theory has the power ½; the observed numbers grow slightly more slowly.
 constexpr double iterations_of_one = 0.315;
 constexpr double growth_of_iterations = 0.4;
 /// The number of iterations on Γ for each factor of e in the residual.
@@ -63,7 +65,7 @@ constexpr double most_growth = 1.3;
 /// memory.
 constexpr Index largest_factor = 500'000;
 
-/// The seconds of a step by conjugate gradients, for each solution.
+/// The seconds of the iterations of one solution by conjugate gradients.
 double seconds_of_iterations(const FlowSize& size, double iterations)
 {
     FlowSize fed = size;
@@ -75,6 +77,7 @@ double seconds_of_iterations(const FlowSize& size, double iterations)
 
 double predicted_iterations(const FlowSize& size, double tolerance)
 {
+    // The diagonal as preconditioner makes the largest eigenvalue about 2 (see RowAverages::stiffness).
     const double condition = 2.0 * (1.0 + size.time_step * size.rows.stiffness);
     return iterations_of_one * std::pow(condition, growth_of_iterations) * std::log(2.0 / tolerance);
 }

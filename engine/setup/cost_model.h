@@ -33,14 +33,16 @@ struct PredictedCost {
     double setup = 0.0;
     double step = 0.0;
 
+    /// The seconds of that many steps, with the work before the first.
     [[nodiscard]] double of(int steps) const { return setup + steps * step; }
 };
 
-/// The number of iterations of a step by conjugate gradients: a power of the condition number times the number of
-/// digits, as in the bound of Saad (Iterative Methods for Sparse Linear Systems, 2003, eq. 6.128), fitted to
+/// The number of iterations of a solution by conjugate gradients: a power of the condition number times the logarithm
+/// of 2 / tolerance, as in the bound of Saad (Iterative Methods for Sparse Linear Systems, 2003, eq. 6.128), fitted to
 /// measurements.
 double predicted_iterations(const FlowSize& size, double tolerance);
 
+/// Predicts the cost of one way of taking steps.
 /// @param approach Sweep, Converged, ConjugateGradients or Undecomposed.
 /// @param tolerance of the steps, if they are converged.
 PredictedCost predict_cost(Approach approach, const FlowSize& size, std::optional<double> tolerance = {});

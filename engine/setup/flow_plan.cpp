@@ -56,6 +56,7 @@ void cut_and_measure(const Surface& surface, const FlowOptions& options, const A
         measure();
 }
 
+/// The conditions on Γ that the options ask for, with all parameters that they leave open.
 InterfaceConditions conditions_of(const FlowOptions& options)
 {
     const InterfaceOptions& interface = options.interface;
@@ -73,6 +74,7 @@ InterfaceConditions conditions_of(const FlowOptions& options)
     return AdaptedConditions{.p = p, .q = q};
 }
 
+/// The way of taking steps that the approach and the options amount to.
 /// @param n_sub_meshes the number in the cut.
 WayOfSteps way_of(const ApproachChoice& choice, const FlowOptions& options, Index n_sub_meshes)
 {

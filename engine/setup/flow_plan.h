@@ -36,8 +36,9 @@ struct FlowPlan {
     std::optional<Alternative> without_factors;
 };
 
-/// The fraction of a whole call that is done before its first step: about as long as this takes some steps.
-/// @param options as given. @param n_taken the number of steps that are not taken again.
+/// The fraction of a whole call that is done before its first step: setting up takes about as long as 3 to 6 steps,
+/// depending on how steps are taken.
+/// @param options as given. @param n_taken the number of steps of an earlier call, which are not taken again.
 double fraction_of_setup(const FlowOptions& options, int n_taken = 0);
 
 /// Decides how steps are taken, and in which sub-meshes.

@@ -15,7 +15,8 @@ namespace seamflow {
 
 namespace {
 
-/// Checks the mesh, and computes the identity of the flow if that is needed.
+/// Checks the mesh, and that a state to resume from belongs to it.
+/// @returns the identity of the flow; 0 if there is no state to resume from, and no observer that may ask for one.
 std::uint64_t require_sound(const PolygonMesh& mesh, const FlowOptions& options, bool is_observed,
                             const FlowState* resume, Progress& progress)
 {
@@ -30,8 +31,8 @@ std::uint64_t require_sound(const PolygonMesh& mesh, const FlowOptions& options,
     return identity;
 }
 
-/// Whether only the faces around a region need to flow: no option needs the whole surface, and no seam of a moving
-/// boundary could open.
+/// Whether only the faces around a region need to flow: there are strengths, no option needs the whole surface, and no
+/// seam of a moving boundary could open.
 bool flows_alone(const FlowOptions& options)
 {
     return !options.motion.strength.empty() && !options.motion.limits.exist() && !options.motion.strict &&
@@ -45,6 +46,7 @@ void measure(PreparedFlow& prepared, Approach approach)
     const FlowOptions& options = prepared.options;
     // Sweeps order the colours by curvature.
     const bool is_ordering = approach == Approach::Sweep;
+    // With sub-meshes, the curvature for reports is measured here, because this runs beside METIS.
     const bool is_beside_cut = options.report.measures && !takes_whole_mesh(approach);
     if (is_ordering || is_beside_cut)
         prepared.curvature = measure_curvature(mesh, prepared.surface.topology, mesh.vertices, laplacian_of(options));

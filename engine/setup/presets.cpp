@@ -65,7 +65,7 @@ constexpr std::array table{
                  .radius = LengthOnMesh{0.03, true}},
 };
 
-/// Of noise, over what is measured.
+/// The limit of motion along normals, as a multiple of the measured noise.
 constexpr double more_than_measured = 1.15;
 /// How far vertices move along the surface at most, in standard deviations of the noise, which also moved them there.
 constexpr double most_slide = 4.0;
@@ -78,6 +78,7 @@ double rounded(double value)
     return std::stod(fmt::format("{:.3g}", value));
 }
 
+/// @returns the time step. @throws InputError if it is no normal number, as on a mesh without a size.
 double require_step(double time_step)
 {
     if (std::isnormal(time_step))
@@ -85,6 +86,7 @@ double require_step(double time_step)
     throw InputError(Wording{"the mesh has no size to measure noise by; use <time_step>"});
 }
 
+/// Chooses no steps, and any valid time step, because there must be one. Adds the remark why.
 void smooth_nothing(PresetChoice& choice, double mean_edge, std::string_view why)
 {
     choice.options.steps = 0;
@@ -132,8 +134,9 @@ void choose_by_noise(const PolygonMesh& mesh, const std::optional<LengthOnMesh>&
     if (*choice.noise == 0.0)
         return smooth_nothing(choice, mean_edge, "No noise can be told from the shape of the mesh");
     const double t = denoising_amount(flowing, joined, *choice.noise, exec).amount;
-    // Of Δ_U, dt h²/4 of whose rows of the mean of differences are t.
     const double most = largest_radius * largest_diagonal(mesh, exec);
+    // t is without a unit, for L = D⁻¹ K (see denoising_amount). Δ_U is L times 4 / h², h being the mean edge length,
+    // so that dt = t h² / 4.
     const double radius =
         std::min(smoothed_radius(0.25 * t * mean_edge * mean_edge, 1, {.order = denoising_order}), most);
     if (!(radius > 0.0) || !(*choice.noise <= most))
@@ -221,7 +224,7 @@ bool is_against(const FlowOptions& given, const AskedOptions& asked, std::string
     return is_further && asked.has("laplacian") && !is_symmetric(given.laplacian);
 }
 
-/// Whether an option of a preset was given, or does not go with those that were.
+/// Whether an option of a preset was given, or does not go with the given options.
 bool is_said(const FlowOptions& given, const AskedOptions& asked, std::string_view option)
 {
     if (asked.has(option) || is_against(given, asked, option))
@@ -237,7 +240,7 @@ bool is_said(const FlowOptions& given, const AskedOptions& asked, std::string_vi
     return option == "order" && asked.has("filter");
 }
 
-/// The options of denoise() that correspond to those of a flow.
+/// The options of denoise() that have the values of the same options of a flow.
 DenoiseOptions denoise_options_of(const FlowOptions& options)
 {
     return {.steps = options.steps,

@@ -53,7 +53,7 @@ struct PresetTraits {
     [[nodiscard]] bool measures_noise() const { return !keep_edges && !radius; }
 };
 
-/// All of them, first the one for meshes of unspecified kind.
+/// All presets; first the preset for meshes of unspecified kind.
 std::span<const PresetTraits> all_presets();
 
 /// @throws OptionError for an unknown name.
@@ -68,7 +68,8 @@ struct PresetSetting {
     std::string value;
 };
 
-/// Options of a caller, with those of a preset, besides its amount, where the caller has not asked for others.
+/// The options of a caller, completed by the options of a preset, except its amount, where the caller has not asked for
+/// an option.
 struct PresetSettings {
     FlowOptions options;
     /// Whether noise is removed (see denoise) in place of a flow.
@@ -77,10 +78,11 @@ struct PresetSettings {
     std::optional<double> keep_edges = {};
     /// Whether the preset chooses how much is smoothed.
     bool chooses_amount = true;
+    /// The settings of the preset that were made.
     std::vector<PresetSetting> chosen = {};
     /// The amount, if it does not follow from the noise.
     std::optional<PresetSetting> amount = {};
-    /// Those that the Laplacian that was asked for does not support.
+    /// The settings of the preset that are left out, because the Laplacian that was asked for does not support them.
     std::vector<PresetSetting> left_out = {};
 };
 
@@ -93,9 +95,10 @@ PresetSettings apply_preset(const PresetTraits& preset, FlowOptions given, const
 struct PresetChoice {
     /// With an amount, and limits for each component of the mesh.
     FlowOptions options;
-    /// In place of them, if the preset removes noise or keeps edges: those of denoise().
+    /// If the preset removes noise or keeps edges: the options of denoise(), which is then to be called in place of a
+    /// flow.
     std::optional<DenoiseOptions> denoise = {};
-    /// As measured from the mesh, or given, in length, if the amount follows from it.
+    /// The standard deviation of the noise, measured or given, in length; empty unless the amount follows from it.
     std::optional<double> noise = {};
     /// Where nothing is smoothed: why.
     std::optional<Remark> remark = {};
@@ -103,7 +106,7 @@ struct PresetChoice {
 
 /// The options of a preset for a mesh, to be changed at will and given to mean_curvature_flow or denoise. A preset that
 /// denoises does so where no noise is given, and no option that needs the equation of a flow.
-/// @param further options of the caller; those that are not as by default replace those of the preset.
+/// @param further options of the caller; where they differ from their defaults, they replace the options of the preset.
 /// @param noise the standard deviation of the noise along the normals, where it is known; Preset::Cad and Preset::Fair
 /// ignore it.
 /// @throws InputError for a mesh that is not valid, or that has no size to measure by.

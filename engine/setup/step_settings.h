@@ -36,7 +36,7 @@ struct FactorSettings {
 struct StepSettings {
     StepEquation equation;
     FactorSettings factors;
-    /// See ReportOptions::record_schedule.
+    /// Whether the times of all tasks are recorded (see ReportOptions::record_schedule).
     bool records_schedule = false;
 };
 

@@ -95,6 +95,9 @@ class LargeFaces {
     std::vector<Seen> seen_;
 };
 
+/// Sets the transfers of predictions to sub-mesh s: one sender for each vertex of its halo that shares a face with a
+/// vertex of Γ where s leads.
+/// @param plan has the roles of s.
 void plan_predictions(const Decomposition& decomposition, Index s, SweepPlan& plan)
 {
     const SubMesh& sub_mesh = decomposition.sub_meshes[s];
@@ -112,6 +115,7 @@ void plan_predictions(const Decomposition& decomposition, Index s, SweepPlan& pl
                     continue;
                 // The lowest sender is taken, so that the choice does not depend on the numbering of vertices.
                 TransferRow& sender = senders[v - sub_mesh.n_vertices];
+                // No sub-mesh at this vertex of Γ is lower than the sender found before.
                 if (sender.from >= 0 && sender.from <= lowest_but(s, interface.sharing[i]))
                     continue;
                 if (const TransferRow found = row_from_sender(decomposition, interface.sharing[i], s, v);

@@ -43,8 +43,8 @@ SweepPlan plan_mutual_sweep(const Decomposition& decomposition, std::vector<Inde
                             const Executor& exec = run_serially);
 
 /// Plans the sweep of sub-meshes that overlap (see overlap.h), in the order for which the decomposition was made: each
-/// sub-mesh follows everywhere on its interface. The traces carry V^{k+1} where the part that has the earliest stage at
-/// the vertex solves earlier; elsewhere V^k is used.
+/// sub-mesh follows everywhere on its interface. The traces carry V^{k+1} to a sub-mesh where the sub-mesh with the
+/// earliest stage at the vertex has an earlier stage than it; elsewhere V^k is used.
 SweepPlan plan_overlapping_sweep(const Decomposition& decomposition, std::vector<Index> stage);
 
 }  // namespace seamflow

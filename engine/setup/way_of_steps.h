@@ -14,7 +14,7 @@ namespace seamflow {
 
 /// Sub-meshes that converge to the undecomposed step.
 struct ConvergedSteps {
-    /// By the residual on Γ, relative to that of the positions before the step.
+    /// Ends the iteration by the residual on Γ, relative to that of the positions before the step.
     IterationStop stop;
 };
 
@@ -23,7 +23,7 @@ inline constexpr IterationStop stop_without_interface{.tolerance = 1e-10, .itera
 
 /// Conjugate gradients on the whole mesh.
 struct GradientSteps {
-    /// By the residual of all rows, relative to that of the positions before the step.
+    /// Ends the iteration by the residual of all rows, relative to that of the positions before the step.
     IterationStop stop;
     /// The input of the costs of steps, if they may begin with the solution by one factorisation (see
     /// SwitchingStepper); otherwise empty.
@@ -42,7 +42,7 @@ struct ExplicitSteps {};
 /// The way of taking steps.
 using WayOfSteps = std::variant<SweepSteps, ConvergedSteps, GradientSteps, UndecomposedSteps, ExplicitSteps>;
 
-/// The name of a way. Explicit steps have that of sweeps, which are as little converged.
+/// The approach of a way. For explicit steps, which no Approach names, it is Sweep: neither converges.
 Approach approach_of(const WayOfSteps& way);
 
 /// The tolerance of the steps, if they are converged or one was asked for.

@@ -66,7 +66,8 @@ class ArchiveWriter {
 /// gives.
 class ArchiveReader {
   public:
-    /// Opens the file and checks all of it.
+    /// Opens the file, and checks its first line, its format and version, and its checksum.
+    /// @param line as for ArchiveWriter. @throws as read_archive.
     ArchiveReader(const std::filesystem::path& path, std::string_view line);
 
     /// Reads numbers byte for byte.

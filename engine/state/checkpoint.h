@@ -23,7 +23,7 @@ void make_checkpoint_folder(const std::filesystem::path& folder);
 
 /// Checks that a checkpoint belongs to a flow, and is not beyond its end.
 /// @param step after which the checkpoint was written. @param steps of the flow.
-/// @param of_state, of_flow see identify.
+/// @param of_state, of_flow the identities of the state in the checkpoint and of the flow (see identify).
 /// @throws InputError if the input or the options differ, OptionError if the checkpoint is beyond the end, naming the
 ///         file and a remedy.
 void require_belongs(const std::filesystem::path& file, std::uint64_t of_state, std::uint64_t of_flow,

@@ -15,11 +15,11 @@ namespace seamflow {
 /// All data that a flow needs to resume after a complete step as if it had never ended: see StepState::capture and
 /// FlowControl::resume. The state belongs to the mesh as it was before the first step, and to the options.
 struct FlowState {
-    /// See identify; 0: no identity was computed.
+    /// The checksum of the mesh and of the options that determine results (see identify); 0: it was not computed.
     std::uint64_t identity = 0;
     /// The way in which the steps are taken.
     Approach approach = Approach::Sweep;
-    /// The checksum of the cut.
+    /// The checksum of the labels of the cut.
     std::uint64_t cut = 0;
     /// The reports on the steps so far, and their times in seconds, as in the FlowReport.
     std::vector<StepReport> steps;

@@ -11,6 +11,7 @@ namespace seamflow {
 struct StepMemory {
     /// #V by 3, after the last complete step.
     Points positions = Points(0, 3);
+    /// The further data, in the order in which `save` of the stepper writes and `restore` reads them.
     std::vector<Points> arrays;
     std::vector<double> numbers;
 };
@@ -28,6 +29,7 @@ class StepMemoryReader {
     const Points& array(Eigen::Index rows);
 
     /// Returns the next array, whose numbers need not be finite.
+    /// @throws InputError if there is no further array, or it has another number of rows.
     const Points& array_of_any(Eigen::Index rows);
 
     /// Returns the next number.
@@ -35,7 +37,7 @@ class StepMemoryReader {
     double number();
 
     /// Returns the next number as an integer.
-    /// @throws InputError if it is not from 0 to most_steps.
+    /// @throws InputError if there is no further number, or it is not from 0 to most_steps.
     int count();
 
     /// @throws InputError if any data are left.

@@ -62,7 +62,7 @@ NeumannSystem::Factor CondensedSubMesh::factorise(const CondensedStep& step, Sol
     seconds_->assemble += watch.lap();
     std::optional<NeumannSystem::Factor> factor = system_->factorise(equations, precision_, *memory_, workspace.ldl);
     precision_ = factor && factor->is_single() ? Precision::Single : Precision::Double;
-    // There is no factor if single precision would lose too many digits.
+    // There is no factor if single precision would lose too many digits: precision_ is now double.
     if (!factor)
         factor = system_->factorise(equations, precision_, *memory_, workspace.ldl);
     seconds_->factorise += watch.lap();
@@ -147,6 +147,7 @@ void CondensedSubMesh::back_substitute(const CondensedStep& step, const Points& 
     NeumannSystem::Factor factor = take_factor(step, workspace);
     Stopwatch watch;
     substitute(step, factor, update, workspace);
+    // For other data the unknown is the result itself, which begins at 0; otherwise it is Vᵏ⁺¹ - Vᵏ.
     for (const Index v : system_->unknowns())
         if (vertices_.owned[v] != 0)
             step.positions.row(global(v)) = step.data != nullptr

@@ -62,11 +62,12 @@ class CondensedSubMesh {
     /// The largest residual of the interior in each column at the last condensation.
     [[nodiscard]] const Point& residual() const { return residual_; }
 
-    /// Factorises and condenses, beginning at Vᵏ⁺¹ = Vᵏ.
+    /// Assembles and factorises the equations, and condenses them to Γ, beginning at Vᵏ⁺¹ = Vᵏ.
     /// @param complement receives the Schur complement.
     void condense(const CondensedStep& step, Precision precision, SolverWorkspace& workspace, DenseFactor& complement);
 
-    /// Condenses other data, with the factor of the first solution of the step.
+    /// Condenses the equations again, for other data or another Vᵏ, with the factor of the same matrix; without a kept
+    /// factor it factorises anew.
     void condense_again(const CondensedStep& step, SolverWorkspace& workspace);
 
     /// Solves for the interior at an update of Γ, and condenses the residual of the equations.
@@ -77,13 +78,17 @@ class CondensedSubMesh {
     void back_substitute(const CondensedStep& step, const Points& update, bool keeps_factor,
                          SolverWorkspace& workspace);
 
-    /// See NeumannSystem. Requires a factor that is kept.
+    /// Whether take_steps can be called: the sub-mesh has a factor from its last step, and
+    /// NeumannSystem::can_take_columns returns true for it.
     [[nodiscard]] bool can_take_columns() const;
-    /// See NeumannSystem.
-    /// @param time_step dt, in length². @param n the number of steps. @param fields #V by any number of columns.
+    /// Takes steps of the heat equation for many columns of data at once (see NeumannSystem::take_steps). Only if
+    /// can_take_columns() is true.
+    /// @param time_step dt, in length². @param n the number of steps. @param fields #V by any number of columns: the
+    /// data before the steps, and then after them.
     void take_steps(double time_step, int n, Eigen::Ref<Eigen::MatrixXd> fields, const Executor& exec) const;
 
   private:
+    /// The local indices of the unknowns that are not on Γ: they come first among the unknowns.
     [[nodiscard]] std::span<const Index> interior() const
     {
         return std::span(system_->unknowns()).first(static_cast<std::size_t>(system_->n_interior()));

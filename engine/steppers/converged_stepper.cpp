@@ -41,12 +41,14 @@ void ConvergedStepper::step(const Points& before)
 void ConvergedStepper::take_filtered()
 {
     InterfaceResult sum = reached_.last;
+    // Vᵏ minus the first solution; apply_filter turns it into the part that the whole filter subtracts from Vᵏ.
     PointBlocks rest(1);
     set_rows(rest.front(), positions_.rows());
     for_each(run_in_parallel, static_cast<Index>(positions_.rows()),
              [&](Index v) { rest.front().row(v) = before_->row(v) - positions_.row(v); });
     PointBlocks solution(1);
     const auto solve_for = [&](const PointBlocks& data) -> const PointBlocks& {
+        // The graph solves within positions_: its content is put aside, and swapped back below.
         solution.front().swap(positions_);
         copy(run_in_parallel, data.front(), positions_);
         data_ = &data.front();
@@ -70,6 +72,7 @@ void ConvergedStepper::count_missed()
 {
     reached_.of_step.resize(std::max(reached_.of_step.size(), usize(reached_.n_taken) + 1));
     Missed& counted = reached_.of_step[usize(reached_.n_taken++)];
+    // Negated, so that a residual of NaN misses the tolerance.
     const Missed now{.is_short = !(reached_.last.residual <= stop_.tolerance),
                      .has_stagnated = reached_.last.stagnated};
     reached_.n_short_of_tolerance += now.is_short && !counted.is_short ? 1 : 0;
@@ -96,6 +99,7 @@ void ConvergedStepper::set_positions(const Points& image, const SimilarityOfComp
 void ConvergedStepper::set_data(const Points& data, DataSteps steps)
 {
     set_positions(data, {});
+    // With DataSteps::Again the count goes back: the next steps repeat those since the last DataSteps::Further.
     if (steps == DataSteps::Further)
         reached_.n_before_data = reached_.n_taken;
     reached_.n_taken = reached_.n_before_data;

@@ -54,7 +54,7 @@ ErrorEstimate::ErrorEstimate(const Decomposition& decomposition, const PolygonMe
         array->setZero(equation_.size(), 3);
     if (equation.terms.keeps_stiffness)
         initial_ = mesh.vertices;
-    note_attachment(equation.terms);
+    store_attachment(equation.terms);
     if (laplacian_ == Laplacian::PtackovaVelho) {
         solved_ = mesh.vertices;
         list_remote_rows();
@@ -81,8 +81,8 @@ void ErrorEstimate::list_remote_rows()
         sort_unique(rows);
 }
 
-/// Notes V⁰ and dt w at each vertex of Γ, if the flow pulls vertices back to V⁰ with weights w (see FlowTerms).
-void ErrorEstimate::note_attachment(const FlowTerms& terms)
+/// Stores V⁰ and dt w at each vertex of Γ, if the flow pulls vertices back to V⁰ with weights w (see FlowTerms).
+void ErrorEstimate::store_attachment(const FlowTerms& terms)
 {
     if (!terms.attaches())
         return;
@@ -210,9 +210,11 @@ void ErrorEstimate::restore(StepMemoryReader& memory)
 std::optional<double> ErrorEstimate::find_largest() const
 {
     double squared = 0.0;
+    // 1 if a number is not finite: a double, so that it can be compared between ranks.
     double is_lost = 0.0;
     for (Eigen::Index i = 0; i < swept_.rows(); ++i) {
         const Point error = swept_.row(i);
+        // A correction may happen to cancel an error of sweeps: the larger of the two distances counts.
         const double here = std::max(error.squaredNorm(), (error + corrected_.row(i)).squaredNorm());
         if (std::isfinite(here))
             squared = std::max(squared, here);

@@ -64,7 +64,7 @@ class ErrorEstimate {
   private:
     [[nodiscard]] const Points& joined(const std::vector<SubMeshState>& states, Index s, Points& storage) const;
     [[nodiscard]] const Points& stiffness_positions(const SubMeshState& state, Points& storage) const;
-    void note_attachment(const FlowTerms& terms);
+    void store_attachment(const FlowTerms& terms);
     void list_remote_rows();
     [[nodiscard]] const Points& fill_remote_rows(const std::vector<SubMeshState>& states, const Points& before);
     void carry_over();

@@ -50,7 +50,7 @@ void InterfaceGaps::join(const std::vector<SubMeshState>& states, Points& positi
     });
 }
 
-/// Sets the means and the gaps at the vertices of Γ of which sub-mesh s is the lowest.
+/// Sets the means and the gaps at the vertices of Γ at which no sub-mesh has a lower number than s.
 void InterfaceGaps::join_interface_of(Index s, const std::vector<SubMeshState>& states, Points& positions)
 {
     const SubMesh& sub_mesh = decomposition_->sub_meshes[s];

@@ -34,9 +34,10 @@ class InterfaceGaps {
 
     const Decomposition* decomposition_;
     std::optional<SeparatedSubMeshes> separated_;
-    /// For each sub-mesh, the index of its first entry in `gaps_`: it has one entry per vertex of Γ of which it is the
-    /// lowest sub-mesh.
+    /// For each sub-mesh, the index of its first entry in `gaps_`: it has one entry per vertex of Γ at which no other
+    /// sub-mesh has a lower number.
     std::vector<std::size_t> first_gap_;
+    /// Per vertex of Γ, in the order of first_gap_: the largest distance between two of its copies at the last join.
     std::vector<double> gaps_;
 };
 

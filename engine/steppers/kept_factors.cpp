@@ -65,8 +65,8 @@ KeptFactors choose_kept_factors(std::span<const std::size_t> factors, std::optio
     Index n_whole = -1;
     Index n_slots = 0;
     Index least_rounds = std::numeric_limits<Index>::max();
-    // More slots for recomputed factors leave less room to keep factors: doubling the number of slots finds all
-    // relevant cases.
+    // More slots for recomputed factors leave less room to keep factors. Only powers of 2 and n_threads are tried: that
+    // is near enough to the best number.
     for (Index slots = 1;; slots = std::min(2 * slots, n_threads)) {
         const Index most = most_kept_within(factors, order, slots, *limit);
         if (most < 0)

@@ -29,8 +29,8 @@ struct KeptFactors {
     [[nodiscard]] std::size_t most_bytes() const { return bytes + usize(n_slots) * bytes_per_slot; }
 };
 
-/// Keeps the largest factors, as many as the limit allows, and leaves as many slots for the others as lets them be
-/// computed in the fewest rounds.
+/// Keeps the largest factors, and recomputes the others in slots. The number of slots is the power of 2, or n_threads,
+/// with which the others are computed in the fewest rounds; as many factors are kept as fit beside these slots.
 /// @param factors the sizes of the factors of all sub-meshes, in bytes.
 /// @param limit in bytes. Empty: all are kept.
 /// @param n_threads at least 1: there are no more slots than that.

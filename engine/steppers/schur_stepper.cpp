@@ -102,6 +102,7 @@ bool SchurStepper::refine_interiors(double tolerance, const Point& first, const 
     while (!is_small(residual)) {
         refine_all(interface_.update, exec);
         const Point before = std::exchange(residual, interior_residual());
+        // A refinement that does not halve the residual has come to rounding: further ones would not help.
         if (residual.maxCoeff() > 0.5 * before.maxCoeff())
             return is_small(residual);
     }
@@ -121,7 +122,7 @@ std::array<bool, 3> SchurStepper::at_rest(const Executor& exec) const
         for (Index v = 0; v < own.n_vertices; ++v)
             farthest[s] = std::max(farthest[s], before_->row(own.local_to_global[v]).cwiseAbs().maxCoeff());
     });
-    // Stands for a rank without Γ.
+    // The movement of Γ on a rank that has no vertex of Γ: less than any other, so that it does not count.
     constexpr double unknown = -1.0;
     Point moved = Point::Constant(unknown);
     if (interface_.update.size() > 0)

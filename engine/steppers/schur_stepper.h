@@ -52,7 +52,9 @@ class SchurStepper final : public ConvergedStepper, public ChangeableEquations {
 
     void set_data(const Points& data, DataSteps steps) override;
 
-    /// Whether take_columns can be called: after a step of a linear flow of the whole mesh.
+    /// Whether take_columns can be called: the whole mesh is one sub-mesh, the filter is plain, the last step of a
+    /// linear flow has left its factor, no equation has changed since, and NeumannSystem::can_take_columns returns
+    /// true.
     [[nodiscard]] bool can_take_columns() const;
 
     /// Takes n steps with many columns of other data at once; positions() do not change. Only if can_take_columns() is
@@ -80,7 +82,9 @@ class SchurStepper final : public ConvergedStepper, public ChangeableEquations {
   private:
     /// The memory of factors.
     struct FactorStore {
+        /// The precision that was asked for.
         Precision precision = Precision::Automatic;
+        /// Which factors are kept: `whole` has an entry for each sub-mesh, 1 for remote ones.
         KeptFactors plan;
         /// Memory of the kept factors. Under a memory limit factors are on the heap instead, because the size of a
         /// factor may differ from step to step.
@@ -91,6 +95,7 @@ class SchurStepper final : public ConvergedStepper, public ChangeableEquations {
     /// The data on Γ.
     struct Interface {
         Index n_vertices = 0;
+        /// Per sub-mesh: its Schur complement S, as `condense` left it.
         std::vector<DenseFactor> complements;
         /// #copies by 3: each sub-mesh's share of the right-hand side, and later of the residual.
         Points condensed;
@@ -101,6 +106,7 @@ class SchurStepper final : public ConvergedStepper, public ChangeableEquations {
         bool has_update = false;
         /// Whether the complements are also those of the next step, which has the same matrix.
         bool has_complements = false;
+        /// Whether `guess` is the update of an earlier step.
         bool has_guess = false;
         /// #Γ by 3: the update for which interiors and `condensed` were computed.
         Points reached;

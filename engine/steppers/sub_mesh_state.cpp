@@ -43,6 +43,7 @@ void receive_other_side(const std::vector<SubMeshState>& states, const std::vect
         for (std::size_t i = 0; i < transfer.source.size(); ++i)
             other_side.row(transfer.target[i]) += source.row(transfer.source[i]);
     }
+    // `sharing` has this sub-mesh, too, whose own copy is not in the sum.
     for (Index i = 0; i < interface.size(); ++i)
         other_side.row(interface.vertices[i]) /= static_cast<double>(interface.sharing[i].size() - 1);
 }
@@ -123,7 +124,7 @@ void solve(std::vector<SubMeshState>& states, Index s, const std::vector<Transfe
         receive_other_side(states, halo, plan.copies[s], latest, state, workspace.other_side);
         state.system->use_other_side(state.position, workspace.other_side);
     }
-    // `solved` has Vᵏ⁺¹ where the sub-mesh follows.
+    // On Γ `solved` now has Vᵏ⁺¹ where the sub-mesh follows.
     state.system->solve(*state.factor, state.given(), state.solved, workspace);
     if (state.solution == SubMeshState::Solution::Only)
         state.factor.reset();

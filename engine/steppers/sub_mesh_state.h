@@ -20,7 +20,7 @@ struct SubMeshState {
 
     const SubMesh* sub_mesh;
     std::unique_ptr<SubMeshSystem> system;
-    /// Exists from assemble_and_factorise until solve.
+    /// Exists from assemble_and_factorise until the last solution of the step.
     std::optional<SubMeshSystem::Factor> factor;
     /// Robin parameter, in 1/length.
     double p = 0.0;

@@ -129,6 +129,7 @@ FactorWindow least_window(const SweepPlan& plan, std::vector<Index> order)
         for_each_leader(plan, s, [&](Index leader) { last[s] = std::max(last[s], last[leader]); });
     }
     std::ranges::stable_sort(window.freed, {}, [&](Index s) { return last[s]; });
+    // When freed[i] is to be solved, i factors have been freed: the window must then reach to the index last[freed[i]].
     for (std::size_t i = 0; i < last.size(); ++i)
         window.size = std::max(window.size, last[window.freed[i]] - static_cast<Index>(i) + 1);
     return window;

@@ -14,20 +14,22 @@ std::vector<double> total_curvatures(const Decomposition& decomposition, const s
 /// #sub-meshes: the stage of each sub-mesh in a forward sweep, from 0; sub-meshes of one stage have one colour. The
 /// colours are ordered by decreasing total curvature: the paper's authors let the side with the larger curvature begin.
 /// @param solves_in_order_of_numbers whether the stage of a sub-mesh is its number instead.
-/// @param adjacency per sub-mesh: the others with which it shares a vertex of Γ. @param totals see total_curvatures.
+/// @param adjacency per sub-mesh: the others with which it shares a vertex of Γ. @param totals the total
+/// curvature of each sub-mesh (see total_curvatures).
 std::vector<Index> assign_stages(const std::vector<std::vector<Index>>& adjacency, bool solves_in_order_of_numbers,
                                  const std::vector<double>& totals);
 
 /// The stages of the sweep in the opposite direction.
 std::vector<Index> reversed(const std::vector<Index>& stage);
 
-/// The number of factors that live at once. Sub-meshes are factorised in a fixed order: order[i + size] waits until
+/// A limit on the factors that live at once. Sub-meshes are factorised in a fixed order: order[i + size] waits until
 /// freed[i] has been solved and its factor is freed.
 struct FactorWindow {
     /// The sub-meshes in the order of factorisation.
     std::vector<Index> order;
     /// The same sub-meshes in an order in which they can be solved meanwhile.
     std::vector<Index> freed;
+    /// The most factors that live at once.
     Index size = 0;
 };
 

@@ -30,7 +30,7 @@ namespace seamflow {
 /// Sub-meshes, of a whole mesh or of one of several ranks, and their order in a sweep over all.
 struct SweepSubMeshes {
     RankSubMeshes own;
-    /// #sub-meshes: see SweepPlan::stage.
+    /// #sub-meshes: the turn of each in a sweep forward, from 0 (see SweepPlan::stage).
     std::vector<Index> stage = {};
     /// Only for ranks, for a sweep forward and one backward: this rank's part of orders that are common to all ranks,
     /// and the smallest size with which the sweep cannot deadlock. Empty: the windows follow from the plans.
@@ -86,7 +86,8 @@ class SweepStepper final : public Stepper {
     void begin_solution(SubMeshState::Solution solution);
     void fetch_positions(SubMeshState& state);
     void join();
-    /// Whether the positions of a vertex differ between sub-meshes: with copies of Γ, and if sub-meshes overlap.
+    /// Whether the positions of a vertex differ between sub-meshes: with copies of Γ, and if sub-meshes overlap, for
+    /// which there is no estimate of the error.
     [[nodiscard]] bool has_copies() const { return copies_ || (!error_ && remote_ == nullptr); }
 
     /// Made once the size of factors is known.

@@ -36,7 +36,7 @@ void SwitchingStepper::make_factors()
     }
 }
 
-/// Frees the factors, and records that factorising failed in this step.
+/// Frees the factors, and records that making or using them failed in this step.
 void SwitchingStepper::leave_factors()
 {
     failed_ = n_taken_ + 1;
@@ -46,7 +46,7 @@ void SwitchingStepper::leave_factors()
 
 void SwitchingStepper::try_to_make_factors()
 {
-    // The topology of a flow has no twins: it is made again.
+    // The flow has freed the twins of its topology: they are made again.
     complete_ = *topology_;
     complete_.twin = make_topology(*mesh_, progress_->exec()).twin;
     factors_ = make_undecomposed_stepper(*mesh_, complete_, settings_, *progress_);

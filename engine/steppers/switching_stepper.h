@@ -52,8 +52,9 @@ class SwitchingStepper final : public Stepper {
     /// The iterations of the last two steps without factors.
     StepIterations iterations_;
     int n_taken_ = 0;
-    /// The number of the first step with factors, and of the step in which factorising failed; 0: none.
+    /// The number of the step for which factors were first made, or failed to be made; 0: none.
     int first_with_factors_ = 0;
+    /// The number of the step in which factorising, or a solution by the factors, failed; 0: none.
     int failed_ = 0;
 };
 

@@ -14,7 +14,7 @@ std::unique_ptr<Stepper> make_undecomposed_stepper(const PolygonMesh& mesh, cons
                                                    bool reports_residual)
 {
     const Cut whole = cut_into(mesh, topology, 1);
-    // A SchurStepper keeps the factor of a linear flow.
+    // A SchurStepper keeps the factor of a linear flow, and measures residuals.
     if (settings.equation.is_linear() || reports_residual)
         return std::make_unique<SchurStepper>(mesh, topology, whole, settings, stop_without_interface, progress);
     return std::make_unique<SweepStepper>(mesh, topology, whole, settings, SweepSteps(), std::vector<double>(),

@@ -182,16 +182,18 @@ VanishingComponents::Pose VanishingComponents::pose(std::span<const Index> verti
     const double diagonal = box.diagonal().norm();
     const double farthest = std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
     // M scales with present lengths; K, if it is kept, with initial lengths.
-    const double wanted =
+    const double pose_diagonal =
         has_kept_lengths_ ? extent_ * (extent_ / box_of(initial_, vertices).diagonal().norm()) : extent_;
     Pose pose{.centre = mean_of(positions, vertices)};
     if (diagonal > point_in_coordinates * farthest) {
-        pose.scale = std::max(wanted / diagonal, 1.0);
+        pose.scale = std::max(pose_diagonal / diagonal, 1.0);
+        // About M / (dt K) is left of a shape. M / K grows with the square of the scale, or with the scale alone if K
+        // is kept; the shape itself grows with the scale.
         pose.rest = 1.0 / (pose.scale * pose.scale * (has_kept_lengths_ ? 1.0 : pose.scale));
     }
     for (std::size_t i = 0; i < vertices.size(); ++i) {
         const Point shape = pose.scale > 0.0 ? Point(pose.scale * (positions.row(vertices[i]) - pose.centre))
-                                             : Point(wanted * spread_point(i, vertices.size()));
+                                             : Point(pose_diagonal * spread_point(i, vertices.size()));
         positions.row(vertices[i]) = pose.centre + shape;
     }
     return pose;

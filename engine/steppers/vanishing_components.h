@@ -65,7 +65,7 @@ class VanishingComponents {
     Points initial_ = Points(0, 3);
     /// #V: the weights of the attachment, in 1/length²; empty if all vertices have the same.
     std::vector<double> weights_;
-    /// The result of free_components, once it has been asked for.
+    /// The result of free_components, once it has been asked for; look_again() empties it.
     std::optional<IndexLists> free_;
     /// The diagonal below which components are small; 0: no component is treated as small.
     double extent_ = 0.0;

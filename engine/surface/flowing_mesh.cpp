@@ -178,7 +178,8 @@ std::vector<Index> FlowingMesh::of_faces_left(const std::vector<Index>& labels) 
     if (number_.empty() || labels.size() != number_.size())
         return labels;
     std::vector<Index> left;
-    // After its first triangle, a polygon has further triangles.
+    // number_ has the first triangle of each polygon; the polygon's further triangles, up to the next first one, get
+    // its label, too.
     for (std::size_t f = 0; f < labels.size(); ++f)
         if (number_[f] >= std::ssize(left)) {
             left.resize(usize(number_[f]), left.empty() ? 0 : left.back());
@@ -188,14 +189,14 @@ std::vector<Index> FlowingMesh::of_faces_left(const std::vector<Index>& labels) 
     return left;
 }
 
-/// The faces of the given mesh that repeat others: those whose number is not the next in order.
+/// The faces of the given mesh that repeat others: they have the numbers of earlier faces.
 std::vector<Index> FlowingMesh::repeated_faces() const
 {
     std::vector<Index> repeated;
     Index n_left = 0;
     for (Index f = 0; f < static_cast<Index>(number_.size()); ++f)
-        if (number_[f] == n_left)
-            ++n_left;
+        if (number_[f] >= n_left)
+            n_left = number_[f] + 1;
         else if (number_[f] >= 0)
             repeated.push_back(f);
     return repeated;

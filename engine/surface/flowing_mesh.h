@@ -27,8 +27,8 @@ class FlowingMesh {
     /// Lets vertices along seams move as one. To be called at most once. Replaces mesh().
     /// @param topology of mesh(); becomes that of the mesh with vertices joined.
     /// @param motion with lengths in units of length; its settings for joined vertices then apply to their
-    /// representative: it is fixed, or attached by
-    ///        the largest of their weights.
+    /// representative: it is fixed if any of them is, attached by the largest of their weights, and moves with the
+    /// smallest of their strengths.
     void weld_seams(Topology& topology, MotionOptions& motion, const Executor& exec);
 
     /// The number of vertices of mesh() that were merged into others, and no longer have faces.
@@ -141,14 +141,17 @@ class FlowingMesh {
     void renumber(std::vector<Index> number);
 
     PolygonMesh* given_;
+    /// Subtracted from the positions of the given mesh; 0: the given mesh is not far from the origin.
     Point offset_;
+    /// The mesh that flows; empty if the given mesh itself flows.
     std::optional<PolygonMesh> copy_;
     /// If mesh() has an offset: the vertices without faces, and their positions.
     std::vector<Index> isolated_;
     Points of_isolated_ = Points(0, 3);
-    /// See Weld::representative; empty if no vertices are joined. The vertices that were merged into another,
-    /// ascending.
+    /// #V: the vertex of mesh() that each vertex moves with (see Weld::representative); empty if no vertices are
+    /// joined.
     std::vector<Index> representative_;
+    /// The vertices that were merged into another, ascending.
     std::vector<Index> copies_;
     std::vector<Apart> apart_;
     std::optional<Remark> remark_on_seams_;

@@ -59,9 +59,11 @@ class SurfaceMaker {
     }
 
   private:
+    /// Leaves out the faces that the strengths hold, if this is requested.
     void leave_out_still_faces()
     {
         std::vector<double>& strength = motion_.strength;
+        // Strengths of 1 everywhere change nothing.
         if (std::ranges::all_of(strength, [](double s) { return s == 1.0; }))
             strength.clear();
         if (request_.leaves_out_still_faces && !strength.empty() &&
@@ -73,6 +75,7 @@ class SurfaceMaker {
                  {fmt::format("Only the {} faces around the region flow, and are measured.", mesh_.mesh().n_faces())}});
     }
 
+    /// Makes the topology and the sizes of the present mesh.
     void look()
     {
         // One thread makes part of the topology: another one measures the mesh meanwhile.
@@ -80,8 +83,10 @@ class SurfaceMaker {
                  [&] { surface_.size = size_of(mesh_.mesh()); });
     }
 
+    /// Decides which vertices of the present mesh move, after look().
     void constrain_vertices()
     {
+        // Remarks on the mesh before its faces were changed no longer hold.
         surface_.remarks.clear();
         Topology& topology = surface_.topology;
         // Vertices that are joined may have edges without length.

@@ -37,7 +37,8 @@ struct SurfaceRequest {
     bool keeps_all_faces = false;
     /// Whether faces without a moving vertex are left out.
     bool leaves_out_still_faces = false;
-    /// May replace the faces, once vertices are joined, and say so. @returns whether it did.
+    /// May replace the faces, once vertices are joined, and add a sentence to Surface::choices. Empty: they stay.
+    /// @returns whether it replaced them.
     std::function<bool(Surface& surface)> replace_faces = {};
 };
 

@@ -119,6 +119,7 @@ Executor LoopCount::begin()
     return [this, exec = progress_->exec()](Index n, const RangeBody& body) {
         exec(n, body);
         ++loops_;
+        // With more loops than expected, no parts are left to count.
         const double part = std::min(parts_ / expected_, parts_ - counted_);
         counted_ += part;
         progress_->count(part);

@@ -31,7 +31,7 @@ class Progress {
     /// @throws Cancelled if the flow is to stop.
     void enter(FlowPhase phase, int step, double begin, double end);
 
-    /// Sets the number of parts of the present phase.
+    /// Sets the number of parts of the present phase (less than 1 counts as 1), none of which is done.
     void expect(double parts);
 
     /// Counts parts as done.
@@ -51,12 +51,15 @@ class Progress {
 
     const FlowControl* control_;
     FlowProgress now_;
+    /// The fractions of the whole at the beginning and at the end of the present phase.
     double begin_ = 0.0;
     double end_ = 0.0;
+    /// The number of parts of the present phase, and of those that are done.
     double parts_ = 1.0;
     std::atomic<double> done_{0.0};
     /// Set while the observer is called.
     std::atomic_flag is_reporting_;
+    /// The fraction of the whole that was reported last, and the time since then.
     double reported_ = 0.0;
     Stopwatch since_report_;
 };
@@ -84,6 +87,7 @@ class LoopCount {
   private:
     Progress* progress_;
     double parts_;
+    /// The parts that the present task has counted, and its loops so far.
     double counted_ = 0.0;
     int loops_ = 0;
     /// The number of loops in the last task; before the first task a guess.

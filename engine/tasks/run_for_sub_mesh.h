@@ -18,6 +18,7 @@ struct SubMeshName {
 };
 
 /// Runs `body` for a sub-mesh, in one thread; messages of failures name the sub-mesh.
+/// @throws ComputationError with this name, for a ComputationError or a std::bad_alloc; other exceptions as they are.
 template <class Body>
 void run_for_sub_mesh(const SubMeshName& sub_mesh, Body&& body)
 {

@@ -33,7 +33,7 @@ struct ScheduledTask {
     Index sub_mesh = 0;
 };
 
-/// Task `after` starts when task `before` is done; both are indices in Schedule::tasks.
+/// Task `after` starts only when task `before` is done; both are indices in Schedule::tasks.
 struct Dependency {
     Index before = 0;
     Index after = 0;

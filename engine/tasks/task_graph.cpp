@@ -121,11 +121,12 @@ class TaskGraph::Nodes {
     /// The numbers of tasks and of events behind each root.
     std::unordered_map<Node, Index> n_tasks;
     std::unordered_map<Node, Index> n_events;
-    /// Guards the following members, because signals come from any thread.
+    /// Guards the following two members, because signals come from any thread.
     std::mutex mutex;
     bool is_running = false;
     /// The events signalled before the run.
     std::vector<Node> early;
+    /// In the order in which they were added; not guarded, because they change only while the graph is built.
     std::vector<Node> roots;
 };
 

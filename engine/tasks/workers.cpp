@@ -57,13 +57,13 @@ class Workers::Arena {
         require_within({.field = "threads", .limits = limits_of_threads}, threads);
         if (threads > 0) {
             // TBB starts no more threads than there are cores, whatever an arena asks for, unless the limit is raised.
-            const auto wanted = static_cast<std::size_t>(threads);
-            if (wanted > tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism))
-                limit.emplace(tbb::global_control::max_allowed_parallelism, wanted);
+            const auto asked_for = static_cast<std::size_t>(threads);
+            if (asked_for > tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism))
+                limit.emplace(tbb::global_control::max_allowed_parallelism, asked_for);
             // The lowest limit applies, including that of the program; TBB prints warnings about arenas that ask for
             // more.
             const auto allowed = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
-            arena.initialize(static_cast<int>(std::min(wanted, allowed)));
+            arena.initialize(static_cast<int>(std::min(asked_for, allowed)));
         } else {
             arena.initialize(tbb::task_arena::attach());
         }

@@ -14,8 +14,7 @@ class Workers {
     /// @param threads their number, the calling thread included: fewer where the program has set a lower limit. 0: the
     /// arena of the caller with the limits it has. In that arena a waiting thread may meanwhile run other tasks of the
     /// caller, as everywhere in oneTBB; with a number the flow has its own arena.
-    /// @throws OptionError for a number below 0 or above most_threads; ComputationError where there is no memory for
-    /// them.
+    /// @throws OptionError for a number below 0 or above most_threads.
     explicit Workers(int threads);
     ~Workers();
     Workers(const Workers&) = delete;

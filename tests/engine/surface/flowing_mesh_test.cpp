@@ -4,6 +4,7 @@
 
 #include "engine/mean_curvature_flow.h"
 #include "engine/setup/resolved_options.h"
+#include "engine/surface/flowing_mesh.h"
 #include "samples/meshes/meshes.h"
 #include "tests/support/flows.h"
 
@@ -57,6 +58,36 @@ TEST_CASE("a surface whose faces are there twice flows like the single one, and 
                     CHECK(report.cut.labels[f] == report.cut.labels[f + single.n_faces()]);
                 CHECK(report.mesh.non_manifold_vertices == 0);
             }
+}
+
+TEST_CASE("polygons that are divided into triangles are no repeated faces, beside polygons that are")
+{
+    const PolygonMesh single = make_quads(100);
+    for (const bool has_repeated : {false, true}) {
+        PolygonMesh given = single;
+        if (has_repeated)
+            given.add_face(std::vector<Index>(single.face(7).begin(), single.face(7).end()));
+        FlowingMesh flowing(given);
+        CHECK(flowing.leave_out_repeated_faces(make_topology(flowing.mesh())) == has_repeated);
+        PolygonMesh triangles;
+        std::vector<Index> face_of;
+        for (Index f = 0; f < single.n_faces(); ++f) {
+            const auto corners = single.face(f);
+            for (const std::size_t k : {1, 2}) {
+                triangles.add_face(std::vector{corners[0], corners[k], corners[k + 1]});
+                face_of.push_back(f);
+            }
+        }
+        triangles.vertices = single.vertices;
+        flowing.replace_faces(triangles, face_of);
+        RunReport report;
+        report.mesh.faces = flowing.mesh().n_faces();
+        flowing.complete(report);
+        CHECK(report.mesh.faces == given.n_faces());
+        CHECK(report.mesh.repeated_faces ==
+              (has_repeated ? std::vector<Index>{single.n_faces()} : std::vector<Index>()));
+        CHECK(report.remarks.size() == (has_repeated ? 1 : 0));
+    }
 }
 
 TEST_CASE("labels of one's own, failures and what the report says")
