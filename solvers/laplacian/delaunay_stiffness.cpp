@@ -108,11 +108,11 @@ Lists<Index> edges_by_length(const IntrinsicTriangles& triangles)
     return sorted;
 }
 
-/// Moves the weight of half-edge h, which is opposite to an obtuse angle, towards 0. The energy of a linear function on a
-/// triangle is that of its derivative along h and that of its derivative across h, the term of the bend. With the weight
-/// w of h and x, y of the others, 4 (x y + w x + w y) = 1, so that w = 1 / (4 (x + y)) - b x y / (x + y), where b = 1 is
-/// the factor of the term of the bend. b becomes the number that gives the new weight, at least 0, and x and y become
-/// b x and b y.
+/// Moves the weight of half-edge h, which is opposite to an obtuse angle, towards 0. The energy of a linear function on
+/// a triangle is that of its derivative along h and that of its derivative across h, the term of the bend. With the
+/// weight w of h and x, y of the others, 4 (x y + w x + w y) = 1, so that w = 1 / (4 (x + y)) - b x y / (x + y), where
+/// b = 1 is the factor of the term of the bend. b becomes the number that gives the new weight, at least 0, and x and y
+/// become b x and b y.
 /// @param weight the new weight of half-edge h. @param weights per half-edge; changed in the triangle of h.
 void reduce_bend_term(Index h, double weight, std::vector<double>& weights)
 {
