@@ -12,7 +12,7 @@ namespace {
 
 /// The paragraphs of mixing_weights.txt, which the build embeds.
 constexpr auto paragraphs = std::to_array<std::string_view>({
-#include "mixing_weights_text.inc"
+#include "solvers/denoising/mixing_weights_text.inc"
 });
 
 /// The bytes that a text in base 64 encodes (RFC 4648). Line ends are passed over.
