@@ -44,7 +44,8 @@ class DenoisingStepper final : public WholeMeshStepper {
     const PolygonMesh* mesh_;
     /// The mesh on which noise is removed; null without feature edges: then it is mesh_.
     std::unique_ptr<const CutOpen> open_;
-    /// #V of the mesh that is cut open: the fraction of its displacement that each vertex moves by; empty: 1.
+    /// One per vertex of the mesh on which noise is removed: the fraction of its displacement by which the vertex
+    /// moves. Empty: 1 everywhere.
     std::vector<double> strengths_;
     MeshDenoiser denoiser_;
     Points positions_;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
@@ -78,12 +79,13 @@ void UpdateLimit::require(const Points& before, const Points& after, std::span<c
     if (!excess)
         return;
     Index face = 0;
-    while (face < mesh_.n_faces() && std::ranges::find(mesh_.face(face), excess->vertex) == mesh_.face(face).end())
+    const Index n_labels = static_cast<Index>(labels.size());
+    while (face < n_labels && std::ranges::find(mesh_.face(face), excess->vertex) == mesh_.face(face).end())
         ++face;
-    const std::string where = face < mesh_.n_faces() ? fmt::format("sub-mesh {}, ", labels[face]) : "";
+    const std::string where = face < n_labels ? fmt::format("sub-mesh {}, ", labels[face]) : "";
+    const std::string_view remedy = labels.empty() ? "smooth less" : "use a smaller time step or another Laplacian";
     throw ComputationError(
-        fmt::format("{}vertex {} {}: use a smaller time step or another Laplacian, or repair the mesh there", where,
-                    excess->vertex, excess->what));
+        fmt::format("{}vertex {} {}: {}, or repair the mesh there", where, excess->vertex, excess->what, remedy));
 }
 
 }  // namespace seamflow

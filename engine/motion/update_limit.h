@@ -19,7 +19,7 @@ class UpdateLimit {
 
     /// Checks one step.
     /// @param before, after #V by 3.
-    /// @param labels #F, the sub-mesh of every face, for the message.
+    /// @param labels #F, the sub-mesh of every face, for the message; empty: there are no sub-meshes.
     /// @throws ComputationError naming sub-mesh and vertex (both numbered from 0) and a remedy.
     void require(const Points& before, const Points& after, std::span<const Index> labels) const;
 

@@ -124,8 +124,9 @@ std::vector<Index> RankPart::make_converged_stepper(const IterationStop& stop, R
     return saved;
 }
 
-/// Makes the stepper for sweeps.
-/// @returns the vertex of each row that it saves.
+/// Makes the stepper for sweeps. All ranks compute the same stages and orders of factorisation, from the adjacency and
+/// the curvature of all sub-meshes, which they gather; each keeps the entries of its own sub-meshes.
+/// @returns the vertex of each row that the stepper saves.
 std::vector<Index> RankPart::make_sweep_stepper(const SweepSteps& sweeps, RankSubMeshes sub_meshes, Progress& progress)
 {
     exchange_.emplace(comm_, dealt_);

@@ -61,8 +61,9 @@ void SchurStepper::condense(Index s)
                              interface_.complements[s]);
 }
 
-/// Refines the interiors of all sub-meshes at an update of Γ.
-/// @returns the residual on Γ, one row per copy.
+/// Solves for the interior of every own sub-mesh, given an update of Γ since Vᵏ, and condenses the residual of the
+/// equations: each sub-mesh writes its rows of interface_.condensed.
+/// @returns the residual on Γ, one row per copy, valid until the next call.
 Points& SchurStepper::refine_all(const Points& update, const Executor& exec)
 {
     for_each_sub_mesh(exec, [&](Index s) { sub_meshes_[s]->refine(shared_step(), update, workspaces_.local()); });
@@ -262,11 +263,13 @@ void SchurStepper::weigh(const std::function<double(Index v, Index w)>& squared_
     });
 }
 
+/// Moves vertices of V⁰ (initial_). Without effect if K and M are those of Vᵏ.
 void SchurStepper::set_reference_vertices(std::span<const Index> vertices, const Points& to)
 {
     if (initial_.rows() == 0)
         return;
     move_rows(vertices, to, initial_);
+    // Marks the sub-meshes that have these vertices as changed.
     change(vertices, [](std::size_t, CondensedSubMesh&, Index) {});
     for_each(run_in_parallel, static_cast<Index>(sub_meshes_.size()), [&](Index s) {
         if (changed_[s] != 0)

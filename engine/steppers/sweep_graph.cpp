@@ -80,7 +80,7 @@ class SweepBuilder {
         }
     }
 
-    /// Makes the assembly of each sub-mesh wait for the arrival of its halo.
+    /// Makes the assembly of each own sub-mesh wait for the positions of adjacent sub-meshes of other ranks.
     void wait_for_positions()
     {
         for (Index s = 0; s < n_sub_meshes(); ++s)

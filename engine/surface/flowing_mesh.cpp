@@ -135,6 +135,7 @@ void FlowingMesh::renumber(std::vector<Index> number)
 
 bool FlowingMesh::leave_out_repeated_faces(const Topology& topology)
 {
+    // A repeated face has vertices on edges of three faces or more. With junctions, some of these count as boundary.
     const auto is_suspicious = [&](Index v) {
         const VertexKind kind = topology.kind[v];
         return kind == VertexKind::NonManifold || kind == VertexKind::Junction ||
@@ -227,7 +228,8 @@ void FlowingMesh::bring_back(Points& positions) const
         shift_back(positions);
 }
 
-/// The first vertices of `separated` are those of mesh(): its faces get back their vertices in the given mesh.
+/// The first vertices of `separated` are those of mesh(): its faces get back their vertices in the given mesh. Corners
+/// have the same numbers in both, because no face is left out (ReportOptions::keep_gaps).
 void FlowingMesh::bring_back(PolygonMesh& separated) const
 {
     if (!copies_.empty())

@@ -43,7 +43,7 @@ class FlowingMesh {
     /// The vertex of mesh() that a vertex of the given mesh moves with.
     [[nodiscard]] Index moves_with(Index v) const { return representative_.empty() ? v : representative_[v]; }
 
-    /// Converts positions of the given mesh to those of mesh().
+    /// Subtracts the offset of mesh(). Rows are any positions; vertices are not joined.
     [[nodiscard]] Points to_flowing(const Points& positions) const { return positions.rowwise() - offset_; }
 
     /// Sets the positions that move_to and bring_back give to vertices without faces, if mesh() has an offset. Without

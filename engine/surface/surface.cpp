@@ -29,10 +29,12 @@ class SurfaceMaker {
     std::pair<Surface, MotionOptions> make()
     {
         leave_out_still_faces();
-        look();
-        // With all faces in the result, none are left out. A seam is where edges with one face each meet.
+        measure_mesh();
+        // Repeated faces are left out before seams are looked for along edges with one face: an edge of a face that is
+        // repeated has two. With all faces in the result, none are left out; a strict flow refuses them (see
+        // constrain).
         if (!request_.keeps_all_faces && !motion_.strict && mesh_.leave_out_repeated_faces(surface_.topology))
-            look();
+            measure_mesh();
         if (std::ranges::find(surface_.topology.kind, VertexKind::Isolated) != surface_.topology.kind.end())
             surface_.unused_vertices = mesh_.unused_vertices();
         mesh_.weld_seams(surface_.topology, motion_, exec_);
@@ -42,14 +44,14 @@ class SurfaceMaker {
             cracks = find_cracks(mesh_.mesh(), surface_.topology, exec_);
         // Some faces repeat others only after vertices were joined.
         if (!request_.keeps_all_faces && mesh_.leave_out_repeated_faces(surface_.topology)) {
-            look();
+            measure_mesh();
             constrain_vertices();
         }
         if (request_.replace_faces && request_.replace_faces(surface_)) {
-            look();
+            measure_mesh();
             constrain_vertices();
         }
-        // A remark is also made on cracks, which a free boundary would open.
+        // Where there are cracks, the remark must not advise a free boundary, which would open them.
         const std::vector<std::uint8_t>& fixed = surface_.topology.fixed;
         if (std::ranges::find(fixed, 0) == fixed.end() && mesh_.mesh().n_faces() > 0)
             surface_.remarks.push_back(remark_on_unmoving_mesh(cracks ? Boundary::Free : motion_.boundary));
@@ -76,14 +78,14 @@ class SurfaceMaker {
     }
 
     /// Makes the topology and the sizes of the present mesh.
-    void look()
+    void measure_mesh()
     {
         // One thread makes part of the topology: another one measures the mesh meanwhile.
         run_both([&] { surface_.topology = make_topology(mesh_.mesh(), exec_); },
                  [&] { surface_.size = size_of(mesh_.mesh()); });
     }
 
-    /// Decides which vertices of the present mesh move, after look().
+    /// Decides which vertices of the present mesh move, after measure_mesh().
     void constrain_vertices()
     {
         // Remarks on the mesh before its faces were changed no longer hold.

@@ -40,7 +40,8 @@ class Progress {
     /// Reports that everything is done.
     void finish();
 
-    /// An executor whose loops may stop at each of their ranges, on the threads of the arena.
+    /// An executor that runs loops on the threads of the calling arena (see run_in_parallel), and throws Cancelled
+    /// before a loop, or before a range of its indices, if a stop was requested.
     [[nodiscard]] Executor exec() const;
 
     /// An executor like exec(); in addition, each index of a loop counts as one part that is done (see expect).

@@ -8,8 +8,9 @@
 #include "partition/topology.h"
 
 /// Overlapping sub-meshes, any number of them, for the alternating Schwarz method (paper, eqs. 18 and 19). Each
-/// sub-mesh is a part of the cut, grown into parts of the same or a later stage. Its result is used only on the ungrown
-/// part; where ungrown parts meet, on Γ, the result of the earliest stage is used.
+/// sub-mesh is a part of the cut, grown into parts of the same or a later stage; the stage is the turn of a part in the
+/// sweep, and parts that share a vertex of Γ have different stages. Its result is used only on the ungrown part; where
+/// ungrown parts meet, on Γ, the result of the earliest stage is used.
 namespace seamflow {
 
 /// Cuts out the sub-mesh of the grown part s. Its interface is its artificial boundary: the vertices that may move and

@@ -12,8 +12,8 @@ namespace seamflow {
 
 /// The faults of a file that was read as far as possible.
 struct FaultLog {
-    /// Whether only such faults of faces and rows are collected as leave no doubt about the rest; other faults are
-    /// thrown.
+    /// Whether only faults of single faces or rows are collected after which the rest of the file is still certain to
+    /// be read correctly; all other faults are then thrown. Otherwise all faults are collected.
     bool of_faces_alone = false;
     static constexpr std::size_t most_messages = 1000;
     /// The messages of the first faults, in the order of the file, as those of InputError.

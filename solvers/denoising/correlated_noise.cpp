@@ -249,9 +249,9 @@ void CorrelatedNoise::find_covariances(const Executor& exec)
         covariances_[static_cast<Eigen::Index>(k)] = noise.covariance(width_of_lags * static_cast<double>(k));
     for (Eigen::Index i = 0; i < n_radii; ++i) {
         const LocalFits::Kernel kernel = LocalFits::kernel(radii[static_cast<std::size_t>(i)]);
-        shared_[i] = 0.0;
+        noise_in_fits_[i] = 0.0;
         for (std::size_t k = 0; k < kernel.weights.size(); ++k)
-            shared_[i] += kernel.weights[k] * noise.covariance(kernel.offsets[k].norm());
+            noise_in_fits_[i] += kernel.weights[k] * noise.covariance(kernel.offsets[k].norm());
     }
 }
 
@@ -268,7 +268,7 @@ double CorrelatedNoise::least_risk() const
         squares += squares_.row(f).cast<double>().array();
     squares /= std::max(mesh_.n_faces(), Index{1});
     const double variance = covariances_[0];
-    return variance > 0.0 ? (squares + 2.0 * shared_ - variance).minCoeff() / variance
+    return variance > 0.0 ? (squares + 2.0 * noise_in_fits_ - variance).minCoeff() / variance
                           : std::numeric_limits<double>::infinity();
 }
 
@@ -292,7 +292,7 @@ Points CorrelatedNoise::without(const Executor& exec) const
         // Squares at the place are divided by its share of noise, so that all risks are those at the noise of the
         // calmer half.
         const OfRadii risks =
-            (1.0 - part_of_calm) / share * squares + part_of_calm * calm_squares_ + 2.0 * shared_ - variance;
+            (1.0 - part_of_calm) / share * squares + part_of_calm * calm_squares_ + 2.0 * noise_in_fits_ - variance;
         // Radii with nearly the least risk are mixed, so that the result does not jump from one radius to another.
         OfRadii weights = ((risks.minCoeff() - risks) / (risk_temperature * variance)).exp();
         weights /= weights.sum();

@@ -68,7 +68,7 @@ class CorrelatedNoise {
     /// Averages the squared heights around each face (squares_), and finds the calmer half of the surface (is_calm_,
     /// calm_squares_).
     void find_calm_half(const Executor& exec);
-    /// Finds the noise that explains the residuals (covariances_, shared_, is_bounded_).
+    /// Finds the noise that explains the residuals (covariances_, noise_in_fits_, is_bounded_).
     void find_covariances(const Executor& exec);
 
     const PolygonMesh& mesh_;
@@ -89,8 +89,9 @@ class CorrelatedNoise {
     OfRadii calm_squares_;
     /// The covariances of the noise at the lags, in squared edges.
     OfLags covariances_;
-    /// Per radius, the covariance of the noise and the fitted heights, in squared edges.
-    OfRadii shared_;
+    /// Per radius, the covariance of the noise at a vertex and the value of the fit there, in squared edges. It is not
+    /// that with heights_, which are fits minus vertices.
+    OfRadii noise_in_fits_;
     /// Whether the amount and the length of the noise are within the bounds of plausible noise.
     bool is_bounded_ = false;
 };

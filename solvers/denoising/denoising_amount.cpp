@@ -109,7 +109,9 @@ class Risks {
         return weights.dot(Eigen::RowVectorXd::LinSpaced(n_amounts, 0.0, n_amounts - 1.0)) / weights.sum();
     }
 
-    /// The last position up to the given one where the mean displacement is at most the noise.
+    /// The largest position up to the given one at which the root mean square displacement is at most the noise; 0, the
+    /// smallest amount, if there is none. The displacement is taken to grow with the amount.
+    /// @param place a position in the list of amounts, which need not be whole.
     [[nodiscard]] double last_place_within(double noise, double place) const
     {
         constexpr int n_halvings = 40;

@@ -134,7 +134,7 @@ class ErrorEquation {
     /// Per sub-mesh of all ranks, the sum of its values.
     std::vector<double> sums_;
     Iteration iteration_;
-    /// Only with Δ_P: the rows of its right-hand side.
+    /// Only with Δ_P: computes the residuals at Γ that are the right-hand side (see measure_whole_rows).
     std::optional<WholeRows> whole_;
 };
 

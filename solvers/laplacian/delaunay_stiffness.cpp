@@ -18,9 +18,9 @@ namespace {
 /// Weights are cotangents, without a unit: weights nearer to 0 than this are rounding errors of positions.
 constexpr double negligible_weight = 1e-8;
 
-/// Whether an off-diagonal entry K_vw of a row is positive, which means that the weight -K_vw is negative.
-/// @param entries of the row, one per face and other vertex, in any order; sorted. @param in_faces whether the entries
-/// of each single face count, too.
+/// Whether a weight -K_vw of a row is negative: whether K_vw exceeds negligible_weight for some w.
+/// @param entries w, and the share of one face in K_vw, in any order; they become sorted. @param in_faces whether a
+///        single share that is positive counts, too.
 bool has_negative_weight(std::vector<std::pair<Index, double>>& entries, bool in_faces)
 {
     if (in_faces && std::ranges::any_of(entries, [](const auto& e) { return e.second > negligible_weight; }))

@@ -190,6 +190,8 @@ void SymmetricSystem::drop_responses(std::span<double> values)
     }
 }
 
+/// The data are not stored: `solve` gets them in place of Vᵏ. The attachment to V⁰ is switched off until the next
+/// `assemble`, and the data replace the values beyond Γ.
 void SymmetricSystem::use_data(const Points& data)
 {
     pulls_ = false;

@@ -57,6 +57,15 @@ TEST_CASE("updates up to the diagonal of the faces' bounding box pass, others ar
     CHECK(complaint(1.0, 4, {3.0, 0.0, 0.0}).starts_with("vertex 4 would move by 3,"));
 }
 
+TEST_CASE("without sub-meshes the vertex alone is told")
+{
+    const PolygonMesh mesh = unit_square();
+    Points after = mesh.vertices;
+    after.row(3) << 1.0, 2.0, 0.1;
+    CHECK(test::message_of<ComputationError>([&] { UpdateLimit(mesh, 1.0).require(mesh.vertices, after, {}); }) ==
+          "vertex 3 would move by 1.42, but the mesh is 1.41 across: smooth less, or repair the mesh there");
+}
+
 TEST_CASE("without a limit, whatever is finite passes")
 {
     CHECK(complaint(infinity, 2, {1e300, 1e300, 0.0}).empty());
