@@ -116,9 +116,9 @@ void HeatSteps::make_stepper()
                                                               progress_, given);
     } else {
         const auto* const converged = std::get_if<ConvergedSteps>(&plan_.way);
-        auto stepper = std::make_unique<SchurStepper>(mesh, surface_->topology, plan_.cut, settings,
-                                                      converged != nullptr ? converged->stop : stop_without_interface,
-                                                      progress_, given);
+        auto stepper = std::make_unique<SchurStepper>(
+            mesh, surface_->topology, plan_.cut, settings,
+            converged != nullptr ? converged->stop : std::get<UndecomposedSteps>(plan_.way).stop(), progress_, given);
         in_sub_meshes_ = stepper.get();
         stepper_ = std::move(stepper);
     }

@@ -118,9 +118,10 @@ void FlowRun::make_steppers()
     flow_report_.seconds.total = flow_report_.seconds.cut + flow_report_.seconds.analyse;
     if (options().report.reference) {
         progress_.enter(FlowPhase::Analyse, 0, 0.8 * setup_, setup_);
-        StepSettings settings = settings_of(options(), UndecomposedSteps(), mesh.vertices);
+        const UndecomposedSteps way{.most_iterations = options().accuracy.converge_iterations};
+        StepSettings settings = settings_of(options(), way, mesh.vertices);
         settings.factors.memory_limit.reset();
-        reference_ = make_undecomposed_stepper(mesh, prepared_->surface.topology, settings, progress_);
+        reference_ = make_undecomposed_stepper(mesh, prepared_->surface.topology, settings, way, progress_);
     }
 }
 

@@ -89,9 +89,9 @@ WayOfSteps way_of(const ApproachChoice& choice, const FlowOptions& options, Inde
                                           : std::optional(choice.size)};
     // A single sub-mesh is solved exactly. An approach that the options ask for, which has no reason, is kept.
     if (choice.approach == Approach::Converged && n_sub_meshes == 1 && !choice.reason.empty())
-        return UndecomposedSteps{};
+        return UndecomposedSteps{.most_iterations = most_iterations};
     if (choice.approach == Approach::Undecomposed)
-        return UndecomposedSteps{choice.tolerance};
+        return UndecomposedSteps{.tolerance = choice.tolerance, .most_iterations = most_iterations};
     if (choice.tolerance)
         return ConvergedSteps{{*choice.tolerance, most_iterations}};
     return sweeps_of(options, n_sub_meshes);

@@ -18,9 +18,6 @@ struct ConvergedSteps {
     IterationStop stop;
 };
 
-/// For converged steps of a single sub-mesh, which has no Γ: they are exact.
-inline constexpr IterationStop stop_without_interface{.tolerance = 1e-10, .iterations = 1};
-
 /// Conjugate gradients on the whole mesh.
 struct GradientSteps {
     /// Ends the iteration by the residual of all rows, relative to that of the positions before the step.
@@ -30,10 +27,14 @@ struct GradientSteps {
     std::optional<FlowSize> costs = {};
 };
 
-/// One factorisation of the whole mesh: exact.
+/// One factorisation of the whole mesh: exact. Factors in single precision are refined until a residual is reached.
 struct UndecomposedSteps {
-    /// Only for the report: the tolerance that was asked for.
+    /// The tolerance that was asked for; empty: none was.
     std::optional<double> tolerance = {};
+    int most_iterations = 1000;
+
+    /// Ends the refinement of a step.
+    [[nodiscard]] IterationStop stop() const { return {tolerance.value_or(1e-10), most_iterations}; }
 };
 
 /// Explicit Euler steps of the whole mesh.

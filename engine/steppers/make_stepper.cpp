@@ -41,7 +41,7 @@ struct StepperMaker {
 
     std::unique_ptr<Stepper> operator()(const UndecomposedSteps& undecomposed)
     {
-        return make_undecomposed_stepper(mesh, topology, settings, progress, undecomposed.tolerance.has_value());
+        return make_undecomposed_stepper(mesh, topology, settings, undecomposed, progress);
     }
 
     std::unique_ptr<Stepper> operator()(const ExplicitSteps&)

@@ -49,7 +49,8 @@ void SwitchingStepper::try_to_make_factors()
     // The flow has freed the twins of its topology: they are made again.
     complete_ = *topology_;
     complete_.twin = make_topology(*mesh_, progress_->exec()).twin;
-    factors_ = make_undecomposed_stepper(*mesh_, complete_, settings_, *progress_);
+    factors_ =
+        make_undecomposed_stepper(*mesh_, complete_, settings_, {.most_iterations = iterations_.most}, *progress_);
 }
 
 /// Solves the step by the factors.

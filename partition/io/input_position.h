@@ -79,7 +79,12 @@ namespace fmt {
 
 /// Lets fmt::format write a Quoted as its text in quotation marks.
 template <>
-struct formatter<seamflow::Quoted> : formatter<std::string> {
+struct formatter<seamflow::Quoted> : formatter<std::string_view> {
+    template <class Context>
+    auto format(const seamflow::Quoted& quoted, Context& context) const
+    {
+        return formatter<std::string_view>::format(std::string(quoted), context);
+    }
 };
 
 }  // namespace fmt

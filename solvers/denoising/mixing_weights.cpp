@@ -14,6 +14,8 @@ namespace {
 constexpr auto paragraphs = std::to_array<std::string_view>({
 #include "solvers/denoising/mixing_weights_text.inc"
 });
+// One at least for the cascade, and the last for the noise.
+static_assert(paragraphs.size() > 1, "mixing_weights.txt has no blank lines between its paragraphs");
 
 /// The bytes that a text in base 64 encodes (RFC 4648). Line ends are passed over.
 std::string decode(std::string_view text)

@@ -233,7 +233,8 @@ TEST_CASE("vertices that are fixed between steps keep their values in many colum
     const FlowControl control;
     Progress progress(control);
     SchurStepper stepper(mesh, topology, cut_into(mesh, topology, 1),
-                         settings_of(options, UndecomposedSteps(), mesh.vertices), stop_without_interface, progress);
+                         settings_of(options, UndecomposedSteps(), mesh.vertices), UndecomposedSteps().stop(),
+                         progress);
     stepper.set_fixed(std::array<Index, 2>{200, 201}, true);
     const Eigen::MatrixXd before = Eigen::MatrixXd::Random(mesh.n_vertices(), 40);
     Eigen::MatrixXd expected = before;
@@ -251,4 +252,22 @@ TEST_CASE("vertices that are fixed between steps keep their values in many colum
     CHECK(fields.row(200) == before.row(200));
     CHECK(fields.row(201) == before.row(201));
     CHECK(fields.row(202) != before.row(202));
+}
+
+TEST_CASE("undecomposed steps in single precision are refined to the tolerance that is given, not further")
+{
+    for (const double tolerance : {1e-3, 1e-12}) {
+        CAPTURE(tolerance);
+        FlowOptions options = converged(Laplacian::VirtualRefinement, 1);
+        options.cut.subdomains = 0;
+        options.accuracy.approach = Approach::Undecomposed;
+        options.accuracy.tolerance = tolerance;
+        options.resources.precision = Precision::Single;
+        PolygonMesh mesh = make_triangles(900);
+        const FlowReport report = mean_curvature_flow(mesh, options);
+        CHECK(report.convergence.steps_short_of_tolerance == 0);
+        const double residual = report.steps.front().residual.value();
+        CHECK(residual <= tolerance);
+        CHECK((tolerance > 1e-6) == (residual > 1e-10));
+    }
 }
