@@ -55,6 +55,7 @@ ExitStatus train(int argc, char** argv)
         return *end;
     training.seed = static_cast<std::uint32_t>(seed);
     training.n_stages = static_cast<int>(mixing_weights().size());
+    require_replaceable(file);
     require_writable(file);
 
     Workers workers(0);

@@ -3,7 +3,9 @@
 #include <cstddef>
 #include <string_view>
 
+#include "partition/errors.h"
 #include "partition/formats/gltf_text.h"
+#include "partition/io/input_file.h"
 
 namespace seamflow {
 
@@ -23,6 +25,16 @@ std::string paragraph(std::string_view bytes)
 }
 
 }  // namespace
+
+void require_replaceable(const std::filesystem::path& path)
+{
+    constexpr std::string_view of_weights = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/=\r\n";
+    if (!std::filesystem::exists(path))
+        return;
+    const InputFile file{OpenFile(path)};
+    if (file.content().find_first_not_of(of_weights) != std::string_view::npos)
+        throw InputError(path.string() + ": the file holds no weights of networks, and is not replaced: name another");
+}
 
 std::string text_of_weights(const TrainedDenoiser& trained)
 {
