@@ -12,6 +12,7 @@
 #include "partition/io/input_position.h"
 #include "partition/version.h"
 #include "samples/command/command_help.h"
+#include "samples/process/exit_status.h"
 
 namespace seamflow {
 
@@ -134,8 +135,7 @@ std::optional<ExitStatus> parse_command_line(CLI::App& app, int argc, char** arg
         if (error.get_exit_code() == 0)
             return app.exit(error) == 0 ? ExitStatus::Success : ExitStatus::WrongUsage;
         const std::string surplus = complaint_of_surplus(app);
-        std::cerr << app.get_name() << ": " << (surplus.empty() ? error.what() : surplus)
-                  << " (--help lists all options)\n";
+        say_error(app.get_name(), (surplus.empty() ? error.what() : surplus) + " (--help lists all options)");
         return ExitStatus::WrongUsage;
     }
 }

@@ -2,7 +2,10 @@
 
 #include <exception>
 #include <iostream>
+#include <iterator>
 #include <new>
+
+#include <fmt/format.h>
 
 #include "partition/errors.h"
 #include "samples/process/option_words.h"
@@ -11,14 +14,22 @@ namespace seamflow {
 
 namespace {
 
-ExitStatus tell(const char* program, const Failure& failure)
+ExitStatus say_failure(const char* program, const Failure& failure)
 {
     std::cout.flush();
-    std::cerr << program << ": " << failure.message << '\n';
+    say_error(program, failure.message);
     return failure.status;
 }
 
 }  // namespace
+
+void say_error(std::string_view program, std::string_view message)
+{
+    // Not by <<, since std::cerr writes each operand at once; without a string, since memory may have ended.
+    fmt::memory_buffer line;
+    fmt::format_to(std::back_inserter(line), "{}: {}\n", program, message);
+    std::cerr.write(line.data(), static_cast<std::streamsize>(line.size()));
+}
 
 Failure current_failure()
 {
@@ -47,12 +58,12 @@ int run_program(const char* program, const std::function<ExitStatus()>& body)
     try {
         status = body();
     } catch (...) {
-        status = tell(program, current_failure());
+        status = say_failure(program, current_failure());
     }
     std::cout.flush();
     if (status == ExitStatus::Success && !std::cout)
-        status =
-            tell(program, {ExitStatus::OutputNotWritten, "standard output could not be written: is its disk full?"});
+        status = say_failure(program,
+                             {ExitStatus::OutputNotWritten, "standard output could not be written: is its disk full?"});
     return static_cast<int>(status);
 }
 

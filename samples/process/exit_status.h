@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <string>
+#include <string_view>
 
 namespace seamflow {
 
@@ -26,6 +27,10 @@ struct Failure {
 /// The failure for the exception that is being handled: OptionError → WrongUsage, InputError → UnusableInput,
 /// OutputError → OutputNotWritten; ComputationError, running out of memory and anything else → ComputationFailed.
 Failure current_failure();
+
+/// Writes `program: message` and a line feed to standard error, in one piece: what other processes write at the same
+/// time (ranks, mpirun) does not come between.
+void say_error(std::string_view program, std::string_view message);
 
 /// Runs the body of a program and converts its exceptions to an exit status, with one message on standard error (see
 /// current_failure).

@@ -3,8 +3,11 @@
 #include <array>
 #include <charconv>
 #include <cstdlib>
-#include <iostream>
 #include <string_view>
+
+#include <fmt/format.h>
+
+#include "samples/process/exit_status.h"
 
 namespace seamflow {
 
@@ -40,9 +43,10 @@ std::optional<ExitStatus> refuse_several_processes(const char* program)
         if (size <= 1)
             continue;
         if (number_in(launcher.rank) <= 0)
-            std::cerr << program << ": " << size << " processes were started (" << launcher.size << " is " << size
-                      << "), each of which would write the same file. One process uses all cores of a machine: start "
-                      << program << " alone, without mpirun or srun, or with -n 1\n";
+            say_error(program, fmt::format("{0} processes were started ({1} is {0}), each of which would write the "
+                                           "same file. One process uses all cores of a machine: start {2} alone, "
+                                           "without mpirun or srun, or with -n 1",
+                                           size, launcher.size, program));
         return ExitStatus::WrongUsage;
     }
     return std::nullopt;

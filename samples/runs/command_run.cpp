@@ -5,10 +5,13 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "partition/formats/edge_files.h"
 #include "partition/formats/index_files.h"
 #include "partition/io/input_file.h"
 #include "samples/files/output_files.h"
+#include "samples/process/exit_status.h"
 #include "samples/runs/smoothing_run.h"
 
 namespace seamflow {
@@ -63,7 +66,7 @@ ExitStatus require_converged(const SmoothCommand& command, const ConvergenceRepo
     const std::string missed = missed_tolerance(command, report);
     if (missed.empty())
         return ExitStatus::Success;
-    std::cerr << command.program << ": " << missed << "; " << command.output.string() << " has the last state\n";
+    say_error(command.program, fmt::format("{}; {} has the last state", missed, command.output.string()));
     return ExitStatus::ComputationFailed;
 }
 

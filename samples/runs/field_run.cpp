@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iostream>
 #include <limits>
 #include <set>
 #include <string>
@@ -32,6 +31,7 @@
 #include "samples/files/output_files.h"
 #include "samples/page/page_html.h"
 #include "samples/page/read_file_colours.h"
+#include "samples/process/exit_status.h"
 #include "samples/process/interruption.h"
 #include "samples/report/field_report.h"
 #include "samples/report/report_text.h"
@@ -259,7 +259,7 @@ ExitStatus run_fields(SmoothCommand& command, RunRecord& run, RankGroup* ranks)
                                                 : diffused(command, file, before, control, summary);
         });
     } catch (const Cancelled&) {
-        std::cerr << command.program << ": interrupted; no mesh was written\n";
+        say_error(command.program, "interrupted; no mesh was written");
         return interruption.status();
     }
     if (!from.empty())

@@ -1,7 +1,6 @@
 #include "samples/runs/long_run.h"
 
 #include <exception>
-#include <iostream>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -11,6 +10,7 @@
 #include "partition/errors.h"
 #include "partition/io/input_file.h"
 #include "samples/files/mesh_results.h"
+#include "samples/process/exit_status.h"
 #include "samples/process/option_words.h"
 #include "samples/runs/smoothing_run.h"
 
@@ -101,7 +101,7 @@ ExitStatus LongRun::end_early()
                                                 : 0;
     if (kept > 0)
         message += fmt::format("; the same command continues after step {}", kept);
-    std::cerr << command_->program << ": " << message << '\n';
+    say_error(command_->program, message);
     return interruption_->status();
 }
 
@@ -112,8 +112,8 @@ void LongRun::keep_last_step()
         return;
     try {
         const auto path = write_last_step();
-        std::cerr << command_->program << ": " << path.string() << " has the mesh after step " << step_ << " of "
-                  << command_->options.steps << '\n';
+        say_error(command_->program,
+                  fmt::format("{} has the mesh after step {} of {}", path.string(), step_, command_->options.steps));
     } catch (const std::exception&) {
         // The user needs to know why the flow failed: that is reported.
     }

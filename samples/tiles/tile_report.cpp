@@ -1,12 +1,12 @@
 #include "samples/tiles/tile_report.h"
 
 #include <algorithm>
-#include <iostream>
 
 #include <fmt/format.h>
 
 #include "engine/ranks/peak_memory.h"
 #include "partition/io/input_position.h"
+#include "samples/process/exit_status.h"
 #include "samples/process/option_words.h"
 #include "samples/report/report_text.h"
 #include "samples/runs/smoothing_run.h"
@@ -102,8 +102,8 @@ ExitStatus TileReport::status() const
 {
     if (missed_by_.empty())
         return ExitStatus::Success;
-    std::cerr << fmt::format("smooth: {} of {}; {} has the last state\n", missed_tolerance(command_, convergence_),
-                             counted(missed_by_.size(), "file", "files"), command_.out_dir.string());
+    say_error("smooth", fmt::format("{} of {}; {} has the last state", missed_tolerance(command_, convergence_),
+                                    counted(missed_by_.size(), "file", "files"), command_.out_dir.string()));
     return ExitStatus::ComputationFailed;
 }
 

@@ -20,6 +20,7 @@
 #include "partition/io/input_position.h"
 #include "samples/files/mesh_results.h"
 #include "samples/files/output_files.h"
+#include "samples/process/exit_status.h"
 #include "samples/process/interruption.h"
 #include "samples/report/progress_bar.h"
 #include "samples/runs/smoothing_run.h"
@@ -297,8 +298,8 @@ FlowControl TiledRun::control_for(Index tile, int step)
 ExitStatus TiledRun::end_early(int step)
 {
     bar_.erase();
-    std::cerr << fmt::format("smooth: interrupted in step {} of {}; the same command continues there\n", step,
-                             options_.steps);
+    say_error("smooth",
+              fmt::format("interrupted in step {} of {}; the same command continues there", step, options_.steps));
     return interruption_.status();
 }
 

@@ -1,6 +1,10 @@
 #include <iostream>
 #include <new>
 #include <sstream>
+#include <streambuf>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <doctest/doctest.h>
 
@@ -23,7 +27,34 @@ std::pair<int, std::string> end_of(const Error& error)
     return {status, message.str()};
 }
 
+/// A standard error that keeps what is written piece by piece.
+struct Pieces : std::streambuf {
+    std::vector<std::string> pieces;
+
+    std::streamsize xsputn(const char* text, std::streamsize size) override
+    {
+        pieces.emplace_back(text, static_cast<std::size_t>(size));
+        return size;
+    }
+    int overflow(int character) override
+    {
+        pieces.emplace_back(1, static_cast<char>(character));
+        return character;
+    }
+};
+
 }  // namespace
+
+TEST_CASE("a message is written in one piece, so that what other processes write does not come between")
+{
+    Pieces written;
+    auto* const before = std::cerr.rdbuf(&written);
+    say_error("program", std::string(3000, 'm'));
+    const int status = run_program("program", []() -> ExitStatus { throw InputError("reason"); });
+    std::cerr.rdbuf(before);
+    CHECK(status == 3);
+    CHECK(written.pieces == std::vector<std::string>{"program: " + std::string(3000, 'm') + "\n", "program: reason\n"});
+}
 
 TEST_CASE("every kind of exception has its exit status and one message")
 {
