@@ -105,4 +105,13 @@ Index find_in(const Ascending& ascending, const Value& value)
     return std::cmp_less(index, std::size(ascending)) && ascending[index] == value ? index : -1;
 }
 
+/// The index of each number in an order of the numbers 0 to n - 1.
+inline std::vector<Index> inverse(const std::vector<Index>& order)
+{
+    std::vector<Index> indices(order.size());
+    for (std::size_t i = 0; i < order.size(); ++i)
+        indices[order[i]] = static_cast<Index>(i);
+    return indices;
+}
+
 }  // namespace seamflow

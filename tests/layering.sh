@@ -36,9 +36,9 @@ forbid '#include "(solvers|engine|samples|tests)/' 'partition knows meshes, not 
 forbid '#include "(engine|samples|tests)/' 'solvers know equations, not threads' solvers
 forbid '#include "(samples|tests)/' 'the engine knows neither samples nor tests' engine
 # The rooms of products know what they share, and not each other; presets name the options of both.
-forbid '#include "engine/(setup|steppers|ranks|fields|flow|mean_curvature|diffuse|geodesic)' 'removing noise knows no flow' \
+forbid '#include "engine/(setup|steppers|sweep|ranks|fields|flow|mean_curvature|diffuse|geodesic)' 'removing noise knows no flow' \
     engine/denoise engine/denoise.h engine/denoise.cpp engine/motion engine/surface
-mapfile -t of_flows < <(find engine/flow engine/setup engine/steppers engine/ranks engine/fields -name '*.h' -o -name '*.cpp' |
+mapfile -t of_flows < <(find engine/flow engine/setup engine/steppers engine/sweep engine/ranks engine/fields -name '*.h' -o -name '*.cpp' |
     grep -v '^engine/setup/presets')
 forbid '#include "(engine/denoise|solvers/denoising)' 'flows do not know how noise is removed' \
     /dev/null engine/mean_curvature_flow.h engine/mean_curvature_flow.cpp \

@@ -8,8 +8,8 @@
 
 #include "engine/ranks/communicator.h"
 #include "engine/ranks/dealt_mesh.h"
-#include "engine/setup/sweep_plan.h"
-#include "engine/steppers/remote_sub_meshes.h"
+#include "engine/sweep/remote_sub_meshes.h"
+#include "engine/sweep/sweep_plan.h"
 #include "engine/tasks/task_graph.h"
 #include "partition/decomposition/decomposition.h"
 

@@ -6,7 +6,7 @@
 #include "engine/ranks/communicator_ranks.h"
 #include "engine/ranks/peak_memory.h"
 #include "engine/steppers/schur_stepper.h"
-#include "engine/steppers/sweep_order.h"
+#include "engine/sweep/sweep_order.h"
 #include "engine/tasks/parallel_executor.h"
 #include "partition/decomposition/part_of_mesh.h"
 #include "partition/decomposition/reverse_cuthill_mckee.h"
@@ -130,12 +130,16 @@ std::vector<Index> RankPart::make_converged_stepper(const IterationStop& stop, R
 std::vector<Index> RankPart::make_sweep_stepper(const SweepSteps& sweeps, RankSubMeshes sub_meshes, Progress& progress)
 {
     exchange_.emplace(comm_, dealt_);
-    SweepSubMeshes own{.own = std::move(sub_meshes), .remote = &*exchange_};
-    const auto adjacency = gather_adjacency(comm_, dealt_, own.own.decomposition);
-    const auto curvatures = gather_curvatures(comm_, dealt_, own.own.decomposition);
+    SweepSubMeshes own{
+        .decomposition = std::move(sub_meshes.decomposition), .names = std::move(sub_meshes.names), .stage = {}};
+    RanksOfSweep ranks{.ranks = std::move(sub_meshes.ranks), .remote = &*exchange_};
+    const auto adjacency = gather_adjacency(comm_, dealt_, own.decomposition);
+    const auto curvatures = gather_curvatures(comm_, dealt_, own.decomposition);
     const std::vector<Index> stage_of_all = assign_stages(adjacency, sweeps.solves_in_order_of_numbers, curvatures);
-    for (const Index number : dealt_.known)
+    for (const Index number : dealt_.known) {
         own.stage.push_back(stage_of_all[number]);
+        own.is_remote.push_back(dealt_.holders[number] == comm_.rank() ? 0 : 1);
+    }
     // The own sub-meshes among those of all ranks, by their local numbers.
     const auto own_of = [&](const std::vector<Index>& all) {
         std::vector<Index> here;
@@ -145,9 +149,9 @@ std::vector<Index> RankPart::make_sweep_stepper(const SweepSteps& sweeps, RankSu
         return here;
     };
     for (const FactorWindow& window : sufficient_windows(adjacency, stage_of_all))
-        own.windows.push_back({own_of(window.order), own_of(window.freed), window.size});
-    auto stepper = std::make_unique<SweepStepper>(dealt_.mesh, dealt_.topology, std::move(own), dealt_.settings(),
-                                                  sweeps, progress);
+        ranks.windows.push_back({own_of(window.order), own_of(window.freed), window.size});
+    auto stepper = std::make_unique<SweepStepper>(dealt_.mesh, dealt_.topology, std::move(own), std::move(ranks),
+                                                  dealt_.settings(), sweeps, progress);
     std::vector<Index> saved = stepper->saved_vertices();
     stepper_ = std::move(stepper);
     return saved;

@@ -11,6 +11,7 @@
 #include "engine/ranks/rank_exchange.h"
 #include "engine/ranks/rank_message.h"
 #include "engine/steppers/heat_stepper.h"
+#include "engine/steppers/rank_sub_meshes.h"
 #include "engine/steppers/sweep_stepper.h"
 #include "engine/tasks/progress.h"
 

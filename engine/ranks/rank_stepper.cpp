@@ -13,10 +13,11 @@ namespace seamflow {
 bool RankGroup::can_share(const FlowPlan& plan, const StepSettings& settings) const
 {
     const auto* const sweeps = std::get_if<SweepSteps>(&plan.way);
-    const bool has_one_copy = sweeps != nullptr && !have_copies(sweeps->conditions) &&
-                              !std::holds_alternative<SchwarzConditions>(sweeps->conditions);
-    return size() > 1 && plan.cut.n_parts > 1 && (has_one_copy || std::holds_alternative<ConvergedSteps>(plan.way)) &&
-           !settings.records_schedule;
+    const bool can_share_sweeps =
+        sweeps != nullptr && (std::holds_alternative<PredictedTransmission>(sweeps->conditions) ||
+                              std::holds_alternative<AdaptedConditions>(sweeps->conditions));
+    return size() > 1 && plan.cut.n_parts > 1 &&
+           (can_share_sweeps || std::holds_alternative<ConvergedSteps>(plan.way)) && !settings.records_schedule;
 }
 
 std::unique_ptr<HeatStepper> RankGroup::make_stepper(const PolygonMesh& mesh, const Topology& topology,

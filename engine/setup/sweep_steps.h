@@ -1,8 +1,11 @@
 #pragma once
 
+#include <memory>
 #include <variant>
 
+#include "partition/decomposition/sub_mesh.h"
 #include "solvers/conditions/robin_edge.h"
+#include "solvers/conditions/transmission_condition.h"
 
 /// The settings of sweeps, as decided before the first step: nothing in them is left open.
 namespace seamflow {
@@ -42,9 +45,24 @@ struct SchwarzConditions {
     int overlap = 1;
 };
 
+/// Conditions that are no alternative of their own. Ranks do not share them: a function has another address in each.
+struct OwnConditions {
+    /// Makes the rows of a sub-mesh where it leads on Γ. The sub-mesh outlives them.
+    std::unique_ptr<TransmissionCondition> (*make)(const SubMesh& sub_mesh) = nullptr;
+    /// The parameter that the rows get (see TransmissionCondition::begin_step).
+    RobinChoice p = 0.0;
+};
+
+/// Makes conditions of the class Condition, for OwnConditions.
+template <class Condition>
+std::unique_ptr<TransmissionCondition> make_condition(const SubMesh& sub_mesh)
+{
+    return std::make_unique<Condition>(sub_mesh);
+}
+
 /// The conditions on Γ in a sweep.
 using InterfaceConditions =
-    std::variant<PredictedTransmission, AdaptedConditions, ClassicalConditions, SchwarzConditions>;
+    std::variant<PredictedTransmission, AdaptedConditions, ClassicalConditions, SchwarzConditions, OwnConditions>;
 
 /// One sweep over the colours of the sub-meshes.
 struct SweepSteps {

@@ -1,6 +1,6 @@
 #include "engine/state/step_memory.h"
 
-#include "engine/options/option_traits.h"
+#include "engine/options/motion_options.h"
 #include "partition/errors.h"
 
 namespace seamflow {

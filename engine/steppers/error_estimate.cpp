@@ -107,12 +107,12 @@ const Points& ErrorEstimate::joined(const std::vector<SubMeshState>& states, Ind
 {
     const SubMeshState& state = states[s];
     if (!has_copies_)
-        return state.solved;
-    set_rows(storage, state.solved.rows());
-    storage = state.solved;
+        return state.solution;
+    set_rows(storage, state.solution.rows());
+    storage = state.solution;
     const auto& interface = state.sub_mesh->interface;
     for (Index i = 0; i < interface.size(); ++i)
-        storage.row(interface.vertices[i]) = mean_of_copies(states, interface, i, &SubMeshState::solved);
+        storage.row(interface.vertices[i]) = mean_of_copies(states, interface, i, &SubMeshState::solution);
     return storage;
 }
 
@@ -125,9 +125,8 @@ const Points& ErrorEstimate::stiffness_positions(const SubMeshState& state, Poin
     return gather_rows(state.sub_mesh->local_to_global, initial_, storage);
 }
 
-void ErrorEstimate::measure(std::vector<SubMeshState>& states, Index s, SolverWorkspace& workspace)
+void ErrorEstimate::measure(const std::vector<SubMeshState>& states, Index s, SolverWorkspace& workspace)
 {
-    receive_solution(states, s, decomposition_->halo[s]);
     const SubMeshState& state = states[s];
     const Points& after = joined(states, s, workspace.other_side);
     equation_.assemble(s, state.position, after, stiffness_positions(state, workspace.positions), time_step_);
@@ -144,7 +143,7 @@ void ErrorEstimate::note_correction(const std::vector<SubMeshState>& states, Ind
     const SubMeshState& state = states[s];
     for (Index i = equation_.first(s); i < equation_.first(s + 1); ++i) {
         const Index v = equation_.local_vertex(i);
-        correction_.row(i) = state.position.row(v) - state.solved.row(v);
+        correction_.row(i) = state.position.row(v) - state.solution.row(v);
     }
 }
 
@@ -176,7 +175,7 @@ const Points& ErrorEstimate::fill_remote_rows(const std::vector<SubMeshState>& s
         for (const Index v : remote_rows_[s]) {
             const Index global = states[s].sub_mesh->local_to_global[v];
             before_.row(global) = states[s].position.row(v);
-            solved_.row(global) = states[s].solved.row(v);
+            solved_.row(global) = states[s].solution.row(v);
         }
     return before_;
 }

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "engine/setup/step_settings.h"
-#include "engine/state/flow_state.h"
-#include "engine/steppers/sub_mesh_state.h"
+#include "engine/state/step_memory.h"
+#include "engine/sweep/sub_mesh_state.h"
 #include "partition/decomposition/decomposition.h"
 #include "partition/topology.h"
 #include "solvers/estimate/error_equation.h"
@@ -37,9 +37,10 @@ class ErrorEstimate {
 
     /// Computes the residual of the undecomposed step at the vertices of Γ that sub-mesh s numbers (see ErrorEquation),
     /// before s accepts Vᵏ⁺¹. May be called for different sub-meshes at the same time.
-    /// @param states the position in the state of s is Vᵏ; all sub-meshes around it have solved.
+    /// @param states the position in the state of s is Vᵏ; all sub-meshes around it have solved, and s has received
+    /// their solutions.
     /// @param workspace its `other_side` and `positions` are overwritten.
-    void measure(std::vector<SubMeshState>& states, Index s, SolverWorkspace& workspace);
+    void measure(const std::vector<SubMeshState>& states, Index s, SolverWorkspace& workspace);
 
     /// Records the displacements, by the correction, of the vertices that sub-mesh s numbers, after s has accepted
     /// Vᵏ⁺¹.

@@ -22,9 +22,7 @@ struct RankSubMeshes {
 /// The sub-meshes of a single rank.
 inline RankSubMeshes alone(Decomposition decomposition)
 {
-    std::vector<SubMeshName> names;
-    for (const SubMesh& sub_mesh : decomposition.sub_meshes)
-        names.push_back({static_cast<Index>(names.size()), sub_mesh.n_vertices, sub_mesh.faces.front()});
+    std::vector<SubMeshName> names = names_of(decomposition);
     auto ranks = std::make_unique<OneRank>(static_cast<Index>(names.size()));
     return {std::move(decomposition), std::move(ranks), std::move(names)};
 }

@@ -2,7 +2,9 @@
 
 #include <new>
 #include <string>
+#include <vector>
 
+#include "partition/decomposition/decomposition.h"
 #include "partition/errors.h"
 #include "partition/index.h"
 #include "solvers/platform/library_threads.h"
@@ -16,6 +18,15 @@ struct SubMeshName {
     /// The number of one of its faces.
     Index face = 0;
 };
+
+/// The names of all sub-meshes of a mesh.
+inline std::vector<SubMeshName> names_of(const Decomposition& decomposition)
+{
+    std::vector<SubMeshName> names;
+    for (const SubMesh& sub_mesh : decomposition.sub_meshes)
+        names.push_back({static_cast<Index>(names.size()), sub_mesh.n_vertices, sub_mesh.faces.front()});
+    return names;
+}
 
 /// Runs `body` for a sub-mesh, in one thread; messages of failures name the sub-mesh.
 /// @throws ComputationError with this name, for a ComputationError or a std::bad_alloc; other exceptions as they are.

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <fstream>
 #include <regex>
 #include <string>
 #include <vector>
@@ -58,6 +59,28 @@ TEST_CASE("slabs become sub-meshes, and the parts are written")
     CHECK(w.said().starts_with("3 sub-meshes, "));
     CHECK(numbers(w.said(), "(\\d+) vertices between").front() >= 2 * 15);
     CHECK(w.count_lines("parts.ply", "property int label") == 1);
+}
+
+TEST_CASE("a sweep with labels and a condition on Γ of one's own is near the undecomposed flow")
+{
+    const Workshop w;
+    REQUIRE(w.smooth("mesh.obj exact.obj --laplacian fujiwara --time-step-edges 1 --steps 3 --subdomains 1") == 0);
+    const PolygonMesh mesh = mesh_in(w, "mesh.obj");
+    std::ofstream(w.directory / "labels") << [&] {
+        std::string labels;
+        for (Index f = 0; f < mesh.n_faces(); ++f)
+            labels += 2 * f < mesh.n_faces() ? "0\n" : "1\n";
+        return labels;
+    }();
+    REQUIRE(w.run(OWN_CONDITION " mesh.obj labels out.obj") == 0);
+    const PolygonMesh exact = mesh_in(w, "exact.obj");
+    const double edge = mean_edge_length(mesh);
+    const double moved = vertex_distance(mesh, mesh.vertices, exact.vertices).max;
+    const double missed = vertex_distance(mesh, mesh_in(w, "out.obj").vertices, exact.vertices).max;
+    CHECK(missed > 1e-6 * edge);
+    CHECK(missed < moved);
+    CHECK(w.run(OWN_CONDITION " mesh.obj missing out.obj") == 1);
+    CHECK(w.said().find("missing: cannot open") != std::string::npos);
 }
 
 TEST_CASE("every step is looked at, and every second state written")

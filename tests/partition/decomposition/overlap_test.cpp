@@ -4,7 +4,7 @@
 
 #include <doctest/doctest.h>
 
-#include "engine/setup/sweep_plan.h"
+#include "engine/sweep/sweep_plan.h"
 #include "partition/cut/colouring.h"
 #include "partition/decomposition/local_mesh.h"
 #include "partition/decomposition/overlap.h"

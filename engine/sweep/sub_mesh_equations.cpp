@@ -1,4 +1,4 @@
-#include "engine/setup/sub_mesh_equations.h"
+#include "engine/sweep/sub_mesh_equations.h"
 
 #include <cmath>
 #include <type_traits>
@@ -25,6 +25,8 @@ std::unique_ptr<SubMeshSystem> make_equations(const SubMesh& sub_mesh, std::vect
         return make_predicted_system(std::move(parts), workspace);
     if (std::holds_alternative<SchwarzConditions>(conditions))
         return make_following_system(std::move(parts), workspace);
+    if (const auto* const own = std::get_if<OwnConditions>(&conditions))
+        return make_system(std::move(parts), own->make(sub_mesh), workspace);
     const auto* const classical = std::get_if<ClassicalConditions>(&conditions);
     auto condition = classical != nullptr ? make_ventcell(sub_mesh, classical->q)
                                           : make_adapted_ventcell(sub_mesh, std::get<AdaptedConditions>(conditions).q);

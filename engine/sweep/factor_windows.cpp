@@ -1,46 +1,16 @@
-#include "engine/steppers/sweep_order.h"
+#include "engine/sweep/factor_windows.h"
 
 #include <algorithm>
 #include <numeric>
+#include <string>
 #include <utility>
 
-#include "engine/tasks/parallel_executor.h"
-#include "partition/cut/colouring.h"
+#include "partition/errors.h"
+#include "partition/index_lists.h"
 
 namespace seamflow {
 
 namespace {
-
-/// Σ‖ΔV‖ over the vertices of a sub-mesh that are neither fixed nor on Γ, in 1/length.
-double total_curvature(const SubMesh& sub_mesh, const std::vector<double>& curvature)
-{
-    if (curvature.empty())
-        return 0.0;
-    std::vector<bool> counts(sub_mesh.n_vertices, true);
-    for (const Index v : sub_mesh.interface.vertices)
-        counts[v] = false;
-    double sum = 0.0;
-    for (Index v = 0; v < sub_mesh.n_vertices; ++v)
-        if (counts[v] && sub_mesh.fixed[v] == 0)
-            sum += curvature[sub_mesh.local_to_global[v]];
-    return sum;
-}
-
-std::vector<Index> ascending(std::size_t n)
-{
-    std::vector<Index> numbers(n);
-    std::iota(numbers.begin(), numbers.end(), 0);
-    return numbers;
-}
-
-/// The index of each number in an order.
-std::vector<Index> inverse(const std::vector<Index>& order)
-{
-    std::vector<Index> indices(order.size());
-    for (std::size_t i = 0; i < order.size(); ++i)
-        indices[order[i]] = static_cast<Index>(i);
-    return indices;
-}
 
 /// Calls visit(t) for each sub-mesh t that solves before s in the sweep and whose Vᵏ⁺¹ on Γ is then used by s: t leads,
 /// and s follows.
@@ -56,46 +26,13 @@ void for_each_leader(const SweepPlan& plan, Index s, Visit&& visit)
 /// The sub-meshes in the order of the sweep.
 std::vector<Index> by_stage(const SweepPlan& plan)
 {
-    std::vector<Index> sub_meshes = ascending(plan.stage.size());
+    std::vector<Index> sub_meshes(plan.stage.size());
+    std::iota(sub_meshes.begin(), sub_meshes.end(), 0);
     std::ranges::stable_sort(sub_meshes, {}, [&](Index s) { return plan.stage[s]; });
     return sub_meshes;
 }
 
 }  // namespace
-
-std::vector<double> total_curvatures(const Decomposition& decomposition, const std::vector<double>& curvature)
-{
-    std::vector<double> totals(decomposition.sub_meshes.size());
-    for_each(run_in_parallel, static_cast<Index>(totals.size()),
-             [&](Index s) { totals[s] = total_curvature(decomposition.sub_meshes[s], curvature); });
-    return totals;
-}
-
-std::vector<Index> assign_stages(const std::vector<std::vector<Index>>& adjacency, bool solves_in_order_of_numbers,
-                                 const std::vector<double>& totals)
-{
-    std::vector<Index> stage = ascending(adjacency.size());
-    if (solves_in_order_of_numbers)
-        return stage;
-
-    const std::vector<Index> colours = colour(adjacency);
-    std::vector<double> of_colour(n_colours(colours), 0.0);
-    for (std::size_t s = 0; s < colours.size(); ++s)
-        of_colour[colours[s]] += totals[s];
-    std::vector<Index> order = ascending(of_colour.size());
-    std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) { return of_colour[a] > of_colour[b]; });
-    const std::vector<Index> stage_of_colour = inverse(order);
-    std::transform(colours.begin(), colours.end(), stage.begin(), [&](Index c) { return stage_of_colour[c]; });
-    return stage;
-}
-
-std::vector<Index> reversed(const std::vector<Index>& stage)
-{
-    const Index highest = stage.empty() ? 0 : *std::max_element(stage.begin(), stage.end());
-    std::vector<Index> reversed_stages(stage.size());
-    std::transform(stage.begin(), stage.end(), reversed_stages.begin(), [&](Index r) { return highest - r; });
-    return reversed_stages;
-}
 
 std::vector<Index> order_by_need(const SweepPlan& plan, const std::vector<Index>& order)
 {
@@ -133,6 +70,32 @@ FactorWindow least_window(const SweepPlan& plan, std::vector<Index> order)
     for (std::size_t i = 0; i < last.size(); ++i)
         window.size = std::max(window.size, last[window.freed[i]] - static_cast<Index>(i) + 1);
     return window;
+}
+
+void choose_size(std::vector<FactorWindow>& windows, std::size_t factor_bytes, bool keeps_all, Index n_threads,
+                 std::optional<std::size_t> memory_limit)
+{
+    constexpr Index slots_per_thread = 4;
+    const auto n = static_cast<Index>(windows.front().order.size());
+    Index least = 0;
+    for (const FactorWindow& window : windows)
+        least = std::max(least, window.size);
+    least = keeps_all ? n : std::min(least, n);
+    const auto resize = [&](Index size) {
+        for (FactorWindow& window : windows)
+            window.size = size;
+    };
+    const Index enough = std::min(n, least + slots_per_thread * n_threads);
+    resize(enough);
+    if (!memory_limit)
+        return;
+    const std::size_t slots = *memory_limit / factor_bytes;
+    if (slots < usize(least))
+        throw MemoryLimitError(Wording{"<memory_limit> is " + std::to_string(*memory_limit) + " bytes, but the " +
+                                       std::to_string(least) + " factorisations that a step needs at once take " +
+                                       std::to_string(usize(least) * factor_bytes) +
+                                       ": raise it, or use more sub-meshes"});
+    resize(static_cast<Index>(std::min(usize(enough), slots)));
 }
 
 }  // namespace seamflow

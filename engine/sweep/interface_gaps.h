@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "engine/steppers/sub_mesh_state.h"
+#include "engine/sweep/sub_mesh_state.h"
 #include "partition/decomposition/separated_sub_meshes.h"
 #include "partition/metrics/length_statistics.h"
 

@@ -4,7 +4,8 @@
 
 #include <doctest/doctest.h>
 
-#include "engine/steppers/sweep_order.h"
+#include "engine/sweep/factor_windows.h"
+#include "engine/sweep/sweep_order.h"
 #include "partition/cut/colouring.h"
 #include "partition/cut/cut_into.h"
 #include "partition/decomposition/reverse_cuthill_mckee.h"

@@ -4,9 +4,9 @@
 #include <functional>
 #include <vector>
 
-#include "engine/setup/sweep_plan.h"
-#include "engine/steppers/remote_sub_meshes.h"
-#include "engine/steppers/sweep_order.h"
+#include "engine/sweep/factor_windows.h"
+#include "engine/sweep/remote_sub_meshes.h"
+#include "engine/sweep/sweep_plan.h"
 #include "engine/tasks/task_graph.h"
 
 namespace seamflow {

@@ -1,4 +1,4 @@
-#include "engine/steppers/interface_gaps.h"
+#include "engine/sweep/interface_gaps.h"
 
 #include <algorithm>
 

@@ -4,7 +4,7 @@
 
 #include <doctest/doctest.h>
 
-#include "engine/setup/sweep_plan.h"
+#include "engine/sweep/sweep_plan.h"
 #include "partition/cut/colouring.h"
 #include "tests/support/cut_meshes.h"
 #include "tests/support/test_meshes.h"

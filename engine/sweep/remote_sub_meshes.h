@@ -5,7 +5,7 @@
 #include <functional>
 #include <span>
 
-#include "engine/setup/sweep_plan.h"
+#include "engine/sweep/sweep_plan.h"
 #include "engine/tasks/task_graph.h"
 #include "partition/decomposition/decomposition.h"
 #include "partition/index.h"

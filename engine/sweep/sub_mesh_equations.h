@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "engine/setup/step_settings.h"
-#include "engine/setup/sweep_plan.h"
 #include "engine/setup/sweep_steps.h"
+#include "engine/sweep/sweep_plan.h"
 #include "solvers/systems/sub_mesh_system.h"
 
 /// The parts of a sweep that its conditions on Γ decide.

@@ -1,4 +1,4 @@
-#include "engine/setup/sweep_plan.h"
+#include "engine/sweep/sweep_plan.h"
 
 #include <algorithm>
 #include <cassert>

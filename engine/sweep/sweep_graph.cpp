@@ -1,4 +1,4 @@
-#include "engine/steppers/sweep_graph.h"
+#include "engine/sweep/sweep_graph.h"
 
 #include <algorithm>
 #include <cassert>

@@ -2,7 +2,6 @@
 
 #include <vector>
 
-#include "engine/setup/sweep_plan.h"
 #include "partition/decomposition/decomposition.h"
 
 namespace seamflow {
@@ -21,24 +20,5 @@ std::vector<Index> assign_stages(const std::vector<std::vector<Index>>& adjacenc
 
 /// The stages of the sweep in the opposite direction.
 std::vector<Index> reversed(const std::vector<Index>& stage);
-
-/// A limit on the factors that live at once. Sub-meshes are factorised in a fixed order: order[i + size] waits until
-/// freed[i] has been solved and its factor is freed.
-struct FactorWindow {
-    /// The sub-meshes in the order of factorisation.
-    std::vector<Index> order;
-    /// The same sub-meshes in an order in which they can be solved meanwhile.
-    std::vector<Index> freed;
-    /// The most factors that live at once.
-    Index size = 0;
-};
-
-/// An order in which few factors live at once: each sub-mesh comes shortly before the first solve that needs it.
-/// @param order of the same sub-meshes, in which adjacent sub-meshes are near each other.
-std::vector<Index> order_by_need(const SweepPlan& plan, const std::vector<Index>& order);
-
-/// The smallest window with which a sweep in this order cannot deadlock: a sub-mesh is solved only after the sub-meshes
-/// whose results or predictions it uses have been factorised.
-FactorWindow least_window(const SweepPlan& plan, std::vector<Index> order);
 
 }  // namespace seamflow
