@@ -6,6 +6,7 @@
 #include "engine/ranks/communicator_ranks.h"
 #include "engine/ranks/peak_memory.h"
 #include "engine/steppers/schur_stepper.h"
+#include "engine/sweep/factor_windows.h"
 #include "engine/sweep/sweep_order.h"
 #include "engine/tasks/parallel_executor.h"
 #include "partition/decomposition/part_of_mesh.h"

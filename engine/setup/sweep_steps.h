@@ -45,10 +45,12 @@ struct SchwarzConditions {
     int overlap = 1;
 };
 
-/// Conditions that are no alternative of their own. Ranks do not share them: a function has another address in each.
+/// Conditions that a caller supplies as a function. Sub-meshes share Γ, as with adapted conditions. Ranks do not share
+/// the steps: a function has another address in each process.
 struct OwnConditions {
-    /// Makes the rows of a sub-mesh where it leads on Γ. The sub-mesh outlives them.
-    std::unique_ptr<TransmissionCondition> (*make)(const SubMesh& sub_mesh) = nullptr;
+    /// Makes the rows of a sub-mesh where it leads on Γ; not null. The sub-mesh outlives them; its `twin` is empty by
+    /// then.
+    std::unique_ptr<TransmissionCondition> (*make)(const SubMesh& sub_mesh);
     /// The parameter that the rows get (see TransmissionCondition::begin_step).
     RobinChoice p = 0.0;
 };

@@ -1,9 +1,12 @@
 #include "engine/steppers/sweep_stepper.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <utility>
+#include <variant>
 
 #include "engine/tasks/parallel_executor.h"
+#include "engine/tasks/run_for_sub_mesh.h"
 #include "engine/tasks/stopwatch.h"
 #include "partition/decomposition/reverse_cuthill_mckee.h"
 
@@ -49,7 +52,7 @@ SweepStepper::SweepStepper(const PolygonMesh& mesh, const Topology& topology, Sw
         ranks_.remote->connect(decomposition, plans, error_->remote_rows());
     const PerformTask perform = [this](TaskKind kind, Index s) { this->perform(kind, s); };
     for (std::size_t number = 0; number < plans.size(); ++number)
-        add_sweep(graph_, perform, number, plans[number], decomposition.adjacency, windows[number], predict(conditions),
+        add_sweep(graph_, perform, number, plans[number], decomposition.adjacency, windows[number], sweep_.predicts(),
                   ranks_.remote);
 }
 
@@ -62,7 +65,7 @@ void SweepStepper::perform(TaskKind kind, Index s)
         return ranks_.remote->receive(message, s, rows_of(message, s));
     run_for_sub_mesh(sweep_.name(s), [&] { perform_own(kind, s); });
     if (ranks_.remote != nullptr && (kind == TaskKind::Predict || kind == TaskKind::Solve))
-        ranks_.remote->send(message, plan_, s, rows_of(message, s));
+        ranks_.remote->send(message, sweep_.plan_number(), s, rows_of(message, s));
 }
 
 /// Performs a task of an own sub-mesh, and adds its time.
@@ -138,21 +141,21 @@ Points& SweepStepper::rows_of(MessageKind kind, Index s)
 void SweepStepper::run_sweep(const std::function<void()>& join)
 {
     RemoteSubMeshes* const remote = ranks_.remote;
+    const std::size_t plan = sweep_.plan_number();
     if (remote == nullptr)
-        return graph_.run(plan_, 0.0, join);
+        return graph_.run(plan, 0.0, join);
     const auto send_positions = [&] {
         for (Index s = 0; s < sweep_.size(); ++s)
             if (!sweep_.is_remote(s))
-                remote->send(MessageKind::Position, plan_, s, sweep_.states()[s].position);
+                remote->send(MessageKind::Position, plan, s, sweep_.states()[s].position);
     };
-    remote->run(graph_, plan_, send_positions, join);
+    remote->run(graph_, plan, send_positions, join);
 }
 
 /// Takes a step. The same graph is run once for each solution.
 void SweepStepper::step(const Points& before)
 {
-    plan_ = static_cast<std::size_t>(steps_done_) % sweep_.plans().size();
-    sweep_.set_plan(plan_);
+    sweep_.set_plan(static_cast<std::size_t>(steps_done_) % sweep_.plans().size());
     const auto end = [&] {
         ++steps_done_;
         sweep_.join();

@@ -3,6 +3,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "engine/measure/flow_report.h"
@@ -25,9 +26,9 @@
 
 namespace seamflow {
 
-/// What else a sweep needs whose sub-meshes are those of several ranks.
+/// What a SweepStepper knows of ranks. With one rank only `ranks` is set.
 struct RanksOfSweep {
-    /// The ranks whose sub-meshes the estimate of the error spans.
+    /// The ranks that estimate the error together.
     std::unique_ptr<InterfaceRanks> ranks;
     /// For a sweep forward and one backward: this rank's part of orders that are common to all ranks, and the smallest
     /// size with which the sweep cannot deadlock. Empty: the windows follow from the plans.
@@ -92,8 +93,6 @@ class SweepStepper final : public Stepper {
     TaskGraph graph_;
     StepFilter filter_;
     int steps_done_ = 0;
-    /// The number of the plan of the present sweep.
-    std::size_t plan_ = 0;
 };
 
 }  // namespace seamflow

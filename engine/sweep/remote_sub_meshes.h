@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <span>
+#include <vector>
 
 #include "engine/sweep/sweep_plan.h"
 #include "engine/tasks/task_graph.h"

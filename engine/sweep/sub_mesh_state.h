@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -17,7 +18,8 @@ struct SubMeshState {
     std::unique_ptr<SubMeshSystem> system;
     /// Robin parameter, in 1/length.
     double p = 0.0;
-    /// #local by 3, own vertices, then halo: Vᵏ until the step is accepted, then Vᵏ⁺¹.
+    /// #local by 3, own vertices, then halo: Vᵏ until the step is accepted, then Vᵏ⁺¹ at own vertices; the halo follows
+    /// when the next step assembles.
     Points position;
     /// #local by 3: the solution of the equations, Vᵏ⁺¹ before the correction.
     Points solution;

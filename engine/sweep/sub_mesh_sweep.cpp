@@ -1,6 +1,10 @@
 #include "engine/sweep/sub_mesh_sweep.h"
 
+#include <algorithm>
+#include <memory_resource>
+#include <span>
 #include <utility>
+#include <variant>
 
 #include "engine/sweep/sub_mesh_equations.h"
 #include "engine/sweep/sweep_order.h"
@@ -89,9 +93,10 @@ SubMeshSweep::SubMeshSweep(const PolygonMesh& mesh, SweepSubMeshes sub_meshes, c
     , names_(std::move(sub_meshes.names))
     , states_(decomposition_.sub_meshes.size())
     , time_step_(settings.equation.time_step)
+    , predicts_(seamflow::predict(sweeps.conditions))
     , corrects_(sweeps.corrects)
 {
-    seamflow::copy(run_in_parallel, mesh.vertices, positions_);
+    copy(run_in_parallel, mesh.vertices, positions_);
     if (const auto* const classical = std::get_if<ClassicalConditions>(&sweeps.conditions))
         gaps_.emplace(mesh, decomposition_, classical->keeps_gaps);
     progress.expect(static_cast<double>(size()));
@@ -104,7 +109,7 @@ SubMeshSweep::SubMeshSweep(const PolygonMesh& mesh, SweepSubMeshes sub_meshes, c
         for (std::size_t i = 0; i < sub_mesh.local_to_global.size(); ++i)
             state.position.row(static_cast<Eigen::Index>(i)) = mesh.vertices.row(sub_mesh.local_to_global[i]);
         state.solution = state.position;
-        if (seamflow::predict(sweeps.conditions))
+        if (predicts_)
             state.predicted.resize(state.position.rows(), 3);
         if (!sub_meshes.is_remote.empty() && sub_meshes.is_remote[s] != 0)
             return;
@@ -216,9 +221,10 @@ void take_step(SubMeshSweep& sweep, SolverWorkspace& workspace)
 {
     const auto for_all = [&](auto&& action) {
         for (Index s = 0; s < sweep.size(); ++s)
-            action(s);
+            run_for_sub_mesh(sweep.name(s), [&] { action(s); });
     };
     const SweepPlan& plan = sweep.plan();
+    const Index last_turn = plan.stage.empty() ? -1 : *std::ranges::max_element(plan.stage);
     for_all([&](Index s) {
         // A = I + dt Δ(Vᵏ), on Γ the condition or the identity
         const SubMeshSystem::Assembled equations = sweep.assemble(s, workspace);
@@ -227,18 +233,19 @@ void take_step(SubMeshSweep& sweep, SolverWorkspace& workspace)
     });
     for_all([&](Index s) {
         // A x = Vᵏ, with x = Vᵏ on Γ
-        if (sweep.states()[s].predicted.rows() > 0 && !plan.traces[s].empty())
+        if (sweep.predicts() && !plan.traces[s].empty())
             sweep.predict(s, workspace);
     });
-    for (Index turn = 0; turn < sweep.size(); ++turn)
+    for (Index turn = 0; turn <= last_turn; ++turn)
         for_all([&](Index s) {
             if (plan.stage[s] != turn)
                 return;
             // b = Vᵏ, on Γ the condition with x beyond it
-            if (sweep.states()[s].predicted.rows() > 0 && !plan.predictions[s].empty())
+            if (sweep.predicts() && !plan.predictions[s].empty())
                 sweep.use_predictions(s, workspace);
             // A Vᵏ⁺¹ = b, with the Vᵏ⁺¹ on Γ of sub-meshes that have solved
             sweep.solve(s, workspace);
+            sweep.states()[s].factor.reset();
         });
     for_all([&](Index s) { sweep.receive_solutions(s); });
     // Γ to the centroids of its neighbours, if it is corrected

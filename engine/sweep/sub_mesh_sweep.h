@@ -1,8 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "engine/setup/step_settings.h"
@@ -44,10 +44,14 @@ SweepSubMeshes cut_out(const PolygonMesh& mesh, const Topology& topology, const 
 class SubMeshSweep {
   public:
     /// Analyses the equations of the sub-meshes, and plans which data cross Γ when.
-    /// @param mesh need not outlive the object. @param settings its equation must.
+    /// @param mesh, settings need not outlive the object. Neither the filter of the settings nor their limit of memory
+    /// is used. @param workspaces of the threads that run this.
     /// @throws ComputationError naming the sub-mesh if an analysis fails; Cancelled.
     SubMeshSweep(const PolygonMesh& mesh, SweepSubMeshes sub_meshes, const StepSettings& settings,
                  const SweepSteps& sweeps, Workspaces& workspaces, Progress& progress);
+
+    SubMeshSweep(const SubMeshSweep&) = delete;
+    SubMeshSweep& operator=(const SubMeshSweep&) = delete;
 
     [[nodiscard]] Index size() const { return static_cast<Index>(states_.size()); }
     [[nodiscard]] const Decomposition& decomposition() const { return decomposition_; }
@@ -57,11 +61,12 @@ class SubMeshSweep {
     [[nodiscard]] const std::vector<SubMeshState>& states() const { return states_; }
     /// The plan of the sweep forward, and, if directions alternate, that of the sweep backward.
     [[nodiscard]] const std::vector<SweepPlan>& plans() const { return plans_; }
-    /// Chooses the plan of the following steps by its number; at first it is that of the sweep forward.
+    /// Chooses the plan of the following steps by its number; at first it is that of the sweep forward, 0.
     void set_plan(std::size_t number) { plan_ = number; }
-
-    /// The plan of the present step.
+    [[nodiscard]] std::size_t plan_number() const { return plan_; }
     [[nodiscard]] const SweepPlan& plan() const { return plans_[plan_]; }
+    /// Whether sub-meshes predict the other side of Γ.
+    [[nodiscard]] bool predicts() const { return predicts_; }
 
     /// Fetches Vᵏ of the halo, and with copies of Γ those of other sub-meshes, and assembles A(Vᵏ).
     SubMeshSystem::Assembled assemble(Index s, SolverWorkspace& workspace);
@@ -81,11 +86,12 @@ class SubMeshSweep {
     /// later turn; where a vertex has several other copies, their mean is used.
     void solve(Index s, SolverWorkspace& workspace);
 
-    /// Fetches the solutions of the halo, once all adjacent sub-meshes have solved.
+    /// Fetches the solutions of the halo, once all adjacent sub-meshes have solved; where sub-meshes overlap, those of
+    /// all vertices that only other sub-meshes had before they grew into each other.
     void receive_solutions(Index s);
 
-    /// Accepts Vᵏ⁺¹, if it is corrected with vertices of Γ moved to the centroids of their edge neighbours (paper, eq.
-    /// 28). Every sub-mesh at a vertex finds the same bits.
+    /// Accepts Vᵏ⁺¹. If the sweep corrects, vertices of Γ move to the centroids of their edge neighbours (paper, eq.
+    /// 28); every sub-mesh at a vertex finds the same bits.
     void accept(Index s);
 
     /// Joins the positions of the sub-meshes; copies of Γ are represented by their mean.
@@ -108,15 +114,16 @@ class SubMeshSweep {
     std::vector<SweepPlan> plans_;
     std::size_t plan_ = 0;
     double time_step_;
+    bool predicts_;
     bool corrects_;
     Points positions_;
     /// Only with the classical conditions.
     std::optional<InterfaceGaps> gaps_;
 };
 
-/// Takes a step of the sweep, one sub-mesh after the other. SweepStepper takes the same step, to the same bits, with
-/// all threads.
-/// @throws ComputationError if the equations of a sub-mesh are singular or not finite.
+/// Takes a step of the sweep, one sub-mesh after the other, of which no other rank has any. All factors live at once.
+/// SweepStepper takes the same step with all threads, to the same bits where BLAS has one thread (see Workers).
+/// @throws ComputationError naming the sub-mesh if its equations are singular or not finite.
 void take_step(SubMeshSweep& sweep, SolverWorkspace& workspace);
 
 }  // namespace seamflow

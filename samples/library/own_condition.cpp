@@ -1,6 +1,6 @@
 // The sweep of the paper with labels and a condition on Γ of one's own: Γ stays at Vᵏ, until it is corrected (eq. 28).
 //
-//     own_condition INPUT LABELS OUTPUT    (LABELS: a number for each face; OUTPUT: of the format of INPUT)
+//     own_condition INPUT LABELS OUTPUT    (needs the sources of the library; LABELS: a number for each face)
 
 #include <iostream>
 

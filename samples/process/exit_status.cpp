@@ -1,11 +1,9 @@
 #include "samples/process/exit_status.h"
 
+#include <cstdio>
 #include <exception>
 #include <iostream>
-#include <iterator>
 #include <new>
-
-#include <fmt/format.h>
 
 #include "partition/errors.h"
 #include "samples/process/option_words.h"
@@ -25,10 +23,7 @@ ExitStatus say_failure(const char* program, const Failure& failure)
 
 void say_error(std::string_view program, std::string_view message)
 {
-    // Not by <<, since std::cerr writes each operand at once; without a string, since memory may have ended.
-    fmt::memory_buffer line;
-    fmt::format_to(std::back_inserter(line), "{}: {}\n", program, message);
-    std::cerr.write(line.data(), static_cast<std::streamsize>(line.size()));
+    std::cerr << program << ": " << message << '\n';
 }
 
 Failure current_failure()
@@ -54,6 +49,9 @@ Failure current_failure()
 
 int run_program(const char* program, const std::function<ExitStatus()>& body)
 {
+    // Standard error gets whole lines: what other processes write there (ranks, mpirun) does not come between.
+    std::setvbuf(stderr, nullptr, _IOLBF, BUFSIZ);
+    std::cerr.unsetf(std::ios::unitbuf);
     ExitStatus status = ExitStatus::Success;
     try {
         status = body();

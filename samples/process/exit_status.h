@@ -28,12 +28,11 @@ struct Failure {
 /// OutputError → OutputNotWritten; ComputationError, running out of memory and anything else → ComputationFailed.
 Failure current_failure();
 
-/// Writes `program: message` and a line feed to standard error, in one piece: what other processes write at the same
-/// time (ranks, mpirun) does not come between.
+/// Writes `program: message` and a line feed to standard error.
 void say_error(std::string_view program, std::string_view message);
 
 /// Runs the body of a program and converts its exceptions to an exit status, with one message on standard error (see
-/// current_failure).
+/// current_failure). From then on lines are written to standard error whole.
 /// @param program the name that begins the message.
 /// @returns the status, for main to return.
 int run_program(const char* program, const std::function<ExitStatus()>& body);

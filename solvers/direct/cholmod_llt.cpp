@@ -57,6 +57,7 @@ struct CholmodInt {
     static constexpr auto analyze = cholmod_analyze;
     static constexpr auto factorize = cholmod_factorize;
     static constexpr auto solve = cholmod_solve2;
+    static constexpr auto ensure_dense = cholmod_ensure_dense;
     static constexpr auto change_factor = cholmod_change_factor;
     static constexpr auto free_factor = cholmod_free_factor;
     static cholmod_common& common(CholmodWorkspace& workspace) { return workspace.state().common; }
@@ -70,6 +71,7 @@ struct CholmodLong {
     static constexpr auto analyze = cholmod_l_analyze;
     static constexpr auto factorize = cholmod_l_factorize;
     static constexpr auto solve = cholmod_l_solve2;
+    static constexpr auto ensure_dense = cholmod_l_ensure_dense;
     static constexpr auto change_factor = cholmod_l_change_factor;
     static constexpr auto free_factor = cholmod_l_free_factor;
     static cholmod_common& common(CholmodWorkspace& workspace) { return workspace.state().long_common; }
@@ -172,6 +174,15 @@ class CholmodLlt final : public DirectSolver {
         right.dtype = CHOLMOD_DOUBLE;
         CholmodWorkspace::State& kept = workspace.cholmod.state();
         cholmod_common& common = Interface::common(workspace.cholmod);
+        // cholmod_solve2 does not look whether it gets this memory.
+        const std::size_t n = right.nrow;
+        const auto ensure = [&](cholmod_dense*& dense, std::size_t rows, std::size_t columns) {
+            Interface::ensure_dense(&dense, rows, columns, rows, CHOLMOD_REAL, &common);
+            require_ok(common, "solution");
+        };
+        ensure(kept.solution, n, 3);
+        ensure(kept.first, n, 3);
+        ensure(kept.second, 3, factor_->maxesize);
         Interface::solve(CHOLMOD_A, factor_.get(), &right, nullptr, &kept.solution, nullptr, &kept.first, &kept.second,
                          &common);
         require_ok(common, "solution");

@@ -10,8 +10,8 @@
 
 #include "engine/mean_curvature_flow.h"
 #include "engine/setup/flow_plan.h"
-#include "engine/sweep/sub_mesh_equations.h"
 #include "engine/sweep/factor_windows.h"
+#include "engine/sweep/sub_mesh_equations.h"
 #include "engine/sweep/sweep_order.h"
 #include "partition/decomposition/overlap.h"
 #include "partition/decomposition/reverse_cuthill_mckee.h"

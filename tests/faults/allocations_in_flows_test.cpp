@@ -86,6 +86,21 @@ TEST_CASE("converged steps with systems that are not symmetric")
     fail_every_allocation_of(options_of("ptackova-velho converged"), {test::Failing::Once});
 }
 
+TEST_CASE("sweeps and undecomposed steps by factorisations of other libraries, whichever of their phases lacks memory")
+{
+    for (const Factorisation factorisation : {Factorisation::Cholmod, Factorisation::Umfpack}) {
+        CAPTURE(static_cast<int>(factorisation));
+        if (!is_available(factorisation))
+            continue;
+        AllOptions options = options_of("fujiwara by sweeps");
+        options.resources.factorisation = factorisation;
+        fail_every_allocation_of(options, {test::Failing::Once});
+        options.accuracy.approach = Approach::Undecomposed;
+        options.cut.subdomains = 0;
+        fail_every_allocation_of(options, {test::Failing::Once, test::Failing::FromThenOn});
+    }
+}
+
 TEST_CASE("the classical conditions, with gaps between the sub-meshes")
 {
     fail_every_allocation_of(options_of("robin with gaps"), {test::Failing::Once});

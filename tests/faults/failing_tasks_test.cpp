@@ -147,6 +147,15 @@ TEST_CASE("a graph one of whose tasks has thrown runs again, and gives the same 
                                     parts.curvature, progress);
             });
     }
+    SUBCASE("sweeps with a filter of several solutions")
+    {
+        parts.options.filter = Filter::LowPass;
+        every_graph_runs_again<SweepStepper>([&](Progress& progress) {
+            const SweepSteps sweeps{.conditions = PredictedTransmission(), .alternates = true, .corrects = true};
+            return SweepStepper(parts.mesh, parts.topology, parts.cut, parts.settings_for(sweeps), sweeps,
+                                parts.curvature, progress);
+        });
+    }
     const ConvergedSteps converged{{.tolerance = 1e-3, .iterations = 1000}};
     SUBCASE("converged")
     {

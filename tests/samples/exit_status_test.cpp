@@ -1,12 +1,13 @@
+#include <array>
 #include <iostream>
 #include <new>
 #include <sstream>
-#include <streambuf>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include <doctest/doctest.h>
+#include <fcntl.h>
+#include <unistd.h>
 
 #include "partition/errors.h"
 #include "samples/process/exit_status.h"
@@ -27,33 +28,27 @@ std::pair<int, std::string> end_of(const Error& error)
     return {status, message.str()};
 }
 
-/// A standard error that keeps what is written piece by piece.
-struct Pieces : std::streambuf {
-    std::vector<std::string> pieces;
-
-    std::streamsize xsputn(const char* text, std::streamsize size) override
-    {
-        pieces.emplace_back(text, static_cast<std::size_t>(size));
-        return size;
-    }
-    int overflow(int character) override
-    {
-        pieces.emplace_back(1, static_cast<char>(character));
-        return character;
-    }
-};
-
 }  // namespace
 
-TEST_CASE("a message is written in one piece, so that what other processes write does not come between")
+TEST_CASE("lines are written whole, so that what other processes write does not come between")
 {
-    Pieces written;
-    auto* const before = std::cerr.rdbuf(&written);
-    say_error("program", std::string(3000, 'm'));
-    const int status = run_program("program", []() -> ExitStatus { throw InputError("reason"); });
-    std::cerr.rdbuf(before);
+    std::array<int, 2> pipe{};
+    // Each write is a packet of its own.
+    REQUIRE(pipe2(pipe.data(), O_DIRECT) == 0);
+    const int before = dup(STDERR_FILENO);
+    REQUIRE(dup2(pipe[1], STDERR_FILENO) == STDERR_FILENO);
+    const int status = run_program("program", []() -> ExitStatus {
+        std::cerr << "a summary " << 1.5 << " of " << 3 << '\n';
+        throw InputError(std::string(3000, 'm'));
+    });
+    REQUIRE(dup2(before, STDERR_FILENO) == STDERR_FILENO);
+    std::string packet(4096, ' ');
+    const auto next = [&] { return packet.substr(0, static_cast<std::size_t>(read(pipe[0], packet.data(), 4096))); };
+    CHECK(next() == "a summary 1.5 of 3\n");
+    CHECK(next() == "program: " + std::string(3000, 'm') + "\n");
+    for (const int file : {before, pipe[0], pipe[1]})
+        close(file);
     CHECK(status == 3);
-    CHECK(written.pieces == std::vector<std::string>{"program: " + std::string(3000, 'm') + "\n", "program: reason\n"});
 }
 
 TEST_CASE("every kind of exception has its exit status and one message")

@@ -86,6 +86,62 @@ TEST_CASE("so have the undecomposed flow and those with other conditions")
     }
 }
 
+TEST_CASE("so has every flow equation, with and without prediction, attachment and filter")
+{
+    const PolygonMesh mesh = make_noisy_sphere(600);
+    for (const Laplacian laplacian : {Laplacian::AlexaWardetzky, Laplacian::VirtualRefinement})
+        for (const FlowEquation equation : {FlowEquation::MeanCurvature, FlowEquation::Conformalized})
+            for (const Transmission transmission : {Transmission::Predicted, Transmission::Derivative})
+                for (const double attachment : {0.0, 50.0})
+                    for (const Filter filter : {Filter::Diffusion, Filter::LowPass}) {
+                        if (filter == Filter::LowPass && transmission == Transmission::Derivative)
+                            continue;
+                        CAPTURE(name_of(laplacian));
+                        CAPTURE(static_cast<int>(equation));
+                        CAPTURE(static_cast<int>(transmission));
+                        CAPTURE(attachment);
+                        CAPTURE(static_cast<int>(filter));
+                        FlowOptions options = sweeps_of(laplacian, Factorisation::Automatic);
+                        options.flow = equation;
+                        options.interface.transmission = transmission;
+                        options.motion.attachment = attachment;
+                        options.filter = filter;
+                        compare_factorisations(mesh, options, [](Factorisation, const FlowReport&) {});
+                    }
+}
+
+TEST_CASE("every flow equation has one result, however its steps are solved")
+{
+    const PolygonMesh mesh = make_noisy_sphere(600);
+    for (const FlowEquation equation : {FlowEquation::MeanCurvature, FlowEquation::Conformalized, FlowEquation::Linear})
+        for (const double attachment : {0.0, 50.0}) {
+            CAPTURE(static_cast<int>(equation));
+            CAPTURE(attachment);
+            FlowOptions options = sweeps_of(Laplacian::AlexaWardetzky, Factorisation::Automatic);
+            options.flow = equation;
+            options.motion.attachment = attachment;
+            options.steps = 3;
+            const auto flowed = [&](Approach approach, Factorisation factorisation) {
+                options.accuracy.approach = approach;
+                options.accuracy.tolerance =
+                    approach == Approach::Undecomposed ? std::nullopt : std::optional<double>(1e-12);
+                options.cut.subdomains = approach == Approach::Converged ? 4 : 0;
+                options.resources.factorisation = factorisation;
+                PolygonMesh flowing = mesh;
+                mean_curvature_flow(flowing, options);
+                return flowing.vertices;
+            };
+            const Points expected = flowed(Approach::Undecomposed, Factorisation::Own);
+            CHECK(test::largest_difference(mesh.vertices, expected) > 1e-3);
+            for (const Factorisation factorisation : {Factorisation::Cholmod, Factorisation::Umfpack})
+                if (is_available(factorisation) && equation != FlowEquation::Linear)
+                    CHECK(test::largest_difference(flowed(Approach::Undecomposed, factorisation), expected) < 1e-10);
+            for (const Approach approach : {Approach::Converged, Approach::ConjugateGradients})
+                if (approach == Approach::Converged || equation != FlowEquation::Conformalized)
+                    CHECK(test::largest_difference(flowed(approach, Factorisation::Automatic), expected) < 1e-9);
+        }
+}
+
 TEST_CASE("converged steps of Δ_P have any factorisation")
 {
     FlowOptions options = sweeps_of(Laplacian::PtackovaVelho, Factorisation::Automatic);
