@@ -110,9 +110,10 @@ class Plot:
         from matplotlib.figure import Figure
 
         n_rows = -(-n // columns)
-        width, height = PANEL[0] * columns, PANEL[1] * n_rows + 0.7
+        below = 0.7 if note else 0.5
+        width, height = PANEL[0] * columns, PANEL[1] * n_rows + below
         self.figure = Figure((width, height), layout="constrained")
-        self.figure.get_layout_engine().set(rect=(0, 0.7 / height, 1, 1 - 0.7 / height))
+        self.figure.get_layout_engine().set(rect=(0, below / height, 1, 1 - below / height))
         grid = self.figure.subplots(n_rows, columns, sharey=True, squeeze=False)
         self.panels = list(grid.flat)
         for panel in self.panels[n:]:
@@ -123,6 +124,7 @@ class Plot:
         for panel in grid[:, 0]:
             panel.set_ylabel("distance / mean edge length")
         self.figure.text(0.5, 0.05 / height, note, ha="center", va="bottom")
+        self.place_of_legend = 0.5, (below - 0.5) / height
         self.values, self.legend = [1.0, 10.0], {}
 
     def add(self, panel, x, y, label, **style):
@@ -136,7 +138,7 @@ class Plot:
         low, high = np.floor(np.log10(min(self.values))), np.ceil(np.log10(max(self.values)))
         self.panels[0].set_ylim(10.0**low, 10.0**high)
         self.figure.legend(handles=list(self.legend.values()), loc="lower center", ncols=-(-len(self.legend) // 2),
-                           bbox_to_anchor=(0.5, 0.2 / self.figure.get_figheight()))
+                           bbox_to_anchor=self.place_of_legend)
         return self.figure
 
 
