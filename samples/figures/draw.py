@@ -38,7 +38,7 @@ LINE = 0.14  # their width, of the distance from one to the next
 DARK = 0.5  # their brightness
 LAMPS = np.array([[-0.45, -0.65, 0.75], [0.75, 0.2, 0.5]])  # directions in the picture, the third towards the eye
 POWERS = np.array([0.5, 0.2])  # of the lamps
-PIECE = 48  # pixels: the longest edge of what is put in the order of depth
+PIECE = 48  # pixels: the longest edge, as it is seen, of what is put in the order of depth
 SHADE = 0.46  # the brightness without a lamp
 RAINBOW = np.array([[0, 0, 1], [0, 1, 1], [0, 1, 0], [1, 1, 0], [1, 0, 0]], float)
 PARTS = np.array([[217, 143, 78], [109, 159, 198], [154, 125, 156]]) / 255  # the third: the overlap
@@ -109,7 +109,7 @@ class Plot:
     def __init__(self, n, columns, note=""):
         from matplotlib.figure import Figure
 
-        n_rows = -(-n // columns)
+        n_rows = max(-(-n // columns), 1)
         below = 0.7 if note else 0.5
         width, height = PANEL[0] * columns, PANEL[1] * n_rows + below
         self.figure = Figure((width, height), layout="constrained")
@@ -137,7 +137,7 @@ class Plot:
     def finished(self):
         low, high = np.floor(np.log10(min(self.values))), np.ceil(np.log10(max(self.values)))
         self.panels[0].set_ylim(10.0**low, 10.0**high)
-        self.figure.legend(handles=list(self.legend.values()), loc="lower center", ncols=-(-len(self.legend) // 2),
+        self.figure.legend(handles=list(self.legend.values()), loc="lower center", ncols=max(-(-len(self.legend) // 2), 1),
                            bbox_to_anchor=self.place_of_legend)
         return self.figure
 
@@ -211,7 +211,7 @@ def curves_over_width(rows):
     """A panel for each way of taking steps. The width of a sub-mesh is the root of its area."""
     plot = curves_of_many(rows, lambda row: np.sqrt(float(row["dt"]) * int(row["subdomains"]) / float(row["area"])),
                           lambda figure, way: f"all meshes, {way}", xlabel=r"$\sqrt{dt}$ / width of a sub-mesh",
-                          xlim=(0.005, 2))
+                          xlim=(0.003, 2))
     return plot.finished()
 
 
@@ -273,7 +273,7 @@ def pieces_of(corners, heights, size):
         flat = pieces[..., :2]
         is_seen = (flat.max(axis=1) > 0).all(axis=1) & (flat.min(axis=1) < size).all(axis=1)
         pieces, of = pieces[is_seen], of[is_seen]
-        lengths = np.linalg.norm((np.roll(pieces, -1, axis=1) - pieces)[..., :3], axis=2)
+        lengths = np.linalg.norm((np.roll(pieces, -1, axis=1) - pieces)[..., :2], axis=2)
         is_long = lengths.max(axis=1) > PIECE
         finished.append((pieces[~is_long], of[~is_long]))
         first = lengths[is_long].argmax(axis=1)

@@ -116,6 +116,10 @@ class Curves(unittest.TestCase):
                 self.assertEqual([np.isnan(line.get_ydata()).tolist() for line in lines],
                                  2 * [[False] * 5] + 2 * [[False, False, True, False, False]])
 
+    def test_flows_with_many_sub_meshes_may_all_have_ended_early(self):
+        rows = [one for one in many_rows() if one["conditions"] == "undecomposed" or one["step"] == "1"]
+        self.assertEqual(draw.curves_over_number(rows).axes, [])
+
 
 def pixels(figure):
     from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -154,7 +158,8 @@ class Surfaces(unittest.TestCase):
         self.assertEqual(image[0, 0, 3], 0)
 
     def test_far_and_missing_corners_do_no_harm(self):
-        for far in [-1e9, -1e9, 0], [-1e200, -1e200, 0], [np.nan, -1, 0], [-np.inf, -1, 0]:
+        towards_the_eye = self.points[0] + 1e6 * draw.View(self.points).axes[:, 2]
+        for far in [-1e9, -1e9, 0], [-1e200, -1e200, 0], [np.nan, -1, 0], [-np.inf, -1, 0], towards_the_eye:
             points = self.points.copy()
             points[0] = far
             self.assertEqual(self.image(points).shape, self.image(self.points).shape)
