@@ -11,7 +11,12 @@ import io
 import pathlib
 import sys
 
-import numpy as np
+MISSING = "draw.py needs Matplotlib 3.6 or newer: apt-get install python3-matplotlib gives it to /usr/bin/python3"
+
+try:
+    import numpy as np
+except ImportError:
+    sys.exit(MISSING)
 
 # Curves.
 PANEL = (3.3, 2.8)  # inches
@@ -137,8 +142,8 @@ class Plot:
     def finished(self):
         low, high = np.floor(np.log10(min(self.values))), np.ceil(np.log10(max(self.values)))
         self.panels[0].set_ylim(10.0**low, 10.0**high)
-        self.figure.legend(handles=list(self.legend.values()), loc="lower center", ncols=max(-(-len(self.legend) // 2), 1),
-                           bbox_to_anchor=self.place_of_legend)
+        self.figure.legend(handles=list(self.legend.values()), ncols=max(-(-len(self.legend) // 2), 1),
+                           loc="lower center", bbox_to_anchor=self.place_of_legend)
         return self.figure
 
 
@@ -422,9 +427,9 @@ def draw(folder, name):
 def main():
     folder = pathlib.Path(__file__).parent
     try:
-        import matplotlib  # noqa: F401
+        import matplotlib.layout_engine  # noqa: F401
     except ImportError:
-        sys.exit("draw.py needs Matplotlib (Debian: apt-get install python3-matplotlib)")
+        sys.exit(MISSING)
     for name in sys.argv[1:] or sorted(path.stem for path in folder.glob("*.csv") if path.stem != "claims"):
         draw(folder, name)
 

@@ -229,6 +229,15 @@ class Results(unittest.TestCase):
                 path.unlink()
             moved.rmdir()
 
+    def test_without_matplotlib_the_script_says_what_to_install(self):
+        # Python without any package, and with what stands in for NumPy alone.
+        with tempfile.TemporaryDirectory() as folder:
+            (pathlib.Path(folder) / "numpy.py").write_text("def array(*_):\n    return 0\n")
+            for path in "", folder:
+                ended = subprocess.run([sys.executable, "-B", "-S", draw.__file__], env={"PYTHONPATH": path},
+                                       capture_output=True, text=True)
+                self.assertEqual((ended.returncode, ended.stderr), (1, draw.MISSING + "\n"))
+
     def add_a_vertex_without_faces(self, path):
         """Far from the others. It changes nothing."""
         vertex, _ = draw.read_ply(path)
