@@ -86,7 +86,8 @@ endif()
 
 # Documents keep their folders, so that their links lead somewhere, and programs to copy from lie among them.
 file(GLOB documents RELATIVE ${PROJECT_SOURCE_DIR} CONFIGURE_DEPENDS LICENSE *.md engine/*.md samples/*.md samples/*/*.md
-    samples/*/pictures/*.png samples/library/*.cpp samples/gallery/make_gallery.py samples/python/example.py)
+    samples/*/pictures/*.png samples/library/*.cpp samples/figures/draw.py samples/gallery/make_gallery.py
+    samples/python/example.py)
 foreach(document IN LISTS documents)
     cmake_path(GET document PARENT_PATH folder)
     install(FILES ${PROJECT_SOURCE_DIR}/${document} DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder})

@@ -16,7 +16,7 @@ found() {
 # Whatever is linked has to be among these, whose licences are those of samples/building.md: a new library has to be
 # judged first. Those of MPI come along with smooth-distributed alone.
 known='linux-vdso|ld-linux-x86-64|libc|libm|libdl|libpthread|librt|libstdc\+\+|libgcc_s|libgomp|libamd|libcamd'
-known+='|libsuitesparseconfig|libtbb|libfmt|libxxhash|libmetis|libz|libpng16|libOpenMeshCore|libseamflow_[a-z]*'
+known+='|libsuitesparseconfig|libtbb|libfmt|libxxhash|libmetis|libz|libOpenMeshCore|libseamflow_[a-z]*'
 known+='|libmpi|libopen-rte|libopen-pal|libhwloc|libevent[a-z_]*-[0-9.]*|libudev|libcap'
 
 mapfile -t binaries < <(find "$build/bin" "$build/python" -maxdepth 2 -type f \( -perm -u+x -o -name '*.so' \) 2>/dev/null

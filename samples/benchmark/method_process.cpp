@@ -12,8 +12,8 @@
 
 #include "engine/state/archive.h"
 #include "partition/formats/mesh_io.h"
-#include "samples/benchmark/process.h"
 #include "samples/benchmark/run_method.h"
+#include "samples/process/process.h"
 
 namespace seamflow {
 

@@ -10,7 +10,7 @@
 #include "partition/errors.h"
 #include "partition/formats/mesh_io.h"
 #include "samples/benchmark/methods/median.h"
-#include "samples/benchmark/process.h"
+#include "samples/process/process.h"
 
 namespace seamflow {
 

@@ -13,13 +13,13 @@ readonly packages=(
     g++ cmake ninja-build pkg-config
     libtbb-dev libeigen3-dev libsuitesparse-dev libopenblas-dev libmetis-dev libopenmesh-dev
     libfmt-dev libxxhash-dev
-    libhypre-dev libopenmpi-dev openmpi-bin libpng-dev zlib1g-dev
+    libhypre-dev libopenmpi-dev openmpi-bin zlib1g-dev
     doctest-dev libcli11-dev nlohmann-json3-dev
 )
 
-# For the Python module and its tests; all else does without.
+# For the Python module, the pictures of figures, and their tests; all else does without.
 # shellcheck disable=SC2034
-readonly python_packages=(python3-dev python3-numpy pybind11-dev mypy)
+readonly python_packages=(python3-dev python3-numpy python3-matplotlib pybind11-dev mypy)
 
 # For the presets asan and tsan, and for tests/sanitizers/run.sh.
 # shellcheck disable=SC2034

@@ -77,7 +77,9 @@ std::optional<ExitStatus> parse_figures_command(int argc, char** argv, FiguresCo
         ->type_name("");
     app.add_option("--meshes", command.meshes, "folder with the authors' own meshes [all are generated]")
         ->type_name("DIR");
-    app.add_option("--out", command.out, "folder for tables, meshes and claims")->required()->type_name("DIR");
+    app.add_option("--out", command.out, "folder for tables, meshes, claims and pictures")
+        ->required()
+        ->type_name("DIR");
     app.add_flag("--html", command.html,
                  "also write a page for each figure that shows its flows step by step in a browser");
     app.footer("figures --out results                  all figures on generated meshes\n"

@@ -5,56 +5,12 @@
 
 #include <fmt/format.h>
 
-#include "samples/figures/curves.h"
-#include "samples/figures/measured.h"
+#include "samples/figures/embedded_files.h"
 #include "samples/page/page_html.h"
 
 namespace seamflow {
 
 namespace {
-
-constexpr std::string_view head = R"(<!doctype html>
-<html lang="en">
-<head>
-<meta charset="utf-8">
-<meta name="viewport" content="width=device-width, initial-scale=1">
-<meta name="color-scheme" content="light dark">
-<link rel="icon" href="data:,">
-<title>The paper's figures</title>
-<style>
-:root { color-scheme: light dark; --ink: #1d2329; --quiet: #5d6873; --line: #d9dee3; --ground: #f6f7f8; --panel: #fff; --link: #22659c; }
-@media (prefers-color-scheme: dark) {
-  :root { --ink: #e4e8ec; --quiet: #98a3ae; --line: #323942; --ground: #14171b; --panel: #1c2026; --link: #6aa9dc; }
-}
-body { margin: 0 auto; max-width: 1240px; padding: 16px 20px 60px; background: var(--ground); color: var(--ink);
-  font: 15px/1.5 system-ui, "Segoe UI", Roboto, "DejaVu Sans", Arial, sans-serif; }
-h1 { font-size: 24px; } h2 { font-size: 19px; margin: 44px 0 4px; }
-a { color: var(--link); } nav a { margin-right: 14px; white-space: nowrap; }
-.quiet { color: var(--quiet); }
-.row { display: grid; grid-auto-flow: column; grid-auto-columns: minmax(0, 1fr); gap: 10px; margin: 10px 0; }
-figure { margin: 0; background: var(--panel); border: 1px solid var(--line); border-radius: 8px; padding: 8px; }
-figure img { display: block; width: 100%; height: auto; }
-figcaption { font-size: 13px; color: var(--quiet); text-align: center; }
-.curves { background: var(--panel); border: 1px solid var(--line); border-radius: 8px; padding: 8px; margin: 10px 0; }
-.curves img { display: block; max-width: 100%; height: auto; margin: auto; }
-.wide { overflow-x: auto; }
-table { border-collapse: collapse; font-size: 13px; width: 100%; margin: 10px 0; }
-th, td { padding: 3px 8px; border-bottom: 1px solid var(--line); text-align: left; vertical-align: baseline; }
-th { font-weight: 600; } td.number { text-align: right; font-variant-numeric: tabular-nums; white-space: nowrap; }
-code { font-size: 12px; overflow-wrap: anywhere; }
-tr:has(+ .command) td { border-bottom: 0; } .command td { padding-top: 0; color: var(--quiet); }
-.yes { color: #2c7a3f; } .no { color: #b4452c; }
-@media (prefers-color-scheme: dark) { .yes { color: #6fbf82; } .no { color: #e98a6f; } }
-@media (max-width: 700px) { .row { grid-auto-flow: row; grid-template-columns: 1fr 1fr; } }
-</style>
-</head>
-<body>
-<h1>The paper's figures</h1>
-<p>The experiments of <em>Domain Decomposition for Mean Curvature Flow of Surface Polygonal Meshes</em> (L. Ptáčková,
-M. Outrata, <a href="https://arxiv.org/abs/2602.16874">arXiv 2602.16874</a>), repeated, under the numbers that its figures have
-there. Figures 3, 4 and 6 explain terms and are left out. The texture is the height of the input; lines of equal height
-go with the vertices when they slide along the surface.</p>
-)";
 
 constexpr std::string_view page_legend =
     R"(<p class="quiet">Tables: V_ and H_ are distances to the undecomposed flow by the same
@@ -110,17 +66,14 @@ std::string picture(const FigureResult& result, const std::string& title)
 /// Whether there are numbers of the authors for this mesh.
 bool has_theirs(const FigureResult& result)
 {
-    return result.table.is_theirs && !result.experiment->theirs.empty();
+    return result.table.is_theirs && !result.table.theirs.empty();
 }
 
 /// The authors' measurements for a flow, "0.277 / 3.66"; empty: none, or on another mesh.
 std::string theirs(const FigureResult& result, const Row& row)
 {
-    if (has_theirs(result))
-        for (const AuthorsDistances& one : result.experiment->theirs)
-            if (is_of(row, one))
-                return short_number(one.v_mean) + " / " + short_number(one.v_max);
-    return {};
+    const AuthorsDistances one = result.table.theirs_of(row);
+    return std::isnan(one.v_mean) ? "" : short_number(one.v_mean) + " / " + short_number(one.v_max);
 }
 
 /// Two rows: the numbers, and the command.
@@ -191,7 +144,7 @@ std::string figure_section(const FigureResult& result, bool with_pages)
             text += picture(result, title);
         text += "</div>\n";
     }
-    if (!curves_svg(table, experiment).empty())
+    if (table.has_curves())
         text += "<div class=\"curves\"><img src=\"" + table.figure + "-curves.svg\" alt=\"Distances by step\"></div>\n";
     text += table_of(result);
     if (table.is_theirs && !experiment.difference.empty())
@@ -204,9 +157,9 @@ std::string figure_section(const FigureResult& result, bool with_pages)
 }  // namespace
 
 std::string index_html(const std::vector<FigureResult>& results, const std::vector<Claim>& many, bool with_pages,
-                       const std::string& to_come)
+                       const std::string& to_come, const std::string& remark)
 {
-    std::string text(head);
+    std::string text(index_head());
     text += "<nav>";
     for (const FigureResult& result : results) {
         const std::string number = std::to_string(result.experiment->figure);
@@ -218,6 +171,8 @@ std::string index_html(const std::vector<FigureResult>& results, const std::vect
     if (!to_come.empty())
         text +=
             "<p><strong>Still to come, load this page again then: " + escaped_for_html(to_come) + ".</strong></p>\n";
+    if (!remark.empty())
+        text += "<p><strong>" + escaped_for_html(remark) + "</strong></p>\n";
     text += page_legend;
     for (const FigureResult& result : results)
         text += figure_section(result, with_pages);

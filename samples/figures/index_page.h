@@ -22,7 +22,8 @@ struct FigureResult {
 /// numbers, and the paper's claims beside the measurements. It links to the files beside it.
 /// @param with_pages whether each figure has a page of its own, FIGURE.html.
 /// @param many claims about the tables with 2 to 32 sub-meshes. @param to_come the results still to come; empty: none.
+/// @param remark a sentence above all figures; empty: none.
 std::string index_html(const std::vector<FigureResult>& results, const std::vector<Claim>& many, bool with_pages,
-                       const std::string& to_come = {});
+                       const std::string& to_come = {}, const std::string& remark = {});
 
 }  // namespace seamflow

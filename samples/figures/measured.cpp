@@ -12,12 +12,6 @@ std::string symbol_of(Laplacian laplacian)
     return std::string(traits_of(laplacian).symbol);
 }
 
-bool is_of(const Row& row, const AuthorsDistances& theirs)
-{
-    return row.laplacian == theirs.laplacian && row.settings == name_of(Settings::Plain) &&
-           row.conditions == conditions_of({.cut = CutKind::Halves, .conditions = theirs.conditions});
-}
-
 double quantity(const Table& table, Laplacian laplacian, std::string_view conditions, int step, Quantity what)
 {
     const Row* row = table.find(laplacian, conditions, step);

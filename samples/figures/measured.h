@@ -12,11 +12,8 @@ namespace seamflow {
 using Quantity = double (*)(const Row&);
 
 inline constexpr Quantity v_mean = [](const Row& row) { return row.v.mean; };
-inline constexpr Quantity v_rms = [](const Row& row) { return row.v.rms; };
 inline constexpr Quantity v_max = [](const Row& row) { return row.v.max; };
 inline constexpr Quantity h_mean = [](const Row& row) { return row.h.mean; };
-inline constexpr Quantity h_rms = [](const Row& row) { return row.h.rms; };
-inline constexpr Quantity h_max = [](const Row& row) { return row.h.max; };
 inline constexpr Quantity drift = [](const Row& row) { return row.drift; };
 inline constexpr Quantity rough = [](const Row& row) { return row.roughness.rms; };
 inline constexpr Quantity interface_length = [](const Row& row) { return row.interface_length; };
@@ -29,9 +26,6 @@ struct Measured {
 
 /// "Δ_F", "Δ_A" or "Δ_P".
 std::string symbol_of(Laplacian laplacian);
-
-/// Whether a row belongs to the flow that the authors measured.
-bool is_of(const Row& row, const AuthorsDistances& theirs);
 
 /// The quantity of a flow (see Table::find) after a step; not a number if there is no such row.
 double quantity(const Table& table, Laplacian laplacian, std::string_view conditions, int step, Quantity what);

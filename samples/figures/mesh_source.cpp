@@ -72,20 +72,4 @@ std::vector<Index> halves_by_number(const PolygonMesh& mesh, Index first)
     return labels;
 }
 
-std::vector<Index> with_overlap(const PolygonMesh& mesh, const std::vector<Index>& labels, Index leading)
-{
-    std::vector<bool> touched(mesh.n_vertices(), false);
-    for (Index f = 0; f < mesh.n_faces(); ++f)
-        for (const Index v : mesh.face(f))
-            touched[v] = touched[v] || labels[f] == leading;
-    std::vector<Index> grown = labels;
-    for (Index f = 0; f < mesh.n_faces(); ++f) {
-        const auto face = mesh.face(f);
-        const bool touches = std::any_of(face.begin(), face.end(), [&](Index v) { return touched[v]; });
-        if (touches && labels[f] != leading)
-            grown[f] = 2;
-    }
-    return grown;
-}
-
 }  // namespace seamflow

@@ -66,9 +66,4 @@ std::vector<Index> halves_by_rows(const PolygonMesh& mesh, Eigen::Index axis);
 /// Label 0 for the first `first` faces, 1 for the others.
 std::vector<Index> halves_by_number(const PolygonMesh& mesh, Index first);
 
-/// The sub-mesh that a leading one becomes when it grows by a layer of faces, as with Conditions::Schwarz: 2 for the
-/// faces with another label that share a vertex with it, else the label.
-/// @param labels #F.
-std::vector<Index> with_overlap(const PolygonMesh& mesh, const std::vector<Index>& labels, Index leading);
-
 }  // namespace seamflow

@@ -20,7 +20,7 @@
 #include "partition/metrics/surface_distance.h"
 #include "partition/metrics/vertex_distance.h"
 #include "samples/figures/experiments.h"
-#include "samples/figures/pictures.h"
+#include "samples/figures/mesh_files.h"
 #include "samples/files/output_files.h"
 #include "samples/page/page_html.h"
 #include "samples/report/report_json.h"
@@ -53,8 +53,9 @@ class Run {
         table_.steps = experiment.steps;
         table_.area = total_area(input_.mesh);
         table_.roughness = roughness(input_.mesh, input_.mesh.vertices);
+        table_.theirs = experiment.theirs;
         if (!places_.out.empty())
-            pictures_.emplace(experiment, places_.out, input_);
+            write_input(experiment, places_.out, input_);
         if (!places_.page.empty())
             page_mesh_ = std::make_shared<const PageMesh>(input_.mesh);
     }
@@ -64,8 +65,6 @@ class Run {
         log_ << experiment_.name << ": " << input_.name << ", " << input_.mesh.n_vertices() << " vertices\n";
         for (const Variant& variant : experiment_.variants)
             flow(variant);
-        if (pictures_)
-            pictures_->write_inputs(leading_);
         if (!page_flows_.empty())
             write_text(places_.page, page_html(fmt::format("Figure {}: {} ({})", experiment_.figure,
                                                            experiment_.heading, input_.name),
@@ -148,8 +147,8 @@ class Run {
         } catch (const ComputationError& error) {
             table_.remarks.push_back(words_of(variant) + ": " + error.what());
         }
-        if (pictures_)
-            pictures_->write(title_of(variant), mesh.vertices);
+        if (!places_.out.empty())
+            write_state(experiment_, places_.out, input_, title_of(variant), mesh.vertices);
         report(title_of(variant), first);
     }
 
@@ -165,12 +164,14 @@ class Run {
             const auto [low, high] = std::minmax_element(p.begin(), p.end());
             range = csv_number(*low) + (p.size() > 1 ? " to " + csv_number(*high) : "");
         }
+        std::string leading;
+        if (variant.cut == CutKind::Halves && report.cut.n_sub_meshes() == 2)
+            leading = report.cut.sub_meshes[0].colour == 0 ? "0" : "1";
         for (std::size_t row = first; row < table_.rows.size(); ++row) {
             table_.rows[row].subdomains = report.cut.n_sub_meshes();
             table_.rows[row].p = range;
+            table_.rows[row].leading = leading;
         }
-        if (variant.cut == CutKind::Halves && report.cut.n_sub_meshes() == 2)
-            leading_ = report.cut.sub_meshes[0].colour == 0 ? 0 : 1;
     }
 
     /// The row of a state before the end of the flow.
@@ -266,9 +267,6 @@ class Run {
     Table table_;
     /// Per Laplacian and step, from step 1.
     std::map<Laplacian, std::vector<Points>> reference_;
-    /// The half that solves first.
-    Index leading_ = 0;
-    std::optional<Pictures> pictures_;
     /// For the page with all flows, if there is one.
     std::shared_ptr<const PageMesh> page_mesh_;
     std::vector<PageFlow> page_flows_;

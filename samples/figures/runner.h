@@ -8,11 +8,11 @@
 
 namespace seamflow {
 
-/// Where an experiment finds its mesh and writes its pictures.
+/// Where an experiment finds its mesh and writes its results.
 struct Places {
     /// The folder of the authors' files; empty: all meshes are generated.
     std::filesystem::path meshes;
-    /// For the input and the last state of each flow as PLY and as picture, and the cut; empty: none.
+    /// For the input and the last state of each flow as PLY, and the cut; empty: none.
     std::filesystem::path out;
     /// For a page with all flows that finish; empty: none.
     std::filesystem::path page = {};

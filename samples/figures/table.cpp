@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -13,7 +14,7 @@ namespace {
 
 constexpr std::string_view header = "figure,mesh,vertices,laplacian,conditions,subdomains,step,v_mean,v_rms,v_max,"
                                     "h_mean,h_rms,h_max,seconds,options,drift_mean,roughness,roughness_95,"
-                                    "interface_length,dt,p,q,cut,command\n";
+                                    "interface_length,area,leading,authors_v_mean,authors_v_max,dt,p,q,cut,command\n";
 
 std::string text_of(const LengthStatistics& lengths)
 {
@@ -22,12 +23,14 @@ std::string text_of(const LengthStatistics& lengths)
 
 std::string text_of(const Table& table, const Row& row)
 {
-    return fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", csv_text(table.figure),
-                       csv_text(table.mesh), table.vertices, name_of(row.laplacian), row.conditions, row.subdomains,
-                       row.step, text_of(row.v), text_of(row.h), csv_number(row.seconds), row.settings,
-                       csv_number(row.drift), csv_number(row.roughness.rms), csv_number(row.roughness.percentile_95),
-                       csv_number(row.interface_length), csv_number(table.time_step), row.p, row.q, csv_text(row.cut),
-                       csv_text(row.command));
+    const AuthorsDistances theirs = table.theirs_of(row);
+    return fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n",
+                       csv_text(table.figure), csv_text(table.mesh), table.vertices, name_of(row.laplacian),
+                       row.conditions, row.subdomains, row.step, text_of(row.v), text_of(row.h),
+                       csv_number(row.seconds), row.settings, csv_number(row.drift), csv_number(row.roughness.rms),
+                       csv_number(row.roughness.percentile_95), csv_number(row.interface_length),
+                       csv_number(table.area), row.leading, csv_number(theirs.v_mean), csv_number(theirs.v_max),
+                       csv_number(table.time_step), row.p, row.q, csv_text(row.cut), csv_text(row.command));
 }
 
 }  // namespace
@@ -46,6 +49,22 @@ const Row* Table::find(const Variant& variant, int step) const
     const auto found =
         std::find_if(rows.begin(), rows.end(), [&](const Row& row) { return row.title == title && row.step == step; });
     return found == rows.end() ? nullptr : &*found;
+}
+
+AuthorsDistances Table::theirs_of(const Row& row) const
+{
+    for (const AuthorsDistances& one : theirs)
+        if (is_theirs && row.laplacian == one.laplacian && row.settings == name_of(Settings::Plain) &&
+            row.conditions == conditions_of({.cut = CutKind::Halves, .conditions = one.conditions}))
+            return one;
+    constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+    return {.v_mean = unknown, .v_max = unknown};
+}
+
+bool Table::has_curves() const
+{
+    return std::ranges::any_of(rows, [](const Row& row) { return row.step > 1; }) &&
+           std::ranges::any_of(rows, [](const Row& row) { return row.conditions != conditions_of({}); });
 }
 
 std::vector<Row> Table::last_rows() const

@@ -37,6 +37,8 @@ struct Row {
     /// Length of the interface of a flow in two halves, in lengths of the same edges of the undecomposed flow; else not
     /// a number.
     double interface_length = 0.0;
+    /// The half that solves first, 0 or 1; empty: there are no halves, or they do not meet.
+    std::string leading;
     /// The Robin parameter, in 1/length, of the sub-mesh that solves first, or from the smallest to the largest of many
     /// ("6.3 to 9.8"), and the Ventcell parameter; empty where there is none.
     std::string p;
@@ -65,6 +67,8 @@ struct Table {
     Roughness roughness;
     /// The area of the input's surface, in length².
     double area = 0.0;
+    /// The authors' results, if the mesh is their own.
+    std::vector<AuthorsDistances> theirs;
     /// All flows of the experiment; one that ended early has fewer rows than steps.
     std::vector<Variant> flows;
     std::vector<Row> rows;
@@ -77,13 +81,19 @@ struct Table {
     /// The row of any flow after a step; nullptr: there is none.
     [[nodiscard]] const Row* find(const Variant& variant, int step) const;
 
+    /// The authors' results for the flow of a row; not numbers where they are not known.
+    [[nodiscard]] AuthorsDistances theirs_of(const Row& row) const;
+
+    /// Whether there are distances over the steps to draw: of a decomposed flow, after two steps or more.
+    [[nodiscard]] bool has_curves() const;
+
     /// The last row of each flow.
     [[nodiscard]] std::vector<Row> last_rows() const;
 };
 
 /// Writes tables one after the other as CSV under one header: figure, mesh, vertices, laplacian, conditions,
 /// subdomains, step, v_mean, v_rms, v_max, h_mean, h_rms, h_max, seconds, options, drift_mean, roughness, roughness_95,
-/// interface_length, dt, p, q, cut, command.
+/// interface_length, area, leading, authors_v_mean, authors_v_max, dt, p, q, cut, command.
 /// @throws OutputError naming the file.
 void write_csv(const std::filesystem::path& path, const std::vector<Table>& tables);
 

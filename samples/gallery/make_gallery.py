@@ -3,7 +3,7 @@
 
     samples/gallery/make_gallery.py [--programs build/bin] [--out samples/gallery/pictures] [NAME…]
 
-Needs the programs and NumPy. All meshes are generated, so that anybody gets the same pictures.
+Needs the programs, NumPy, and ../figures/draw.py. All meshes are generated, so that anybody gets the same pictures.
 """
 
 import argparse
@@ -16,12 +16,13 @@ import zlib
 
 import numpy as np
 
+sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / "figures"))
+from draw import read_ply  # noqa: E402
+
 HALF = 400  # pixels: the width of each of the two pictures
 SAMPLES = 2  # along each side of a pixel
 MOST_BYTES = 150_000  # of a picture
 PAGE = pathlib.Path(__file__).parent.parent / "gallery.md"
-NUMBERS = {"char": "i1", "uchar": "u1", "short": "<i2", "ushort": "<u2", "int": "<i4", "uint": "<u4",
-           "float": "<f4", "double": "<f8"}
 RAMP = np.array([[48, 59, 142], [42, 129, 171], [94, 187, 142], [228, 208, 96], [206, 80, 62]], float)
 CLAY = np.array([206, 190, 164], float)
 HIGHLIGHT = np.array([120, 160, 200], float)
@@ -32,46 +33,12 @@ class Mesh:
     """A binary PLY file as the programs write it: columns of the vertices, lists of corners, columns of the faces."""
 
     def __init__(self, path):
-        content = pathlib.Path(path).read_bytes()
-        head, body = content.split(b"end_header\n", 1)
-        lines = [line.split() for line in head.decode().splitlines()]
-        if ["format", "binary_little_endian", "1.0"] not in lines:
-            sys.exit(f"{path}: is not a binary PLY file in little-endian order")
-        elements = []
-        for line in lines:
-            if line and line[0] == "element":
-                elements.append((line[1], int(line[2]), []))
-            elif line and line[0] == "property":
-                elements[-1][2].append(line[1:])
-        offset = 0
-        for name, count, properties in elements:
-            if name == "vertex":
-                kind = np.dtype([(p[1], NUMBERS[p[0]]) for p in properties])
-                self.vertex = np.frombuffer(body, kind, count, offset)
-                offset += count * kind.itemsize
-            elif name == "face":
-                offset = self._read_faces(body, offset, count, properties)
+        self.vertex, columns = read_ply(path)
+        corners = columns.pop("vertex_indices")
         self.points = np.stack([self.vertex[c] for c in "xyz"], axis=1).astype(float)
-
-    def _read_faces(self, body, offset, count, properties):
-        columns = {p[-1]: [] for p in properties if p[0] != "list"}
-        triangles, faces = [], []
-        for f in range(count):
-            for p in properties:
-                if p[0] == "list":
-                    n = int(np.frombuffer(body, NUMBERS[p[1]], 1, offset)[0])
-                    offset += np.dtype(NUMBERS[p[1]]).itemsize
-                    corners = np.frombuffer(body, NUMBERS[p[2]], n, offset)
-                    offset += corners.nbytes
-                    triangles += [(corners[0], corners[k], corners[k + 1]) for k in range(1, n - 1)]
-                    faces += [f] * (n - 2)
-                else:
-                    columns[p[1]].append(np.frombuffer(body, NUMBERS[p[0]], 1, offset)[0])
-                    offset += np.dtype(NUMBERS[p[0]]).itemsize
-        self.triangles = np.array(triangles, int)
-        self.face_of = np.array(faces, int)
+        self.triangles = np.array([(f[0], f[k], f[k + 1]) for f in corners for k in range(1, len(f) - 1)], int)
+        self.face_of = np.repeat(np.arange(len(corners)), [len(face) - 2 for face in corners])
         self.face = {name: np.array(column) for name, column in columns.items()}
-        return offset
 
     def write(self, path, **columns):
         """The positions and triangles, with further columns of the vertices."""

@@ -10,6 +10,7 @@
 #include "tests/samples/all_programs.h"
 #include "tests/samples/workshop.h"
 #include "tests/support/relative.h"
+#include "tests/support/skipped.h"
 
 using namespace seamflow;
 using test::Json;
@@ -524,12 +525,19 @@ TEST_CASE("figures writes its tables, meshes and claims, and knows its figures")
     CHECK(index.find("<h2 id=\"figure-10\">Figure 10. ") != std::string::npos);
     CHECK(index.find("figure-9") == std::string::npos);
     CHECK(index.find("texture.html") == std::string::npos);
-    // Every picture that the page shows is there.
+    // Every picture that the page shows is there, or the program says how to come to it.
+    const std::string without_pictures =
+        "There are no pictures without Matplotlib: install it (Debian: apt-get install "
+        "python3-matplotlib), then run python3 results/draw.py";
+    const bool is_drawn = w.said().find(without_pictures) == std::string::npos;
+    CHECK((index.find(without_pictures) == std::string::npos) == is_drawn);
+    if (!is_drawn)
+        test::skip("there is no Matplotlib");
     Index shown = 0;
     for (std::size_t place = index.find("src=\""); place != std::string::npos;
          place = index.find("src=\"", place + 1)) {
         const std::size_t begin = place + 5;
-        CHECK(w.has("results/" + index.substr(begin, index.find('"', begin) - begin)));
+        CHECK(w.has("results/" + index.substr(begin, index.find('"', begin) - begin)) == is_drawn);
         ++shown;
     }
     CHECK(shown == 12);
@@ -537,4 +545,44 @@ TEST_CASE("figures writes its tables, meshes and claims, and knows its figures")
     CHECK(w.said().find("there are teaser (1), ") != std::string::npos);
     CHECK(w.run(FIGURES " texture") == 2);
     CHECK(w.run(FIGURES " --out results --meshes none texture") == 3);
+}
+
+TEST_CASE("figures writes everything but the pictures where there is no Python, or none with Matplotlib")
+{
+    const Workshop w;
+    // A python3 that has no Matplotlib, and one that is no program.
+    std::filesystem::create_directories(w.directory / "bin/python3");
+    std::filesystem::create_directories(w.directory / "other");
+    (void)w.directory.with("other/python3", "#!/bin/sh\nexit 1\n");
+    std::filesystem::permissions(w.directory / "other/python3", std::filesystem::perms::owner_all);
+    for (const std::string path : {"/nonexistent", "$PWD/bin:$PWD/other"}) {
+        CAPTURE(path);
+        CHECK(w.run("rm -rf results; PATH=" + path + " " FIGURES " --out results 5") == 0);
+        const std::string remark = "There are no pictures without Matplotlib: install it (Debian: apt-get install "
+                                   "python3-matplotlib), then run python3 results/draw.py\n";
+        CHECK(w.said().find("\n" + remark) != std::string::npos);
+        CHECK(w.said().find(remark) == w.said().rfind("There are no pictures"));
+        for (const char* file :
+             {"schwarz.csv", "claims.csv", "schwarz-input.ply", "schwarz-cut.txt", "schwarz-ptackova-velho-schwarz.ply",
+              "schwarz-ptackova-velho-undecomposed.ply", "index.html", "draw.py"}) {
+            CAPTURE(file);
+            CHECK(w.has(std::string("results/") + file));
+        }
+        CHECK(w.count_lines("results/schwarz.csv", "schwarz,generated,") == 4);
+        CHECK(std::distance(fs::directory_iterator(w.directory / "results"), fs::directory_iterator()) == 8);
+        const std::string index = test::content_of(w.directory / "results/index.html");
+        CHECK(index.find("<p><strong>There are no pictures without Matplotlib") != std::string::npos);
+        CHECK(index.find("Schwarz has good outcomes") != std::string::npos);
+    }
+}
+
+TEST_CASE("a picture that cannot be drawn is a result that cannot be written")
+{
+    const Workshop w;
+    std::filesystem::create_directories(w.directory / "bin");
+    (void)w.directory.with("bin/python3", "#!/bin/sh\ncase $1 in -c) exit 0 ;; esac\nexit 3\n");
+    std::filesystem::permissions(w.directory / "bin/python3", std::filesystem::perms::owner_all);
+    CHECK(w.run("PATH=$PWD/bin " FIGURES " --out results 5") == 5);
+    CHECK(w.said().find("schwarz cannot be drawn: ") != std::string::npos);
+    CHECK(w.said().find("/bin/python3 results/draw.py ended with status 3") != std::string::npos);
 }

@@ -48,17 +48,6 @@ TEST_CASE("every file of the authors that is cut has their cut, and with Robin c
     }
 }
 
-TEST_CASE("an overlap is the layer of faces around the sub-mesh that leads")
-{
-    const PolygonMesh mesh = make_quads(121);
-    const std::vector<Index> labels = halves_by_number(mesh, 50);
-    for (const Index leading : {0, 1}) {
-        const std::vector<Index> grown = with_overlap(mesh, labels, leading);
-        CHECK(std::count(grown.begin(), grown.end(), 2) == 10);
-        CHECK(std::count(grown.begin(), grown.end(), leading) == 50);
-    }
-}
-
 TEST_CASE("the authors' parameters are for their own mesh")
 {
     const Experiment teaser = small("teaser");

@@ -51,6 +51,7 @@ TEST_CASE("the teaser on a small mesh: decomposed flows near the undecomposed on
         CHECK(one.p.empty() == !decomposed);
         CHECK(one.cut == (decomposed ? "lower half in z" : "none"));
         CHECK(std::isnan(one.interface_length) == !decomposed);
+        CHECK(one.leading == (decomposed ? "1" : ""));
         if (decomposed) {
             CHECK(one.interface_length == relative(1.0, 0.2));
             CHECK(one.interface_length != 1.0);
@@ -65,20 +66,43 @@ TEST_CASE("the table of an experiment as CSV has one row per step and flow")
     const Table table = run(small("texture"), {.meshes = {}, .out = folder.path()});
     write_csv(folder / "texture.csv", {table});
     const std::string csv = test::content_of(folder / "texture.csv");
-    CHECK(
-        csv.starts_with("figure,mesh,vertices,laplacian,conditions,subdomains,step,v_mean,v_rms,v_max,h_mean,h_rms,"
-                        "h_max,seconds,options,drift_mean,roughness,roughness_95,interface_length,dt,p,q,cut,command\n"
-                        "texture,generated,506,fujiwara,undecomposed,1,1,0,0,0,0,0,0,"));
-    CHECK(fields_by_line(csv) == std::vector<std::ptrdiff_t>(10, 24));
+    CHECK(csv.starts_with(
+        "figure,mesh,vertices,laplacian,conditions,subdomains,step,v_mean,v_rms,v_max,h_mean,h_rms,"
+        "h_max,seconds,options,drift_mean,roughness,roughness_95,interface_length,area,leading,authors_v_mean,"
+        "authors_v_max,dt,p,q,cut,command\n"
+        "texture,generated,506,fujiwara,undecomposed,1,1,0,0,0,0,0,0,"));
+    CHECK(fields_by_line(csv) == std::vector<std::ptrdiff_t>(10, 28));
     CHECK(csv.find(",0.05,,,none,smooth texture-input.ply out.ply --laplacian fujiwara --time-step 0.05 --steps 1 "
                    "--subdomains 1 --plain\n") != std::string::npos);
     CHECK(
         csv.find(",1,lower half in y,smooth texture-input.ply out.ply --laplacian fujiwara --time-step 0.05 --steps 1 "
                  "--labels texture-cut.txt --plain --conditions adapted-ventcell --q 1\n") != std::string::npos);
-    // The table; the input and what came of it in nine flows, as mesh and as picture; the cut, which is no mesh, its
-    // two pictures.
-    CHECK(folder.n_files() == 1 + 2 * 10 + 1 + 2);
+    // The table; the input and what came of it in nine flows; the cut, which is no mesh.
+    CHECK(folder.n_files() == 1 + 10 + 1);
     CHECK(read_mesh(folder / "texture-alexa-wardetzky-adapted-robin.ply").mesh.n_vertices() == 506);
+}
+
+TEST_CASE("the authors' numbers are in the table of their own mesh, beside the flow that they belong to")
+{
+    const test::TemporaryDirectory folder;
+    Experiment experiment = small("wavy-cylinder");
+    experiment.steps = 2;
+    Table table = run(experiment);
+    write_csv(folder / "generated.csv", {table});
+    CHECK(test::content_of(folder / "generated.csv").find(",nan,nan,0.05,") != std::string::npos);
+    CHECK(test::content_of(folder / "generated.csv").find(",0.201,") == std::string::npos);
+    table.is_theirs = true;
+    write_csv(folder / "theirs.csv", {table});
+    std::istringstream lines(test::content_of(folder / "theirs.csv"));
+    int found = 0;
+    for (std::string line; std::getline(lines, line);)
+        if (line.find(",fujiwara,adapted-robin,") != std::string::npos)
+            found += line.find(",0.011,0.2,0.05,") != std::string::npos ? 1 : 0;
+        else if (line.find("-velho,schwarz,") != std::string::npos)
+            found += line.find(",0.237,nan,0.05,") != std::string::npos ? 1 : 0;
+        else if (line.find(",undecomposed,") != std::string::npos)
+            found += line.find(",nan,nan,0.05,") != std::string::npos ? 1 : 0;
+    CHECK(found == 2 * 4);
 }
 
 TEST_CASE("fields of CSV are quoted where they have to be")

@@ -1,4 +1,4 @@
-#include "samples/benchmark/process.h"
+#include "samples/process/process.h"
 
 #include <cerrno>
 #include <csignal>
