@@ -67,7 +67,7 @@ FlowRun::FlowRun(std::unique_ptr<PreparedFlow> prepared, Progress& progress, dou
     const MotionOptions& motion = options().motion;
     make_steppers();
     vanishing_.emplace(mesh_.mesh(), topology_, settings_of(options(), plan().way, mesh_.mesh().vertices).equation,
-                       !std::holds_alternative<ExplicitSteps>(plan().way));
+                       options().scheme == Scheme::BackwardEuler);
     begin(motion, options().flow == FlowEquation::Conformalized, options().accuracy.largest_update, setup,
           options().steps, reference_ != nullptr);
     free_topology();

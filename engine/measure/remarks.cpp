@@ -26,7 +26,7 @@ Remark remark_on_non_manifold_vertices(std::int64_t n, std::string_view remedy)
 
 Remark remark_on_junctions(std::int64_t n, Laplacian laplacian)
 {
-    const bool depends_on_faces = laplacian == Laplacian::Fujiwara || laplacian == Laplacian::Uniform;
+    const bool depends_on_faces = traits_of(laplacian).reach == Reach::Edges;
     return {"junctions",
             {{"vertices", n}},
             {fmt::format("{} on edges of three faces or more {} with all of these faces.{}",

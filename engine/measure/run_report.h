@@ -4,6 +4,8 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <tuple>
+#include <type_traits>
 #include <vector>
 
 #include "partition/metrics/length_statistics.h"
@@ -79,6 +81,18 @@ struct StepReport {
     /// Wall-clock time of the undecomposed step, with ReportOptions::reference.
     std::optional<double> reference_seconds;
 };
+
+/// All fields of the report on a step, in the order in which checkpoints have them (see HasFields); the compiler
+/// refuses a list that is not complete.
+template <class Report>
+requires std::is_same_v<std::remove_const_t<Report>, StepReport>
+auto fields(Report& of)
+{
+    auto& [seconds, curvature_before, curvature_after, displacement, gap, iterations, residual, estimated, distance,
+           surface_distance, reference_seconds] = of;
+    return std::tie(seconds, curvature_before, curvature_after, displacement, gap, iterations, residual, estimated,
+                    distance, surface_distance, reference_seconds);
+}
 
 /// The report on the mesh that flowed.
 struct MeshReport {

@@ -44,7 +44,7 @@ bool has_schwarz(const O& o)
 /// Whether the conditions or the scheme rule out converged steps.
 bool excludes_converged_steps(const O& o)
 {
-    return o.interface.conditions != Conditions::AdaptedRobin || o.scheme == Scheme::ExplicitEuler;
+    return o.interface.conditions != Conditions::AdaptedRobin || o.scheme != Scheme::BackwardEuler;
 }
 
 bool is_cut(const O& o, const Asked& asked)
@@ -94,7 +94,7 @@ constexpr Rule of_interface[]{
      "uncorrected"},
     {[](const O& o, const Asked&) { return o.report.keep_gaps && !is_classical(o.interface.conditions); }, 0,
      "<keep_gaps> is for the classical Robin and Ventcell conditions; with others there are no gaps"},
-    {[](const O& o, const Asked&) { return o.report.keep_gaps && o.scheme == Scheme::ExplicitEuler; }, 0,
+    {[](const O& o, const Asked&) { return o.report.keep_gaps && o.scheme != Scheme::BackwardEuler; }, 0,
      "<keep_gaps> is for backward Euler steps; explicit ones are taken undecomposed, without gaps"},
 };
 
@@ -135,7 +135,7 @@ constexpr Rule of_motion_of_flows[]{
 constexpr Rule of_flow[]{
     {[](const O& o, const Asked& asked) { return !is_plain(o, asked) && !is_symmetric(o.laplacian); }, 0,
      "{further}, but the Laplacian {laplacian} is not symmetric: use {symmetric}"},
-    {[](const O& o, const Asked& asked) { return !is_plain(o, asked) && o.scheme == Scheme::ExplicitEuler; }, 0,
+    {[](const O& o, const Asked& asked) { return !is_plain(o, asked) && o.scheme != Scheme::BackwardEuler; }, 0,
      "{further}, which is for backward Euler steps: leave out the explicit scheme"},
     {[](const O& o, const Asked&) { return o.flow == FlowEquation::Conformalized && takes_gradients(o); }, 0,
      "{further}, but approach is by conjugate gradients, which support only mean curvature and linear flows: "

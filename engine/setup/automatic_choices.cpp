@@ -167,7 +167,7 @@ std::string_view need_of_junctions(const FlowOptions& options)
     // Vertices at junctions have no normal.
     if (options.motion.direction.kind == MotionDirection::Kind::Normal)
         return "In any direction but normals";
-    const bool is_whole = options.scheme == Scheme::ExplicitEuler || takes_whole_mesh(options.accuracy.approach);
+    const bool is_whole = options.scheme != Scheme::BackwardEuler || takes_whole_mesh(options.accuracy.approach);
     const bool converges = options.accuracy.tolerance || options.accuracy.approach == Approach::Converged ||
                            options.flow == FlowEquation::Linear;
     return !is_whole && !converges && may_be_cut(options) && speaks_of_sweeps(options) ? "In converged steps" : "";
@@ -217,7 +217,7 @@ ApproachChoice choose_approach(const PolygonMesh& mesh, const Topology& topology
                           (tolerance.reason.empty() ? std::string() : ": " + tolerance.reason) +
                           ". Steps of Laplacians without symmetry converge in no other way."};
     if (asked != Approach::Automatic || speaks_of_sub_meshes(options) || !is_symmetric(options.laplacian) ||
-        options.scheme == Scheme::ExplicitEuler || mesh.n_faces() == 0)
+        options.scheme != Scheme::BackwardEuler || mesh.n_faces() == 0)
         return in_sub_meshes(tolerance);
     if (sharing == Sharing::Ranks && !(earlier && takes_whole_mesh(*earlier)))
         return in_sub_meshes(tolerance, "ranks can share such steps");

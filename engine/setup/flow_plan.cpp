@@ -19,7 +19,7 @@ Cut make_cut(const Surface& surface, const FlowOptions& options, const ApproachC
 {
     const PolygonMesh& mesh = surface.mesh.mesh();
     const Topology& topology = surface.topology;
-    if (options.scheme == Scheme::ExplicitEuler || takes_whole_mesh(approach.approach))
+    if (options.scheme != Scheme::BackwardEuler || takes_whole_mesh(approach.approach))
         return cut_into(mesh, topology, 1, exec);
     if (!options.cut.labels.empty())
         return cut_by_labels(mesh, topology, options.cut.labels, exec);
@@ -101,7 +101,7 @@ WayOfSteps way_of(const ApproachChoice& choice, const FlowOptions& options, Inde
 
 double fraction_of_setup(const FlowOptions& options, int n_taken)
 {
-    const bool is_simple = options.scheme == Scheme::ExplicitEuler;
+    const bool is_simple = options.scheme != Scheme::BackwardEuler;
     const double as_steps = options.accuracy.tolerance ? 4.0 : is_simple ? 3.0 : 6.0;
     const double to_do = options.steps - n_taken;
     return as_steps / (as_steps + to_do);

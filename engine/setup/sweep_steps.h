@@ -3,6 +3,7 @@
 #include <memory>
 #include <variant>
 
+#include "engine/options/approach.h"
 #include "partition/decomposition/sub_mesh.h"
 #include "solvers/conditions/robin_edge.h"
 #include "solvers/conditions/transmission_condition.h"
@@ -68,6 +69,9 @@ using InterfaceConditions =
 
 /// One sweep over the colours of the sub-meshes.
 struct SweepSteps {
+    static constexpr Approach approach = Approach::Sweep;
+    static constexpr bool is_whole = false;
+
     InterfaceConditions conditions;
     /// Whether each sub-mesh has its own number as its colour, so that they solve one after another, 0 first; otherwise
     /// colours are chosen.

@@ -1,15 +1,10 @@
 #include "engine/setup/way_of_steps.h"
 
-#include <array>
-
 namespace seamflow {
 
 Approach approach_of(const WayOfSteps& way)
 {
-    constexpr std::array names{Approach::Sweep, Approach::Converged, Approach::ConjugateGradients,
-                               Approach::Undecomposed, Approach::Sweep};
-    static_assert(names.size() == std::variant_size_v<WayOfSteps>);
-    return names.at(way.index());
+    return std::visit([](const auto& steps) { return steps.approach; }, way);
 }
 
 std::optional<double> tolerance_of(const WayOfSteps& way)
@@ -28,8 +23,7 @@ std::optional<double> tolerance_of(const WayOfSteps& way)
 
 bool takes_whole_mesh(const WayOfSteps& way)
 {
-    return std::holds_alternative<GradientSteps>(way) || std::holds_alternative<UndecomposedSteps>(way) ||
-           std::holds_alternative<ExplicitSteps>(way);
+    return std::visit([](const auto& steps) { return steps.is_whole; }, way);
 }
 
 }  // namespace seamflow

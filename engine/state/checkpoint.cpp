@@ -36,14 +36,6 @@ auto fields(Is<VertexDistance> auto& of)
     return std::tie(mean, rms, max, mean_edge);
 }
 
-auto fields(Is<StepReport> auto& of)
-{
-    auto& [seconds, curvature_before, curvature_after, displacement, gap, iterations, residual, estimated, distance,
-           surface_distance, reference_seconds] = of;
-    return std::tie(seconds, curvature_before, curvature_after, displacement, gap, iterations, residual, estimated,
-                    distance, surface_distance, reference_seconds);
-}
-
 auto fields(Is<PhaseSeconds> auto& of)
 {
     auto& [cut, analyse, assemble, factorise, solve, correct, interface, step, total] = of;

@@ -99,14 +99,14 @@ VanishingComponents::VanishingComponents(const PolygonMesh& mesh, const Topology
     , topology_(topology)
     , equation_(equation)
 {
-    // The Laplacian with uniform weights does not depend on sizes.
-    if (is_implicit && equation.laplacian.kind != Laplacian::Uniform)
+    const LaplacianTraits& traits = traits_of(equation.laplacian);
+    // A Laplacian that divides by nothing does not depend on sizes.
+    if (is_implicit && traits.divisor != Divisor::Nothing)
         extent_ = std::sqrt(equation.time_step / small_by_steps);
     // The matrix of a linear flow is that of the initial sizes in all steps, and keeps enough digits of its masses.
     if (equation.is_linear() && extent_ > 0.0)
         most_ = find_small(mesh.vertices, std::exchange(extent_, 0.0)).size();
-    has_kept_lengths_ = equation.terms.keeps_stiffness && !equation.is_linear() &&
-                        traits_of(equation.laplacian).divisor == Divisor::EdgeLengths;
+    has_kept_lengths_ = equation.terms.keeps_stiffness && !equation.is_linear() && traits.mass_is_length;
     if (extent_ > 0.0 && (equation.terms.attaches() || has_kept_lengths_)) {
         initial_ = mesh.vertices;
         weights_.assign(equation.terms.weights.begin(), equation.terms.weights.end());

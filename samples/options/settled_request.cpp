@@ -64,7 +64,7 @@ constexpr RequestRule rules_of_effects[]{
          const AllOptions& o = c.options;
          const bool is_whole = o.takes_whole_mesh() || takes_whole_mesh(o.accuracy.approach);
          return (is_whole && (asked.has("--parts") || shows_tasks(asked))) ||
-                (o.scheme == Scheme::ExplicitEuler && shows_tasks(asked));
+                (o.scheme != Scheme::BackwardEuler && shows_tasks(asked));
      },
      0,
      "--parts shows the sub-meshes, --trace and --task-graph show their tasks, but steps of the whole mesh have none: "
@@ -103,7 +103,7 @@ constexpr RequestRule rules_of_effects[]{
      },
      0, "--paper keeps to the derivatives of the paper; --transmission predicted contradicts it"},
     {[](const SmoothRequest& c, const Asked& asked) {
-         return asked.has("--factorisation") && c.options.scheme == Scheme::ExplicitEuler &&
+         return asked.has("--factorisation") && c.options.scheme != Scheme::BackwardEuler &&
                 !c.options.report.reference;
      },
      0, "--factorisation is for backward Euler steps; --scheme explicit solves no equations"},

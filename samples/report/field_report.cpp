@@ -89,7 +89,7 @@ void print_field_amount(std::ostream& out, const MeshScale& scale, const FlowOpt
                        counted(options.steps, "step", "steps"), options.time_step / (scale.mean_edge * scale.mean_edge),
                        options.time_step);
     const double time = options.time_step * options.steps;
-    const bool is_of_surface = options.laplacian != Laplacian::Fujiwara && options.laplacian != Laplacian::Uniform;
+    const bool is_of_surface = traits_of(options.laplacian).reach != Reach::Edges;
     if (filter_of(options).is_plain() && options.steps > 0 && is_of_surface)
         out << fmt::format(": a kernel {:.6g} wide at half its height",
                            of_fields.fwhm ? of_fields.fwhm->value : fwhm_for_time(time));

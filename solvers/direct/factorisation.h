@@ -39,6 +39,12 @@ constexpr bool is_foreign(Factorisation factorisation)
     return factorisation == Factorisation::Cholmod || factorisation == Factorisation::Umfpack;
 }
 
+/// Whether a factorisation has symmetric matrices of its own kind; others get general matrices instead.
+constexpr bool has_symmetric_kind(Factorisation factorisation)
+{
+    return factorisation != Factorisation::Umfpack;
+}
+
 /// Whether this build has the factorisation.
 inline bool is_available(Factorisation factorisation)
 {

@@ -19,7 +19,7 @@ inline constexpr Index fixed_vertex = -2;
 /// fraction e^-θ of the error is left, cosh θ = 1 + d² / (2 dt D), D being the diffusivity of the row itself. T is
 /// positive definite: negative couplings count as 0.
 struct ErrorRow {
-    /// M_v: in length for Δ_F (Laplacian::Fujiwara), in length² for the other Laplacians.
+    /// M_v: in length or length² (see LaplacianTraits::mass_is_length).
     double mass = 0.0;
     /// T_vv.
     double diagonal = 0.0;

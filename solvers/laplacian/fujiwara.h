@@ -9,8 +9,8 @@ namespace seamflow {
 /// v, each counted half for each of its faces, nᵥ their number. So the edge e has K = [1 -1; -1 1] / ‖e‖, and M_v is
 /// the mean of ‖e‖ over the edges at v.
 struct Fujiwara {
-    static constexpr LaplacianTraits traits{Laplacian::Fujiwara, "fujiwara",           "Δ_F",
-                                            Reach::Edges,        Divisor::EdgeLengths, true};
+    static constexpr LaplacianTraits traits{Laplacian::Fujiwara,  "fujiwara", "Δ_F", Reach::Edges,
+                                            Divisor::EdgeLengths, true,       true};
 
     static constexpr bool averages_mass = true;
 

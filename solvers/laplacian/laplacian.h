@@ -14,7 +14,7 @@ std::span<const LaplacianTraits> all_laplacian_traits();
 /// @throws OptionError for an unknown Laplacian.
 const LaplacianTraits& traits_of(Laplacian laplacian);
 
-/// The name: "fujiwara", "alexa-wardetzky", "virtual-refinement", "ptackova-velho" or "uniform".
+/// The name, such as "virtual-refinement".
 std::string_view name_of(Laplacian laplacian);
 
 /// The names of the Laplacians that are M⁻¹ K, for messages: "fujiwara, alexa-wardetzky, virtual-refinement or

@@ -87,6 +87,8 @@ struct LaplacianTraits {
     Divisor divisor;
     /// Whether the Laplacian is M⁻¹ K (see SymmetricLaplacian).
     bool is_symmetric;
+    /// Whether M is a length and K the inverse of one; otherwise M is an area, and K has no unit.
+    bool mass_is_length = false;
 };
 
 }  // namespace seamflow

@@ -30,7 +30,7 @@ std::unique_ptr<SubMeshSystem> make_system(SystemParts parts, std::unique_ptr<Tr
 
 std::unique_ptr<SubMeshSystem> make_predicted_system(SystemParts parts, SolverWorkspace& workspace)
 {
-    if (parts.factorisation != Factorisation::Umfpack && has_symmetric_rows(parts.sub_mesh, parts.laplacian))
+    if (has_symmetric_kind(parts.factorisation) && has_symmetric_rows(parts.sub_mesh, parts.laplacian))
         return std::make_unique<SymmetricSystem>(parts, SymmetricRows::Transmission, workspace);
     const Points* const first = parts.terms.keeps_stiffness ? parts.terms.initial : nullptr;
     const Points stiffness_at = first != nullptr ? rows_of(*first, parts.sub_mesh.local_to_global) : Points(0, 3);
@@ -40,7 +40,7 @@ std::unique_ptr<SubMeshSystem> make_predicted_system(SystemParts parts, SolverWo
 
 std::unique_ptr<SubMeshSystem> make_following_system(SystemParts parts, SolverWorkspace& workspace)
 {
-    if (parts.factorisation != Factorisation::Umfpack && is_symmetric(parts.laplacian))
+    if (has_symmetric_kind(parts.factorisation) && is_symmetric(parts.laplacian))
         return std::make_unique<SymmetricSystem>(parts, SymmetricRows::Dirichlet, workspace);
     auto condition = make_dirichlet(parts.sub_mesh);
     return std::make_unique<GeneralSystem>(std::move(parts), std::move(condition));

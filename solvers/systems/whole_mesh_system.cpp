@@ -269,8 +269,7 @@ void WholeMeshSystem::take_units(double time_step)
     has_matrix_ &= time_step == time_step_;
     time_step_ = time_step;
     const double root = std::sqrt(time_step);
-    // M is in length for Laplacians that divide by lengths of edges, and in length² for the others.
-    const double mass_unit = traits_of(laplacian_).divisor == Divisor::EdgeLengths ? root : time_step;
+    const double mass_unit = traits_of(laplacian_).mass_is_length ? root : time_step;
     units_ = {.stiffness = time_step / mass_unit, .mass = 1.0 / mass_unit, .length = 1.0 / root};
 }
 
