@@ -140,7 +140,11 @@ std::string remedies_of_loss(const AllOptions& options, const SurfaceChange& cha
         remedies += ", --filter low-pass loses less";
     const bool moves_all =
         motion.fixed_vertices.empty() && motion.strength.empty() && motion.direction.kind == MotionDirection::Kind::Any;
-    if (change.before.cell_volumes.empty() && moves_all)
+    // A body that has become a point has no shape to scale back.
+    const bool has_shapes =
+        change.after.area > 0.0 &&
+        std::ranges::none_of(change.after.bodies, [](const BodySize& body) { return body.area == 0.0; });
+    if (change.before.cell_volumes.empty() && moves_all && has_shapes)
         remedies += change.before.bodies.empty() ? ", --rescale volume scales it back"
                                                  : ", --rescale volume scales each component back";
     return remedies;

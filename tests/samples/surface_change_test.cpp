@@ -98,6 +98,9 @@ TEST_CASE("a loss of much of the volume is remarked on, or of most of the area w
     // What the user has asked for already is no advice.
     CHECK(remark(0.75, 0.9).find("--filter low-pass") != std::string::npos);
     CHECK(remark(0.75, 0.9, Rescale::None, Filter::LowPass).find("--filter") == std::string::npos);
+    CHECK(remark(0.75, 0.9).find("--rescale volume scales it back") != std::string::npos);
+    // A point has no shape to scale back.
+    CHECK(remark(0.0, 0.0).find("--rescale") == std::string::npos);
 }
 
 TEST_CASE("a surface with two sides is measured once, and a volume that is rounding is none")
@@ -147,6 +150,12 @@ TEST_CASE("what one of several bodies has lost is remarked on, however small it 
     REQUIRE(remarks.size() == 1);
     CHECK(sentence(remarks[0]).starts_with("1 of 2 components has lost much, up to 8"));
     CHECK(sentence(remarks[0]).find("--rescale volume scales each component back") != std::string::npos);
+    SurfaceChange to_point = change;
+    to_point.after.bodies[1] = {.area = 0.0, .volume = 0.0};
+    remarks.clear();
+    remark_on_loss({}, to_point, remarks);
+    REQUIRE(remarks.size() == 1);
+    CHECK(sentence(remarks[0]).find("--rescale") == std::string::npos);
     FlowOptions held;
     held.motion.fixed_vertices = {0};
     remarks.clear();
