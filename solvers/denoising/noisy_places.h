@@ -37,8 +37,7 @@ class NoisyPlaces {
     /// @param topology with twins; not needed later. @param as_one whether all components are judged as one.
     /// @param n_thinned how often the mesh has been thinned.
     /// @param least_evidence the evidence that a component needs.
-    NoisyPlaces(const PolygonMesh& mesh, const Topology& topology, bool as_one = false, int n_thinned = 0,
-                float least_evidence = 0.0F);
+    NoisyPlaces(const PolygonMesh& mesh, const Topology& topology, bool as_one, int n_thinned, float least_evidence);
 
     /// The result of a denoiser, and the data by which it is judged. All members refer to the same mesh.
     struct Denoised {

@@ -41,14 +41,14 @@ inline Flowed flowed_with(PolygonMesh mesh, const AllOptions& options, const Flo
 }
 
 /// Calls work(ranks) on rank 0 of n, which are threads, and lets the others serve it.
-/// @throws what it throws.
+/// @param threads of the machine, for the others. @throws what it throws.
 template <class Work>
-void on_ranks(int n, Work&& work)
+void on_ranks(int n, int threads, Work&& work)
 {
     std::exception_ptr thrown;
     run_on_threads(n, [&](Transport& transport) {
         if (transport.rank() > 0) {
-            const int status = serve_flows(transport, n);
+            const int status = serve_flows(transport, threads);
             CHECK(status == 7);
             return;
         }
@@ -62,6 +62,12 @@ void on_ranks(int n, Work&& work)
     });
     if (thrown)
         std::rethrow_exception(thrown);
+}
+
+template <class Work>
+void on_ranks(int n, Work&& work)
+{
+    on_ranks(n, n, work);
 }
 
 inline Flowed flowed_on(RankGroup& ranks, const PolygonMesh& mesh, const AllOptions& options, FlowControl control = {})

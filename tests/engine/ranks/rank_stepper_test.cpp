@@ -148,6 +148,26 @@ TEST_CASE("where the approach is left open it is one that ranks can share, and a
     });
 }
 
+TEST_CASE("ranks on one machine share its threads, unless each is to have some number")
+{
+    const PolygonMesh mesh = make_hexagons(600);
+    FlowOptions options = by_sweeps(Laplacian::Fujiwara, 2e-3);
+    options.cut.subdomains = 9;
+    for (const int n : {2, 3})
+        for (const int of_each : {0, 2}) {
+            CAPTURE(n);
+            CAPTURE(of_each);
+            on_ranks(n, 4 * n, [&](RankGroup& ranks) {
+                CHECK(ranks.n_on_this_machine() == n);
+                options.resources.threads = of_each;
+                const FlowReport report = flowed_on(ranks, mesh, options).report;
+                REQUIRE(report.ranks.size() == static_cast<std::size_t>(n));
+                for (std::size_t rank = 1; rank < report.ranks.size(); ++rank)
+                    CHECK(report.ranks[rank].threads == (of_each > 0 ? of_each : 4));
+            });
+        }
+}
+
 TEST_CASE("ranks share fields that diffuse")
 {
     // No edge has to be flipped.
