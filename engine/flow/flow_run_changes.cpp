@@ -54,6 +54,7 @@ void FlowRun::set_fixed(std::span<const Index> vertices, bool is_fixed)
     stepper_->equations()->set_fixed(flowing, is_fixed);
     for (const Index v : flowing)
         topology.fixed[v] = is_fixed_[v] = is_fixed ? 1 : 0;
+    vanishing_->look_again();
     was_changed_ = true;
 }
 

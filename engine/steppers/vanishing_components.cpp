@@ -1,7 +1,9 @@
 #include "engine/steppers/vanishing_components.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -11,7 +13,6 @@
 #include "engine/tasks/parallel_executor.h"
 #include "partition/surface_components.h"
 #include "solvers/laplacian/flow_terms.h"
-#include "solvers/laplacian/geometry.h"
 #include "solvers/laplacian/laplacian.h"
 
 namespace seamflow {
@@ -19,10 +20,30 @@ namespace seamflow {
 namespace {
 
 /// dt over the squared diagonal of a component above which the component is small. At this value masses have eleven
-/// digits left beside dt K, and a millionth is left of the shape.
+/// digits left beside dt K; and the scaling neglects the square of the shape that is left, a relative error of 10⁻¹⁰.
 constexpr double small_by_steps = 1e5;
-/// Steps with a smaller strength may leave some of the shape of a small component.
-constexpr double weak = 0.01;
+/// A component whose diagonal is a smaller fraction of its coordinates than this is a point.
+constexpr double point_in_coordinates = 1e6 * std::numeric_limits<double>::epsilon();
+
+using Box = Eigen::AlignedBox3d;
+
+Box box_of(const Points& positions, std::span<const Index> vertices)
+{
+    Box box;
+    for (const Index v : vertices)
+        box.extend(positions.row(v).transpose());
+    return box;
+}
+
+/// The mean of vertices, computed relative to one of them: so no digits are lost far from the origin.
+Point mean_of(const Points& positions, std::span<const Index> vertices)
+{
+    const Point origin = positions.row(vertices.front());
+    Point sum = Point::Zero();
+    for (const Index v : vertices)
+        sum += positions.row(v) - origin;
+    return origin + sum / static_cast<double>(vertices.size());
+}
 
 /// The i-th of n points that are spread evenly over a sphere of diameter 1, by turns of the golden ratio: a shape that
 /// suits any faces.
@@ -34,12 +55,40 @@ Point spread_point(std::size_t i, std::size_t n)
     return 0.5 * Point(radius * std::cos(angle), radius * std::sin(angle), height);
 }
 
-double diagonal_of(const Points& positions, std::span<const Index> vertices)
+/// Steps with a smaller strength may leave some of the shape of a small component.
+constexpr double weak = 0.01;
+
+void append(std::span<const Index> list, IndexLists& lists)
 {
-    Eigen::AlignedBox3d box;
-    for (const Index v : vertices)
+    lists.values.insert(lists.values.end(), list.begin(), list.end());
+    lists.close();
+}
+
+/// Whether any face is so small that it can belong to a component smaller than `extent`.
+bool has_small_face(const PolygonMesh& mesh, const Points& positions, double extent)
+{
+    std::atomic<bool> found = false;
+    for_each_block(run_in_parallel, mesh.n_faces(), [&](Index, Index begin, Index end) {
+        for (Index f = begin; f < end && !found; ++f) {
+            const auto corners = mesh.face(f);
+            // One edge of each face is enough: no edge of a component is longer than its diagonal.
+            if ((positions.row(corners[1]) - positions.row(corners[0])).squaredNorm() < extent * extent)
+                found = true;
+        }
+    });
+    return found;
+}
+
+/// Whether the bounding box of some vertices has a diagonal smaller than `extent`.
+bool is_smaller(const Points& positions, std::span<const Index> vertices, double extent)
+{
+    Box box;
+    for (const Index v : vertices) {
         box.extend(positions.row(v).transpose());
-    return box.diagonal().norm();
+        if (!(box.diagonal().norm() < extent))
+            return false;
+    }
+    return true;
 }
 
 }  // namespace
@@ -55,21 +104,49 @@ VanishingComponents::VanishingComponents(const PolygonMesh& mesh, const Topology
     if (is_implicit && traits.divisor != Divisor::Nothing)
         extent_ = std::sqrt(equation.time_step / small_by_steps);
     // The matrix of a linear flow is that of the initial sizes in all steps, and keeps enough digits of its masses.
-    if (equation.is_linear()) {
-        find_small(mesh.vertices);
-        extent_ = 0.0;
-    }
-    if (extent_ > 0.0 && equation.terms.attaches())
+    if (equation.is_linear() && extent_ > 0.0)
+        most_ = find_small(mesh.vertices, std::exchange(extent_, 0.0)).size();
+    has_kept_lengths_ = equation.terms.keeps_stiffness && !equation.is_linear() && traits.mass_is_length;
+    if (extent_ > 0.0 && (equation.terms.attaches() || has_kept_lengths_)) {
         initial_ = mesh.vertices;
+        weights_.assign(equation.terms.weights.begin(), equation.terms.weights.end());
+    }
+}
+
+/// The vertices of the components in which no vertex is fixed or has a strength below `weak`.
+IndexLists VanishingComponents::free_components() const
+{
+    const auto is_fixed = [&](Index v) { return !topology_.moves(v) || equation_.terms.strength(v) < weak; };
+    IndexLists free;
+    const IndexLists all = surface_components(mesh_, run_in_parallel).vertices();
+    for (Index c = 0; c < all.size(); ++c)
+        if (std::ranges::none_of(all[c], is_fixed))
+            append(all[c], free);
+    return free;
+}
+
+/// The components whose bounding boxes have a diagonal smaller than `extent`: their vertices, ascending in each.
+IndexLists VanishingComponents::find_small(const Points& positions, double extent)
+{
+    IndexLists small;
+    if (!has_small_face(mesh_, positions, extent))
+        return small;
+    if (!free_)
+        free_ = free_components();
+    for (Index c = 0; c < free_->size(); ++c)
+        if (is_smaller(positions, (*free_)[c], extent))
+            append((*free_)[c], small);
+    return small;
 }
 
 void VanishingComponents::attach(std::span<const Index> vertices, std::span<const double> weights)
 {
-    for (Index v = static_cast<Index>(weights_.size()); v < mesh_.n_vertices(); ++v)
-        weights_.push_back(equation_.terms.weight(v));
+    if (initial_.rows() == 0)
+        return;
+    if (weights_.empty())
+        weights_.assign(usize(mesh_.n_vertices()), equation_.terms.uniform_weight);
     for (std::size_t i = 0; i < vertices.size(); ++i)
         weights_[vertices[i]] = weights[i];
-    equation_.terms.weights = weights_;
 }
 
 void VanishingComponents::set_reference_vertices(std::span<const Index> vertices, const Points& to)
@@ -79,119 +156,86 @@ void VanishingComponents::set_reference_vertices(std::span<const Index> vertices
         move_rows(vertices, to, initial_);
 }
 
-/// Whether a component is a point, or a step leaves only a point of it: no vertex is fixed or has a strength below
-/// `weak`, and M + dt M w is far below dt K.
-bool VanishingComponents::is_small(Index component, const Points& positions) const
-{
-    const std::span<const Index> vertices = vertices_[component];
-    const double diagonal = diagonal_of(positions, vertices);
-    double weight = 0.0;
-    bool is_held = false;
-    for (const Index v : vertices) {
-        weight = std::max(weight, equation_.terms.weight(v));
-        is_held = is_held || !topology_.moves(v) || equation_.terms.strength(v) < weak;
-    }
-    return diagonal == 0.0 || (!is_held && diagonal * std::sqrt(1.0 + equation_.time_step * weight) < extent_);
-}
-
-/// Finds the small components, and counts those that move.
-std::vector<Index> VanishingComponents::find_small(const Points& positions)
-{
-    // One edge is enough: no edge of a component is longer than its diagonal.
-    const auto is_small_face = [&](Index f) {
-        const auto corners = mesh_.face(f);
-        return (positions.row(corners[1]) - positions.row(corners[0])).squaredNorm() < extent_ * extent_;
-    };
-    std::vector<Index> small;
-    if (extent_ == 0.0 || select(run_in_parallel, mesh_.n_faces(), is_small_face).empty())
-        return small;
-    if (faces_.size() == 0) {
-        SurfaceComponents components = surface_components(mesh_, run_in_parallel);
-        vertices_ = components.vertices();
-        faces_ = std::move(components.faces);
-    }
-    for (Index c = 0; c < faces_.size(); ++c)
-        if (is_small_face(faces_[c].front()) && is_small(c, positions))
-            small.push_back(c);
-    const auto moves = [&](Index v) { return topology_.moves(v); };
-    const auto n_moving =
-        std::ranges::count_if(small, [&](Index c) { return std::ranges::any_of(vertices_[c], moves); });
-    most_ = std::max(most_, static_cast<Index>(n_moving));
-    return small;
-}
-
-/// M at the vertices of a component; 1 if it is a point.
-Eigen::ArrayXd VanishingComponents::masses(Index component, const Points& positions) const
-{
-    const std::span<const Index> vertices = vertices_[component];
-    const bool by_lengths = traits_of(equation_.laplacian).mass_is_length;
-    Eigen::ArrayX2d terms = Eigen::ArrayX2d::Zero(std::ssize(vertices), 2);
-    const auto add = [&](Index v, double mass) {
-        terms.row(std::ranges::lower_bound(vertices, v) - vertices.begin()) += Eigen::Array2d(mass, 1.0).transpose();
-    };
-    for (const Index f : faces_[component]) {
-        const auto corners = mesh_.face(f);
-        const double share = corner_area(area(corners, positions), corners.size());
-        for (std::size_t k = 0; k < corners.size(); ++k) {
-            const Index next = corners[k + 1 < corners.size() ? k + 1 : 0];
-            const double length = (positions.row(next) - positions.row(corners[k])).norm();
-            add(corners[k], by_lengths ? length : share);
-            if (by_lengths)
-                add(next, length);
-        }
-    }
-    if (!std::isnormal(terms.col(0).sum()))
-        return Eigen::ArrayXd::Ones(terms.rows());
-    return by_lengths ? Eigen::ArrayXd(terms.col(0) / terms.col(1)) : Eigen::ArrayXd(terms.col(0));
-}
-
-/// The point to which a step takes a component: the sums of both sides of (M + dt K + dt M w) V = M Vᵏ + dt M w V⁰, to
-/// which K adds nothing.
-Point VanishingComponents::centroid(Index component, const Points& positions) const
-{
-    const std::span<const Index> vertices = vertices_[component];
-    const Eigen::ArrayXd mass = masses(component, positions);
-    const Point origin = positions.row(vertices.front());
-    Point sum = Point::Zero();
-    double total = 0.0;
-    for (std::size_t i = 0; const Index v : vertices) {
-        // A small component with a fixed vertex is a point.
-        if (!topology_.moves(v) || equation_.terms.strength(v) == 0.0)
-            return positions.row(v);
-        const double of_vertex = mass[static_cast<Index>(i++)];
-        const double here = of_vertex / equation_.terms.strength(v);
-        const double pull = of_vertex * equation_.time_step * equation_.terms.weight(v);
-        sum += here * (positions.row(v) - origin);
-        if (pull > 0.0)
-            sum += pull * (initial_.row(v) - origin);
-        total += here + pull;
-    }
-    return origin + sum / total;
-}
-
 void VanishingComponents::step(Stepper& stepper, const Points& before)
 {
-    const std::vector<Index> small = find_small(before);
-    if (small.empty())
+    const IndexLists small = extent_ > 0.0 ? find_small(before, extent_) : IndexLists();
+    if (small.size() == 0)
         return stepper.step(before);
-    // Faces need an area for the step. Where, and what it does to them, does not matter. Signs are those of the centre,
-    // so that a mirrored mesh has the mirrored result, bit for bit.
-    Points spread = before;
-    Points after = before;
-    std::vector<Index> vertices;
-    for (const Index c : small) {
-        const std::span<const Index> component = vertices_[c];
-        const Point centre = centroid(c, before);
-        const Point size = centre.unaryExpr([&](double x) { return std::copysign(extent_, x); });
-        for (std::size_t i = 0; i < component.size(); ++i) {
-            vertices.push_back(component[i]);
-            spread.row(component[i]) = size.cwiseProduct(spread_point(i, component.size()));
-            after.row(component[i]) = centre;
-        }
+    most_ = std::max(most_, small.size());
+    Points moved = before;
+    std::vector<Pose> poses;
+    for (Index c = 0; c < small.size(); ++c)
+        poses.push_back(pose(small[c], moved));
+    stepper.set_vertices(small.values, rows_of(moved, small.values));
+    stepper.step(moved);
+    moved = stepper.positions();
+    for (Index c = 0; c < small.size(); ++c)
+        bring_back(small[c], poses[c], before, moved);
+    stepper.set_vertices(small.values, rows_of(moved, small.values));
+}
+
+/// Brings a component to the pose in which the step is taken.
+/// @param positions #V by 3: the rows of the component are moved. @returns the pose.
+VanishingComponents::Pose VanishingComponents::pose(std::span<const Index> vertices, Points& positions) const
+{
+    const Box box = box_of(positions, vertices);
+    const double diagonal = box.diagonal().norm();
+    const double farthest = std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
+    // M scales with present lengths; K, if it is kept, with initial lengths.
+    const double pose_diagonal =
+        has_kept_lengths_ ? extent_ * (extent_ / box_of(initial_, vertices).diagonal().norm()) : extent_;
+    Pose pose{.centre = mean_of(positions, vertices)};
+    if (diagonal > point_in_coordinates * farthest) {
+        pose.scale = std::max(pose_diagonal / diagonal, 1.0);
+        // About M / (dt K) is left of a shape. M / K grows with the square of the scale, or with the scale alone if K
+        // is kept; the shape itself grows with the scale.
+        pose.rest = 1.0 / (pose.scale * pose.scale * (has_kept_lengths_ ? 1.0 : pose.scale));
     }
-    stepper.set_vertices(vertices, rows_of(spread, vertices));
-    stepper.step(spread);
-    stepper.set_vertices(vertices, rows_of(after, vertices));
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+        const Point shape = pose.scale > 0.0 ? Point(pose.scale * (positions.row(vertices[i]) - pose.centre))
+                                             : Point(pose_diagonal * spread_point(i, vertices.size()));
+        positions.row(vertices[i]) = pose.centre + shape;
+    }
+    return pose;
+}
+
+/// The weight w of the attachment, multiplied by the strength.
+double VanishingComponents::weight(Index v) const
+{
+    const FlowTerms& terms = equation_.terms;
+    return (weights_.empty() ? terms.uniform_weight : weights_[v]) * terms.strength(v);
+}
+
+/// Brings a component back from its pose after the step.
+/// @param before the positions before the step.
+/// @param positions in: the result of the step in the pose; out: the result.
+void VanishingComponents::bring_back(std::span<const Index> vertices, const Pose& pose, const Points& before,
+                                     Points& positions) const
+{
+    // The attachment: dt times the mean weight, and the weighted mean of the initial positions.
+    double pull = 0.0;
+    Point target = pose.centre;
+    if (equation_.terms.attaches()) {
+        double total = 0.0;
+        Point towards = Point::Zero();
+        for (const Index v : vertices) {
+            total += weight(v);
+            towards += weight(v) * (initial_.row(v) - pose.centre);
+        }
+        pull = equation_.time_step * total / static_cast<double>(vertices.size());
+        if (total > 0.0)
+            target += towards / total;
+    }
+    // The offset of the centre of mass from the mean of the vertices, which the step has computed in the scaled
+    // component.
+    const Point mean = mean_of(positions, vertices);
+    Point off_centre = Point::Zero();
+    if (pose.scale > 0.0)
+        off_centre = ((mean - pose.centre) * (1.0 + pull) - pull * (target - pose.centre)) / pose.scale;
+    const Point shift = (off_centre + pull * (target - pose.centre)) / (1.0 + pull);
+    for (const Index v : vertices)
+        positions.row(v) = pose.scale > 0.0 ? Point(pose.centre + shift + pose.rest * (positions.row(v) - mean))
+                                            : Point(before.row(v) + shift);
 }
 
 std::optional<Remark> VanishingComponents::remark() const

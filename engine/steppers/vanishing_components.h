@@ -14,9 +14,11 @@
 namespace seamflow {
 
 /// Takes steps of surfaces whose components differ much in size. A backward Euler step shrinks a component that is
-/// small compared to √dt nearly to a point, its centroid by M. But its masses are lost to rounding beside dt K, and
-/// with them the position of that point. A component whose diagonal is below √(dt / 10⁵) therefore goes to its
-/// centroid, and all its vertices stay there together.
+/// small compared to √dt nearly to a point, its centroid, which does not move. But its masses are lost to rounding
+/// beside dt K, and with them the position of that point. Such a component is scaled up about its centroid before the
+/// step, and the result is scaled back: about 1 / (dt λ) is left of its shape, where the eigenvalues λ of M⁻¹ K scale
+/// with the inverse square of lengths. A component that is too small for the digits of its coordinates is treated as a
+/// point, and does not move.
 class VanishingComponents {
   public:
     /// @param mesh in its state before the first step, to which an attachment pulls. The mesh, the topology, and the
@@ -28,6 +30,8 @@ class VanishingComponents {
     /// Takes one step. @throws as Stepper::step.
     void step(Stepper& stepper, const Points& before);
 
+    /// To be called after vertices were fixed or released: components without fixed vertices are found anew.
+    void look_again() { free_.reset(); }
     /// To be called when weights of the attachment change. @param weights one for each vertex, in 1/length².
     void attach(std::span<const Index> vertices, std::span<const double> weights);
     /// To be called when vertices of V⁰ move. @param to #vertices by 3.
@@ -37,21 +41,32 @@ class VanishingComponents {
     [[nodiscard]] std::optional<Remark> remark() const;
 
   private:
-    [[nodiscard]] bool is_small(Index component, const Points& positions) const;
-    std::vector<Index> find_small(const Points& positions);
-    [[nodiscard]] Eigen::ArrayXd masses(Index component, const Points& positions) const;
-    [[nodiscard]] Point centroid(Index component, const Points& positions) const;
+    /// The map that brings a component to the size at which the step is taken.
+    struct Pose {
+        /// The mean of its vertices, the fixed point of the map.
+        Point centre;
+        /// The factor of lengths; 0: the component is a point.
+        double scale = 0.0;
+        /// The factor by which the shape in the result of the step is multiplied.
+        double rest = 0.0;
+    };
+    [[nodiscard]] IndexLists free_components() const;
+    [[nodiscard]] IndexLists find_small(const Points& positions, double extent);
+    [[nodiscard]] Pose pose(std::span<const Index> vertices, Points& positions) const;
+    [[nodiscard]] double weight(Index v) const;
+    void bring_back(std::span<const Index> vertices, const Pose& pose, const Points& before, Points& positions) const;
 
     const PolygonMesh& mesh_;
     const Topology& topology_;
     StepEquation equation_;
-    /// #V by 3: V⁰; empty without an attachment.
+    /// Whether the K of steps depends on initial lengths, not on present ones.
+    bool has_kept_lengths_ = false;
+    /// #V by 3: the initial positions; empty if neither K is kept nor an attachment exists.
     Points initial_ = Points(0, 3);
-    /// #V: the weights of the attachment, in 1/length², to which the equation refers; empty until one changes.
+    /// #V: the weights of the attachment, in 1/length²; empty if all vertices have the same.
     std::vector<double> weights_;
-    /// The faces and the vertices of all components, ascending in each; empty until they are needed.
-    IndexLists faces_;
-    IndexLists vertices_;
+    /// The result of free_components, once it has been asked for; look_again() empties it.
+    std::optional<IndexLists> free_;
     /// The diagonal below which components are small; 0: no component is treated as small.
     double extent_ = 0.0;
     /// The largest number of small components in a step.
