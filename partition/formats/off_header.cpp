@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <string>
 
 #include <fmt/format.h>
@@ -39,12 +38,6 @@ void require_known_variant(const TextScanner& scanner, std::string_view prefix)
                      Quoted{std::string(prefix) + "OFF"});
 }
 
-/// Whether a word after the keyword OFF says that binary data follow.
-bool is_binary_mark(std::string_view word)
-{
-    return std::ranges::equal(word, std::string_view("BINARY"), {}, [](char c) { return std::toupper(c); });
-}
-
 /// Reads the keyword OFF with its prefix. Counts may follow OFF without a blank.
 /// @returns the prefix before OFF; empty, and nothing is read, if the file begins with its counts.
 std::string_view read_keyword(TextScanner& scanner)
@@ -62,6 +55,9 @@ std::string_view read_keyword(TextScanner& scanner)
     const std::string_view prefix = word.substr(0, off);
     require_known_variant(scanner, prefix);
     scanner.skip(off + 3);
+    if (scanner.peek() == "BINARY")
+        scanner.fail("binary OFF files cannot be read; convert the mesh to text OFF or to PLY, with OpenMesh or "
+                     "Geomview for instance");
     return prefix;
 }
 
@@ -87,9 +83,6 @@ OffHeader read_off_header(TextScanner& scanner)
     header.prefix = read_keyword(scanner);
     if (!scanner.has_token() && !scanner.next_line())
         scanner.fail("the file ends before the numbers of vertices and faces; export the mesh again");
-    if (is_binary_mark(scanner.peek()))
-        scanner.fail("binary OFF files cannot be read; convert the mesh to text OFF or to PLY, with OpenMesh or "
-                     "Geomview for instance");
     // The shortest lines are "0 0 0" for a vertex and "1 0" for a face, each with a line end.
     header.n_vertices = read_count(scanner, size, "the number of vertices", 6);
     header.n_faces = read_count(scanner, size, "the number of faces", 4);

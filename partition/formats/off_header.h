@@ -26,7 +26,8 @@ struct OffHeader {
 
 /// Reads from the beginning of the file to the end of the counts.
 /// @throws InputError naming the line; also for binary data, for vertices without three coordinates, and for counts
-///         that the file is too short for.
+/// that
+///         the file is too short for.
 OffHeader read_off_header(TextScanner& scanner);
 
 }  // namespace seamflow
