@@ -17,8 +17,8 @@ namespace seamflow {
 /// which hold triangles.
 enum class FileFormat { Obj, Off, Ply, Stl, Glb, Gltf };
 
-/// How the numbers of a file are stored. OBJ and OFF are always Ascii; STL is Ascii or BinaryLittleEndian; glTF is
-/// always BinaryLittleEndian.
+/// How the numbers of a file are stored. OBJ is always Ascii; so is OFF, except that write_mesh_like keeps binary OFF
+/// binary; STL is Ascii or BinaryLittleEndian; glTF is always BinaryLittleEndian.
 enum class Encoding { Ascii, BinaryLittleEndian, BinaryBigEndian };
 
 /// Format and encoding of one file.

@@ -33,7 +33,7 @@ void next_line(TextScanner& scanner, const char* what, std::int64_t i, std::int6
                      i, n, what);
 }
 
-/// Scans lines of OFF after its header, which are vertices, then faces. Besides the functions of scan_vertex the
+/// Scans lines of text OFF after its header, which are vertices, then faces. Besides the functions of scan_vertex the
 /// visitor may have
 /// - face(scanner): reads a face, beginning at its number of corners.
 /// @param begin, end the lines, counted from 0.
@@ -133,13 +133,16 @@ PolygonMesh read_in_one_go(const TextScanner& after_header, const OffHeader& hea
                        std::array{std::int64_t{0}, header.n_lines()}, run_serially, faults);
 }
 
-/// Reads the colours of the vertices of an OFF file whose keyword has a C.
+/// Reads the colours of the vertices of a text OFF file whose keyword has a C.
 /// @param n_components 4: all colours must have alpha; 3: alpha may be missing.
 /// @returns #V by 4: red, green, blue and alpha, 0 where alpha is missing.
 /// @throws InputError for other files, and naming the line of a vertex without a colour.
 TextColours read_off_colours(const std::filesystem::path& path, std::string_view text, Index n_components,
                              const Slicing& slicing)
 {
+    if (start_of_binary_off(text))
+        throw InputError(path.string() + ": no colours of vertices can be read from binary OFF files; convert the mesh "
+                                         "to text OFF or to PLY");
     TextScanner scanner(path, text);
     const OffHeader header = read_off_header(scanner);
     if (!header.has_colours())
@@ -229,6 +232,8 @@ std::optional<PolygonMesh> read_across_lines(const std::filesystem::path& path, 
 
 PolygonMesh read_off(const std::filesystem::path& path, std::string_view text, const Slicing& slicing, FaultLog* faults)
 {
+    if (const auto data = start_of_binary_off(text))
+        return read_binary_off(path, text, *data, slicing, faults);
     // If the file can only be read across lines, the faults of the first attempt do not count.
     const FaultLog before = faults != nullptr ? *faults : FaultLog();
     try {
@@ -263,6 +268,11 @@ std::vector<std::string> rewrite_off(OutputFile& file, const std::filesystem::pa
                                      double seam_distance)
 {
     const NewColours colours(file.path(), fields, [&](Index n) { return read_off_colours(path, content, n, slicing); });
+    if (const auto data = start_of_binary_off(content)) {
+        if (rewrite_binary_off(file, content, *data, mesh, slicing))
+            return {rounding_remark(path)};
+        return {};
+    }
     TextScanner scanner(path, content);
     const bool crosses_lines = breaks_lines_freely(path, content, slicing);
     if (crosses_lines)
@@ -302,6 +312,8 @@ FileFields read_off_fields(const std::filesystem::path& path, std::string_view t
 std::vector<std::string> extras_of_off(const std::filesystem::path& path, std::string_view content)
 {
     std::vector<std::string> extras;
+    if (start_of_binary_off(content))
+        return extras;
     TextScanner scanner(path, content);
     const bool crosses_lines = breaks_lines_freely(path, content, {});
     if (crosses_lines)

@@ -56,8 +56,9 @@ std::string_view read_keyword(TextScanner& scanner)
     require_known_variant(scanner, prefix);
     scanner.skip(off + 3);
     if (scanner.peek() == "BINARY")
-        scanner.fail("binary OFF files cannot be read; convert the mesh to text OFF or to PLY, with OpenMesh or "
-                     "Geomview for instance");
+        scanner.fail(
+            "binary OFF files with more than coordinates and faces cannot be read; convert the mesh to text OFF "
+            "or to PLY");
     return prefix;
 }
 
@@ -75,6 +76,16 @@ std::int64_t read_count(TextScanner& scanner, std::int64_t size, const char* wha
 }
 
 }  // namespace
+
+std::optional<std::size_t> start_of_binary_off(std::string_view content)
+{
+    const std::string_view line = content.substr(0, content.find('\n'));
+    const auto second = line.find_first_not_of(" \t", 3);
+    if (!line.starts_with("OFF") || second == 3 || second == std::string_view::npos ||
+        !line.substr(second).starts_with("BINARY") || line.size() == content.size())
+        return std::nullopt;
+    return line.size() + 1;
+}
 
 OffHeader read_off_header(TextScanner& scanner)
 {

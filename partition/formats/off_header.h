@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string_view>
 
 #include "partition/formats/text_vertices.h"
@@ -8,7 +10,7 @@
 
 namespace seamflow {
 
-/// The header of an OFF file.
+/// The header of a text OFF file.
 struct OffHeader {
     /// The prefix of OFF: ST, C and N, each optional, in any order, stand for texture coordinates, colours and normals
     /// of the vertices. Their numbers follow the coordinates in the order normals, colours, texture coordinates.
@@ -24,10 +26,12 @@ struct OffHeader {
     [[nodiscard]] VertexLayout layout() const { return {has_normals(), has_texture() ? 2 : 0}; }
 };
 
+/// The offset of the data if the first line is `OFF BINARY`; otherwise nothing.
+std::optional<std::size_t> start_of_binary_off(std::string_view content);
+
 /// Reads from the beginning of the file to the end of the counts.
-/// @throws InputError naming the line; also for binary data, for vertices without three coordinates, and for counts
-/// that
-///         the file is too short for.
+/// @throws InputError naming the line; also for vertices without three coordinates, and for counts that the file is too
+///         short for.
 OffHeader read_off_header(TextScanner& scanner);
 
 }  // namespace seamflow

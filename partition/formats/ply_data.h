@@ -30,13 +30,13 @@ enum class PlyUse {
     OtherData
 };
 
-/// The elements of a PLY file.
+/// The elements of a PLY file, or bytes with the same layout in a file of another format.
 struct PlyData {
     /// The path of the file, for messages only.
     const std::filesystem::path& path;
     /// The whole file.
     std::string_view file;
-    /// A scanner at the last line of the header.
+    /// Only for a PLY file: a scanner at the last line of the header.
     TextScanner after_header;
     PlyHeader header;
     /// The content after the header.
@@ -107,5 +107,11 @@ struct PlyData {
 /// @param path for messages only; must outlive the result, as must the file.
 /// @throws InputError (see read_ply_header).
 PlyData ply_data_of(const std::filesystem::path& path, std::string_view file, PlyUse use = PlyUse::Mesh);
+
+/// Reads the elements as a mesh.
+/// @param data with vertices whose coordinates are single numbers. @param faults if not null, collects faults instead
+/// of throwing.
+/// @throws InputError naming the line, or the element and its byte.
+PolygonMesh read_ply_elements(const PlyData& data, const Slicing& slicing, FaultLog* faults = nullptr);
 
 }  // namespace seamflow

@@ -214,15 +214,19 @@ PolygonMesh read_in_slices(const PlyData& data, const Slicing& slicing)
 
 }  // namespace
 
+PolygonMesh read_ply_elements(const PlyData& data, const Slicing& slicing, FaultLog* faults)
+{
+    return read_in_slices_if_faultless([&] { return read_in_slices(data, slicing); },
+                                       [&] { return read_in_one_go(data, faults); });
+}
+
 MeshFile read_ply(const std::filesystem::path& path, std::string_view file, const Slicing& slicing, FaultLog* faults)
 {
     const PlyData data = ply_data_of(path, file);
     require_coordinates(data);
     for (const char* const name : {"face", "tristrips"})
         require_corners(data, name);
-    return {read_in_slices_if_faultless([&] { return read_in_slices(data, slicing); },
-                                        [&] { return read_in_one_go(data, faults); }),
-            {FileFormat::Ply, data.header.encoding}};
+    return {read_ply_elements(data, slicing, faults), {FileFormat::Ply, data.header.encoding}};
 }
 
 }  // namespace seamflow

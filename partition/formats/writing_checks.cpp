@@ -15,7 +15,7 @@ std::string write_polygons_instead()
 }
 
 void require_floats(const std::filesystem::path& path, const Points& vertices, const Executor& exec,
-                    std::string_view format)
+                    std::string_view format, const std::string& remedy)
 {
     const auto too_large = select(exec, static_cast<Index>(vertices.rows()), [&](Index v) {
         return vertices.row(v).cwiseAbs().maxCoeff() > double{std::numeric_limits<float>::max()};
@@ -23,7 +23,7 @@ void require_floats(const std::filesystem::path& path, const Points& vertices, c
     if (!too_large.empty())
         throw OutputError(fmt::format("{}: cannot be written: vertex {} (numbered from 0) has a coordinate too large "
                                       "for the single precision of {}; {}",
-                                      path.string(), too_large.front(), format, write_polygons_instead()));
+                                      path.string(), too_large.front(), format, remedy));
 }
 
 void require_triangles(const std::filesystem::path& path, const PolygonMesh& mesh, std::string_view format)

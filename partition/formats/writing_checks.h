@@ -14,10 +14,10 @@ namespace seamflow {
 std::string write_polygons_instead();
 
 /// Checks that single precision can hold all coordinates.
-/// @param path of the file to write. @param format "glTF" and so on.
+/// @param path of the file to write. @param format "glTF" and so on. @param remedy what to do.
 /// @throws OutputError naming the vertex.
 void require_floats(const std::filesystem::path& path, const Points& vertices, const Executor& exec,
-                    std::string_view format);
+                    std::string_view format, const std::string& remedy = write_polygons_instead());
 
 /// Checks that all faces are triangles.
 /// @throws OutputError naming the face.

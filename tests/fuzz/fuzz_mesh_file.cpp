@@ -105,7 +105,8 @@ void write_and_read_again(const FuzzedFile& file, const MeshFile& read)
     static_cast<void>(extras_of(*read.source));
     const bool stl = read.kind.format == FileFormat::Stl;
     // Corners of STL files are joined where they are equal: the numbers of the vertices stay only if nothing moves.
-    const bool floats = read.kind.encoding != Encoding::Ascii;
+    // Binary OFF files count as text, and stay binary where they are written like what was read.
+    const bool floats = read.kind.encoding != Encoding::Ascii || read.kind.format == FileFormat::Off;
     // Binary PLY files that are made anew have doubles.
     const bool is_always_single = !traits_of(read.kind.format).holds_polygons;
     PolygonMesh moved = read.mesh;

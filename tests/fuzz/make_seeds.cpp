@@ -2,6 +2,7 @@
 // that show what its format has; DIRECTORY/NAME.dict lists words of it.
 
 #include <array>
+#include <bit>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -13,6 +14,7 @@
 #include "partition/formats/gltf_content.h"
 #include "partition/formats/mesh_io.h"
 #include "partition/formats/palette.h"
+#include "partition/io/byte_order.h"
 #include "tests/fuzz/seeds.h"
 #include "tests/support/gltf_files.h"
 
@@ -89,9 +91,20 @@ void make_off(const std::filesystem::path& root)
     seeds.add("normals.off", "STCNOFF\n3 1 3\n0 0 0 0 0 1 1 1 1 1 0 0\n1 0 0 0 0 1 1 1 1 1 1 0\n"
                              "0 1 0 0 0 1 1 1 1 1 0 1\n3 0 1 2\n");
     seeds.add("bare.off", "3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
-    seeds.add("binary.off", "OFF BINARY\n" + std::string(24, '\0'));
-    seeds.words({"OFF", "OFF BINARY", "COFF", "NOFF", "STOFF", "4OFF", "nOFF", "4nOFF", "# ", "2147483647",
-                 "4294967296", "1e309", "nan", "-1"});
+    std::string binary = "OFF BINARY\n";
+    const auto append = [&binary](auto number) {
+        for (const char byte : to_bytes(number, std::endian::big))
+            binary += byte;
+    };
+    for (const std::int32_t count : {3, 1, 0})
+        append(count);
+    for (const float x : {0.0F, 0.0F, 0.0F, 1.0F, 0.0F, 0.0F, 0.0F, 1.0F, 0.5F})
+        append(x);
+    for (const std::int32_t number : {3, 0, 1, 2, 1, 7})
+        append(number);
+    seeds.add("binary.off", binary);
+    seeds.words({"OFF", "OFF BINARY\\x0a", "COFF", "NOFF", "STOFF", "4OFF", "nOFF", "4nOFF", "# ", "2147483647",
+                 "4294967296", "1e309", "nan", "-1", "\\xff\\xff\\xff\\x7f", "\\x7f\\xff\\xff\\xff"});
 }
 
 void make_ply(const std::filesystem::path& root)

@@ -1,4 +1,8 @@
 #include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -58,12 +62,7 @@ TEST_CASE("OFF: every complaint names the line")
     CHECK(contains(off_complaint("solid\n"), "a.off:1: the file begins with 'solid' and not with OFF"));
     CHECK(contains(off_complaint("OFFSET 1 2 3\n"), "not with OFF"));
     CHECK(contains(off_complaint("# nothing\n"), "a.off:1: the file holds no mesh"));
-    for (const char* prefix : {"", "N", "C", "ST", "STCN"})
-        for (const std::string& data :
-             {std::string("\n"), "\n" + std::string(24, '\0'), std::string(" \xff\xff"), std::string()})
-            CHECK(contains(off_complaint(std::string(prefix) + "OFF BINARY" + data),
-                           "a.off:1: binary OFF files cannot be read; convert the mesh to text OFF or to PLY"));
-    CHECK(contains(off_complaint("# by hand\nOFF\tBINARY\r\n"), "a.off:2: binary OFF files cannot be read"));
+    CHECK(contains(off_complaint("NOFF BINARY\n"), "a.off:1: binary OFF files with more than coordinates and faces"));
     CHECK(contains(off_complaint("4OFF\n3 1 0\n"), "a.off:1: '4OFF' files"));
     CHECK(contains(off_complaint("nOFF\n3\n"), "a.off:1: 'nOFF' files"));
     CHECK(contains(off_complaint("XOFF\n3 1 0\n"), "a.off:1: the keyword 'XOFF' is unknown"));
@@ -109,6 +108,63 @@ TEST_CASE("OFF: what is written")
     const TemporaryDirectory folder;
     write_mesh(folder.path() / "a.off", make_triangle(), {FileFormat::Off, Encoding::Ascii});
     CHECK(content_of(folder.path() / "a.off") == "OFF\n3 1 0\n" + triangle_body);
+}
+
+namespace {
+
+/// A tetrahedron as binary OFF.
+std::string binary_tetrahedron(std::endian order, bool colours_follow_faces, float first_coordinate = 0.1F)
+{
+    std::string file = "OFF BINARY\n";
+    const auto append = [&](auto number) {
+        auto bytes = std::bit_cast<std::array<char, 4>>(number);
+        if (order != std::endian::native)
+            std::reverse(bytes.begin(), bytes.end());
+        file.append(bytes.data(), bytes.size());
+    };
+    for (const std::int32_t count : {4, 4, 6})
+        append(count);
+    for (const float coordinate : {first_coordinate, 0.F, 0.F, 1.F, 0.F, 0.F, 0.F, 1.F, 0.F, 0.F, 0.F, 1.F})
+        append(coordinate);
+    for (const std::array<std::int32_t, 4>& face : {std::array{3, 0, 2, 1}, {3, 0, 1, 3}, {3, 1, 2, 3}, {3, 0, 3, 2}}) {
+        for (const std::int32_t number : face)
+            append(number);
+        if (colours_follow_faces) {
+            append(std::int32_t{1});
+            append(0.5F);
+        }
+    }
+    return file;
+}
+
+}  // namespace
+
+TEST_CASE("binary OFF is read in both byte orders, with colours behind the faces and without")
+{
+    for (const std::endian order : {std::endian::big, std::endian::little})
+        for (const bool colours : {true, false}) {
+            const MeshFile file = test::read_text("a.off", binary_tetrahedron(order, colours));
+            CHECK(file.kind == FileKind{FileFormat::Off, Encoding::Ascii});
+            REQUIRE(file.mesh.n_vertices() == 4);
+            REQUIRE(file.mesh.n_faces() == 4);
+            CHECK(file.mesh.vertices(0, 0) == static_cast<double>(0.1F));
+            CHECK(file.mesh.vertices(3, 2) == 1.0);
+            CHECK(file.mesh.face(2)[0] == 1);
+            CHECK(file.mesh.face(3)[2] == 2);
+        }
+}
+
+TEST_CASE("binary OFF that is cut off, too long, or holds what is no number is refused")
+{
+    const std::string whole = binary_tetrahedron(std::endian::little, false);
+    for (std::size_t size = 11; size < whole.size(); ++size)
+        CHECK(contains(test::complaint_about("a.off", whole.substr(0, size)),
+                       "a.off: byte 11: the binary data do not end"));
+    CHECK(contains(test::complaint_about("a.off", whole + "more"), "do not end"));
+    CHECK(contains(test::complaint_about("a.off", "OFF BINARY\n" + std::string(12, '\xff')), "do not end"));
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    CHECK(contains(test::complaint_about("a.off", binary_tetrahedron(std::endian::big, true, nan)),
+                   "vertex 0 (numbered from 0), byte 23: a coordinate is not a finite number"));
 }
 
 TEST_CASE("OFF: what vertices have besides coordinates may be named in any order, each once")

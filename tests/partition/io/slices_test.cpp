@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -194,9 +195,25 @@ constexpr std::array binary_kinds{
     FileKind{FileFormat::Ply, Encoding::BinaryLittleEndian}, FileKind{FileFormat::Ply, Encoding::BinaryBigEndian},
     FileKind{FileFormat::Stl, Encoding::BinaryLittleEndian}, FileKind{FileFormat::Glb, Encoding::BinaryLittleEndian}};
 
+std::string binary_off(const PolygonMesh& mesh)
+{
+    OutputBuffer file;
+    file.text("OFF BINARY\n");
+    for (const Index n : {mesh.n_vertices(), mesh.n_faces(), 0})
+        file.binary(n, std::endian::big);
+    for (const double x : mesh.vertices.reshaped<Eigen::RowMajor>())
+        file.binary(static_cast<float>(x), std::endian::big);
+    for (Index f = 0; f < mesh.n_faces(); ++f) {
+        file.binary(static_cast<Index>(mesh.face(f).size()), std::endian::big);
+        file.binary(mesh.face(f), std::endian::big);
+        file.binary(std::uint32_t{0}, std::endian::big);
+    }
+    return std::string(file.content());
+}
+
 std::vector<File> binary_files(std::uint32_t seed)
 {
-    std::vector<File> files;
+    std::vector<File> files{{FileFormat::Off, binary_off(any_mesh(seed, false))}};
     for (const FileKind& kind : binary_kinds)
         files.push_back({kind.format, written(any_mesh(seed, !traits_of(kind.format).holds_polygons), kind)});
     return files;
@@ -249,6 +266,7 @@ TEST_CASE("files without an element, and with padding or more after none, are re
             check_reading(FileFormat::Ply, content, 7);
             CHECK(rewritten(FileFormat::Ply, content, PolygonMesh(), {run_backwards, 7}).content == content);
         }
+    check_reading(FileFormat::Off, "OFF BINARY\n" + std::string(12 + 100, '\0'), 7);
 }
 
 TEST_CASE("a file without faults is read slice by slice to its end, and not again in one go")
@@ -257,7 +275,7 @@ TEST_CASE("a file without faults is read slice by slice to its end, and not agai
     mesh.vertices = Points::Random(500, 3);
     for (Index v = 0; v + 2 < mesh.n_vertices(); ++v)
         mesh.add_face(std::array{v, v + 1, v + 2});
-    std::vector<File> files;
+    std::vector<File> files{{FileFormat::Off, binary_off(mesh)}};
     for (const FileFormat format : {FileFormat::Obj, FileFormat::Off, FileFormat::Ply, FileFormat::Stl})
         files.push_back({format, written(mesh, {format, Encoding::Ascii})});
     for (const FileKind& kind : binary_kinds)
