@@ -79,7 +79,7 @@ ExitStatus figures(int argc, char** argv)
     const auto write_index = [&](std::string_view begun) {
         write_claims(command.out / "claims.csv", claims);
         write_text(command.out / "index.html",
-                   index_html(results, many, command.html, to_come(command, begun), drawing.remark()));
+                   index_html(results, many, command.html, to_come(command, begun), drawing.remark_on_page()));
     };
     for (const Experiment& experiment : experiments())
         if (command.wants(experiment.name)) {

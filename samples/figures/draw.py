@@ -2,14 +2,27 @@
 """Draws the curves and surfaces of `figures` from the tables and meshes in the folder of this file.
 
     python3 draw.py [NAME…]     NAME: of a table, such as texture [all]
+    python3 draw.py --check     ends with status 0 if it can draw, else with 1, without words
 
-Needs Matplotlib 3.6 or newer (Debian: python3-matplotlib). The same data gives the same files, byte for byte.
+Needs Matplotlib 3.6 or newer (Debian: python3-matplotlib). The same data gives the same files, byte for byte, with the
+same version of Matplotlib.
 """
 
+import sys
+
+# What lies among the results is no module.
+if __name__ == "__main__" and not (sys.flags.isolated or getattr(sys.flags, "safe_path", False)):
+    del sys.path[0]
+
+import contextlib
 import csv
 import io
+import os
 import pathlib
-import sys
+
+ONLY_CHECK = __name__ == "__main__" and sys.argv[1:] == ["--check"]
+if ONLY_CHECK:
+    os.dup2(os.open(os.devnull, os.O_WRONLY), 2)
 
 MISSING = "draw.py needs Matplotlib 3.6 or newer: apt-get install python3-matplotlib gives it to /usr/bin/python3"
 
@@ -83,14 +96,19 @@ def read_ply(path):
 
 
 def save(figure, path):
-    """Whole or not at all, without date and version."""
+    """Whole or not at all, without date and version. Ends the program if that fails."""
     nothing = {"svg": {"Date": None, "Creator": None}, "png": {"Software": None}}
     content = io.BytesIO()
     kind = path.suffix[1:]
     figure.savefig(content, format=kind, transparent=True, metadata=nothing[kind])
     part = path.with_name(path.name + ".part")
-    part.write_bytes(content.getvalue())
-    part.replace(path)
+    try:
+        part.write_bytes(content.getvalue())
+        part.replace(path)
+    except OSError as error:
+        with contextlib.suppress(OSError):
+            part.unlink()
+        sys.exit(f"{path}: cannot be written: {error.strerror}")
 
 
 # ----------------------------------------------------------------------------------------------------------- curves
@@ -373,20 +391,21 @@ def surfaces(folder, name, rows):
     """The pictures of a figure by name: the input, the last state of each flow, and where the mesh is cut in two its
     sub-meshes, each in a colour, and the one that solves first alone."""
 
-    def read(path):
-        vertex, face = read_ply(path)
+    def values_of(vertex):
         height = vertex["height"]
         height = (height - low) / (high - low) if high > low else np.zeros(len(vertex))
-        return np.stack([vertex["x"], vertex["y"], vertex["z"], height], axis=1), face["vertex_indices"]
+        return np.stack([vertex["x"], vertex["y"], vertex["z"], height], axis=1)
 
-    source = folder / f"{name}-input.ply"
-    vertex, face = read_ply(source)
-    used = np.unique(np.concatenate(face["vertex_indices"]))
+    vertex, face = read_ply(folder / f"{name}-input.ply")
+    faces = face["vertex_indices"]
+    used = np.unique(np.concatenate(faces))
     low, high = vertex["height"][used].min(), vertex["height"][used].max()
-    values, faces = read(source)
+    values = values_of(vertex)
     view = View(values[used, :3])
     for path in sorted(folder.glob(f"{name}-*.ply")):
-        yield path.stem, surface(view, *read(path))
+        vertex, face = read_ply(path)
+        if "height" in vertex.dtype.names:
+            yield path.stem, surface(view, values_of(vertex), face["vertex_indices"])
     if not (folder / f"{name}-cut.txt").exists():
         return
     labels = np.loadtxt(folder / f"{name}-cut.txt", int)
@@ -420,17 +439,34 @@ def draw(folder, name):
         return
     for title, picture in surfaces(folder, name, rows):
         save(picture, folder / f"{title}.png")
-    if rows and (curves := curves_by_step(rows)):
+    curves = curves_by_step(rows) if rows else None
+    if curves:
         save(curves, folder / f"{name}-curves.svg")
+
+
+def tables(folder):
+    """The names of the tables of flows."""
+    for path in sorted(folder.glob("*.csv")):
+        if path.is_file():
+            with open(path, "rb") as file:
+                if file.readline().startswith(b"figure,mesh,"):
+                    yield path.stem
 
 
 def main():
     folder = pathlib.Path(__file__).parent
+    # Matplotlib refuses to start with a name that it does not know, and none is needed.
+    os.environ.pop("MPLBACKEND", None)
     try:
         import matplotlib.layout_engine  # noqa: F401
     except ImportError:
         sys.exit(MISSING)
-    for name in sys.argv[1:] or sorted(path.stem for path in folder.glob("*.csv") if path.stem != "claims"):
+    if ONLY_CHECK:
+        return
+    there_are = list(tables(folder))
+    for name in sys.argv[1:] or there_are:
+        if name not in there_are:
+            sys.exit(f"there is no table {name}.csv in {folder}")
         draw(folder, name)
 
 

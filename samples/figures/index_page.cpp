@@ -37,6 +37,13 @@ std::string number_cell(const std::string& text)
     return "<td class=\"number\">" + (text.empty() ? "–" : text) + "</td>";
 }
 
+/// Whether all sub-meshes overlap, which draw.py shows.
+bool has_overlap(const Table& table)
+{
+    return std::all_of(table.rows.begin(), table.rows.end(),
+                       [](const Row& row) { return row.conditions == "undecomposed" || row.conditions == "schwarz"; });
+}
+
 /// The picture with that title. For a flow that ended early, the caption gives the step.
 std::string picture(const FigureResult& result, const std::string& title)
 {
@@ -44,7 +51,7 @@ std::string picture(const FigureResult& result, const std::string& title)
     if (title == picture_of::input)
         caption = "input: " + result.table.mesh;
     else if (title == picture_of::cut)
-        caption = "the two sub-meshes";
+        caption = has_overlap(result.table) ? "the two sub-meshes and their overlap" : "the two sub-meshes";
     else if (title == picture_of::part)
         caption = "one of the two sub-meshes";
     for (const Variant& variant : result.experiment->variants) {
@@ -145,7 +152,8 @@ std::string figure_section(const FigureResult& result, bool with_pages)
         text += "</div>\n";
     }
     if (table.has_curves())
-        text += "<div class=\"curves\"><img src=\"" + table.figure + "-curves.svg\" alt=\"Distances by step\"></div>\n";
+        text += "<div class=\"curves\"><img src=\"" + table.figure +
+                "-curves.svg\" alt=\"V and H of each decomposed flow by step, in mean edge lengths\"></div>\n";
     text += table_of(result);
     if (table.is_theirs && !experiment.difference.empty())
         text += "<p class=\"quiet\">" + escaped_for_html(std::string(experiment.difference)) + "</p>\n";

@@ -67,7 +67,7 @@ struct Table {
     Roughness roughness;
     /// The area of the input's surface, in length².
     double area = 0.0;
-    /// The authors' results, if the mesh is their own.
+    /// The authors' results, on their own mesh (see is_theirs).
     std::vector<AuthorsDistances> theirs;
     /// All flows of the experiment; one that ended early has fewer rows than steps.
     std::vector<Variant> flows;

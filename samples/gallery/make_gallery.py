@@ -17,6 +17,7 @@ import zlib
 import numpy as np
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / "figures"))
+sys.dont_write_bytecode = True
 from draw import read_ply  # noqa: E402
 
 HALF = 400  # pixels: the width of each of the two pictures

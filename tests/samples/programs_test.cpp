@@ -526,11 +526,11 @@ TEST_CASE("figures writes its tables, meshes and claims, and knows its figures")
     CHECK(index.find("figure-9") == std::string::npos);
     CHECK(index.find("texture.html") == std::string::npos);
     // Every picture that the page shows is there, or the program says how to come to it.
-    const std::string without_pictures =
-        "There are no pictures without Matplotlib: install it (Debian: apt-get install "
-        "python3-matplotlib), then run python3 results/draw.py";
-    const bool is_drawn = w.said().find(without_pictures) == std::string::npos;
-    CHECK((index.find(without_pictures) == std::string::npos) == is_drawn);
+    const std::string without_pictures = "The pictures were not drawn, for lack of Matplotlib: install it (Debian: "
+                                         "apt-get install python3-matplotlib); python3 ";
+    const bool is_drawn = w.said().find(without_pictures + "results/draw.py draws them\n") == std::string::npos;
+    CHECK((index.find(without_pictures + "draw.py, run in the folder of this page, draws them<") ==
+           std::string::npos) == is_drawn);
     if (!is_drawn)
         test::skip("there is no Matplotlib");
     Index shown = 0;
@@ -557,30 +557,36 @@ TEST_CASE("figures writes everything but the pictures where there is no Python, 
     std::filesystem::permissions(w.directory / "other/python3", std::filesystem::perms::owner_all);
     for (const std::string path : {"/nonexistent", "$PWD/bin:$PWD/other"}) {
         CAPTURE(path);
-        CHECK(w.run("rm -rf results; PATH=" + path + " " FIGURES " --out results 5") == 0);
-        const std::string remark = "There are no pictures without Matplotlib: install it (Debian: apt-get install "
-                                   "python3-matplotlib), then run python3 results/draw.py\n";
+        // Pictures of an earlier run, and one of another figure.
+        CHECK(w.run("rm -rf results; mkdir results; touch results/schwarz-input.png results/schwarz-curves.svg "
+                    "results/schwarz-width.svg results/texture-input.png") == 0);
+        CHECK(w.run("PATH=" + path + " " FIGURES " --out results 5") == 0);
+        const std::string remark = "The pictures were not drawn, for lack of Matplotlib: install it (Debian: apt-get "
+                                   "install python3-matplotlib); python3 results/draw.py draws them\n";
         CHECK(w.said().find("\n" + remark) != std::string::npos);
-        CHECK(w.said().find(remark) == w.said().rfind("There are no pictures"));
+        CHECK(w.said().find(remark) == w.said().rfind("The pictures were not drawn"));
         for (const char* file :
              {"schwarz.csv", "claims.csv", "schwarz-input.ply", "schwarz-cut.txt", "schwarz-ptackova-velho-schwarz.ply",
-              "schwarz-ptackova-velho-undecomposed.ply", "index.html", "draw.py"}) {
+              "schwarz-ptackova-velho-undecomposed.ply", "index.html", "draw.py", "texture-input.png"}) {
             CAPTURE(file);
             CHECK(w.has(std::string("results/") + file));
         }
         CHECK(w.count_lines("results/schwarz.csv", "schwarz,generated,") == 4);
-        CHECK(std::distance(fs::directory_iterator(w.directory / "results"), fs::directory_iterator()) == 8);
+        CHECK(std::distance(fs::directory_iterator(w.directory / "results"), fs::directory_iterator()) == 9);
         const std::string index = test::content_of(w.directory / "results/index.html");
-        CHECK(index.find("<p><strong>There are no pictures without Matplotlib") != std::string::npos);
+        CHECK(index.find("<p><strong>The pictures were not drawn, for lack of Matplotlib") != std::string::npos);
+        CHECK(index.find("; python3 draw.py, run in the folder of this page, draws them<") != std::string::npos);
         CHECK(index.find("Schwarz has good outcomes") != std::string::npos);
     }
+    CHECK(w.run("PATH=/nonexistent " FIGURES " --out \"it's here\" 5") == 0);
+    CHECK(w.said().find("; python3 'it'\\''s here/draw.py' draws them\n") != std::string::npos);
 }
 
 TEST_CASE("a picture that cannot be drawn is a result that cannot be written")
 {
     const Workshop w;
     std::filesystem::create_directories(w.directory / "bin");
-    (void)w.directory.with("bin/python3", "#!/bin/sh\ncase $1 in -c) exit 0 ;; esac\nexit 3\n");
+    (void)w.directory.with("bin/python3", "#!/bin/sh\ncase $3 in --check) exit 0 ;; esac\nexit 3\n");
     std::filesystem::permissions(w.directory / "bin/python3", std::filesystem::perms::owner_all);
     CHECK(w.run("PATH=$PWD/bin " FIGURES " --out results 5") == 5);
     CHECK(w.said().find("schwarz cannot be drawn: ") != std::string::npos);

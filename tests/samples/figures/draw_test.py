@@ -1,6 +1,7 @@
 """The curves and surfaces of `figures`: python3 draw_test.py FIGURES"""
 
 import math
+import os
 import pathlib
 import subprocess
 import sys
@@ -157,6 +158,22 @@ class Surfaces(unittest.TestCase):
         self.assertEqual(lower[3], 255)
         self.assertEqual(image[0, 0, 3], 0)
 
+    def test_lines_of_equal_height_are_dark(self):
+        # The height of the large triangle grows from its lowest edge to its corner.
+        view = draw.View(self.points)
+        image = pixels(draw.surface(view, np.column_stack([self.points, (self.points[:, 1] + 1) / 2]), self.faces[1:]))
+
+        def at(height):
+            x, y, _ = view.seen(np.array([[0, 2 * height - 1, 0]]))[0]
+            return image[int(y), int(x)].astype(float)
+
+        # In the middle of the rainbow, which is green.
+        line, beside = at(8 / draw.LEVELS), at(8.5 / draw.LEVELS)
+        self.assertGreater(beside[1], 100)
+        self.assertLess(beside[[0, 2]].max(), beside[1] / 2)
+        self.assertAlmostEqual(line[1], draw.DARK * beside[1], delta=10)
+        self.assertEqual((line[3], beside[3]), (255, 255))
+
     def test_far_and_missing_corners_do_no_harm(self):
         towards_the_eye = self.points[0] + 1e6 * draw.View(self.points).axes[:, 2]
         for far in [-1e9, -1e9, 0], [-1e200, -1e200, 0], [np.nan, -1, 0], [-np.inf, -1, 0], towards_the_eye:
@@ -198,17 +215,26 @@ class Surfaces(unittest.TestCase):
     def test_a_picture_is_written_whole_or_not_at_all(self):
         with tempfile.TemporaryDirectory() as folder:
             picture = draw.surface(draw.View(self.points), np.column_stack([self.points, np.zeros(6)]), self.faces)
-            with self.assertRaises(OSError):
-                draw.save(picture, pathlib.Path(folder) / "none" / "a.png")
+            missing, taken = pathlib.Path(folder) / "none" / "a.png", pathlib.Path(folder) / "b.png"
+            taken.mkdir()
+            for path, reason in (missing, "No such file or directory"), (taken, "Is a directory"):
+                with self.assertRaises(SystemExit) as end:
+                    draw.save(picture, path)
+                self.assertEqual(end.exception.code, f"{path}: cannot be written: {reason}")
             draw.save(picture, pathlib.Path(folder) / "a.png")
-            self.assertEqual([path.name for path in pathlib.Path(folder).iterdir()], ["a.png"])
+            self.assertEqual(sorted(path.name for path in pathlib.Path(folder).iterdir()), ["a.png", "b.png"])
 
 
 class Results(unittest.TestCase):
     def test_figures_draws_everything_and_the_script_draws_the_same_again(self):
         with tempfile.TemporaryDirectory() as name:
-            folder = pathlib.Path(name)
-            subprocess.run([FIGURES, "--out", folder, "schwarz"], check=True, stdout=subprocess.DEVNULL)
+            folder = pathlib.Path(name) / "results"
+            folder.mkdir()
+            # What Python and Matplotlib would else find.
+            for module in "csv", "matplotlib", "numpy":
+                (pathlib.Path(name) / f"{module}.py").write_text("raise ValueError\n")
+            subprocess.run([FIGURES, "--out", folder, "schwarz"], check=True, stdout=subprocess.DEVNULL, cwd=name,
+                           env={**os.environ, "MPLBACKEND": "nonsense"})
             drawn = {path.name: path.read_bytes() for path in folder.iterdir() if path.suffix in (".png", ".svg")}
             self.assertEqual(set(drawn), {
                 "schwarz-curves.svg", "schwarz-cut.png", "schwarz-input.png", "schwarz-part.png",
@@ -217,17 +243,41 @@ class Results(unittest.TestCase):
                 self.assertTrue(content.startswith(b"<?xml" if file.endswith("svg") else b"\x89PNG\r\n\x1a\n"), file)
                 self.assertNotIn(b"nan", content.lower() if file.endswith("svg") else b"")
                 (folder / file).unlink()
-            # The whole folder, in another place.
-            moved = folder.rename(folder.with_name(folder.name + " moved"))
-            folder.mkdir()
+            # The whole folder, in another place, among files of others.
+            moved = folder.rename(folder.with_name("results moved"))
+            (moved / "csv.py").write_text("raise ValueError\n")
+            (moved / "other.csv").write_text("a,b\n1,2\n")
+            self.without_heights(moved / "schwarz-input.ply", moved / "schwarz-other.ply")
             subprocess.run([sys.executable, "-B", moved / "draw.py"], check=True)
             self.assertEqual({file: (moved / file).read_bytes() for file in drawn}, drawn)
+            self.assertFalse((moved / "schwarz-other.png").exists())
             self.add_a_vertex_without_faces(moved / "schwarz-input.ply")
             subprocess.run([sys.executable, "-B", moved / "draw.py", "schwarz"], check=True)
             self.assertEqual({file: (moved / file).read_bytes() for file in drawn}, drawn)
-            for path in moved.iterdir():
-                path.unlink()
-            moved.rmdir()
+            for other in "none", "other":
+                ended = subprocess.run([sys.executable, "-B", moved / "draw.py", other], capture_output=True, text=True)
+                self.assertEqual((ended.returncode, ended.stderr), (1, f"there is no table {other}.csv in {moved}\n"))
+
+    def test_a_python_without_matplotlib_draws_nothing(self):
+        with tempfile.TemporaryDirectory() as name:
+            python = pathlib.Path(name) / "python3"
+            python.write_text(f'#!/bin/sh\nexec "{sys.executable}" -S "$@"\n')
+            python.chmod(0o755)
+            environment = {key: value for key, value in os.environ.items() if key != "PYTHONPATH"}
+            ended = subprocess.run([FIGURES, "--out", "results", "schwarz"], check=True, capture_output=True, text=True,
+                                   cwd=name, env={**environment, "PATH": name})
+            self.assertIn("The pictures were not drawn", ended.stdout)
+            self.assertEqual(ended.stderr, "")
+            self.assertEqual(list((pathlib.Path(name) / "results").glob("*.png")), [])
+
+    def test_a_check_says_nothing(self):
+        with tempfile.TemporaryDirectory() as folder:
+            # Matplotlib warns of a name that it does not know.
+            (pathlib.Path(folder) / "matplotlibrc").write_text("nonsense: 1\n")
+            for options, status in (["-B"], 0), (["-B", "-S"], 1):
+                ended = subprocess.run([sys.executable, *options, draw.__file__, "--check"], cwd=folder,
+                                       env={**os.environ, "PYTHONPATH": ""}, capture_output=True, text=True)
+                self.assertEqual((ended.returncode, ended.stdout, ended.stderr), (status, "", ""))
 
     def test_without_matplotlib_the_script_says_what_to_install(self):
         # Python without any package, and with what stands in for NumPy alone.
@@ -237,6 +287,11 @@ class Results(unittest.TestCase):
                 ended = subprocess.run([sys.executable, "-B", "-S", draw.__file__], env={"PYTHONPATH": path},
                                        capture_output=True, text=True)
                 self.assertEqual((ended.returncode, ended.stderr), (1, draw.MISSING + "\n"))
+
+    def without_heights(self, path, copy):
+        head, body = path.read_bytes().split(b"end_header\n", 1)
+        self.assertIn(b" height\n", head)
+        copy.write_bytes(head.replace(b" height\n", b" other\n") + b"end_header\n" + body)
 
     def add_a_vertex_without_faces(self, path):
         """Far from the others. It changes nothing."""

@@ -27,6 +27,12 @@ TEST_CASE("the index has every figure under its number, with its settings and co
     CHECK_FALSE(has("wavy-cylinder.html"));
     CHECK_FALSE(has("the authors'</th>"));
     CHECK(index_html({result}, {}, true).find("wavy-cylinder.html") != std::string::npos);
+    const Experiment schwarz = small("schwarz");
+    CHECK(index_html({{.experiment = &schwarz, .table = run(schwarz), .claims = {}}}, {}, false)
+              .find("<figcaption>the two sub-meshes and their overlap<") != std::string::npos);
+    const Experiment texture = small("texture");
+    CHECK(index_html({{.experiment = &texture, .table = run(texture), .claims = {}}}, {}, false)
+              .find("<figcaption>the two sub-meshes<") != std::string::npos);
     CHECK_FALSE(has("Still to come"));
     CHECK_FALSE(has("<strong>"));
     CHECK(index_html({result}, {}, true, {}, "a < b").find("<strong>a &lt; b</strong>") != std::string::npos);

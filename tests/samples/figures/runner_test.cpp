@@ -39,6 +39,7 @@ TEST_CASE("the teaser on a small mesh: decomposed flows near the undecomposed on
     CHECK_FALSE(table.is_theirs);
     REQUIRE(table.rows.size() == 6 * 5);
     CHECK(table.remarks.empty());
+    CHECK(table.area > 0.0);
     for (const Row& one : table.rows) {
         const bool decomposed = one.conditions == "adapted-robin";
         CHECK(one.subdomains == (decomposed ? 2 : 1));
