@@ -100,7 +100,9 @@ def save(figure, path):
     nothing = {"svg": {"Date": None, "Creator": None}, "png": {"Software": None}}
     content = io.BytesIO()
     kind = path.suffix[1:]
-    figure.savefig(content, format=kind, transparent=True, metadata=nothing[kind])
+    # A legend may be wider than its plot.
+    figure.savefig(content, format=kind, transparent=True, metadata=nothing[kind],
+                   bbox_inches="tight" if kind == "svg" else None)
     part = path.with_name(path.name + ".part")
     try:
         part.write_bytes(content.getvalue())

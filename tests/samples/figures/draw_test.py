@@ -3,6 +3,7 @@
 import math
 import os
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -67,6 +68,14 @@ class Curves(unittest.TestCase):
         figure = draw.curves_by_step(wavy_rows())
         explained = [text.get_text() for text in figure.legends[0].get_texts()]
         self.assertEqual(sorted(explained), sorted(lines_of(figure.axes[0])))
+
+    def test_a_legend_wider_than_the_plot_is_seen_whole(self):
+        rows = [row("fujiwara", "adapted-robin", step, authors_v_mean="0.2", authors_v_max="1") for step in range(1, 6)]
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "a.svg"
+            draw.save(draw.curves_by_step(rows), path)
+            points = float(re.search(r'width="([0-9.]+)pt"', path.read_text())[1])
+        self.assertGreater(points, 1.2 * 72 * draw.PANEL[0])
 
     def test_the_authors_numbers_are_marked_on_their_mesh(self):
         rows = wavy_rows()
