@@ -14,7 +14,12 @@ namespace {
 struct ChecksumOfMethod {
     std::uint64_t before;
 
-    std::uint64_t operator()(const RemoveNoise& method) const { return checksum_of(before, method.edge_angle); }
+    std::uint64_t operator()(const RemoveNoise& method) const
+    {
+        const Rounding& rounding = method.rounding;
+        return checksum_of(before, method.edge_angle, static_cast<int>(rounding.kind), rounding.steps.x(),
+                           rounding.steps.y(), rounding.steps.z());
+    }
     std::uint64_t operator()(const SmoothBetweenEdges& method) const
     {
         return checksum_of(before, method.edge_angle, method.amount.time_step);

@@ -7,16 +7,39 @@
 
 namespace seamflow {
 
+/// Which coordinates of a mesh are rounded: those of voxels, of slices, of heights in whole metres. Rounding is no
+/// noise: each coordinate lies within half a step of the true one.
+struct Rounding {
+    enum class Kind {
+        /// Steps are found, and count where they explain what is rough.
+        Found,
+        /// Steps are known: `steps`.
+        Given,
+        /// Nothing counts as rounded.
+        Never,
+    };
+    Kind kind = Kind::Found;
+    /// The steps of x, y and z, in units of length: finite, at least 0, and not all 0. 0: not rounded.
+    Point steps = Point::Zero();
+
+    friend bool operator==(const Rounding& a, const Rounding& b)
+    {
+        return a.kind == b.kind && a.steps.cwiseEqual(b.steps).all();
+    }
+};
+
 /// Removes noise, as much as there is at each place: each step estimates the true normal of each face and how large the
 /// noise is there, and moves vertices to fit; along the normals, unless a face would fold. Edges, round parts and
 /// details stay, and where there is no noise, vertices stay bit for bit. One step is enough; further ones treat what is
-/// left as noise.
+/// left as noise. Where rounding explains what is rough, there is no noise to remove: the first step finds the
+/// smoothest surface whose coordinates are within half a step of the given ones.
 struct RemoveNoise {
     static constexpr double default_edge_angle = 30.0;
 
     /// Edges at which the normals of faces differ by more than this angle stay where the noise is small; in degrees,
     /// above 0 and below 180.
     double edge_angle = default_edge_angle;
+    Rounding rounding = {};
 };
 
 /// Smooths the surface between edges by an amount that is given, whether there is noise or not: in each step, face

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "engine/measure/run_report.h"
+#include "partition/polygon_mesh.h"
 
 namespace seamflow {
 
@@ -15,10 +16,21 @@ struct NoiseReport {
     double part = 0.0;
 };
 
+/// The rounding of coordinates within which the surface was smoothed.
+struct RoundingReport {
+    /// The steps of x, y and z, in units of length; 0: not rounded.
+    Point steps = Point::Zero();
+    /// The number of turns that the fairing took, and the largest motion of a coordinate in the last one, in steps.
+    int turns = 0;
+    double last_motion = 0.0;
+};
+
 /// The report of denoise().
 struct DenoiseReport : RunReport {
     /// Only of RemoveNoise, after the first step.
     std::optional<NoiseReport> noise;
+    /// Where the surface was smoothed within the rounding of its coordinates; there is no noise then.
+    std::optional<RoundingReport> rounding;
     /// dt of one step, in length²; 0 where the noise is the amount.
     double time_step = 0.0;
     int threads = 0;

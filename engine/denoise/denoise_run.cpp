@@ -21,7 +21,7 @@ struct MakeStepper {
 
     std::unique_ptr<WholeMeshStepper> operator()(const RemoveNoise& method) const
     {
-        return std::make_unique<DenoisingStepper>(mesh, topology, options.motion, method.edge_angle, progress);
+        return std::make_unique<DenoisingStepper>(mesh, topology, options.motion, method, progress);
     }
     std::unique_ptr<WholeMeshStepper> operator()(const SmoothBetweenEdges& method) const
     {

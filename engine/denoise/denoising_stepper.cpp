@@ -7,6 +7,7 @@
 
 #include "partition/errors.h"
 #include "partition/index_lists.h"
+#include "partition/metrics/vertex_distance.h"
 #include "solvers/normals/feature_lines.h"
 
 namespace seamflow {
@@ -15,6 +16,33 @@ namespace {
 
 /// If the fraction of the surface without noise is smaller than this, it is not mentioned.
 constexpr double small_fraction = 0.05;
+
+/// The vertices of edges, ascending.
+std::vector<Index> vertices_of(const std::vector<Edge>& edges)
+{
+    std::vector<Index> vertices;
+    for (const Edge& edge : edges)
+        vertices.insert(vertices.end(), edge.begin(), edge.end());
+    sort_unique(vertices);
+    return vertices;
+}
+
+/// "1 in x, y and z" for equal steps; "0.5 in x, 0.5 in y, 2.5 in z".
+std::string in_words(const Point& steps)
+{
+    constexpr std::string_view names = "xyz";
+    std::string text;
+    std::vector<std::string> axes;
+    for (int axis = 0; axis < 3; ++axis)
+        if (steps[axis] > 0.0)
+            axes.push_back(fmt::format("{:.6g} in {}", steps[axis], names[static_cast<std::size_t>(axis)]));
+    const double largest = steps.maxCoeff();
+    if (axes.size() == 3 && largest - steps.minCoeff() < 1e-6 * largest)
+        return fmt::format("{:.6g} in x, y and z", largest);
+    for (const std::string& axis : axes)
+        text += (text.empty() ? "" : ", ") + axis;
+    return text;
+}
 
 }  // namespace
 
@@ -29,10 +57,7 @@ std::unique_ptr<const DenoisingStepper::CutOpen> DenoisingStepper::cut_open(cons
     open->mesh = FeatureLines(mesh, topology, feature_edges).cut_open(mesh, topology);
     open->topology = make_topology(open->mesh, exec);
     free_boundary(open->topology);
-    std::vector<Index> on_feature_edges;
-    for (const Edge& edge : feature_edges)
-        on_feature_edges.insert(on_feature_edges.end(), edge.begin(), edge.end());
-    sort_unique(on_feature_edges);
+    const std::vector<Index> on_feature_edges = vertices_of(feature_edges);
     for (Index h = 0; h < mesh.n_corners(); ++h) {
         const Index v = mesh.face_vertices[h];
         open->mesh.vertices.row(open->mesh.face_vertices[h]) = mesh.vertices.row(v);
@@ -43,11 +68,14 @@ std::unique_ptr<const DenoisingStepper::CutOpen> DenoisingStepper::cut_open(cons
 }
 
 DenoisingStepper::DenoisingStepper(const PolygonMesh& mesh, const Topology& topology, const MotionOptions& motion,
-                                   double edge_angle, Progress& progress)
+                                   const RemoveNoise& method, Progress& progress)
     : mesh_(&mesh)
+    , topology_(&topology)
+    , rounding_(method.rounding)
+    , on_feature_edges_(vertices_of(motion.feature_edges))
     , open_(cut_open(mesh, topology, motion.feature_edges, progress.exec()))
     , strengths_(motion.strength)
-    , denoiser_(open_ ? open_->mesh : mesh, open_ ? open_->topology : topology, progress.exec(), edge_angle)
+    , denoiser_(open_ ? open_->mesh : mesh, open_ ? open_->topology : topology, progress.exec(), method.edge_angle)
     , positions_(mesh.vertices)
     , loops_(1.0, progress)
 {
@@ -60,11 +88,35 @@ DenoisingStepper::DenoisingStepper(const PolygonMesh& mesh, const Topology& topo
     }
 }
 
+std::optional<SmoothedWithinSteps> DenoisingStepper::within_steps(const Points& before, const Executor& exec)
+{
+    // Later steps begin with coordinates that are rounded no more.
+    if (rounding_.kind == Rounding::Kind::Never || noise_ || mesh_->n_faces() == 0)
+        return std::nullopt;
+    const double length = mean_edge_length(*mesh_, before, exec);
+    CoordinateBounds bounds = rounding_.kind == Rounding::Kind::Given
+                                  ? bounds_of(before, rounding_.steps)
+                                  : bounds_of(before, find_coordinate_steps(before, length, exec), length, exec);
+    if (bounds.kind == CoordinateBounds::Kind::None)
+        return std::nullopt;
+    for (const Index v : on_feature_edges_)
+        bounds.widths.row(v).setZero();
+    const Point steps = bounds.steps;
+    SmoothedWithinSteps smoothed = smooth_within(*mesh_, *topology_, before, std::move(bounds), strengths_, exec);
+    if (rounding_.kind == Rounding::Kind::Found && !smoothed.explains_roughness())
+        return std::nullopt;
+    rounded_ = {steps, smoothed.fairing.turns, smoothed.fairing.last_motion / steps.maxCoeff()};
+    return smoothed;
+}
+
 void DenoisingStepper::step(const Points& before)
 {
     assert(&before != &positions_);
     const Executor exec = loops_.begin();
-    if (open_) {
+    if (std::optional<SmoothedWithinSteps> smoothed = within_steps(before, exec)) {
+        positions_ = std::move(smoothed->positions);
+        noise_.emplace();
+    } else if (open_) {
         // The mesh that is cut open has additional copies of a vertex on the other sides of feature edges. They do not
         // move. The first copy has the number of the vertex.
         Points of_copies(open_->mesh.n_vertices(), 3);
@@ -89,6 +141,9 @@ void DenoisingStepper::save(StepMemory& memory) const
         memory.numbers = {noise_->deviation,      noise_->edge,           noise_->part,
                           noise_->rim_vertices,   noise_->kept.vertices,  noise_->kept.height,
                           noise_->kept.place.x(), noise_->kept.place.y(), noise_->kept.place.z()};
+    if (rounded_)
+        memory.numbers.insert(memory.numbers.end(), {rounded_->steps.x(), rounded_->steps.y(), rounded_->steps.z(),
+                                                     static_cast<double>(rounded_->turns), rounded_->last_motion});
 }
 
 void DenoisingStepper::restore(const StepMemory& memory)
@@ -100,6 +155,14 @@ void DenoisingStepper::restore(const StepMemory& memory)
     for (double* number : {&noise_->deviation, &noise_->edge, &noise_->part, &noise_->rim_vertices, &kept.vertices,
                            &kept.height, &kept.place.x(), &kept.place.y(), &kept.place.z()})
         *number = reader.number();
+    constexpr std::size_t of_noise = 9;
+    if (memory.numbers.size() > of_noise) {
+        rounded_.emplace();
+        for (double& step : rounded_->steps)
+            step = reader.number();
+        rounded_->turns = reader.count();
+        rounded_->last_motion = reader.number();
+    }
     reader.require_end();
 }
 
@@ -123,6 +186,16 @@ void DenoisingStepper::report_to(DenoiseReport& report) const
                           "which would have moved by up to {:.3g}, most clearly at {:.6g}, {:.6g}, {:.6g}. Use "
                           "<radius> to smooth it all the same.",
                           kept.vertices, kept.height, kept.place.x(), kept.place.y(), kept.place.z())}});
+    if (rounded_) {
+        const Point& steps = rounded_->steps;
+        report.rounding = rounded_;
+        report.choices.push_back(
+            {"rounded coordinates",
+             {{"x", steps.x()}, {"y", steps.y()}, {"z", steps.z()}},
+             {fmt::format("coordinates are rounded to {}: the smoothest surface within half a step",
+                          in_words(steps))}});
+        return;
+    }
     const bool has_noise = noise_->part > 0.0;
     if (noise_->rim_vertices > 0.0)
         report.choices.push_back(

@@ -4,23 +4,25 @@
 #include <optional>
 #include <vector>
 
+#include "engine/denoise/denoise_options.h"
 #include "engine/denoise/whole_mesh_stepper.h"
 #include "engine/options/motion_options.h"
 #include "engine/tasks/progress.h"
 #include "partition/polygon_mesh.h"
 #include "partition/topology.h"
 #include "solvers/denoising/mesh_denoiser.h"
+#include "solvers/rounding/rounded_surface.h"
 
 namespace seamflow {
 
-/// Takes steps that remove noise (see RemoveNoise and MeshDenoiser). Vertices on feature edges do not move, and faces
-/// on the two sides of feature edges do not affect each other.
+/// Takes steps that remove noise (see RemoveNoise and MeshDenoiser), or, where coordinates are rounded, finds the
+/// smoothest surface within the bounds in the first step (see smooth_within). Vertices on feature edges do not move,
+/// and faces on the two sides of feature edges do not affect each other.
 class DenoisingStepper final : public WholeMeshStepper {
   public:
-    /// @param mesh, topology, progress must outlive the stepper; the twins of the topology are not needed later.
-    /// @param edge_angle edges at which normals differ by more stay where the noise is small, in degrees.
-    DenoisingStepper(const PolygonMesh& mesh, const Topology& topology, const MotionOptions& motion, double edge_angle,
-                     Progress& progress);
+    /// @param mesh, topology, progress must outlive the stepper, and so must the twins of the topology.
+    DenoisingStepper(const PolygonMesh& mesh, const Topology& topology, const MotionOptions& motion,
+                     const RemoveNoise& method, Progress& progress);
 
     /// @throws ComputationError if the result is not finite.
     void step(const Points& before) override;
@@ -41,7 +43,15 @@ class DenoisingStepper final : public WholeMeshStepper {
     static std::unique_ptr<const CutOpen> cut_open(const PolygonMesh& mesh, const Topology& topology,
                                                    const std::vector<Edge>& feature_edges, const Executor& exec);
 
+    /// The surface within the bounds of rounded coordinates; null where they are not rounded, or where rounding does
+    /// not explain what is rough.
+    std::optional<SmoothedWithinSteps> within_steps(const Points& before, const Executor& exec);
+
     const PolygonMesh* mesh_;
+    const Topology* topology_;
+    Rounding rounding_;
+    /// Ascending.
+    std::vector<Index> on_feature_edges_;
     /// The mesh on which noise is removed; null without feature edges: then it is mesh_.
     std::unique_ptr<const CutOpen> open_;
     /// One per vertex of the mesh on which noise is removed: the fraction of its displacement by which the vertex
@@ -52,6 +62,8 @@ class DenoisingStepper final : public WholeMeshStepper {
     LoopCount loops_;
     /// The noise before the first step.
     std::optional<SurfaceNoise> noise_;
+    /// What the first step took for rounded.
+    std::optional<RoundingReport> rounded_;
 };
 
 }  // namespace seamflow

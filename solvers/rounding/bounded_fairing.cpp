@@ -1,0 +1,117 @@
+#include "solvers/rounding/bounded_fairing.h"
+
+#include <algorithm>
+#include <vector>
+
+namespace seamflow {
+
+namespace {
+
+/// The number of turns in a row without a large motion, after which a fairing ends: the motions of an accelerated
+/// gradient are small where it turns round.
+constexpr int quiet_turns = 5;
+
+/// What one turn has done, over all vertices.
+struct TurnSums {
+    /// The largest motion of a coordinate.
+    double motion = 0.0;
+    /// ⟨Y - X', X' - X⟩ with the extrapolated positions Y and the positions X before and X' after the turn: above 0,
+    /// the turn has gone against the gradient.
+    double against = 0.0;
+};
+
+/// The umbrella Laplacian and its use in turns.
+class Fairing {
+  public:
+    Fairing(const IndexLists& neighbours, const Executor& exec)
+        : neighbours_(neighbours)
+        , exec_(exec)
+        , weight_(static_cast<double>(std::max<Index>(neighbours.size(), 1)) /
+                  static_cast<double>(std::max<std::size_t>(neighbours.values.size(), 1)))
+        , umbrellas_(neighbours.size(), 3)
+        , steps_(usize(neighbours.size()))
+    {
+        // By Gershgorin's theorem, a diagonal matrix with the sums of the absolute values of the rows of LᵀL is no
+        // smaller than LᵀL: steps by its inverse are short enough at each vertex.
+        std::vector<double> sums(usize(size()));
+        for_each(exec_, size(), [&](Index v) { sums[usize(v)] = 2.0 * weight_ * degree(v); });
+        for_each(exec_, size(), [&](Index v) {
+            double total = degree(v) * sums[usize(v)];
+            for (const Index w : neighbours_[v])
+                total += sums[usize(w)];
+            steps_[usize(v)] = total > 0.0 ? 1.0 / (weight_ * total) : 0.0;
+        });
+    }
+
+    [[nodiscard]] Index size() const { return neighbours_.size(); }
+
+    /// Takes a turn from the extrapolated positions.
+    /// @param extrapolated Y; replaced by those of the next turn. @param positions X; replaced by X'.
+    /// @param momentum the fraction of the motion that is added for the next turn.
+    TurnSums turn(const Boxes& boxes, double momentum, Points& extrapolated, Points& positions)
+    {
+        for_each(exec_, size(), [&](Index v) { umbrellas_.row(v) = umbrella(extrapolated, v); });
+        return reduce(
+            exec_, size(), TurnSums(),
+            [&](TurnSums& sums, Index v) {
+                const Point from = extrapolated.row(v);
+                const Point before = positions.row(v);
+                const Point after = boxes.nearest(v, from - steps_[usize(v)] * umbrella(umbrellas_, v));
+                const Point motion = after - before;
+                sums.motion = std::max(sums.motion, motion.cwiseAbs().maxCoeff());
+                sums.against += (from - after).dot(motion);
+                positions.row(v) = after;
+                extrapolated.row(v) = after + momentum * motion;
+            },
+            [](TurnSums& sums, const TurnSums& part) {
+                sums.motion = std::max(sums.motion, part.motion);
+                sums.against += part.against;
+            });
+    }
+
+  private:
+    [[nodiscard]] double degree(Index v) const { return static_cast<double>(neighbours_[v].size()); }
+
+    [[nodiscard]] Point umbrella(const Points& values, Index v) const
+    {
+        Point total = degree(v) * values.row(v);
+        for (const Index w : neighbours_[v])
+            total -= values.row(w);
+        return weight_ * total;
+    }
+
+    const IndexLists& neighbours_;
+    const Executor& exec_;
+    /// 1 / d̄.
+    double weight_;
+    /// #V by 3: L Y.
+    Points umbrellas_;
+    /// #V: the length of the gradient's step at each vertex.
+    std::vector<double> steps_;
+};
+
+}  // namespace
+
+FairingReport fair_in_boxes(const IndexLists& neighbours, const Boxes& boxes, const FairingStop& stop,
+                            Points& positions, const Executor& exec)
+{
+    Fairing fairing(neighbours, exec);
+    Points extrapolated = positions;
+    FairingReport report;
+    // The number of turns since the acceleration began.
+    double accelerated = 0.0;
+    for (int quiet = 0; report.turns < stop.most_turns && quiet < quiet_turns; ++report.turns) {
+        // As in Nesterov's method: 0, 1/4, 2/5, 3/6, …
+        const TurnSums sums = fairing.turn(boxes, accelerated / (accelerated + 3.0), extrapolated, positions);
+        accelerated += 1.0;
+        if (sums.against > 0.0) {
+            accelerated = 0.0;
+            extrapolated = positions;
+        }
+        report.last_motion = sums.motion;
+        quiet = sums.motion <= stop.motion ? quiet + 1 : 0;
+    }
+    return report;
+}
+
+}  // namespace seamflow

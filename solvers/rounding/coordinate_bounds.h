@@ -1,0 +1,44 @@
+#pragma once
+
+#include <array>
+
+#include "partition/executor.h"
+#include "partition/metrics/coordinate_steps.h"
+#include "partition/polygon_mesh.h"
+
+namespace seamflow {
+
+/// How far the vertices of a surface with rounded coordinates may be from their true places.
+struct CoordinateBounds {
+    /// The kind of the surface, which says where the true places are.
+    enum class Kind {
+        /// No coordinate has steps.
+        None,
+        /// Each coordinate lies within half a step of the true one: faces of voxels.
+        Any,
+        /// Heights over a plane: one coordinate is rounded, and the two others are exact, because no two vertices have
+        /// the same values of both.
+        Heights,
+        /// The surface of marching cubes in a mask: each vertex is in the middle of an edge of the lattice of voxels,
+        /// which the true surface crosses somewhere else.
+        MarchingCubes,
+    };
+    Kind kind = Kind::None;
+    /// The step of each coordinate, in units of length: the distance of planes of voxels. 0: it is not rounded.
+    Point steps = Point::Zero();
+    /// #V by 3: the largest difference of each coordinate from its present value, at least 0.
+    Points widths = Points(0, 3);
+};
+
+/// Whether x, y and z have steps of about the same size.
+bool has_equal_steps(const Point& steps);
+
+/// The bounds of a surface with steps.
+/// @param points #V by 3. @param length a length of edges: steps below a tenth of it cannot be seen, and do not count.
+CoordinateBounds bounds_of(const Points& points, const std::array<CoordinateSteps, 3>& steps, double length,
+                           const Executor& exec = run_serially);
+
+/// The bounds of half a step for steps that are known. @param steps at least 0.
+CoordinateBounds bounds_of(const Points& points, const Point& steps);
+
+}  // namespace seamflow

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <optional>
+
+#include "partition/executor.h"
+#include "partition/polygon_mesh.h"
+#include "partition/topology.h"
+#include "solvers/rounding/bounded_fairing.h"
+#include "solvers/rounding/coordinate_bounds.h"
+
+namespace seamflow {
+
+/// The total bending of a surface: Σ l θ over its edges of two faces, with the length l and the angle θ between the
+/// normals of the faces. It is the same for a convex body and its rounded copies, however sharp its edges are, and
+/// grows with every wave: what stairs add to it disappears with them.
+double total_bending(const PolygonMesh& mesh, const Topology& topology, const Points& positions,
+                     const Executor& exec = run_serially);
+
+/// A surface that is as smooth as rounded coordinates allow.
+struct SmoothedWithinSteps {
+    /// #V by 3.
+    Points positions;
+    /// The total bending as a fraction of that before.
+    double bending = 1.0;
+    /// The fraction of the vertices, of those with bounds, that are as far from where they were as the bounds allow.
+    double at_bounds = 0.0;
+    FairingReport fairing = {};
+
+    /// Whether rounding explains the roughness of the surface: within half a step it is much smoother, and only few
+    /// vertices would have to go further. On noise, which goes beyond half a step, and on shapes with edges at whole
+    /// numbers, such as a box of blocks, either does not hold.
+    [[nodiscard]] bool explains_roughness() const;
+};
+
+/// Finds a smooth surface within bounds. First comes the fairest surface in the boxes (see fair_in_boxes), but for
+/// marching cubes of equal steps: there edges are about as long as steps, and the umbrella would pull vertices along
+/// the surface rather than smooth it. Then normals are averaged again and again, and vertices fitted to them within
+/// the bounds, in two ways: over all neighbours, and over those on the same side of an edge. Of the two surfaces, the
+/// one that bends less is the result, and the first if both bend alike.
+/// @param topology with twins. Vertices that it fixes do not move. @param positions #V by 3.
+/// @param strengths #V: the fraction of its bounds that a vertex gets, 0 to 1; empty: 1.
+SmoothedWithinSteps smooth_within(const PolygonMesh& mesh, const Topology& topology, const Points& positions,
+                                  CoordinateBounds bounds, const std::vector<double>& strengths,
+                                  const Executor& exec = run_serially);
+
+}  // namespace seamflow
