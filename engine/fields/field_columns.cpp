@@ -176,8 +176,7 @@ std::string about(const std::vector<Eigen::Index>& columns, std::span<const std:
     const std::size_t n_named = columns.size() > most_named + 1 ? most_named : columns.size();
     for (std::size_t i = 0; i < n_named; ++i) {
         text += i == 0 ? "" : i + 1 == columns.size() ? " and " : ", ";
-        text += names.empty() ? std::to_string(columns[i])
-                              : std::string(Quoted{names[static_cast<std::size_t>(columns[i])]});
+        text += names.empty() ? std::to_string(columns[i]) : in_quotes(names[static_cast<std::size_t>(columns[i])]);
     }
     if (n_named < columns.size())
         text += fmt::format(" and {} others", columns.size() - n_named);

@@ -305,7 +305,7 @@ std::string TextScanner::complaint_at_number(const char* what, const char* form)
     const auto found = peek();
     if (found.empty())
         return fmt::format("expected {}, but the line ends; add what is missing or export the mesh again", what);
-    return fmt::format("expected {}, but found {}; write {}", what, Quoted{found}, form);
+    return fmt::format("expected {}, but found {}; write {}", what, in_quotes(found), form);
 }
 
 }  // namespace seamflow
